@@ -1,0 +1,53 @@
+# Everything happens in .venv, made with $(PYTHON), redone when pyproject.toml changes.
+
+PYTHON ?= python3
+BIN := .venv/bin
+INSTALLED := .venv/.installed
+
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.PHONY: help demo talk test bench oracles clean
+
+help: ## show these lines
+	@sed -n 's/^\([a-z]*\):[^#]*## /\1\t/p' Makefile | expand -t 10
+
+demo: $(INSTALLED) ## a tutor teaches the robot ten objects and where things are, and tests it
+	@$(BIN)/kille demo
+
+talk: $(INSTALLED) ## teach the robot yourself
+	@$(BIN)/kille talk
+
+test: $(INSTALLED) ## format, lint, types, import directions, then all tests and examples
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/pytest
+
+bench: $(INSTALLED) ## measure how fast things are
+	@for script in benchmarks/*.py; do \
+	    echo "== $$script"; $(BIN)/python "$$script" || exit 1; \
+	done
+
+# Some tests compare with other people's programs. The day one is needed, the Debian
+# package that has it is installed here.
+oracles: ## install the Debian packages that optional tests need
+	@echo "oracles: no optional test needs a Debian package"
+
+clean: ## remove all that was made here, .venv too
+	rm -rf .venv build dist *.egg-info .*_cache .hypothesis kille-demo*
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+$(INSTALLED): pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || { \
+	    echo "kille needs Python 3.11 or newer, which $(PYTHON) is not: try make PYTHON=python3.12"; \
+	    exit 1; }
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { \
+	    echo "$(PYTHON) cannot make environments: install its venv module (Debian: apt install python3-venv)"; \
+	    exit 1; }
+	@echo "Setting up .venv, once; this takes a minute or two ..."
+	@$(PYTHON) -m venv .venv
+	@$(BIN)/python -m pip install -q -e '.[dev]'
+	@touch $@

@@ -1,0 +1,59 @@
+"""What all tests share: hypothesis profiles, the real captures, the optional tests."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+ROOT = Path(__file__).resolve().parent.parent
+
+# Optional tests need something a fresh clone does not have; the run says at its end
+# which of them were really run.
+OPTIONAL = ("data",)
+
+settings.register_profile("dev", max_examples=50, deadline=None)
+settings.register_profile(
+    "ci", max_examples=300, derandomize=True, deadline=None, print_blob=True
+)
+settings.register_profile("deep", max_examples=5000, deadline=None)
+settings.load_profile(
+    os.environ.get("HYPOTHESIS_PROFILE") or ("ci" if os.environ.get("CI") else "dev")
+)
+
+
+@pytest.fixture(scope="session")
+def data() -> Path:
+    """The folder of real captures, or a skip that says where it was looked for."""
+    folder = Path(os.environ.get("KILLE_DATA") or ROOT.parent / "shared" / "data")
+    if not folder.is_dir():
+        pytest.skip(f"no real captures in {folder}: set KILLE_DATA to their folder")
+    return folder
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what uses the captures, and let reports carry the optional marks."""
+    for item in items:
+        if "data" in getattr(item, "fixturenames", ()):
+            item.add_marker("data")
+        for name in OPTIONAL:
+            if item.get_closest_marker(name):
+                item.user_properties.append(("optional", name))
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Print which optional tests ran: one line for each file that has any."""
+    counts: Counter[tuple[str, str, str]] = Counter()
+    for outcome in ("passed", "failed", "error", "skipped"):
+        for report in terminalreporter.getreports(outcome):
+            for key, name in getattr(report, "user_properties", ()):
+                if key == "optional":
+                    counts[name, report.nodeid.partition("::")[0], outcome] += 1
+    terminalreporter.section("optional tests")
+    if not counts:
+        terminalreporter.line("none in this run")
+    for (name, file, outcome), count in sorted(counts.items()):
+        terminalreporter.line(f"{name}: {file}: {count} {outcome}")

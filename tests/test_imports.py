@@ -1,0 +1,76 @@
+"""What is imported, and what must not be."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+CODE = sorted(
+    file
+    for folder in ("ttr", "kille", "grammars", "examples", "benchmarks")
+    for file in (ROOT / folder).rglob("*.py")
+)
+
+# What reads these runs whatever the file says.
+UNSAFE = {"pickle", "cPickle", "dill", "cloudpickle", "joblib", "shelve", "marshal"}
+
+
+def imported(*statements: str) -> set[str]:
+    """The packages that a new Python holds after these statements."""
+    listing = "import sys; print(*{name.partition('.')[0] for name in sys.modules})"
+    run = subprocess.run(
+        [sys.executable, "-c", "\n".join([*statements, listing])],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return set(run.stdout.split())
+
+
+def test_the_theory_needs_no_numerics() -> None:
+    assert imported("import ttr").isdisjoint({"kille", "numpy", "cv2", "sklearn"})
+
+
+@pytest.mark.parametrize("module", ["kille", "kille.memory", "kille.scene"])
+def test_what_does_not_see_loads_no_eyes(module: str) -> None:
+    assert imported(f"import {module}").isdisjoint({"cv2", "sklearn", "scipy"})
+
+
+def unsafe_uses(tree: ast.Module) -> Iterator[str]:
+    """What a module has to do with pickles, in any of their forms."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.Import(names=names):
+                modules = {alias.name.partition(".")[0] for alias in names}
+                yield from modules & UNSAFE
+            case ast.ImportFrom(module=str(module)):
+                yield from {module.partition(".")[0]} & UNSAFE
+            case ast.keyword(arg="allow_pickle", value=ast.Constant(value=True)):
+                yield "allow_pickle"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "import pickle",
+        "from pickle import loads",
+        "def f():\n    import joblib.externals as j",
+        "numpy.load(file, allow_pickle=True)",
+    ],
+)
+def test_a_pickle_is_found(text: str) -> None:
+    assert list(unsafe_uses(ast.parse(text)))
+
+
+def test_nothing_is_pickled() -> None:
+    uses = {
+        str(file.relative_to(ROOT)): list(unsafe_uses(ast.parse(file.read_bytes())))
+        for file in CODE
+    }
+    assert {file: found for file, found in uses.items() if found} == {}
