@@ -1,0 +1,201 @@
+"""The command `ttr`, run on files as a user runs it."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from ttr.cli import main
+
+THEORIES = Path(__file__).resolve().parent.parent / "theories"
+GOOD = (
+    "basic Ind\npred dog(Ind)\nDog := [x : Ind, c : dog(x)]\ncheck Dog <= [x : Ind]\n"
+)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "good.ttr").write_text(GOOD)
+    (tmp_path / "false.ttr").write_text(GOOD + "check not Dog <= [x : Ind]\n")
+    (tmp_path / "wrong.ttr").write_text(GOOD + "Hug := [e : hug(x)]\n")
+    return tmp_path
+
+
+def run(*words: str, **options: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "ttr.cli", *words]
+    return subprocess.run(  # type: ignore[call-overload,no-any-return]
+        command,
+        capture_output=True,
+        text=True,
+        check=False,
+        encoding="utf-8",
+        **options,
+    )
+
+
+@pytest.mark.parametrize(
+    "file", sorted(THEORIES.glob("*.ttr")), ids=lambda file: str(file.name)
+)
+def test_a_theory_gives_the_output_beside_it(
+    file: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(THEORIES)
+    code = main(["check", file.name])
+    out = capsys.readouterr().out
+    assert out == file.with_suffix(".out").read_text(encoding="utf-8")
+    assert (code == 0) == out.endswith(("checks hold\n", "check holds\n"))
+
+
+def test_theories_are_there() -> None:
+    assert len(list(THEORIES.glob("*.ttr"))) >= 4
+
+
+def test_checks_that_hold_take_one_line(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", "good.ttr"]) == 0
+    assert capsys.readouterr().out == "good.ttr: 1 check holds\n"
+
+
+def test_a_false_claim_exits_with_1(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", "good.ttr", "false.ttr"]) == 1
+    out = capsys.readouterr().out
+    assert "good.ttr: 1 check holds" in out
+    assert "false.ttr:5:1" in out
+    assert "expected: no\nfound:    yes" in out
+    assert out.endswith("false.ttr: 1 of 2 checks failed\n")
+
+
+def test_a_mistake_exits_with_1(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", "wrong.ttr"]) == 1
+    out = capsys.readouterr().out
+    assert "error: there is no predicate hug" in out
+    assert "wrong.ttr:5:13" in out
+    assert out.endswith("wrong.ttr: 1 mistake, nothing checked\n")
+
+
+def test_machines_get_json(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    files = ["good.ttr", "false.ttr", "wrong.ttr", "none.ttr"]
+    assert main(["check", "--json", *files]) == 2
+    good, false, wrong, none = json.loads(capsys.readouterr().out)
+    assert good == {
+        "file": "good.ttr",
+        "asked": 1,
+        "holds": True,
+        "failures": [],
+        "mistakes": [],
+    }
+    assert false["failures"][0]["line"] == 5
+    assert false["failures"][0]["expected"] == "no"
+    assert wrong["mistakes"][0]["column"] == 13
+    assert none["mistakes"] == [{"message": "there is no file none.ttr"}]
+
+
+def test_wrong_use_is_one_line_and_exits_with_2(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for words, said in (
+        (["check", "none.ttr"], "ttr: there is no file none.ttr\n"),
+        (["show", "none.ttr", "Dog"], "ttr: there is no file none.ttr\n"),
+        (
+            ["show", "good.ttr", "Dgo"],
+            "ttr: good.ttr: the theory has no Dgo: did you mean Dog?\n",
+        ),
+        (
+            ["show", "good.ttr", "Dog", "--as", "latex"],
+            "ttr: --as latex is not part of this version: use text\n",
+        ),
+    ):
+        assert main(words) == 2
+        printed = capsys.readouterr()
+        assert (printed.out, printed.err) == ("", said)
+
+
+@pytest.mark.parametrize("words", [[], ["fly"], ["check"], ["show", "good.ttr"]])
+def test_an_unknown_command_exits_with_2(words: list[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(words)
+    assert caught.value.code == 2
+
+
+def test_show_prints_the_statement_that_declares_a_name(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name, said in (
+        ("Dog", "Dog := [x : Ind, c : dog(x)]\n"),
+        ("Ind", "basic Ind\n"),
+        ("dog", "pred dog(Ind)\n"),
+    ):
+        assert main(["show", "good.ttr", name, "--as", "text"]) == 0
+        assert capsys.readouterr().out == said
+
+
+def test_the_command_says_its_version_and_loads_no_parser_for_help() -> None:
+    assert run("--version").stdout.startswith("ttr 0.")
+    loaded = "import sys, ttr.cli\ntry: ttr.cli.main(['--help'])\nexcept SystemExit: "
+    loaded += "print('lark' in sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", loaded], capture_output=True, text=True, check=True
+    )
+    assert "check" in done.stdout
+    assert done.stdout.endswith("False\n")
+
+
+def test_an_interrupt_is_quiet(tmp_path: Path) -> None:
+    pipe = tmp_path / "endless.ttr"
+    os.mkfifo(pipe)
+    command = [sys.executable, "-m", "ttr.cli", "check", str(pipe)]
+    with subprocess.Popen(command, stdout=-1, stderr=-1) as process:
+        with pipe.open("w"):  # opens once the command has opened it to read
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=30)
+        assert (process.returncode, out, err) == (130, b"", b"")
+
+
+def test_a_closed_pipe_is_quiet(folder: Path) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    command = [sys.executable, "-m", "ttr.cli", "check", "good.ttr"]
+    done = subprocess.run(command, stdout=writer, stderr=-1, check=False)
+    os.close(writer)
+    assert done.stderr == b""
+    assert done.returncode == 141
+
+
+def test_what_a_terminal_cannot_show_is_escaped(folder: Path) -> None:
+    plain = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    done = run("check", "wrong.ttr", env=plain)
+    assert done.returncode == 1
+    assert "\\u250c" in done.stdout
+    assert done.stderr == ""
+
+
+def test_types_nested_by_definitions_beyond_reach_are_told(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    steps = [f"T{i} := [x : T{i - 1}]" for i in range(1, 2000)]
+    (folder / "deep.ttr").write_text("\n".join(["basic T0", *steps]))
+    assert main(["show", "deep.ttr", "T1999"]) == 1
+    assert "nested too deep" in capsys.readouterr().err
+
+
+def test_a_file_of_another_encoding_or_a_folder_is_told(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "latin.ttr").write_bytes(b"\xff\xfe\x00")
+    assert main(["check", "latin.ttr", "."]) == 2
+    assert capsys.readouterr().err == (
+        "ttr: latin.ttr is no text: it must be UTF-8\n"
+        "ttr: . cannot be read: is a directory\n"
+    )

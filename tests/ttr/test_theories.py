@@ -1,0 +1,313 @@
+"""Theories: what statements declare, what they refuse, and what their checks find."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import pytest
+
+import ttr
+from ttr.checking import check
+from ttr.errors import IllFormed, NotationError, TTRError
+from ttr.loading import Unreadable
+from ttr.subtyping import subtype
+from ttr.syntax import Basic, Ind, Pred, rectype, this
+from ttr.syntax import Path as LabelPath
+from ttr.theories import Axiom, Mistakes, Theory, load
+
+NAMES = """
+basic Ind, Image
+pred  dog(Ind), puppy(Ind), hug(Ind, Ind), left(Ind, Ind), right(Ind, Ind)
+"""
+
+
+def theory(text: str) -> Theory:
+    return Theory.parse(NAMES + text)
+
+
+def mistake(text: str) -> TTRError:
+    with pytest.raises(TTRError) as caught:
+        theory(text)
+    return caught.value
+
+
+# --- declaring -----------------------------------------------------------------------
+
+
+def test_what_is_declared_is_an_item_and_an_attribute() -> None:
+    kennel = theory("Dog := [x : Ind, c : dog(x)]")
+    dog = Pred("dog", Ind)
+    assert kennel["Dog"] is kennel.Dog is rectype(x=Ind, c=dog(this.x))
+    assert kennel.Ind is Ind
+    assert kennel["dog"] is dog
+
+
+def test_a_misspelt_attribute_is_told_with_a_suggestion() -> None:
+    kennel = theory("Dog := [x : Ind, c : dog(x)]")
+    with pytest.raises(AttributeError, match="the theory has no Dgo: did you mean Dog"):
+        _ = kennel.Dgo
+    with pytest.raises(KeyError, match="the theory has no zebra"):
+        _ = kennel["zebra"]
+
+
+def test_a_theory_is_a_signature() -> None:
+    kennel = theory("puppy(x) <: dog(x)\nopen hug, Image")
+    puppy, dog = kennel.predicates["puppy"], kennel.predicates["dog"]
+    x = LabelPath(0, ("x",))
+    assert kennel.signature.axioms == (Axiom(puppy(x), dog(x)),)
+    assert str(kennel.axioms[0]) == "puppy(x) <: dog(x)"
+    assert kennel.opened == {kennel.predicates["hug"], Basic("Image")}
+    assert subtype(puppy("rex"), dog("rex"), kennel).yes
+
+
+def test_a_predicate_has_the_arities_it_is_declared_with() -> None:
+    found = Theory.parse("basic A, B\npred p(A), q(), p(A, B)\npred p(B)\nT := p('a')")
+    A, B = Basic("A"), Basic("B")
+    assert found["p"] is Pred("p", (A,), (A, B), (B,))
+    assert found["q"] is Pred("q", ())
+
+
+def test_statements_go_on_in_brackets_and_over_indented_lines() -> None:
+    plain = theory("Dog := [x : Ind, c : dog(x)]").Dog
+    assert theory("Dog := [\nx : Ind, # the dog\nc : dog(x)\n]\nbasic A").Dog is plain
+    assert theory("Dog :=\n  [x : Ind,\n  c : dog(x)]\nbasic A").Dog is plain
+    assert Theory.parse("basic A\n    basic B").names == {"A", "B"}
+    assert Theory.parse("\n  basic A,\n    B\n  basic C\n").names == {"A", "B", "C"}
+    assert Theory.parse("basic A\r\nbasic B\r\n").names == {"A", "B"}
+    assert Theory.parse("").names == frozenset()
+
+
+def test_objects_are_given_and_may_be_quoted() -> None:
+    found = theory("object fido, 'rex 1' : Ind\ngiven s1 : hug(fido, 'rex 1') = 0.5")
+    assert found.objects == {"fido", "rex 1", "s1"}
+    assert [(g.sit, str(g.type), g.p) for g in found.givens] == [
+        ("fido", "Ind", (1.0, 1.0)),
+        ("rex 1", "Ind", (1.0, 1.0)),
+        ("s1", 'hug(fido, "rex 1")', (0.5, 0.5)),
+    ]
+
+
+def test_a_quoted_name_in_an_axiom_is_an_object() -> None:
+    found = theory("right(x, 'car') <: left('car', x)")
+    right, left = found.predicates["right"], found.predicates["left"]
+    assert subtype(right("a", "car"), left("car", "a"), found).yes
+    assert not subtype(right("a", "b"), left("b", "a"), found).yes
+    assert str(found.axioms[0]) == 'right(x, "car") <: left("car", x)'
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "said", "hint"),
+    [
+        (
+            "Dog := [x : Ind, c : dgo(x)]",
+            (4, 22),
+            "no predicate dgo",
+            "did you mean dog",
+        ),
+        ("A := [b : B]\nB := [x : Ind]", (4, 11), "B is used before its def", "move"),
+        ("A := [x : A]", (4, 11), "A is used before its definition in line 4", ""),
+        ("A := p(a)\npred p(Ind)", (4, 6), "p is used before its definition", ""),
+        ("dog := Ind", (4, 1), "dog is already a predicate", ""),
+        ("Ind := Image", (4, 1), "Ind is already a basic type", ""),
+        ("X := Ind\nX := Ind", (5, 1), "X is already defined", ""),
+        ("basic dog", (4, 7), "dog is already a predicate", ""),
+        ("pred list(Ind)", (4, 6), "list is a word of the notation", ""),
+        ("object Type : Ind", (4, 8), "Type is a word of the notation", ""),
+        ("object dog : Ind", (4, 8), "dog is already a predicate", ""),
+        ("X := dog('a')\npred dog(Image)", (5, 6), "dog gets another arity after", ""),
+        ("open dgo", (4, 6), "there is no basic type or predicate dgo", "dog"),
+        ("given s : dog('a') = 1.5", (4, 22), "a number in [0, 1]", ""),
+        ("given s : dog('a') in [0.5, 0.2]", (4, 23), "lower first", ""),
+        ("dog(x) <: hug(x, y)", (4, 11), "the variable y stands on the right", "'y'"),
+        ("dog(x.y) <: dog(x)", (4, 5), "only names stand for objects", ""),
+        ("[x : Ind] <: Rec", (4, 1), "an axiom relates basic types and", ""),
+        ("bsaic A", (4, 7), "expected := or <:, found A", "did you mean basic?"),
+        ("Dog = Ind", (4, 5), "expected := or <:, found =", "written Name := T"),
+        ("fido : Ind", (4, 6), "expected := or <:, found :", "write given a : T"),
+        ("rule greet", (4, 6), "a rule statement is not part of this version", ""),
+        ("check dog('a')", (4, 7), "this is nothing that can be checked", "a : T"),
+        ("check P(Ind) = 0.5", (4, 7), "P(T) = p is not part of this version", ""),
+        (
+            "check P('a' : Ind | 'b' : Ind) = 1",
+            (4, 19),
+            "a conditional probability P(a : T | b : S) is not part",
+            "",
+        ),
+        ('import "no such file.ttr"', (4, 1), "there is no file no such file.ttr", ""),
+        ("Dog := [x : Ind", (4, 16), "expected a comma or ], found the end", ""),
+    ],
+)
+def test_a_mistake_is_told_with_its_place(
+    text: str, place: tuple[int, int], said: str, hint: str
+) -> None:
+    error = mistake(text)
+    assert said in error.message
+    assert hint in error.hint
+    assert error.span is not None
+    assert (error.span.line, error.span.column) == place
+
+
+def test_an_ill_formed_definition_is_ill_formed() -> None:
+    error = mistake("Hug := [x : Ind, e : hug(x)]")
+    assert isinstance(error, IllFormed)
+    assert error.message == "hug takes 2 arguments (Ind, Ind), but has 1"
+    assert error.span is not None
+    assert (error.span.line, error.span.column, error.span.length) == (4, 22, 6)
+
+
+def test_every_mistake_is_told_and_each_only_once() -> None:
+    error = mistake(
+        """
+Dog := [x : Ind, c : dgo(x)]
+Dogs := list(Dog)
+check Dogs <= list(Ind)
+Cat := [x : Ind
+pred meow(Ind)
+Meow := [x : Ind, c : meow(x), d : hug(x)]
+"""
+    )
+    assert isinstance(error, Mistakes)
+    assert isinstance(error, NotationError)
+    spans = [one.span for one in error.errors]
+    assert [span and span.line for span in spans] == [5, 8, 10]
+    assert "there is no predicate dgo" in str(error)
+    again = pickle.loads(pickle.dumps(error))
+    assert str(again) == str(error)
+
+
+# --- importing -----------------------------------------------------------------------
+
+
+def test_an_import_is_relative_to_the_file_and_read_once(tmp_path: Path) -> None:
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "base.ttr").write_text("basic Ind\nobject fido : Ind\ncheck fido : Ind")
+    (tmp_path / "sub" / "dogs.ttr").write_text(
+        'import "../base.ttr"\npred dog(Ind)\nDog := [x : Ind, c : dog(x)]'
+    )
+    (tmp_path / "all.ttr").write_text(
+        'import "base.ttr"\nimport "sub/dogs.ttr"\ncheck Dog <= [x : Ind]'
+    )
+    found = load(tmp_path / "all.ttr")
+    assert found.names == {"Ind", "fido", "dog", "Dog"}
+    assert len(found.givens) == 1
+    assert len(found.checks) == 1
+    assert check(found).holds
+
+
+def test_imports_in_a_circle_are_told(tmp_path: Path) -> None:
+    (tmp_path / "a.ttr").write_text('basic A\nimport "b.ttr"')
+    (tmp_path / "b.ttr").write_text('import "a.ttr"')
+    with pytest.raises(NotationError) as caught:
+        load(tmp_path / "a.ttr")
+    assert caught.value.message == "the imports go in a circle: a.ttr → b.ttr → a.ttr"
+
+
+def test_a_mistake_in_an_import_has_its_place_there(tmp_path: Path) -> None:
+    (tmp_path / "a.ttr").write_text('import "b.ttr"\nX := list(B)')
+    (tmp_path / "b.ttr").write_text("basic A\nB := list(C)")
+    with pytest.raises(NotationError, match="nothing is called C here") as caught:
+        load(tmp_path / "a.ttr")
+    assert caught.value.span is not None
+    assert Path(caught.value.span.source).name == "b.ttr"
+    assert caught.value.span.line == 2
+
+
+def test_an_import_must_agree_with_what_is_there(tmp_path: Path) -> None:
+    (tmp_path / "b.ttr").write_text("basic A, B\npred p(A)")
+    for text, said in (
+        ("basic A, B\npred p(B)", "p is declared in another way in the import"),
+        ("basic A, p", "p is declared in another way in the import"),
+    ):
+        (tmp_path / "a.ttr").write_text(f'{text}\nimport "b.ttr"')
+        with pytest.raises(NotationError, match=said):
+            load(tmp_path / "a.ttr")
+
+
+def test_what_cannot_be_read_is_told(tmp_path: Path) -> None:
+    (tmp_path / "latin.ttr").write_bytes(b"basic Gr\xf6\xdfe")
+    for name, said in (
+        ("none.ttr", "there is no file"),
+        ("latin.ttr", "is no text: it must be UTF-8"),
+        (".", "cannot be read"),
+        ("\0", "is no path of a file"),
+    ):
+        with pytest.raises(Unreadable, match=said):
+            load(tmp_path / name)
+
+
+# --- checking ------------------------------------------------------------------------
+
+WORLD = """
+puppy(x) <: dog(x)
+Dog := [x : Ind, c : dog(x)]
+object fido, sam : Ind
+given s1 : puppy(fido)
+given s2 : hug(fido, sam) = 0.5
+given s3 : hug(sam, fido) in [0.2, 0.4]
+"""
+
+
+@pytest.mark.parametrize(
+    "claim",
+    [
+        "fido : Ind",
+        "not 'nobody' : Ind",
+        "{x = fido, c = s1} : Dog",
+        "not {x = sam, c = s1} : Dog",
+        "unknown s2 : hug(fido, sam)",
+        "unknown s9 : hug(fido, sam)".replace("s9", "'s9'"),
+        "error {x = fido} : [x : Ind, c : dog(x, x)]",
+        "[x : Ind, c : dog(x), y : Ind] <= Dog",
+        "not [x : Ind] <= Dog",
+        "[x : Ind, c : puppy(x)] ⊑ Dog",
+        "Dog = [c : dog(x), x : Ind]",
+        "not Dog = Ind",
+        "not 1 = 1.0",
+        "fido = 'fido'",
+        "merge([x : Ind], [c : dog('a')]) = [x : Ind, c : dog('a')]",
+        "not merge([x : Ind], [y : Ind]) = [x : Ind]",
+        "amerge([x = fido : Ind], [x : Ind]) = [x : Ind]",
+        "create(Dog)",
+        "error create([x = y : Ind, y = x : Ind])",
+        "wellformed(Dog)",
+        "not wellformed([x : Ind, c : dog(x, x)])",
+        "not wellformed([x = y : Ind, y = x : Ind])",
+        "not wellformed([x : [a = ^.y : Ind], y = x.a : Ind])",
+        "not wellformed([x : Image, c : dog(x)])",
+        "P(s2 : hug(fido, sam)) = 0.5",
+        "P(s3 : hug(sam, fido)) = [0.2, 0.4]",
+        "P(s3 : hug(sam, fido)) in [0, 0.5]",
+        "not P(s3 : hug(sam, fido)) in [0.3, 0.5]",
+        "P(fido : Ind) = 1",
+    ],
+)
+def test_a_true_claim_holds_and_its_opposite_fails(claim: str) -> None:
+    assert check(theory(WORLD + "check " + claim)).holds
+    words = claim.split(" ", 1)
+    expected = words[0] if words[0] in ("not", "unknown", "error") else ""
+    opposite = words[1] if expected else "not " + claim
+    report = check(theory(WORLD + "check " + opposite))
+    assert not report.holds
+    assert str(report.failures[0]).startswith("failed: check ")
+
+
+def test_a_failure_says_what_was_found_and_why() -> None:
+    report = check(theory("check [x : Ind] <= [x : Ind, y : Ind]"))
+    (failure,) = report.failures
+    assert (failure.check.expected, failure.found) == ("yes", "no")
+    assert failure.why == "[x : Ind] has no field y"
+    assert failure.check.span.line == 4
+
+
+def test_givens_that_contradict_one_another_are_told_with_their_place() -> None:
+    with pytest.raises(TTRError) as caught:
+        check(theory("given {x = 1} : [x = 2 : Ind]\ncheck 1 : Ind"))
+    assert caught.value.span is not None
+    assert caught.value.span.line == 4
+
+
+def test_the_package_offers_theories() -> None:
+    assert ttr.Theory is Theory
+    assert ttr.load is load
+    assert str(ttr.check(theory("check Ind <= Ind"))) == "1 check holds"

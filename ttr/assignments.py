@@ -1,0 +1,202 @@
+"""Assignments: which objects are judged to be of which basic types and ptypes.
+
+An assignment is an immutable value, cheap to extend: facts with their degrees, witness
+functions, and the types that are open. It knows atoms only; what follows for records,
+lists and meets is derived from it elsewhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias
+
+from immutables import Map
+
+from ttr.axioms import above, below, match_schema
+from ttr.errors import Refused, TTRError
+from ttr.printing import notation
+from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
+from ttr.syntax import Basic, Object, Pred, PType, escaping, identity
+from ttr.theories import Signature
+
+__all__ = ["Assignment", "Atom", "Head", "WitnessFunction", "head"]
+
+Atom: TypeAlias = Basic | PType
+"""The types that an assignment gives witnesses to."""
+
+Head: TypeAlias = Basic | Pred
+"""What is open or has a witness function: a basic type, or a predicate's ptypes."""
+
+WitnessFunction = Callable[..., object]
+"""Objects to a truth value, a number in [0, 1] or an interval."""
+
+Facts: TypeAlias = Map[Atom, Degree]
+"""What one object is judged to be of, and how probably."""
+
+
+_EMPTY: Map[Any, Any] = Map()
+
+
+def head(T: Atom) -> Head:
+    """The basic type itself, or the predicate of a ptype."""
+    return T if isinstance(T, Basic) else T.pred
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """Facts, witness functions and open types, under the axioms of a theory.
+
+    `known` has an entry for every object that a fact is about, or that a ptype with a
+    fact mentions; `created` counts the names given out.
+    """
+
+    theory: Signature
+    known: Map[object, Facts] = _EMPTY
+    functions: Map[Head, WitnessFunction] = _EMPTY
+    opened: Map[Head, bool] = _EMPTY
+    created: int = 0
+
+    def degree_of(self, sit: Object, T: Atom) -> tuple[Degree, str]:
+        """How probable it is that sit is of T, and what says so."""
+        facts = self.known.get(identity(sit), _EMPTY)
+        perceptual = head(T) in self.functions
+        told = facts.get(T)
+        if told in (CERTAIN, REFUTED):
+            return told, "given"
+        if told is None and isinstance(T, Basic) and perceptual:
+            asked = self.perceived(sit, T) or UNKNOWN
+            return asked, f"by the witness function of {T}"
+        least, lower = self._bound_below(facts, sit, T)
+        most, upper = self._bound_above(facts, sit, T)
+        if told is not None:
+            rule = f"seen as {head(T).name}" if perceptual else "given"
+            return _within(told, least, most), rule
+        if least > 0.0:
+            return _within(Degree(least, 1.0), 0.0, most), lower
+        if perceptual or head(T) in self.opened:
+            return Degree(0.0, most), upper or "nothing is known of it"
+        return REFUTED, "nothing says so"
+
+    def perceived(self, sit: Object, T: Atom) -> Degree | None:
+        """What the witness function of T answers, or None where there is none.
+
+        For a basic type it is asked of the object, for a ptype of its arguments.
+        """
+        function = self.functions.get(head(T))
+        if function is None:
+            return None
+        args = (sit,) if isinstance(T, Basic) else T.args
+        try:
+            return degree(function(*args), "the answer")
+        except TTRError as error:
+            raise TTRError(f"{_call(T, args)}: {error.message}") from error
+        except Exception as error:
+            fault = f"{type(error).__name__}: {error}"
+            raise TTRError(f"{_call(T, args)} failed: {fault}") from error
+
+    # --- new assignments -----------------------------------------------------------
+
+    def with_fact(self, sit: Object, T: Atom, p: Degree) -> Assignment:
+        """The assignment in which also sit : T, in place of what was said of it.
+
+        Raises `Refused` where a witness function says no, or an axiom contradicts.
+        """
+        self._check(sit, T, p)
+        opened = self.opened
+        if p.hi > 0.0 and p.lo < 1.0 and head(T) not in opened:
+            opened = opened.set(head(T), True)
+        return replace(self._with(sit, T, p), opened=opened)
+
+    def with_perceived(self, sit: Object, T: PType) -> Assignment:
+        """The assignment in which sit is of T as far as T's witness function says."""
+        return self._with(sit, T, self.perceived(sit, T) or UNKNOWN)
+
+    def with_function(self, of: Head, function: WitnessFunction) -> Assignment:
+        """The assignment in which a function says what is of a type."""
+        return replace(self, functions=self.functions.set(of, function))
+
+    def with_new(self, stem: str) -> tuple[str, Assignment]:
+        """A name that no fact mentions and no earlier call gave out."""
+        number = self.created + 1
+        while f"{stem}{number}" in self.known:
+            number += 1
+        return f"{stem}{number}", replace(self, created=number)
+
+    def _with(self, sit: Object, T: Atom, p: Degree) -> Assignment:
+        key = identity(sit)
+        facts = self.known.get(key, _EMPTY)
+        if facts.get(T) == p:
+            return self
+        known = self.known.set(key, facts.set(T, p))
+        for name in _names(T):
+            if name not in known:
+                known = known.set(name, _EMPTY)
+        return replace(self, known=known)
+
+    def _check(self, sit: Object, T: Atom, p: Degree) -> None:
+        facts = self.known.get(identity(sit), _EMPTY)
+        kinds = (T, *(upper for _, upper in above(T, self.theory.axioms)))
+        for kind in kinds:
+            if p.lo > 0.0 and self._refuses(sit, kind, p):
+                raise Refused(
+                    f"{notation(sit)} : {T} is refused by the witness function of "
+                    f"{head(kind).name}"
+                )
+        least, why = self._bound_below(facts, sit, T)
+        most, why_not = self._bound_above(facts, sit, T)
+        if p.lo > most or p.hi < least:
+            raise Refused(
+                f"{notation(sit)} : {T} cannot have the probability {p}: "
+                f"{why_not if p.lo > most else why}"
+            )
+
+    def _refuses(self, sit: Object, T: Atom, p: Degree) -> bool:
+        """Whether a witness function rules out what is told for certain."""
+        return p == CERTAIN and self.perceived(sit, T) == REFUTED
+
+    # --- what axioms say -----------------------------------------------------------
+
+    def _bound_below(self, facts: Facts, sit: Object, T: Atom) -> tuple[float, str]:
+        """a : T is at least as probable as a : S, wherever S <: T; and by which."""
+        best, why = 0.0, ""
+        for axiom, lower in below(T, self.theory.axioms):
+            for kind in _instances(lower, facts):
+                if facts[kind].lo > best:
+                    best = facts[kind].lo
+                    why = f"by {axiom} and {notation(sit)} : {kind}"
+        return best, why
+
+    def _bound_above(self, facts: Facts, sit: Object, T: Atom) -> tuple[float, str]:
+        """a : T is at most as probable as a : U, wherever T <: U; and by which."""
+        best, why = 1.0, ""
+        for axiom, upper in above(T, self.theory.axioms):
+            for kind in _instances(upper, facts):
+                if facts[kind].hi < best:
+                    best = facts[kind].hi
+                    why = f"by {axiom} and {notation(sit)} : {kind} with {facts[kind]}"
+        return best, why
+
+
+def _within(told: Degree, least: float, most: float) -> Degree:
+    """The degree within the bounds; where what was seen breaks them, as it is."""
+    lo, hi = max(told.lo, least), min(told.hi, most)
+    return Degree(lo, hi) if lo <= hi else told
+
+
+def _instances(schema: Atom, facts: Facts) -> list[Atom]:
+    """The types of facts that one side of an axiom stands for, in a fixed order."""
+    if not escaping(schema):
+        return [schema] if schema in facts else []
+    return sorted((T for T in facts if match_schema(schema, T) is not None), key=str)
+
+
+def _names(T: Atom) -> Iterator[str]:
+    """The objects with names that a ptype is about."""
+    if isinstance(T, PType):
+        yield from (arg for arg in T.args if isinstance(arg, str))
+
+
+def _call(T: Atom, args: tuple[Object, ...]) -> str:
+    shown = ", ".join(map(notation, args))
+    return f"the witness function of {head(T).name}({shown})"

@@ -1,0 +1,73 @@
+"""What declared axioms put above and below a type, schematic ones instantiated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ttr.substitution import replace_paths
+from ttr.syntax import Basic, Object, Path, PType, identity
+from ttr.theories import Axiom
+
+__all__ = ["above", "below", "match_schema"]
+
+Binding = Mapping[Path, Object]
+
+
+def above(
+    T: Basic | PType, axioms: tuple[Axiom, ...]
+) -> Iterator[tuple[Axiom, Basic | PType]]:
+    """Every type that the axioms put above T, each once, with the last axiom used.
+
+    >>> from ttr.syntax import Ind, Pred, this
+    >>> dog, puppy = Pred("dog", Ind), Pred("puppy", Ind)
+    >>> for axiom, upper in above(puppy("rex"), (Axiom(puppy(this.x), dog(this.x)),)):
+    ...     print(upper, "by", axiom)
+    dog(rex) by puppy(x) <: dog(x)
+    """
+    yield from _reached(T, [(axiom, axiom.lower, axiom.upper) for axiom in axioms])
+
+
+def below(
+    T: Basic | PType, axioms: tuple[Axiom, ...]
+) -> Iterator[tuple[Axiom, Basic | PType]]:
+    """Every type that the axioms put below T, each once, with the last axiom used.
+
+    A schematic variable that only the lower side has stays in it as a path.
+    """
+    yield from _reached(T, [(axiom, axiom.upper, axiom.lower) for axiom in axioms])
+
+
+def _reached(
+    T: Basic | PType, steps: list[tuple[Axiom, Basic | PType, Basic | PType]]
+) -> Iterator[tuple[Axiom, Basic | PType]]:
+    found, waiting = {T}, [T]
+    for current in waiting:
+        for axiom, start, end in steps:
+            bound = match_schema(start, current)
+            if bound is None:
+                continue
+            reached = _instance(end, bound)
+            if reached not in found:
+                found.add(reached)
+                waiting.append(reached)
+                yield axiom, reached
+
+
+def match_schema(schema: Basic | PType, T: Basic | PType) -> Binding | None:
+    """What the schema's variables must be for it to be T, or None."""
+    if isinstance(schema, Basic) or isinstance(T, Basic):
+        return {} if schema is T else None
+    if schema.pred is not T.pred or len(schema.args) != len(T.args):
+        return None
+    bound: dict[Path, Object] = {}
+    for wanted, arg in zip(schema.args, T.args, strict=True):
+        known = bound.setdefault(wanted, arg) if isinstance(wanted, Path) else wanted
+        if identity(known) != identity(arg):
+            return None
+    return bound
+
+
+def _instance(schema: Basic | PType, bound: Binding) -> Basic | PType:
+    """The schema with its variables replaced."""
+    found: Basic | PType = replace_paths(schema, lambda path: bound.get(path, path))
+    return found

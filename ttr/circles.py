@@ -1,0 +1,68 @@
+"""Do the paths of a record type go in a circle?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
+
+from ttr.syntax import RecordType, TypeNode, escaping
+
+__all__ = ["circle"]
+
+Address = tuple[str, ...]
+"""A field of a record type or of one nested in it: the labels that lead to it."""
+
+
+def circle(T: TypeNode) -> str:
+    """The fields that depend on one another in a circle, or the empty string.
+
+    A field depends on another where its type or value mentions a path to it, to what is
+    in it or to what it is in. Such a type can be checked, but no witness built.
+
+    >>> from ttr.syntax import Ind, rectype, this
+    >>> circle(rectype(x=Ind @ this.y, y=Ind @ this.x))
+    'x → y → x'
+    >>> circle(rectype(x=Ind, y=Ind @ this.x))
+    ''
+    """
+    leaves = dict(_leaves(T, ()))
+    inner: dict[Address, list[Address]] = {}
+    for leaf in leaves:
+        for length in range(1, len(leaf) + 1):
+            inner.setdefault(leaf[:length], []).append(leaf)
+    needs = {
+        leaf: [
+            near for target in _targets(leaf, field) for near in _near(target, inner)
+        ]
+        for leaf, field in leaves.items()
+    }
+    try:
+        TopologicalSorter(needs).prepare()
+    except CycleError as error:
+        return " → ".join(".".join(leaf) for leaf in reversed(error.args[1]))
+    return ""
+
+
+def _leaves(T: TypeNode, at: Address) -> Iterator[tuple[Address, TypeNode]]:
+    if not isinstance(T, RecordType):
+        return
+    for label, field in T.fields:
+        address = (*at, label)
+        if isinstance(field, RecordType) and field.fields:
+            yield from _leaves(field, address)
+        else:
+            yield address, field
+
+
+def _targets(leaf: Address, field: TypeNode) -> list[Address]:
+    """Where the paths of a field lead; those that leave the whole type lead nowhere."""
+    inside = [path for path in escaping(field) if path.up < len(leaf)]
+    return sorted(leaf[: len(leaf) - 1 - path.up] + path.labels for path in inside)
+
+
+def _near(target: Address, inner: dict[Address, list[Address]]) -> list[Address]:
+    """The leaves in the field a path leads to, or the leaf that the path goes into."""
+    for length in range(len(target), 0, -1):
+        if target[:length] in inner:
+            return inner[target[:length]]
+    return []

@@ -1,0 +1,242 @@
+"""The command `ttr`: check what a theory file claims, show what it defines."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from io import TextIOWrapper
+from typing import TYPE_CHECKING, Any
+
+from ttr.errors import TTRError
+
+if TYPE_CHECKING:
+    from ttr.checking import Failure
+    from ttr.theories import Theory
+
+__all__ = ["main"]
+
+FINE, FAILED, WRONG_USE, INTERRUPTED, PIPE_CLOSED = 0, 1, 2, 130, 141
+
+_FORMATS = ("text", "box", "latex", "html")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the command; 0 fine, 1 something does not hold, 2 wrong use."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # not where a program has replaced it
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        code = _run(argv)
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except RecursionError:
+        _complain("types are nested too deep, by definitions, to be printed or checked")
+        return FAILED
+    except BrokenPipeError:
+        # Python would complain once more when it flushes at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return PIPE_CLOSED
+    return code
+
+
+def _run(argv: Sequence[str] | None) -> int:
+    options = _parser().parse_args(argv)
+    code: int = options.command(options)
+    return code
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="ttr",
+        description="Type Theory with Records in files: check them, show them.",
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    check = commands.add_parser(
+        "check",
+        help="does what the files claim hold?",
+        description="Asks the checks of theory files; exits with 1 if one fails.",
+    )
+    check.add_argument("files", nargs="+", metavar="FILE", help="a theory file (.ttr)")
+    check.add_argument("--json", action="store_true", help="report for machines")
+    check.set_defaults(command=_check)
+    show = commands.add_parser(
+        "show",
+        help="print what a name stands for",
+        description="Prints a definition or declaration of a theory file.",
+    )
+    show.add_argument("file", metavar="FILE", help="a theory file (.ttr)")
+    show.add_argument("name", metavar="NAME", help="a name that it declares")
+    show.add_argument(
+        "--as", dest="form", choices=_FORMATS, default="text", help="how to print it"
+    )
+    show.set_defaults(command=_show)
+    return parser
+
+
+class _Version(argparse.Action):
+    """Prints the version, which is looked up only when it is asked for."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from importlib.metadata import version
+
+        _say(f"ttr {version('kille')}")
+        parser.exit()
+
+
+def _say(text: str) -> None:
+    sys.stdout.write(f"{text}\n")
+
+
+def _complain(text: str) -> int:
+    sys.stderr.write(f"ttr: {text}\n")
+    return WRONG_USE
+
+
+# --- ttr check -----------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    """What became of one file: its mistakes, or the checks that failed."""
+
+    file: str
+    asked: int = 0
+    failures: tuple[Failure, ...] = ()
+    mistakes: tuple[TTRError, ...] = ()
+    unreadable: str = ""
+
+    @property
+    def code(self) -> int:
+        if self.unreadable:
+            return WRONG_USE
+        return FAILED if self.failures or self.mistakes else FINE
+
+
+def _check(options: argparse.Namespace) -> int:
+    outcomes = []
+    for file in options.files:
+        outcome = _outcome(file)
+        outcomes.append(outcome)
+        if not options.json:
+            _tell(outcome)
+    if options.json:
+        _say(
+            json.dumps([_facts(one) for one in outcomes], ensure_ascii=False, indent=2)
+        )
+    return max(one.code for one in outcomes)
+
+
+def _outcome(file: str) -> _Outcome:
+    from ttr.checking import check
+    from ttr.loading import Unreadable
+    from ttr.theories import Mistakes, load
+
+    try:
+        report = check(load(file))
+    except Unreadable as error:
+        if error.span is None:
+            return _Outcome(file, unreadable=error.message)
+        return _Outcome(file, mistakes=(error,))
+    except Mistakes as error:
+        return _Outcome(file, mistakes=error.errors)
+    except TTRError as error:
+        return _Outcome(file, mistakes=(error,))
+    return _Outcome(file, report.asked, report.failures)
+
+
+def _tell(outcome: _Outcome) -> None:
+    if outcome.unreadable:
+        _complain(outcome.unreadable)
+        return
+    if outcome.code == FINE:
+        verb = "check holds" if outcome.asked == 1 else "checks hold"
+        _say(f"{outcome.file}: {outcome.asked} {verb}")
+        return
+    told = [f"error: {mistake}" for mistake in outcome.mistakes]
+    told += map(str, outcome.failures)
+    _say("\n\n".join([*told, _summary(outcome)]))
+
+
+def _summary(outcome: _Outcome) -> str:
+    if outcome.mistakes:
+        count = len(outcome.mistakes)
+        return f"{outcome.file}: {count} mistake{'s' * (count != 1)}, nothing checked"
+    return f"{outcome.file}: {len(outcome.failures)} of {outcome.asked} checks failed"
+
+
+def _facts(outcome: _Outcome) -> dict[str, Any]:
+    return {
+        "file": outcome.file,
+        "asked": outcome.asked,
+        "holds": outcome.code == FINE,
+        "failures": [
+            {
+                **_place(failure.check.span),
+                "check": failure.check.text,
+                "expected": failure.check.expected,
+                "found": failure.found,
+                "why": failure.why,
+            }
+            for failure in outcome.failures
+        ],
+        "mistakes": [
+            {**_place(error.span), "message": error.message, "help": error.hint}
+            for error in outcome.mistakes
+        ]
+        + [{"message": outcome.unreadable}] * bool(outcome.unreadable),
+    }
+
+
+def _place(span: Any) -> dict[str, Any]:
+    if span is None:
+        return {}
+    return {"file": span.source, "line": span.line, "column": span.column}
+
+
+# --- ttr show ------------------------------------------------------------------------
+
+
+def _show(options: argparse.Namespace) -> int:
+    from ttr.loading import Unreadable
+    from ttr.theories import load
+
+    if options.form != "text":
+        return _complain(f"--as {options.form} is not part of this version: use text")
+    try:
+        theory = load(options.file)
+    except Unreadable as error:
+        return _complain(error.message)
+    except TTRError as error:
+        _say(f"error: {error}")
+        return FAILED
+    if options.name in theory.objects:
+        return _complain(f"{options.file}: {options.name} is an object, only a name")
+    try:
+        _say(_declaration(theory, options.name))
+    except KeyError as missing:
+        return _complain(f"{options.file}: {missing.args[0]}")
+    return FINE
+
+
+def _declaration(theory: Theory, name: str) -> str:
+    """The name as a statement that declares it; raises `KeyError` if nothing does."""
+    from ttr.printing import notation
+    from ttr.syntax import Pred
+
+    value = theory[name]
+    if name in theory.definitions:
+        return f"{name} := {notation(value)}"
+    if isinstance(value, Pred):
+        arities = [", ".join(map(str, arity)) for arity in value.arities]
+        return f"pred {', '.join(f'{name}({arity})' for arity in arities)}"
+    return f"basic {name}"
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,152 @@
+"""What can go wrong, said so that the reader can mend it.
+
+Every error is a `TTRError`: one sentence that says what was expected and what was
+found, where it is known a place in a text, and where there is one a way out.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import wraps
+from typing import ParamSpec, TypeVar
+
+__all__ = [
+    "IllFormed",
+    "NotationError",
+    "Refused",
+    "Span",
+    "TTRError",
+    "Undecided",
+    "Unsupported",
+    "UpdateError",
+    "following_nesting",
+    "suggestion",
+]
+
+
+@dataclass(frozen=True)
+class Span:
+    """A place in a text: where it came from, line and column from 1, length."""
+
+    source: str
+    line: int
+    column: int
+    length: int
+    text: str
+
+    @classmethod
+    def of(cls, source: str, text: str, start: int, end: int) -> Span:
+        r"""The span of text[start:end]; a span over several lines ends with its first.
+
+        >>> Span.of("a.ttr", "basic Ind\nX := Idn", 15, 18).line
+        2
+        """
+        start = min(start, len(text))
+        line_start = text.rfind("\n", 0, start) + 1
+        line_end = text.find("\n", start)
+        line_end = len(text) if line_end < 0 else line_end
+        length = max(1, min(end, line_end) - start)
+        line = text.count("\n", 0, start) + 1
+        shown = text[line_start:line_end].replace("\t", " ")
+        return cls(source, line, start - line_start + 1, length, shown)
+
+    def __str__(self) -> str:
+        """The place, then the line with the span underlined."""
+        gutter = " " * len(str(self.line))
+        caret = " " * (self.column - 1) + "^" * self.length
+        return (
+            f"{gutter} ┌─ {self.source}:{self.line}:{self.column}\n"
+            f"{self.line} │ {self.text}\n"
+            f"{gutter} │ {caret}"
+        )
+
+
+class TTRError(Exception):
+    """Something that type theory, notation or an update rule does not allow."""
+
+    def __init__(self, message: str, *, span: Span | None = None, hint: str = ""):
+        super().__init__(message)
+        self.message = message
+        self.span = span
+        self.hint = hint
+
+    def at(self, span: Span) -> TTRError:
+        """The same error with its place, if it has none yet."""
+        return (
+            self if self.span else type(self)(self.message, span=span, hint=self.hint)
+        )
+
+    def __str__(self) -> str:
+        lines = [self.message]
+        if self.span:
+            lines.append(str(self.span))
+        if self.hint:
+            lines.append(f"help: {self.hint}")
+        return "\n".join(lines)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _rebuild, (type(self), self.message, self.span, self.hint)
+
+
+def _rebuild(
+    kind: type[TTRError], message: str, span: Span | None, hint: str
+) -> TTRError:
+    return kind(message, span=span, hint=hint)
+
+
+class NotationError(TTRError):
+    """A text that is no notation: what was expected there and what was found."""
+
+
+class IllFormed(TTRError):
+    """A type that cannot be built: wrong arity, wrong domain, path to nowhere."""
+
+
+class Refused(TTRError):
+    """A judgement that a witness condition or a fact contradicts."""
+
+
+class Undecided(TTRError):
+    """A question for yes or no, asked of a judgement that is neither."""
+
+
+class Unsupported(TTRError):
+    """An operation that is not defined for a constructor."""
+
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def following_nesting(function: Callable[P, R]) -> Callable[P, R]:
+    """Makes a function over types raise `Unsupported` where they nest too deep."""
+
+    @wraps(function)
+    def followed(*args: P.args, **kwargs: P.kwargs) -> R:
+        try:
+            return function(*args, **kwargs)
+        except RecursionError:
+            raise Unsupported(
+                "this nests deeper than can be followed",
+                hint="use lists and records side by side, or sys.setrecursionlimit",
+            ) from None
+
+    return followed
+
+
+class UpdateError(TTRError):
+    """A rule, a state or an event that an update cannot go on with."""
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """A way out for a name nobody declared: the nearest known one, or none.
+
+    >>> suggestion("hgu", ["hug", "dog"])
+    'did you mean hug?'
+    >>> suggestion("zebra", ["hug", "dog"])
+    ''
+    """
+    near = difflib.get_close_matches(name, sorted(set(known)), n=1, cutoff=0.6)
+    return f"did you mean {near[0]}?" if near else ""

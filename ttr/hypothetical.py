@@ -1,0 +1,318 @@
+"""An arbitrary witness of a type: what is equal in it, and what is of what.
+
+It is symbolic. Its parts are *places*, paths from the witness itself; manifest fields
+make places equal to one another or to objects, and each class of equal places is of the
+types that are claimed of any of them. Nothing is judged and nothing is remembered.
+
+What is claimed of an arbitrary element of a list holds only where the list has one, so
+such a claim has a *condition*, the place of that element.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from ttr.levels import why_outside
+from ttr.substitution import replace_paths
+from ttr.syntax import (
+    Basic,
+    ListOf,
+    Meet,
+    Object,
+    Path,
+    PType,
+    Record,
+    RecordType,
+    Singleton,
+    TypeNode,
+    Universe,
+    escaping,
+    identity,
+)
+
+__all__ = ["ITSELF", "Hypothetical", "element", "step", "unpacked"]
+
+ITSELF = Path(0, ("·",))
+"""The place of the witness itself; its name is no label."""
+
+_EACH = "*"
+"""The step from a list to an arbitrary element of it; it is no label."""
+
+
+def step(place: Path, label: str) -> Path:
+    """The place one label further in."""
+    return Path(place.up, (*place.labels, label))
+
+
+def element(place: Path) -> Path:
+    """The place of an arbitrary element of the list at a place."""
+    return step(place, _EACH)
+
+
+def unpacked(field: TypeNode, whole: Path | Record) -> TypeNode:
+    """The type of a field of a record as seen from outside the record.
+
+    `whole` is the record, or the place where it stands.
+    """
+
+    def outside(path: Path) -> Object:
+        if path.up > 0:
+            return Path(path.up - 1, path.labels)
+        return _inside(whole, path.labels)
+
+    found: TypeNode = replace_paths(field, outside)
+    return found
+
+
+def _inside(value: Object, labels: tuple[str, ...]) -> Object:
+    """Where the labels lead in an object or from a place.
+
+    A path that leads nowhere becomes one that starts nowhere: it equals nothing else.
+    """
+    for done, label in enumerate(labels):
+        if isinstance(value, Path):
+            return Path(value.up, value.labels + labels[done:])
+        if not isinstance(value, Record) or label not in value:
+            return Path(0, ("", *labels))
+        value = value[label]
+    return value
+
+
+class Hypothetical:
+    """An arbitrary witness of S.
+
+    >>> from ttr.syntax import Ind, rectype, this
+    >>> witness = Hypothetical(rectype(x=Ind, y=Ind @ this.x))
+    >>> witness.normal(step(ITSELF, "y")) is step(ITSELF, "x")
+    True
+    >>> Hypothetical(Ind @ "a" & Ind @ "b").impossible
+    True
+    """
+
+    def __init__(self, S: TypeNode) -> None:
+        self._equal: dict[tuple[str, ...], Object] = {}
+        self._around_bound: set[tuple[str, ...]] = set()
+        self._absent: set[Path | None] = set()
+        self._followed = True
+        self._classes: dict[object, _Class] = {}
+        self._claims: list[tuple[Path, TypeNode]] = []
+        self._claim(ITSELF, S)
+        self._equate_manifest()
+        for place, T in self._claims:
+            self._classify(place, T, self._condition(place))
+        self._find_misfits()
+
+    def normal(self, value: Object) -> Object:
+        """The value with every place in it replaced by the one chosen for its class."""
+        return replace_paths(value, self._chosen)
+
+    def types_of(self, term: Object, given: Collection[Path] = ()) -> list[TypeNode]:
+        """The types claimed of a normal term, none of them a singleton or a meet.
+
+        `given` are the elements of lists that there are.
+        """
+        known = self._classes.get(identity(term))
+        return known.types(given) if known else []
+
+    @property
+    def impossible(self) -> bool:
+        """Whether nothing is of S, under no assignment."""
+        return None in self._absent
+
+    @property
+    def certain(self) -> bool:
+        """Whether some assignment surely has such a witness, of no more than this."""
+        return self._followed and not self._absent
+
+    def is_absent(self, place: Path) -> bool:
+        """Whether there cannot be such an element, so that its list is empty."""
+        return place in self._absent
+
+    # --- what is claimed, place by place ---
+
+    def _claim(self, place: Path, T: TypeNode) -> None:
+        match T:
+            case Meet(parts):
+                for part in parts:
+                    self._claim(place, part)
+                return
+            case Singleton(base, _):
+                self._claim(place, base)
+            case ListOf(item):
+                self._claim(element(place), item)
+            case RecordType(fields):
+                for label, field in fields:
+                    self._claim(step(place, label), unpacked(field, place))
+        self._claims.append((place, T))
+
+    def _classify(self, term: Object, T: TypeNode, condition: Path | None) -> None:
+        """Adds a claim to those of the class of its term."""
+        if isinstance(T, Singleton):
+            return
+        term = self.normal(term)
+        known = self._classes.setdefault(identity(term), _Class(term))
+        known.claims.append((self.normal(T) if isinstance(T, PType) else T, condition))
+        if isinstance(T, ListOf) and isinstance(term, tuple):
+            for one in term:
+                self._spread(one, T.item, condition)
+
+    def _spread(self, term: Object, T: TypeNode, condition: Path | None) -> None:
+        """Adds what a list's type claims of an element that is written in it."""
+        match T:
+            case Meet(parts):
+                for part in parts:
+                    self._spread(term, part, condition)
+            case Singleton(base, value):
+                if identity(self.normal(value)) != identity(term):
+                    self._followed = False
+                self._spread(term, base, condition)
+            case RecordType(fields) if isinstance(term, Record):
+                self._classify(term, T, condition)
+                for label, field in fields:
+                    inner = _inside(term, (label,))
+                    self._spread(inner, unpacked(field, term), condition)
+            case RecordType():
+                self._followed = False
+                self._classify(term, T, condition)
+            case _:
+                self._classify(term, T, condition)
+
+    def _condition(self, place: Path) -> Path | None:
+        """The innermost element of a list that a place is, or is in."""
+        labels = _to_element(place)
+        if not labels:
+            return None
+        found = self.normal(Path(0, labels[:-1]))
+        return element(found) if isinstance(found, Path) else Path(0, labels)
+
+    # --- what is equal ---
+
+    def _equate_manifest(self) -> None:
+        """Makes manifest places equal to their values, outer places first."""
+        manifest = [
+            (place, T.value) for place, T in self._claims if isinstance(T, Singleton)
+        ]
+        for place, value in sorted(manifest, key=lambda pair: len(pair[0].labels)):
+            self._equate(place, value, place)
+
+    def _equate(self, left: Object, right: Object, at: Path) -> None:
+        left, right = self.normal(left), self.normal(right)
+        if identity(left) == identity(right):
+            return
+        if isinstance(left, Path) and self._may_bind(left, at):
+            self._bind(left, right)
+        elif isinstance(right, Path) and self._may_bind(right, at):
+            self._bind(right, left)
+        elif not escaping(left) and not escaping(right):
+            self._absent.add(self._condition(at))
+        elif _same_form(left, right):
+            for mine, theirs in zip(_contents(left), _contents(right), strict=True):
+                self._equate(mine, theirs, at)
+        else:
+            self._followed = False
+
+    def _may_bind(self, place: Path, at: Path) -> bool:
+        """Whether what holds at a place may say what another one is equal to."""
+        needed = self._condition(at)
+        inside = needed is None or place.labels[: len(needed.labels)] == needed.labels
+        return place.up == 0 and inside
+
+    def _bind(self, place: Path, value: Object) -> None:
+        """Chooses the value for the class of a free place.
+
+        What is not followed up, a place equal to something around or inside it, or one
+        whose parts were equated before it, is noted: then a refutation is not certain.
+        """
+        labels = place.labels
+        if labels in self._around_bound:
+            self._followed = False
+        for path in escaping(value):
+            size = min(len(path.labels), len(labels))
+            if path.up == 0 and path.labels[:size] == labels[:size]:
+                self._followed = False
+                return
+        self._equal[labels] = value
+        self._around_bound.update(labels[:size] for size in range(1, len(labels)))
+
+    def _chosen(self, path: Path) -> Object:
+        """The term chosen for the class of a place, along all equations.
+
+        Places on the way are remembered to be equal to it, so that no way is gone twice.
+        """
+        passed: list[tuple[str, ...]] = []
+        chosen: Object = path
+        while isinstance(chosen, Path) and (length := self._bound_length(chosen)):
+            labels = chosen.labels
+            if length == len(labels):
+                passed.append(labels)
+            chosen = _inside(self._equal[labels[:length]], labels[length:])
+        self._equal.update(dict.fromkeys(passed, chosen))
+        return chosen if isinstance(chosen, Path) else self.normal(chosen)
+
+    def _bound_length(self, path: Path) -> int:
+        """How many of the path's labels lead to the first place that is bound, or 0."""
+        if path.up > 0 or not self._equal:
+            return 0
+        lengths = range(1, len(path.labels) + 1)
+        return next((n for n in lengths if path.labels[:n] in self._equal), 0)
+
+    def _find_misfits(self) -> None:
+        """Notes what cannot be there, as nothing has the form of all its types."""
+        for known in self._classes.values():
+            if known.fits([T for T, _ in known.claims]):
+                continue
+            conditions = dict.fromkeys((None, *(c for _, c in known.claims)))
+            absent = [c for c in conditions if not known.fits(known.types((c,)))]
+            self._absent.update(absent)
+            self._followed = False
+
+
+class _Class:
+    """A term chosen for equal places, and the claims made of any of them."""
+
+    def __init__(self, term: Object) -> None:
+        self.term = term
+        self.claims: list[tuple[TypeNode, Path | None]] = []
+
+    def types(self, given: Collection[Path | None]) -> list[TypeNode]:
+        """The types claimed where these elements of lists are there."""
+        return [T for T, c in self.claims if c is None or c in given]
+
+    def fits(self, types: list[TypeNode]) -> bool:
+        """Whether the types can all be of the term, as far as their form says."""
+        shapes = [T for T in types if not isinstance(T, Basic | PType)]
+        if isinstance(self.term, Path):
+            return len({type(shape) for shape in shapes}) <= 1
+        return all(_has_form(self.term, shape) for shape in shapes)
+
+
+def _has_form(term: Object, shape: TypeNode) -> bool:
+    match shape:
+        case RecordType():
+            return isinstance(term, Record) and all(label in term for label in shape)
+        case ListOf():
+            return isinstance(term, tuple)
+        case Universe():
+            return not why_outside(term, shape)
+    return False
+
+
+def _same_form(left: Object, right: Object) -> bool:
+    """Whether two objects are equal just where their contents are, one by one."""
+    if isinstance(left, Record) and isinstance(right, Record):
+        return left._fields.keys() == right._fields.keys()
+    pair = isinstance(left, tuple) and isinstance(right, tuple)
+    return pair and len(left) == len(right)
+
+
+def _contents(value: Record | tuple[Object, ...]) -> list[Object]:
+    if isinstance(value, Record):
+        return [value[label] for label in sorted(value)]
+    return list(value)
+
+
+def _to_element(place: Path) -> tuple[str, ...]:
+    """The labels to the innermost element of a list that the place is in, or none."""
+    labels = place.labels
+    lengths = range(len(labels), 0, -1)
+    return next((labels[:n] for n in lengths if labels[n - 1] == _EACH), ())

@@ -1,0 +1,110 @@
+"""Interned nodes: two nodes of the same structure are the same Python object.
+
+So `is` is structural identity, a hash is an address, and a node can be a key.
+`identity` says when two objects are the same; the pool of nodes is keyed by it.
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass, field
+from threading import RLock
+from typing import TYPE_CHECKING, Any, dataclass_transform
+from weakref import WeakValueDictionary
+
+__all__ = ["Node", "identity", "node"]
+
+_pool: WeakValueDictionary[tuple[object, ...], Node] = WeakValueDictionary()
+_lock = RLock()
+
+
+class _Interning(type):
+    """Gives one instance per structure: same class, same fields, same node."""
+
+    if not TYPE_CHECKING:
+
+        def __call__(cls, *args, **kwargs):
+            values = cls._normal(*args, **kwargs)
+            key = (cls, *cls._key(*values))
+            with _lock:
+                found = _pool.get(key)
+                if found is None:
+                    found = _pool[key] = super().__call__(*values)
+            return found
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(field,))
+def node(cls: type[Node]) -> Any:
+    """Makes an interned, immutable node class of annotated fields."""
+    return dataclass(frozen=True, eq=False, repr=False, slots=True)(cls)
+
+
+class Node(metaclass=_Interning):
+    """An interned value: it prints as notation, and its repr as Python."""
+
+    __slots__ = ("__weakref__",)
+    __match_args__: tuple[str, ...] = ()
+
+    @staticmethod
+    def _normal(*args: Any) -> tuple[Any, ...]:
+        """The arguments in canonical form; a class may refuse them here."""
+        return args
+
+    @staticmethod
+    def _key(*args: Any) -> tuple[object, ...]:
+        """What makes two nodes of the class the same."""
+        return tuple(map(identity, args))
+
+    def __str__(self) -> str:
+        from ttr.printing import notation
+
+        return notation(self)
+
+    def __repr__(self) -> str:
+        from ttr.printing import python
+
+        return python(self)
+
+    def __copy__(self) -> Node:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Node:
+        return self
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), tuple(getattr(self, name) for name in self.__match_args__)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _ByAddress:
+    """An object without a hash; it is kept alive, so its address stays its own."""
+
+    value: object
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _ByAddress) and self.value is other.value
+
+    def __hash__(self) -> int:
+        return id(self.value)
+
+
+def identity(value: object) -> object:
+    """What makes two objects the same: equal values of one class, arrays by address.
+
+    >>> identity(1) == identity(1.0), identity(0.0) == identity(-0.0)
+    (False, False)
+    >>> identity([1]) == identity([1])
+    False
+    """
+    kind = type(value)
+    if kind is str or isinstance(value, Node):
+        return value
+    if kind is tuple:
+        return (tuple, *map(identity, value))  # type: ignore[call-overload]
+    if kind is float:
+        return (float, struct.pack("<d", value))
+    try:
+        hash(value)
+    except TypeError:
+        return _ByAddress(value)
+    return (kind, value)

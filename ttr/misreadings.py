@@ -1,0 +1,187 @@
+"""What to say of a text that the grammar does not take, in a semanticist's words."""
+
+from __future__ import annotations
+
+import re
+
+from lark.exceptions import UnexpectedInput
+
+from ttr.errors import NotationError, Span, suggestion
+from ttr.trees import Source
+
+__all__ = ["KEYWORDS", "explained", "stopped"]
+
+NEAR = 200
+"""How much of the text before a failure is looked at for what was meant."""
+
+KEYWORDS = ("basic", "check", "given", "import", "object", "open", "pred", "rule")
+"""The words that begin a statement."""
+
+
+def explained(
+    error: UnexpectedInput, source: Source, start: int, end: int, wanted: frozenset[str]
+) -> NotationError:
+    """The parser's failure in text[start:end]: where, expected, found, a way out.
+
+    `wanted` are the grammar's names of the signs it could have gone on with.
+    """
+    text = source.text[start:end].rstrip()
+    at = stopped(error, text)
+    before, after = text[:at], text[at:]
+    found = _found(after)
+    span = Span.of(source.name, source.text, start + at, start + at + len(found))
+    near = before[-NEAR:]
+    construct = _unsupported(near, after)
+    if construct:
+        return NotationError(
+            f"{construct} not part of this version of the notation", span=span
+        )
+    return NotationError(
+        f"expected {_expected(wanted, before)}, found {found or _end(source, end)}",
+        span=span,
+        hint=_hint(near, after),
+    )
+
+
+def _end(source: Source, end: int) -> str:
+    return f"the end of the {'statement' if source.text[end:].strip() else 'text'}"
+
+
+def stopped(error: UnexpectedInput, text: str) -> int:
+    """Where in the text the parser failed: at most at its end."""
+    token = getattr(error, "token", None)
+    if getattr(token, "type", "") == "$END":
+        return len(text)
+    return min(error.pos_in_stream or 0, len(text))
+
+
+_FOUND = re.compile(r"\w+|->|[:<>=/\\|]{2}|[\"'][^\n]*|\S", re.DOTALL)
+
+
+def _found(after: str) -> str:
+    """The word or sign where reading ended; at most forty letters."""
+    found = _FOUND.match(after)
+    return found[0][:40] if found else ""
+
+
+# --- what was expected ---------------------------------------------------------------
+
+_SIGNS = {
+    "COLON": ":",
+    "EQUAL": "=",
+    "_DEFINED": ":=",
+    "_BELOW": "<:",
+    "_SUBTYPE": "<=",
+    "IN": "in",
+    "COMMA": "a comma",
+    "RSQB": "]",
+    "RPAR": ")",
+    "RBRACE": "}",
+    "LPAR": "(",
+    "STRING": "a quoted name",
+    "$END": "the end",
+}
+"""The words for the grammar's signs, in the order in which they are listed."""
+
+_TERM = "NUMBER"
+"""A sign that may stand only where a type or object begins."""
+
+_AFTER = (
+    (r"(^|[^\w])(<:|<=|⊑|/\\|&|∧)$", "a type"),
+    (r":=$", "a type or an object"),
+    (r":$", "a type"),
+    (r"(=|@)$", "an object"),
+    (r"\bin$", "an interval [lo, hi]"),
+    (r"\w\($", "an argument or )"),
+    (r"\[$", "a field x : T, an object or ]"),
+)
+
+
+def _expected(wanted: frozenset[str], before: str) -> str:
+    """What the parser would have gone on with, in words."""
+    if _TERM in wanted:
+        head = before[-NEAR:].rstrip()
+        words = (said for sign, said in _AFTER if re.search(sign, head))
+        return next(words, "a type or an object")
+    names = ["a label" if _inside(before, "[{") else "a name"] * ("NAME" in wanted)
+    signs = [word for sign, word in _SIGNS.items() if sign in wanted]
+    if len(signs) > 1:
+        signs = [word for word in signs if word != "("]
+    return _either(names + signs) or "the end"
+
+
+def _inside(before: str, brackets: str) -> bool:
+    """Whether the innermost bracket still open is one of these."""
+    opened: list[str] = []
+    for sign in re.findall(r"[\[({\])}]", before):
+        if sign in "[({":
+            opened.append(sign)
+        elif opened:
+            opened.pop()
+    return bool(opened) and opened[-1] in brackets
+
+
+def _either(words: list[str]) -> str:
+    if len(words) < 2:
+        return "".join(words)
+    return f"{', '.join(words[:-1])} or {words[-1]}"
+
+
+# --- what is written another way -----------------------------------------------------
+
+_LATER = (
+    (r"", r"\\/|\||∨", "a join S \\/ T is"),
+    (r"", r"~|¬", "a negation ~T is"),
+    (r"", r"->|→", "a function type (S -> T) is"),
+    (
+        r"(^|[^\w\s])\s*\(\s*\w+\s*$",
+        r":(?!=)",
+        "a dependent function type ((x : S) -> T) is",
+    ),
+    (r"", r"\\\s*\w|λ", r"a function \x:T. body is"),
+    (r"\bfun\s+$", r"\w", "a function fun x:T. body is"),
+    (r"", r"<(?![:=])", "<…>, a string of events or an object without notation, is"),
+    (r"", r"\+", "a concatenation a + b is"),
+    (r"\)\s*$", r"\(", "an application of a function, as in f(a)(b), is"),
+    (r"\bset\s*$", r"\{", "a set set{} is"),
+    (r"\{\s*$", r"[\[{(\d\"'-]", "a set {a, b} is"),
+    (r"\{\s*\w+\s*$", r"[,}]", "a set {a, b} is"),
+    (r"^rule\s+$", r"\S", "a rule statement is"),
+)
+"""What of the whole notation is still to come: before, after, the words for it."""
+
+
+def _unsupported(before: str, after: str) -> str:
+    if re.search(r"\bP\s*\([^|]*:[^|]*$", before) and after.startswith("|"):
+        return "a conditional probability P(a : T | b : S) is"
+    for left, right, construct in _LATER:
+        if re.match(right, after) and re.search(left, before):
+            return construct
+    return ""
+
+
+_HINTS = (
+    (r"\b(Type|RecType)\s*$", r"\^", "a level of types is written Type^1 to Type^999"),
+    (r":$", r"=", "a field is written x : T, a manifest field x = a : T"),
+    (r"\[[^\[\]]*:[^\[\],]*$", r"=", "a manifest field is written [x = a : T]"),
+    (r"=[^:]*$", r"[,\]]", "a manifest field has a type as well: [x = a : T]"),
+    (r"\{[^\[\]{}]*$", r":", "a record is written {x = a}, a record type [x : T]"),
+    (r"^\w+\s*$", r"=", "a definition is written Name := T"),
+    (
+        r"^[^\[({]*$",
+        r":(?!=)",
+        "to start from a judgement write given a : T; to ask for it, check a : T",
+    ),
+    (r"^[^\[({]*$", r"<=", "an axiom is written S <: T; to ask for it, check S <= T"),
+    (r"", r"/|\\", r"a meet is written S /\ T; in Python write r'…'"),
+    (r"", r"[\"']", "the quote does not close on this line"),
+    (r"@\s*[^\s@]+\s*$", r"@", "write brackets: (T@a)@b"),
+)
+
+
+def _hint(before: str, after: str) -> str:
+    for left, right, hint in _HINTS:
+        if re.match(right, after) and re.search(left, before):
+            return hint
+    first = re.match(r"(\w+)\s+$", before)
+    return suggestion(first[1], KEYWORDS) if first else ""

@@ -1,0 +1,193 @@
+"""Models: an assignment of witnesses to types, immutable and cheap to extend.
+
+A model answers three questions. `judge` checks what is there; `perceive` also fills the
+fields whose predicates have witness functions; `create` makes a fresh witness. None
+of them changes the model: what is new is in the model they give back.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from immutables import Map
+
+from ttr.assignments import Assignment, WitnessFunction
+from ttr.creating import created, told
+from ttr.errors import IllFormed, TTRError, Unsupported, following_nesting
+from ttr.judgements import Judgement
+from ttr.judging import derivation
+from ttr.perceiving import filled
+from ttr.printing import notation
+from ttr.probability import CERTAIN, degree
+from ttr.syntax import (
+    Basic,
+    Object,
+    Pred,
+    PType,
+    Record,
+    TypeNode,
+    as_type,
+    escaping,
+    freeze,
+)
+from ttr.theories import Signature
+
+__all__ = ["Model"]
+
+
+class _HasSignature(Protocol):
+    @property
+    def signature(self) -> Signature: ...
+
+
+class Model:
+    """Which objects are judged to be of which types, under a theory.
+
+    An unlisted judgement is refuted, unless its type is open: the theory says so, or it
+    has a witness function, or a judgement of it was given with a degree between.
+
+    >>> from ttr.syntax import Ind, record, rectype, this
+    >>> dog = Pred("dog", Ind)
+    >>> Dog = rectype(x=Ind, c=dog(this.x))
+    >>> M = Model().given("fido", Ind).given("s1", dog("fido"))
+    >>> M.judge(record(x="fido", c="s1"), Dog).holds
+    True
+    >>> print(M.judge(record(x="fido", c="s2"), Dog).why)
+    ✗ {c = s2, x = fido} : [x : Ind, c : dog(x)]   (field by field)
+      ✓ x: fido : Ind   (given)
+      ✗ c: s2 : dog(fido)   (nothing says so)
+    """
+
+    __slots__ = ("_facts",)
+
+    _facts: Assignment
+
+    def __init__(self, theory: Signature | _HasSignature | None = None, /) -> None:
+        signature = _signature(theory)
+        self._facts = Assignment(
+            signature, opened=Map(dict.fromkeys(signature.opened, True))
+        )
+        start = self
+        for given in signature.givens:
+            start = start.given(given.sit, given.type, given.p)
+        self._facts = start._facts
+
+    @property
+    def theory(self) -> Signature:
+        """The axioms, open types and first judgements that the model goes by."""
+        return self._facts.theory
+
+    @following_nesting
+    def given(self, sit: object, T: TypeNode, /, p: object = 1.0) -> Model:
+        """The model in which also sit : T, with a probability or an interval.
+
+        Records, meets, singletons and lists are taken apart into their atoms, for which
+        the probability must be 1. Raises `Refused` where a witness function says no or
+        what is given cannot be, and `IllFormed` where a path leads nowhere.
+
+        >>> M = Model().given("a", Basic("A"), 0.8)
+        >>> print(M.judge("a", Basic("A")).p)
+        0.8
+        """
+        sit, T = _closed(sit, T)
+        try:
+            p = degree(p)
+        except TTRError as error:
+            raise TTRError(f"{notation(sit)} : {T}: {error.message}") from None
+        if isinstance(T, Basic | PType):
+            return _model(self._facts.with_fact(sit, T, p))
+        if p != CERTAIN:
+            raise Unsupported(
+                f"only basic types and ptypes take a degree, but {T} was given {p}"
+            )
+        return _model(told(self._facts, sit, T))
+
+    def witnessed(self, head: Basic | Pred, /, *, by: WitnessFunction) -> Model:
+        """The model in which a Python function says what is of a type.
+
+        For a basic type it is asked of the object; for a predicate, of the arguments of
+        the ptype. It answers with a truth value, a number in [0, 1] or an interval.
+
+        >>> Real = Basic("Real")
+        >>> M = Model().witnessed(Real, by=lambda a: isinstance(a, float))
+        >>> M.judge(0.5, Real).holds, M.judge("a", Real).holds
+        (True, False)
+        """
+        if not isinstance(head, Basic | Pred):
+            raise TTRError(
+                f"a witness function is for a basic type or a predicate, found {head}"
+            )
+        if not callable(by):
+            raise TTRError(
+                f"the witness function of {head} is a Python function, found {by!r}"
+            )
+        return _model(self._facts.with_function(head, by))
+
+    @following_nesting
+    def judge(self, sit: object, T: TypeNode, /) -> Judgement:
+        """Is sit of T? What is there is checked; nothing is filled in.
+
+        Raises `IllFormed` where T is no type, or has a path that leads nowhere.
+        """
+        sit, T = _closed(sit, T)
+        why = derivation(self._facts, sit, T)
+        return Judgement(sit, T, why.p, why, self)
+
+    @following_nesting
+    def perceive(self, sit: object, T: TypeNode, /) -> Judgement:
+        """Judges after filling the fields that are missing and can be perceived.
+
+        A field that the record lacks and whose ptype's predicate has a witness function
+        gets a fresh situation, judged with the function's degree.
+
+        >>> from ttr.syntax import Ind, record, rectype, this
+        >>> cup = Pred("cup", Ind)
+        >>> M = Model().given("o1", Ind).witnessed(cup, by=lambda x: 0.75)
+        >>> j = M.perceive(record(x="o1"), rectype(x=Ind, c=cup(this.x)))
+        >>> print(j)
+        {c = e1, x = o1} : [x : Ind, c : cup(x)]   p = 0.75
+        """
+        sit, T = _closed(sit, T)
+        if not isinstance(sit, Record):
+            return self.judge(sit, T)
+        seen, facts = filled(self._facts, sit, T)
+        return _model(facts).judge(seen, T)
+
+    @following_nesting
+    def create(self, T: TypeNode, /) -> tuple[Object, Model]:
+        """A fresh witness of T, and the model that has it; else `Refused`.
+
+        >>> from ttr.syntax import Ind
+        >>> a, M = Model().create(Ind)
+        >>> a, M.judge(a, Ind).holds
+        ('a1', True)
+        """
+        _, T = _closed((), T)
+        witness, facts = created(self._facts, T)
+        return witness, _model(facts)
+
+
+def _signature(theory: Signature | _HasSignature | None) -> Signature:
+    if theory is None:
+        return Signature()
+    signature = getattr(theory, "signature", theory)
+    if not isinstance(signature, Signature):
+        raise TTRError(f"a model is of a theory, found {theory!r}")
+    return signature
+
+
+def _model(facts: Assignment) -> Model:
+    model = object.__new__(Model)
+    model._facts = facts
+    return model
+
+
+def _closed(sit: object, T: object) -> tuple[Object, TypeNode]:
+    """The object and the type, if no path leads out of either."""
+    sit, kind = freeze(sit), as_type(T)
+    for value in (sit, kind):
+        if escaping(value):
+            raise IllFormed(
+                f"{notation(value)} has paths that lead nowhere, so nothing is judged"
+            )
+    return sit, kind

@@ -1,0 +1,93 @@
+"""What a `check` statement asks, as a query with its types and objects."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ttr import trees
+from ttr.checking import (
+    Check,
+    Creates,
+    HasDegree,
+    IsBelow,
+    IsOf,
+    IsSame,
+    IsWellFormed,
+    Merges,
+    Query,
+)
+from ttr.errors import IllFormed, TTRError
+from ttr.notation import Reader
+from ttr.syntax import Object, TypeNode
+from ttr.trees import Application, Term, Word
+
+__all__ = ["Asking"]
+
+_MERGES = ("merge", "amerge")
+
+
+@dataclass(frozen=True)
+class Asking:
+    """Reads questions in the reader's theory."""
+
+    reader: Reader
+
+    def check(self, tree: trees.Question) -> Check:
+        """The check that a statement states; raises `NotationError` if it is none."""
+        source = self.reader.source
+        text = " ".join(source.text[tree.start : tree.end].split())
+        return Check(tree.expected, self._query(tree.query), source.span(tree), text)
+
+    def _query(self, tree: trees.Query) -> Query | TTRError:
+        """What is asked; a type that cannot be built is an answer, not a mistake."""
+        try:
+            return self._asked(tree)
+        except IllFormed as error:
+            return error
+
+    def _asked(self, tree: trees.Query) -> Query:
+        read, kind = self._object, self._type
+        match tree:
+            case trees.Judged(_, _, sit, T):
+                return IsOf(read(sit), kind(T))
+            case trees.Comparison(_, _, "<=", left, right):
+                return IsBelow(kind(left), kind(right))
+            case trees.Comparison(_, _, _, left, right):
+                return self._equation(left, right)
+            case trees.Probability(_, _, head, sit, T, p) if head.text == "P":
+                return HasDegree(read(sit), kind(T), p.relation, self.reader.degree(p))
+            case trees.Claim(_, _, Application(_, _, Word(_, _, "create"), (T,))):
+                return Creates(kind(T))
+            case trees.Claim(_, _, Application(_, _, Word(_, _, "wellformed"), (T,))):
+                return IsWellFormed(self._built(T))
+        self.reader.refuse(
+            tree,
+            "this is nothing that can be checked",
+            "ask a : T, S <= T, S = T, merge(S, T) = U, amerge(S, T) = U, create(T), "
+            "wellformed(T), P(a : T) = p or P(a : T) in [lo, hi]",
+        )
+
+    def _equation(self, left: Term, right: Term) -> Query:
+        match left:
+            case Application(_, _, Word(_, _, operation), (S, T)) if (
+                operation in _MERGES
+            ):
+                result = self._type(right)
+                return Merges(operation, self._type(S), self._type(T), result)
+            case Application(_, _, Word(_, _, "P")) if (
+                "P" not in self.reader.theory.predicates
+            ):
+                self.reader.refuse(left, "P(T) = p is not part of this version")
+        return IsSame(self._object(left), self._object(right))
+
+    def _built(self, term: Term) -> TypeNode | TTRError:
+        try:
+            return self._type(term)
+        except IllFormed as error:
+            return error
+
+    def _object(self, term: Term) -> Object:
+        return self.reader.object(term, ())
+
+    def _type(self, term: Term) -> TypeNode:
+        return self.reader.type(term, ())

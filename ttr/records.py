@@ -1,0 +1,63 @@
+"""Records as values: a changed copy of a record."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ttr.errors import TTRError, suggestion
+from ttr.syntax import Object, Record, freeze, identity
+
+__all__ = ["differences", "replace"]
+
+
+def replace(
+    r: Record, changes: Mapping[str, object] | None = None, /, **labels: object
+) -> Record:
+    """The record with other objects at these labels or paths.
+
+    A path is written with dots, in a mapping. Raises `TTRError` for a path that is not
+    in the record: replacing never adds a label.
+
+    >>> from ttr.syntax import record
+    >>> r = record(x="fido", bg=record(size=3))
+    >>> print(replace(r, {"bg.size": 4}, x="sam"))
+    {bg = {size = 4}, x = sam}
+    """
+    for path, value in {**(changes or {}), **labels}.items():
+        r = _replaced(r, tuple(path.split(".")), freeze(value))
+    return r
+
+
+def _replaced(r: Record, path: tuple[str, ...], value: Object) -> Record:
+    label, *rest = path
+    if not isinstance(r, Record) or label not in r:
+        known = r if isinstance(r, Record) else ()
+        raise TTRError(
+            f"{'.'.join(path)} is not in {r}, so it cannot be replaced",
+            hint=suggestion(label, known),
+        )
+    inner = _replaced(r[label], tuple(rest), value) if rest else value
+    return Record({**r._fields, label: inner})
+
+
+def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:
+    """What is different, path by path, as lines `path: old → new`.
+
+    >>> from ttr.syntax import record
+    >>> list(differences(record(x="a", y="b"), record(x="c", y="b")))
+    ['x: a → c']
+    """
+    from ttr.printing import notation
+
+    if not isinstance(before, Record) or not isinstance(after, Record):
+        if identity(before) != identity(after):
+            yield f"{path}: {notation(before)} → {notation(after)}"
+        return
+    for label in sorted({*before, *after}):
+        inner = f"{path}.{label}" if path else label
+        if label not in after:
+            yield f"{inner}: {notation(before[label])} → nothing"
+        elif label not in before:
+            yield f"{inner}: nothing → {notation(after[label])}"
+        else:
+            yield from differences(before[label], after[label], inner)

@@ -1,0 +1,289 @@
+"""A theory: what is declared, defined, assumed and claimed, as one immutable value."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path as FilePath
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Protocol, overload
+
+from ttr.errors import IllFormed, NotationError, Span, TTRError, suggestion
+from ttr.syntax import (
+    Basic,
+    ListOf,
+    Meet,
+    Object,
+    Path,
+    Pred,
+    PType,
+    Record,
+    RecordType,
+    Singleton,
+    TypeNode,
+)
+
+if TYPE_CHECKING:
+    from ttr.checking import Check
+
+__all__ = ["Axiom", "Given", "Interval", "Mistakes", "Signature", "Theory", "load"]
+
+Interval = tuple[float, float]
+"""An interval of probability [lo, hi] with 0 <= lo <= hi <= 1."""
+
+
+@dataclass(frozen=True)
+class Axiom:
+    """A declared subtyping S <: T; paths in it are schematic variables.
+
+    `right(x, y) <: left(y, x)` says that every situation in which x is right of y is
+    one in which y is left of x, whatever x and y are.
+    """
+
+    lower: Basic | PType
+    upper: Basic | PType
+
+    def __str__(self) -> str:
+        return f"{_schema(self.lower)} <: {_schema(self.upper)}"
+
+
+def _schema(T: Basic | PType) -> str:
+    """The type with its variables bare and the names of objects quoted."""
+    if isinstance(T, Basic):
+        return T.name
+    return f"{T.pred.name}({', '.join(map(_schematic, T.args))})"
+
+
+def _schematic(arg: Object) -> str:
+    from ttr.printing import notation
+
+    match arg:
+        case Path(_, labels):
+            return labels[0]
+        case str():
+            return json.dumps(arg, ensure_ascii=False)
+    return notation(arg)
+
+
+@dataclass(frozen=True)
+class Given:
+    """A judgement a theory starts from: a : T with a probability."""
+
+    sit: Object
+    type: TypeNode
+    p: Interval = (1.0, 1.0)
+    span: Span | None = None
+
+
+def _nothing() -> Mapping[str, Object]:
+    return MappingProxyType({})
+
+
+@dataclass(frozen=True, eq=False)
+class Signature:
+    """What models and subtyping need of a theory: axioms, open types, judgements."""
+
+    axioms: tuple[Axiom, ...] = ()
+    opened: frozenset[Basic | Pred] = frozenset()
+    givens: tuple[Given, ...] = ()
+    definitions: Mapping[str, Object] = field(default_factory=_nothing)
+
+
+class Mistakes(NotationError):
+    """Several mistakes in one theory; `errors` are they, in the order of the text."""
+
+    errors: tuple[TTRError, ...] = ()
+
+    @classmethod
+    def of(cls, errors: tuple[TTRError, ...]) -> Mistakes:
+        """The mistakes as one error."""
+        told = cls(f"{len(errors)} mistakes\n\n" + "\n\n".join(map(str, errors)))
+        told.errors = errors
+        return told
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Mistakes.of, (self.errors,)
+
+
+class _ReadTheory(Protocol):
+    def __call__(self, text: str, source: str = "<text>") -> Theory: ...
+
+
+class _Parse:
+    """Reads a theory when asked of the class, a type or object when asked of a theory.
+
+    Both are what `parse` means there, `Theory.parse(file)` and `theory.parse(term)`;
+    a descriptor is how one name can be a class method and a method.
+    """
+
+    @overload
+    def __get__(self, theory: None, owner: type[Theory]) -> _ReadTheory: ...
+
+    @overload
+    def __get__(
+        self, theory: Theory, owner: type[Theory]
+    ) -> Callable[[str], Object]: ...
+
+    def __get__(
+        self, theory: Theory | None, owner: type[Theory]
+    ) -> _ReadTheory | Callable[[str], Object]:
+        if theory is None:
+            return _parse_theory
+        return lambda text: _parse_term(theory, text)
+
+
+def _parse_theory(text: str, source: str = "<text>") -> Theory:
+    """The theory that a text declares; raises `NotationError`, `IllFormed`, `Mistakes`.
+
+    An `import` in it is relative to the working directory.
+    """
+    from ttr.loading import theory_of_text
+
+    return theory_of_text(text, source)
+
+
+def _parse_term(theory: Theory, text: str) -> Object:
+    """The type or object that a text stands for in the theory."""
+    from ttr.notation import read
+
+    return read(text, theory)
+
+
+def load(path: str | os.PathLike[str]) -> Theory:
+    """The theory in a file; raises `TTRError` where it cannot be read.
+
+    An `import` in it is relative to the file.
+    """
+    from ttr.loading import theory_of_file
+
+    return theory_of_file(FilePath(path))
+
+
+@dataclass(frozen=True, eq=False)
+class Theory(Signature):
+    """A signature with the names declared in it, and the checks that it states.
+
+    Its definitions, basic types and predicates are its items and its attributes; where
+    a name is also the name of one of the attributes below, the item is meant.
+
+    >>> kennel = Theory.parse('''
+    ...     basic Ind
+    ...     pred  dog(Ind), puppy(Ind)
+    ...     Dog := [x : Ind, c : dog(x)]
+    ...     puppy(x) <: dog(x)
+    ... ''')
+    >>> print(kennel.Dog)
+    [x : Ind, c : dog(x)]
+    >>> kennel.parse("[x : Ind, c : dog(x)]") is kennel["Dog"]
+    True
+    >>> kennel.Dgo
+    Traceback (most recent call last):
+    AttributeError: the theory has no Dgo: did you mean Dog?
+    """
+
+    basics: Mapping[str, Basic] = field(default_factory=dict)
+    predicates: Mapping[str, Pred] = field(default_factory=dict)
+    objects: frozenset[str] = frozenset()
+    checks: tuple[Check, ...] = ()
+    source: str = "<text>"
+
+    parse = _Parse()
+
+    @classmethod
+    def of(cls, *values: object) -> Theory:
+        """The theory that declares everything that occurs in the values, and no more.
+
+        Law: Theory.of(T).parse(str(T)) is T. Raises `IllFormed` where two predicates of
+        one name occur: no text could tell them apart.
+
+        >>> from ttr.syntax import Ind
+        >>> sorted(Theory.of(Pred("dog", Ind)("fido")).names)
+        ['Ind', 'dog', 'fido']
+        """
+        basics: dict[str, Basic] = {}
+        predicates: dict[str, Pred] = {}
+        objects: set[str] = set()
+        for value in _occurring(values):
+            match value:
+                case Basic(name):
+                    basics[name] = value
+                case Pred(name, _):
+                    _same_predicate(predicates.setdefault(name, value), value)
+                case str():
+                    objects.add(value)
+        return cls(basics=basics, predicates=predicates, objects=frozenset(objects))
+
+    @property
+    def signature(self) -> Signature:
+        """The theory without its names and checks."""
+        return Signature(self.axioms, self.opened, self.givens, self.definitions)
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Every name declared in the theory, objects too."""
+        return self.objects.union(self.definitions, self.basics, self.predicates)
+
+    def __getitem__(self, name: str) -> Object:
+        for declared in (self.definitions, self.basics, self.predicates):
+            if name in declared:
+                return declared[name]
+        raise KeyError(self._missing(name))
+
+    def __getattr__(self, name: str) -> Object:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(self._missing(name)) from None
+
+    def _missing(self, name: str) -> str:
+        known = [*self.definitions, *self.basics, *self.predicates]
+        hint = suggestion(name, known)
+        return f"the theory has no {name}" + f": {hint}" * bool(hint)
+
+    def __repr__(self) -> str:
+        return f"<Theory {self.source}: {', '.join(sorted(self.names))}>"
+
+
+def _occurring(values: tuple[object, ...]) -> Iterator[object]:
+    """The values and everything in them, each once; without recursion."""
+    waiting, seen = list(values), set()
+    while waiting:
+        value = waiting.pop()
+        if isinstance(value, TypeNode | Pred):
+            if value in seen:
+                continue
+            seen.add(value)
+        yield value
+        waiting += _parts(value)
+
+
+def _parts(value: object) -> tuple[object, ...]:
+    match value:
+        case PType(pred, args):
+            return pred, *args
+        case Pred(_, arities):
+            return tuple(T for arity in arities for T in arity)
+        case Singleton(base, obj):
+            return base, obj
+        case Meet(parts):
+            return parts
+        case ListOf(item):
+            return (item,)
+        case RecordType(fields):
+            return tuple(T for _, T in fields)
+        case Record():
+            return tuple(value._fields.values())
+        case tuple():
+            return value
+    return ()
+
+
+def _same_predicate(known: Pred, found: Pred) -> None:
+    if known is not found:
+        raise IllFormed(
+            f"two predicates are called {known.name}: {known!r} and {found!r}"
+        )

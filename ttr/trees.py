@@ -1,0 +1,292 @@
+"""What was written, before anything is known of the names in it.
+
+Each part carries its place in the text, so that whatever is found wrong with it later
+can be underlined.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+
+from ttr.errors import NotationError, Span
+
+__all__ = [
+    "Application",
+    "AxiomClaim",
+    "BasicNames",
+    "Braces",
+    "Claim",
+    "Comparison",
+    "Conjunction",
+    "Definition",
+    "Degree",
+    "Field",
+    "Fields",
+    "GivenFact",
+    "Import",
+    "Items",
+    "Literal",
+    "Name",
+    "ObjectNames",
+    "OpenNames",
+    "Part",
+    "Predicates",
+    "Probability",
+    "Query",
+    "Question",
+    "Restriction",
+    "Source",
+    "Statement",
+    "Judged",
+    "Term",
+    "Word",
+    "inside",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A text and where it came from."""
+
+    text: str
+    name: str = "<text>"
+
+    @classmethod
+    def of(cls, text: object, name: str) -> Source:
+        """The text with plain line ends; raises `NotationError` if it is none."""
+        if not isinstance(text, str):
+            found = type(text).__name__
+            raise NotationError(f"expected a text to read, found {found}")
+        return cls(text.replace("\r\n", "\n"), name)
+
+    def span(self, part: Part) -> Span:
+        """The place of a part, to be shown."""
+        return Span.of(self.name, self.text, part.start, part.end)
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A part of a text: text[start:end]."""
+
+    start: int
+    end: int
+
+
+# --- terms: types and objects --------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Term(Part):
+    """A type or an object."""
+
+
+@dataclass(frozen=True, slots=True)
+class Name(Term):
+    """x, x.y (`up` is None), .x (`up` is 0), ^.x (1), and so on outwards."""
+
+    labels: tuple[str, ...]
+    up: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Literal(Term):
+    """A quoted name or a number."""
+
+    value: str | int | float
+
+
+@dataclass(frozen=True, slots=True)
+class Application(Term):
+    """p(a₁, …, aₙ)."""
+
+    head: Word
+    args: tuple[Term, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Restriction(Term):
+    """T@a."""
+
+    base: Term
+    value: Term
+
+
+@dataclass(frozen=True, slots=True)
+class Conjunction(Term):
+    """S ∧ T."""
+
+    parts: tuple[Term, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Fields(Term):
+    """[ℓ : T, …]; without fields it is written Rec, so there is at least one."""
+
+    fields: tuple[Field, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Field(Part):
+    """ℓ : T, or ℓ = a : T."""
+
+    label: Word
+    value: Term | None
+    type: Term
+
+
+@dataclass(frozen=True, slots=True)
+class Items(Term):
+    """[a, …]; `[]` is Rec where a type must stand."""
+
+    items: tuple[Term, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Braces(Term):
+    """{ℓ = a, …}."""
+
+    settings: tuple[tuple[Word, Term], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Word(Part):
+    """A single name, where one is declared or stands as a label."""
+
+    text: str
+
+
+# --- statements ----------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Statement(Part):
+    """A statement of a theory file."""
+
+
+@dataclass(frozen=True, slots=True)
+class Import(Statement):
+    """import "f.ttr"."""
+
+    path: str
+
+
+@dataclass(frozen=True, slots=True)
+class BasicNames(Statement):
+    """basic A, B."""
+
+    names: tuple[Word, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Predicates(Statement):
+    """pred p(A), q(A, B)."""
+
+    arities: tuple[Application, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class OpenNames(Statement):
+    """open A, p."""
+
+    names: tuple[Word, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectNames(Statement):
+    """object a, b : T."""
+
+    names: tuple[Word, ...]
+    type: Term
+
+
+@dataclass(frozen=True, slots=True)
+class GivenFact(Statement):
+    """given a : T, with a degree or without."""
+
+    sit: Term
+    type: Term
+    degree: Degree | None
+
+
+@dataclass(frozen=True, slots=True)
+class Definition(Statement):
+    """Name := type or object."""
+
+    name: Word
+    value: Term
+
+
+@dataclass(frozen=True, slots=True)
+class AxiomClaim(Statement):
+    """S <: T."""
+
+    lower: Term
+    upper: Term
+
+
+@dataclass(frozen=True, slots=True)
+class Question(Statement):
+    """check Q; `expected` is yes, no, unknown or error."""
+
+    expected: str
+    query: Query
+
+
+@dataclass(frozen=True, slots=True)
+class Degree(Part):
+    """= p (`relation` is "=") or in [lo, hi] (it is "in")."""
+
+    relation: str
+    value: Term
+
+
+@dataclass(frozen=True, slots=True)
+class Query(Part):
+    """What a check asks."""
+
+
+@dataclass(frozen=True, slots=True)
+class Judged(Query):
+    """a : T."""
+
+    sit: Term
+    type: Term
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison(Query):
+    """S <= T or S = T; `relation` is "<=" or "="."""
+
+    relation: str
+    left: Term
+    right: Term
+
+
+@dataclass(frozen=True, slots=True)
+class Probability(Query):
+    """P(a : T) = p, or in [lo, hi]; `head` is what stands before the bracket."""
+
+    head: Word
+    sit: Term
+    type: Term
+    degree: Degree
+
+
+@dataclass(frozen=True, slots=True)
+class Claim(Query):
+    """create(T) or wellformed(T)."""
+
+    term: Term
+
+
+def inside(part: Part) -> Iterator[Part]:
+    """The part and every part in it, the outer before the inner."""
+    waiting: list[object] = [part]
+    while waiting:
+        match waiting.pop():
+            case tuple() as parts:
+                waiting += reversed(parts)
+            case Part() as here:
+                yield here
+                waiting += (getattr(here, f.name) for f in reversed(fields(here)))
