@@ -1,0 +1,31 @@
+"""A table-top robot that learns words for objects and places from a tutor.
+
+>>> from kille import Agent
+>>> with Agent(sensor="synthetic:empty") as robot:
+...     robot.hear("What is this?")
+'I see nothing on the table.'
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from kille.agent import Agent
+    from kille.dialogue import games
+    from kille.memory import Memory
+
+__all__ = ["Agent", "Memory", "games"]
+
+_LATER = {"Agent": "kille.agent", "Memory": "kille.memory"}
+
+
+def __getattr__(name: str) -> Any:
+    """Loads the parts that see and parse only when they are asked for."""
+    from importlib import import_module
+
+    if name == "games":
+        return import_module("kille.dialogue.games")
+    if name in _LATER:
+        return getattr(import_module(_LATER[name]), name)
+    raise AttributeError(f"module 'kille' has no attribute {name!r}")

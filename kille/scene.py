@@ -1,0 +1,109 @@
+"""What is seen: frames, regions, features and looks, as immutable values.
+
+Axes are those of the colour camera: x to the right, y down, z forward, in metres.
+Pixels are (u, v) = (column, row). Depth is registered to colour, in metres, NaN where
+the sensor gave no reading.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Colour = NDArray[np.uint8]
+Depth = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+
+class Point(NamedTuple):
+    """A place in metres: right, down and forward of the colour camera."""
+
+    x: float
+    y: float
+    z: float
+
+
+class Box(NamedTuple):
+    """A box of pixels: left and top are inside, right and bottom are not."""
+
+    left: int
+    top: int
+    right: int
+    bottom: int
+
+
+@dataclass(frozen=True)
+class Intrinsics:
+    """The pinhole model in pixels: u = fx x/z + cx, v = fy y/z + cy."""
+
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """One picture: colour (H, W, 3) RGB, depth (H, W) or none at all, time in seconds.
+
+    `outlines` holds what a labelled recording or a simulation knows to be where,
+    name -> mask (H, W). It is a tutor's finger and a test's answer; nothing that
+    recognises may read it.
+    """
+
+    colour: Colour
+    depth: Depth | None
+    intrinsics: Intrinsics | None
+    time: float
+    outlines: Mapping[str, Mask]
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """Pixels that belong to one thing: mask (H, W), its box, its middle (or none).
+
+    `place` is the median of the 3-D points under the mask; without depth it is None,
+    since the location is honestly unknown.
+    """
+
+    mask: Mask
+    box: Box
+    place: Point | None
+
+
+@dataclass(frozen=True, eq=False)
+class Features:
+    """SIFT features of one scan of one region.
+
+    descriptors (n, 128) uint8; pixels (n, 2) float32 as (u, v); points (n, 3) float32
+    in metres, NaN where there was no depth.
+    """
+
+    descriptors: NDArray[np.uint8]
+    pixels: NDArray[np.float32]
+    points: NDArray[np.float32]
+
+
+@dataclass(frozen=True, eq=False)
+class Percept:
+    """One thing as seen in one look: its region in the first frame, its scans.
+
+    The scans are of consecutive frames, ten of them where the sensor has as many; they
+    may be extracted only when they are asked for.
+    """
+
+    region: Region
+    scans: Sequence[Features]
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """One look at the scene: the first frame, and the things in view, nearest first."""
+
+    frame: Frame
+    percepts: tuple[Percept, ...]
+    up: tuple[float, float, float]

@@ -1,0 +1,1 @@
+"""Sources of frames: the simulated Kinect and recordings, behind one protocol."""

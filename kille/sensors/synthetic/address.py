@@ -1,0 +1,69 @@
+"""Names of simulated sources: `synthetic`, `synthetic:desk?seed=7&faults=noise`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from urllib.parse import unquote
+
+from kille.sensors.sensor import SensorError
+from kille.sensors.synthetic.faults import FAULTS
+from kille.sensors.synthetic.layout import SCENES
+from kille.sensors.synthetic.names import recognised
+
+
+@dataclass(frozen=True)
+class Address:
+    """A scene, the seed of all chance, the faults in force, and a place of meshes."""
+
+    scene: str = "desk"
+    seed: int = 0
+    faults: frozenset[str] = frozenset(FAULTS)
+    meshes: Path | None = None
+
+
+def parsed(name: str) -> Address:
+    """The address that a name such as `synthetic:desk?seed=7` gives.
+
+    Raises SensorError for a scene, option, fault or value that is not known.
+
+    >>> parsed("synthetic:empty?seed=7&faults=none")
+    Address(scene='empty', seed=7, faults=frozenset(), meshes=None)
+    """
+    source, _, query = name.strip().partition("?")
+    kind, _, scene = source.partition(":")
+    recognised("source", kind, ["synthetic"])
+    options = dict(_option(text) for text in query.split("&") if text)
+    meshes = options.get("meshes")
+    return Address(
+        scene=recognised("scene", scene or "desk", SCENES),
+        seed=_seed(options.get("seed", "0")),
+        faults=_faults(options.get("faults", "all")),
+        meshes=None if meshes is None else Path(meshes).expanduser(),
+    )
+
+
+def _option(text: str) -> tuple[str, str]:
+    key, equals, value = text.partition("=")
+    option = recognised("option", key, ["seed", "faults", "meshes"])
+    if not equals or not value:
+        raise SensorError(f"option '{option}' has no value: write {option}=...")
+    return option, unquote(value)
+
+
+def _seed(text: str) -> int:
+    if not (text.isascii() and text.isdigit()):
+        raise SensorError(
+            f"seed={text}: a seed is a whole number from 0, such as seed=7"
+        )
+    return int(text)
+
+
+def _faults(text: str) -> frozenset[str]:
+    known = ["all", "none", *FAULTS]
+    words = [recognised("fault", word, known) for word in text.split(",")]
+    if words in (["all"], ["none"]):
+        return frozenset(FAULTS if words == ["all"] else ())
+    if "all" in words or "none" in words:
+        raise SensorError(f"faults={text}: 'all' and 'none' stand alone")
+    return frozenset(words)

@@ -1,0 +1,41 @@
+"""Names as people write them, and errors that help them to the right one."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable, Mapping
+
+from kille.sensors.sensor import SensorError
+
+
+def plain(name: str) -> str:
+    """The name without article, case, spaces and marks.
+
+    >>> plain("The Shoe-Box"), plain("shoe box"), plain("an apple")
+    ('shoebox', 'shoebox', 'apple')
+    """
+    bare = re.sub(r"^(the|a|an)\s+", "", name.strip().lower())
+    return re.sub(r"[\W_]", "", bare)
+
+
+def recognised(
+    kind: str, name: str, known: Iterable[str], others: Mapping[str, str] | None = None
+) -> str:
+    """The known name that is meant; `others` are further ways to say one of them.
+
+    Raises SensorError with the nearest name and all known ones.
+
+    >>> recognised("object", "the Shoe Box", ["cup", "shoe-box"])
+    'shoe-box'
+    """
+    names = list(known)
+    ways = {plain(other): meant for other, meant in (others or {}).items()}
+    ways |= {plain(each): each for each in names}
+    if plain(name) in ways:
+        return ways[plain(name)]
+    near = difflib.get_close_matches(plain(name), ways, n=1)
+    hint = f" (did you mean {ways[near[0]]}?)" if near else ""
+    raise SensorError(
+        f"there is no {kind} '{name}'{hint}: known are {', '.join(names)}"
+    )

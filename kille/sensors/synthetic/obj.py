@@ -1,0 +1,200 @@
+"""Scanned objects: Wavefront OBJ meshes with one texture, z up, in metres."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.scene import Colour
+from kille.sensors.sensor import SensorError
+from kille.sensors.synthetic.model import (
+    TEXELS_PER_METRE,
+    Model,
+    smooth_normals,
+    standing,
+)
+
+
+def found(path: Path) -> dict[str, Path]:
+    """The meshes at a path, name -> OBJ file, the names in order.
+
+    The path is an OBJ file, a folder with one, or a folder of such folders. A mesh is
+    called as its folder, with spaces for underscores; a mesh `textured.obj` stands for
+    all of its folder. Raises SensorError when there is nothing of the kind.
+    """
+    if not path.exists():
+        raise SensorError(f"{path}: no such mesh file or folder")
+    files = [path] if path.is_file() else [*_in_folder(path)]
+    if path.is_dir() and not files:
+        files = [
+            file for folder in sorted(path.iterdir()) for file in _in_folder(folder)
+        ]
+    if not files or any(file.suffix.lower() != ".obj" for file in files):
+        raise SensorError(
+            f"{path}: no OBJ mesh: give an .obj file or a folder of meshes"
+        )
+    return {_called(file): file for file in files}
+
+
+@lru_cache(maxsize=64)
+def loaded(path: Path) -> Model:
+    """The model in an OBJ file, set down on z = 0 around the origin.
+
+    The texture's v axis points up. Raises SensorError for a file that cannot be used.
+    """
+    lines = _read(path).splitlines()
+    positions = _rows(path, lines, "v", 3)
+    uv = _rows(path, lines, "vt", 2)
+    corners = _corners(path, lines, len(positions), len(uv))
+    texture = _texture(path, lines)
+    # One vertex for every pair (position, texel) that a corner uses.
+    pairs, index = np.unique(corners.reshape(-1, 2), axis=0, return_inverse=True)
+    vertices = standing(positions[pairs[:, 0]])
+    _check_size(path, vertices)
+    triangles = _outwards(vertices, index.reshape(-1, 3).astype(np.int32))
+    texels = uv[pairs[:, 1]]
+    density = _texels_per_metre(vertices, texels * texture.shape[1::-1], triangles)
+    picture = _shrunk(texture, min(1.0, TEXELS_PER_METRE / max(density, 1.0)))
+    height, width = picture.shape[:2]
+    places = np.stack([texels[:, 0] * width, (1 - texels[:, 1]) * height], axis=1) - 0.5
+    return Model(
+        vertices=vertices,
+        normals=smooth_normals(vertices, triangles),
+        uv=places.astype(np.float32),
+        triangles=triangles,
+        texture=picture,
+    )
+
+
+def _in_folder(folder: Path) -> list[Path]:
+    """The folder's own mesh: `textured.obj`, else every OBJ file in it."""
+    if not folder.is_dir():
+        return []
+    files = sorted(folder.glob("*.obj"))
+    textured = [file for file in files if file.name == "textured.obj"]
+    return textured or files
+
+
+def _called(file: Path) -> str:
+    name = file.resolve().parent.name if file.stem == "textured" else file.stem
+    return name.replace("_", " ")
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise SensorError(f"{path}: cannot be read as an OBJ mesh: {error}") from error
+
+
+def _rows(path: Path, lines: list[str], kind: str, count: int) -> NDArray[np.float64]:
+    """All lines of one kind as numbers (n, count)."""
+    rows = [
+        line.split()[1 : count + 1] for line in lines if line.startswith(kind + " ")
+    ]
+    try:
+        numbers = np.array(rows, np.float64)
+    except ValueError as error:
+        raise SensorError(f"{path}: a `{kind}` line is no {count} numbers") from error
+    if numbers.ndim != 2 or not np.isfinite(numbers).all():
+        raise SensorError(
+            f"{path}: no usable `{kind}` lines, so it is no textured mesh"
+        )
+    return numbers
+
+
+def _corners(
+    path: Path, lines: list[str], positions: int, texels: int
+) -> NDArray[np.int64]:
+    """The faces as triangles (m, 3, 2) of indices (position, texel)."""
+    faces = [line.split()[1:] for line in lines if line.startswith("f ")]
+    fans = [
+        (face[0], face[k], face[k + 1])
+        for face in faces
+        for k in range(1, len(face) - 1)
+    ]
+    try:
+        numbers = [[corner.split("/")[:2] for corner in fan] for fan in fans]
+        corners = np.array(numbers, np.int64)
+    except ValueError as error:
+        raise SensorError(
+            f"{path}: an `f` line has no position/texture pairs"
+        ) from error
+    if corners.ndim != 3:
+        raise SensorError(f"{path}: no `f` lines, so it is no mesh")
+    if corners.shape[2] != 2:
+        raise SensorError(
+            f"{path}: its faces have no texture, so it is no textured mesh"
+        )
+    corners = np.where(
+        corners < 0, corners + np.array([positions + 1, texels + 1]), corners
+    )
+    if corners.min() < 1 or (corners.max(axis=(0, 1)) > [positions, texels]).any():
+        raise SensorError(f"{path}: an `f` line names a vertex that is not there")
+    return corners - 1
+
+
+def _texture(path: Path, lines: list[str]) -> Colour:
+    """The picture that the mesh's material file names."""
+    libraries = [
+        line.split(maxsplit=1)[1] for line in lines if line.startswith("mtllib ")
+    ]
+    materials = [_read(path.parent / name.strip()) for name in libraries]
+    maps = [
+        line.split(maxsplit=1)[1].strip()
+        for text in materials
+        for line in text.splitlines()
+        if line.strip().startswith("map_Kd ")
+    ]
+    if not maps:
+        raise SensorError(f"{path}: its material names no texture (`map_Kd`)")
+    file = path.parent / maps[0]
+    picture = cv2.imread(str(file), cv2.IMREAD_COLOR) if file.is_file() else None
+    if picture is None:
+        raise SensorError(f"{file}: the mesh's texture does not open")
+    return cv2.cvtColor(picture, cv2.COLOR_BGR2RGB).astype(np.uint8)
+
+
+def _check_size(path: Path, vertices: NDArray[np.float32]) -> None:
+    largest = float(np.ptp(vertices, axis=0).max())
+    if not 0.005 <= largest <= 1.0:
+        raise SensorError(
+            f"{path}: {largest:g} m big: a mesh is read in metres and should be "
+            "between 5 mm and 1 m"
+        )
+
+
+def _outwards(
+    vertices: NDArray[np.float32], triangles: NDArray[np.int32]
+) -> NDArray[np.int32]:
+    """The triangles wound so that the volume inside them is positive."""
+    a, b, c = (vertices[triangles[:, k]].astype(np.float64) for k in range(3))
+    middle = vertices.mean(axis=0)
+    volume = np.sum((a - middle) * np.cross(b - a, c - a))
+    return triangles if volume >= 0 else np.ascontiguousarray(triangles[:, ::-1])
+
+
+def _texels_per_metre(
+    vertices: NDArray[np.float32],
+    texels: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+) -> float:
+    """How finely the texture is printed on the mesh, on the whole."""
+    a, b, c = (vertices[triangles[:, k]].astype(np.float64) for k in range(3))
+    surface = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
+    d, e, f = (texels[triangles[:, k]] for k in range(3))
+    g, h = e - d, f - d
+    printed = np.abs(g[:, 0] * h[:, 1] - g[:, 1] * h[:, 0]).sum()
+    return float(np.sqrt(printed / max(surface, 1e-12)))
+
+
+def _shrunk(picture: Colour, factor: float) -> Colour:
+    if factor >= 1.0:
+        return picture
+    height, width = picture.shape[:2]
+    size = (max(round(width * factor), 4), max(round(height * factor), 4))
+    return cv2.resize(picture, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
