@@ -1,0 +1,1 @@
+"""Seeing: regions, features, and learners of words for things and places."""

@@ -1,0 +1,138 @@
+"""What a learner is: two methods and a way to forget, and the laws they keep.
+
+A learner is taught one observation at a time, as a tutor teaches. Its degrees are
+those of words, in [0, 1]; what they lack to 1 is the degree of everything that it has
+not been taught.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol, TypeVar
+
+Key = int | str
+"""What an observation is known by, so that it can be forgotten."""
+
+X = TypeVar("X")
+X_contra = TypeVar("X_contra", contravariant=True)
+
+_SLACK = 1e-6
+
+
+class Learner(Protocol[X_contra]):
+    """Learns words from one observation at a time, and says how well each fits."""
+
+    def learn_one(self, x: X_contra, label: str, *, key: Key) -> None:
+        """Take x as an instance of the word; ValueError if the key is taken."""
+        ...
+
+    def predict_proba_one(self, x: X_contra) -> dict[str, float]:
+        """The degree in [0, 1] of each word for x; they sum to 1 at most."""
+        ...
+
+    def forget(self, key: Key) -> None:
+        """Be as if this had never been learned; KeyError if it was not."""
+        ...
+
+
+def check_learner(
+    make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
+) -> None:
+    """Check the laws of a learner on examples of at least two words.
+
+    AssertionError names the law that does not hold; ValueError if the examples are of
+    fewer than two words.
+    """
+    if len({label for _, label in examples}) < 2:
+        raise ValueError("check_learner needs examples of at least two words")
+    _check_nothing_learned(make, examples)
+    _check_degrees(make, examples)
+    _check_sameness(make, examples)
+    _check_forgetting(make, examples)
+    _check_keys(make, examples)
+
+
+def _taught(
+    make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
+) -> Learner[X]:
+    learner = make()
+    for key, (x, label) in enumerate(examples):
+        learner.learn_one(x, label, key=key)
+    return learner
+
+
+def _check_nothing_learned(
+    make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
+) -> None:
+    for x, _ in examples:
+        _law(make().predict_proba_one(x) == {}, "who has learned nothing knows no word")
+
+
+def _check_degrees(
+    make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
+) -> None:
+    for count in range(1, len(examples) + 1):
+        learner = _taught(make, examples[:count])
+        words = {label for _, label in examples[:count]}
+        for x, _ in examples:
+            degrees = learner.predict_proba_one(x)
+            _law(set(degrees) <= words, "only learned words have a degree")
+            _law(
+                all(-_SLACK <= p <= 1 + _SLACK for p in degrees.values()),
+                "degrees are in [0, 1]",
+            )
+            _law(sum(degrees.values()) <= 1 + _SLACK, "degrees sum to 1 at most")
+
+
+def _check_sameness(
+    make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
+) -> None:
+    learner, twin = _taught(make, examples), _taught(make, examples)
+    for x, _ in examples:
+        degrees = learner.predict_proba_one(x)
+        _law(learner.predict_proba_one(x) == degrees, "asking changes nothing")
+        _law(twin.predict_proba_one(x) == degrees, "the same lessons, the same degrees")
+
+
+def _check_forgetting(
+    make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
+) -> None:
+    for gone in range(len(examples)):
+        learner, never = _taught(make, examples), make()
+        learner.forget(gone)
+        for key, (x, label) in enumerate(examples):
+            if key != gone:
+                never.learn_one(x, label, key=key)
+        for x, _ in examples:
+            _law(
+                _close(learner.predict_proba_one(x), never.predict_proba_one(x)),
+                "to forget is to be as if it had never been learned",
+            )
+
+
+def _check_keys(
+    make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
+) -> None:
+    learner = _taught(make, examples)
+    x, label = examples[0]
+    _law(_raises(ValueError, lambda: learner.learn_one(x, label, key=0)), "keys differ")
+    _law(_raises(KeyError, lambda: learner.forget("no such key")), "no key, KeyError")
+
+
+def _law(holds: bool, law: str) -> None:
+    if not holds:
+        raise AssertionError(law)
+
+
+def _close(one: Mapping[str, float], other: Mapping[str, float]) -> bool:
+    return one.keys() == other.keys() and all(
+        abs(one[word] - other[word]) <= _SLACK for word in one
+    )
+
+
+def _raises(error: type[Exception], act: Callable[[], object]) -> bool:
+    try:
+        act()
+    except error:
+        return True
+    return False

@@ -1,0 +1,149 @@
+"""A look: some consecutive frames, and the things that stay in view in them.
+
+Features are extracted when they are first asked for, so that a look costs what its
+segmentation costs and only what is attended to is described.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from typing import overload
+
+import cv2
+import numpy as np
+
+from kille.perception.features import features_of
+from kille.perception.pointing import region_at
+from kille.perception.segment import Scene, overlap, region_of, segment
+from kille.scene import Box, Features, Frame, Look, Mask, Percept, Region
+from kille.sensors.sensor import Sensor
+
+SCANS = 10
+"""How many consecutive frames the paper's robot looks at."""
+
+Sighting = tuple[Frame, Region]
+
+_SAME = 0.3  # overlap of a region with itself one frame later
+_LASTING = 0.5  # of the frames a thing must be in, or it is a flicker
+_HIDDEN = 0.5  # overlap with the pointed region: the same thing
+_STRAY = 16  # pixels a thing may move in the picture between two frames
+
+
+class Scans(Sequence[Features]):
+    """The features of one thing in each frame, extracted when first asked for."""
+
+    def __init__(self, sightings: Sequence[Sighting]) -> None:
+        self._sightings = tuple(sightings)
+        self._extracted = cache(self._extract)
+
+    def __len__(self) -> int:
+        return len(self._sightings)
+
+    @overload
+    def __getitem__(self, index: int) -> Features: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Features, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> Features | tuple[Features, ...]:
+        if isinstance(index, slice):
+            return tuple(self[i] for i in range(*index.indices(len(self))))
+        return self._extracted(range(len(self))[index])
+
+    def _extract(self, index: int) -> Features:
+        return features_of(*self._sightings[index])
+
+
+def look(
+    sensor: Sensor,
+    scans: int = SCANS,
+    pointed: Mask | tuple[int, int] | None = None,
+) -> Look:
+    """Look at the scene for so many frames.
+
+    The percepts are the things that stay in view, nearest first. What the tutor points
+    at comes before all others: the pixels of a mask (H, W), or whatever is at a pixel
+    (u, v). A still picture is scanned once. ValueError for less than one scan;
+    SensorError as the sensor raises it.
+    """
+    if scans < 1:
+        raise ValueError(f"a look takes at least one scan, not {scans}")
+    frames = _distinct([sensor.frame() for _ in range(scans)])
+    scenes = [segment(frame) for frame in frames]
+    tracks = [_track(region, frames, scenes) for region in scenes[0].regions]
+    lasting = [track for track in tracks if len(track) >= _LASTING * len(frames)]
+    focus = _focus(frames, pointed)
+    others = [track for track in lasting if not _same_thing(focus, track)]
+    percepts = tuple(_percept(track) for track in [*focus, *others])
+    return Look(frames[0], percepts, scenes[0].up)
+
+
+def _percept(track: Sequence[Sighting]) -> Percept:
+    return Percept(track[0][1], Scans(track))
+
+
+def _distinct(frames: Sequence[Frame]) -> list[Frame]:
+    """The frames without repetitions of a still picture."""
+    return list({id(frame.colour): frame for frame in reversed(frames)}.values())[::-1]
+
+
+def _track(
+    region: Region, frames: Sequence[Frame], scenes: Sequence[Scene]
+) -> list[Sighting]:
+    """The region and what it is in each later frame, where it is found again."""
+    track = [(frames[0], region)]
+    for frame, scene in zip(frames[1:], scenes[1:], strict=True):
+        last = track[-1][1]
+        again = max(scene.regions, key=lambda it: overlap(it, last), default=None)
+        if again is not None and overlap(again, last) >= _SAME:
+            track.append((frame, again))
+    return track
+
+
+def _focus(
+    frames: Sequence[Frame], pointed: Mask | tuple[int, int] | None
+) -> list[list[Sighting]]:
+    """The track of what the tutor points at, or no track."""
+    if pointed is None:
+        return []
+    if isinstance(pointed, tuple):
+        region = region_at(frames[0], pointed)
+    else:
+        region = region_of(frames[0], pointed) if pointed.any() else None
+    return [] if region is None else [_followed(region, frames)]
+
+
+def _followed(region: Region, frames: Sequence[Frame]) -> list[Sighting]:
+    """The region moved along with what it shows, from frame to frame."""
+    track = [(frames[0], region)]
+    for frame in frames[1:]:
+        last_frame, last = track[-1]
+        right, down = _motion(last_frame, frame, last.box)
+        track.append((frame, region_of(frame, _moved(last.mask, right, down))))
+    return track
+
+
+def _motion(before: Frame, after: Frame, box: Box) -> tuple[int, int]:
+    """How many pixels right and down the content of the box has moved."""
+    height, width = after.colour.shape[:2]
+    left, top = max(0, box.left - _STRAY), max(0, box.top - _STRAY)
+    right, bottom = min(width, box.right + _STRAY), min(height, box.bottom + _STRAY)
+    pattern = before.colour[box.top : box.bottom, box.left : box.right]
+    match = cv2.matchTemplate(
+        cv2.cvtColor(after.colour[top:bottom, left:right], cv2.COLOR_RGB2GRAY),
+        cv2.cvtColor(pattern, cv2.COLOR_RGB2GRAY),
+        cv2.TM_SQDIFF,
+    )
+    _, _, (x, y), _ = cv2.minMaxLoc(match)
+    return left + x - box.left, top + y - box.top
+
+
+def _moved(mask: Mask, right: int, down: int) -> Mask:
+    by = np.array([[1, 0, right], [0, 1, down]], np.float32)
+    moved = cv2.warpAffine(mask.astype(np.uint8), by, mask.shape[::-1], flags=0)
+    return moved > 0
+
+
+def _same_thing(focus: Sequence[Sequence[Sighting]], track: Sequence[Sighting]) -> bool:
+    return any(overlap(it[0][1], track[0][1]) >= _HIDDEN for it in focus)

@@ -1,0 +1,143 @@
+"""Picture sheets: what the robot saw of a thing, as in figure 2 of the KILLE paper.
+
+A row has four pictures: colour with the region outlined and numbered, depth (near is
+warm, no reading is black), the region alone, and its SIFT features.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from kille.scene import Box, Colour, Depth, Features, Frame, Look, Mask, Percept
+
+_WIDTH, _HEIGHT = 320, 240
+_TITLE, _MARGIN = 26, 8
+_PAPER, _INK = (255, 255, 255), (40, 40, 40)
+_MARK, _DOT = (255, 96, 0), (0, 200, 90)
+_FONT = cv2.FONT_HERSHEY_SIMPLEX
+
+
+def sheet(rows: Sequence[tuple[str, Look, int]]) -> Colour:
+    """A sheet (H, W, 3) RGB with a row for each title, look and number of a thing."""
+    return np.vstack([_row(title, look, number) for title, look, number in rows])
+
+
+def overview(look: Look) -> Colour:
+    """The frame (H, W, 3) RGB with every thing in view outlined and numbered."""
+    picture = look.frame.colour.copy()
+    for number, percept in enumerate(look.percepts, start=1):
+        _outline(picture, percept.region.mask, percept.region.box, str(number))
+    return picture
+
+
+def write_picture(path: Path, picture: Colour) -> None:
+    """Write the picture as PNG. OSError if that cannot be done."""
+    done, encoded = cv2.imencode(".png", cv2.cvtColor(picture, cv2.COLOR_RGB2BGR))
+    if not done:
+        raise OSError(f"{path}: the picture could not be encoded")
+    path.write_bytes(encoded.tobytes())
+
+
+def _row(title: str, look: Look, number: int) -> Colour:
+    percept = look.percepts[number - 1]
+    pictures = [
+        _marked(look.frame, percept, number),
+        _depth_picture(look.frame),
+        _alone(look.frame, percept),
+        _featured(look.frame, percept),
+    ]
+    strip = [piece for picture in pictures for piece in (_gap(), _fitted(picture))]
+    pictures_row = np.hstack([*strip, _gap()])
+    heading = np.full((_TITLE, pictures_row.shape[1], 3), _PAPER, np.uint8)
+    text = f"{title}   ({len(percept.scans[0].descriptors)} features)"
+    cv2.putText(heading, text, (_MARGIN, 18), _FONT, 0.5, _INK, 1, cv2.LINE_AA)
+    return np.vstack([heading, pictures_row])
+
+
+def _gap() -> Colour:
+    return np.full((_HEIGHT, _MARGIN, 3), _PAPER, np.uint8)
+
+
+def _fitted(picture: Colour) -> Colour:
+    """The picture scaled into the size of a cell, in its own proportions."""
+    height, width = picture.shape[:2]
+    scale = min(_WIDTH / width, _HEIGHT / height)
+    size = max(1, round(width * scale)), max(1, round(height * scale))
+    shrinking = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
+    scaled = cv2.resize(picture, size, interpolation=shrinking)
+    cell = np.full((_HEIGHT, _WIDTH, 3), _PAPER, np.uint8)
+    top, left = (_HEIGHT - size[1]) // 2, (_WIDTH - size[0]) // 2
+    cell[top : top + size[1], left : left + size[0]] = scaled
+    return cell
+
+
+def _marked(frame: Frame, percept: Percept, number: int) -> Colour:
+    picture = frame.colour.copy()
+    _outline(picture, percept.region.mask, percept.region.box, str(number))
+    return picture
+
+
+def _outline(picture: Colour, mask: Mask, box: Box, label: str) -> None:
+    """Draws the outline of the mask, and the label at its upper left."""
+    edges, _ = cv2.findContours(
+        mask.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
+    )
+    thick = max(1, picture.shape[1] // 320)
+    cv2.drawContours(picture, edges, -1, _MARK, thick, cv2.LINE_AA)
+    size = picture.shape[1] / 800
+    at = max(box.left, 4), max(box.top - 6, round(24 * size))
+    cv2.putText(picture, label, at, _FONT, size, _PAPER, 3 * thick, cv2.LINE_AA)
+    cv2.putText(picture, label, at, _FONT, size, _MARK, thick, cv2.LINE_AA)
+
+
+def _depth_picture(frame: Frame) -> Colour:
+    """Depth in colours; a picture that says so where there is none."""
+    if frame.depth is None or not np.isfinite(frame.depth).any():
+        blank = np.full_like(frame.colour, 235)
+        at = (blank.shape[1] // 2 - 40, blank.shape[0] // 2)
+        cv2.putText(blank, "no depth", at, _FONT, 0.5, _INK, 1, cv2.LINE_AA)
+        return blank
+    return _coloured(frame.depth)
+
+
+def _coloured(depth: Depth) -> Colour:
+    known = np.isfinite(depth)
+    near, far = np.percentile(depth[known], (2, 98))
+    span = max(float(far - near), 1e-3)
+    level = np.clip((far - np.where(known, depth, far)) / span, 0, 1)
+    shades = cv2.applyColorMap(
+        np.round(level * 255).astype(np.uint8), cv2.COLORMAP_TURBO
+    )
+    picture: Colour = cv2.cvtColor(shades, cv2.COLOR_BGR2RGB).astype(np.uint8)
+    picture[~known] = 0
+    return picture
+
+
+def _alone(frame: Frame, percept: Percept) -> Colour:
+    """The region on white, cut to its box."""
+    mask, box = percept.region.mask, percept.region.box
+    picture: Colour = np.where(mask[..., None], frame.colour, np.uint8(255))
+    return picture[box.top : box.bottom, box.left : box.right]
+
+
+def _featured(frame: Frame, percept: Percept) -> Colour:
+    """The region's box in grey, with a dot at each feature of the first scan."""
+    box, features = percept.region.box, percept.scans[0]
+    cut = frame.colour[box.top : box.bottom, box.left : box.right]
+    grey = cv2.cvtColor(cut, cv2.COLOR_RGB2GRAY)
+    scale = max(1, round(_WIDTH / max(cut.shape[1], 1)))
+    large = cv2.resize(grey, None, fx=scale, fy=scale, interpolation=cv2.INTER_CUBIC)
+    picture = cv2.cvtColor(large, cv2.COLOR_GRAY2RGB)
+    for u, v in _spots(features, box):
+        at = round((u + 0.5) * scale), round((v + 0.5) * scale)
+        cv2.circle(picture, at, 3, _DOT, 1, cv2.LINE_AA)
+    return picture.astype(np.uint8)
+
+
+def _spots(features: Features, box: Box) -> list[tuple[float, float]]:
+    """The features' pixels, from the corner of the box."""
+    return [(float(u - box.left), float(v - box.top)) for u, v in features.pixels]

@@ -1,0 +1,151 @@
+"""Looks: things that stay in view, pointing, and features in space."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tabletop import UP, Camera, Card, frame_of, share
+
+from kille.perception.features import features_of
+from kille.perception.look import look
+from kille.perception.pointing import region_at
+from kille.perception.segment import region_of, segment
+from kille.scene import Frame
+from kille.sensors.recordings import open_recording
+
+LEFT, RIGHT = Card(-0.12, 0.8, seed=1), Card(0.12, 0.9, seed=2)
+
+
+def frames(count: int, *cards: Card) -> list[Frame]:
+    return [frame_of(*cards, noise=0.001, seed=seed) for seed in range(count)]
+
+
+def middle(mask: np.ndarray) -> tuple[int, int]:
+    rows, columns = np.nonzero(mask)
+    return int(np.median(columns)), int(np.median(rows))
+
+
+def test_a_look_takes_ten_frames_and_scans_each_thing_in_each() -> None:
+    camera = Camera(*frames(10, LEFT, RIGHT))
+    seen = look(camera)
+    assert camera.given == 10
+    assert seen.frame is camera.frames[0]
+    assert [len(percept.scans) for percept in seen.percepts] == [10, 10]
+    assert np.dot(seen.up, UP) > 0.999
+
+
+def test_a_still_is_scanned_once() -> None:
+    still = frame_of(LEFT)
+    (percept,) = look(Camera(still)).percepts
+    assert len(percept.scans) == 1
+    picture = replace(still, depth=None, intrinsics=None)
+    (percept,) = look(Camera(picture)).percepts
+    assert len(percept.scans) == 1
+    assert percept.region.place is None
+
+
+def test_what_flickers_is_no_percept() -> None:
+    steady, passing = frames(9, LEFT), frame_of(LEFT, RIGHT)
+    (percept,) = look(Camera(passing, *steady)).percepts
+    assert share(steady[0].outlines["0"], percept.region) > 0.85
+    assert len(percept.scans) == 10
+
+
+def test_what_is_hidden_for_a_moment_stays() -> None:
+    both = frames(10, LEFT, RIGHT)
+    both[4] = frame_of(LEFT, seed=4)
+    assert [len(it.scans) for it in look(Camera(*both)).percepts] == [10, 9]
+
+
+def test_a_mask_that_is_pointed_at_comes_first_and_only_once() -> None:
+    shown = frames(3, LEFT, RIGHT)
+    seen = look(Camera(*shown), 3, pointed=shown[0].outlines["1"])
+    assert len(seen.percepts) == 2
+    assert np.array_equal(seen.percepts[0].region.mask, shown[0].outlines["1"])
+
+
+def test_a_pixel_that_is_pointed_at_comes_first() -> None:
+    shown = frames(3, LEFT, RIGHT)
+    seen = look(Camera(*shown), 3, pointed=middle(shown[0].outlines["1"]))
+    assert share(shown[0].outlines["1"], seen.percepts[0].region) > 0.85
+    assert len(seen.percepts) == 2
+
+
+def test_pointing_at_nothing_changes_nothing() -> None:
+    shown = frames(3, LEFT, RIGHT)
+    plain = look(Camera(*shown), 3)
+    for pointed in ((2, 470), np.zeros(shown[0].colour.shape[:2], bool)):
+        seen = look(Camera(*shown), 3, pointed=pointed)
+        assert [it.region.box for it in seen.percepts] == [
+            it.region.box for it in plain.percepts
+        ]
+
+
+def test_what_was_pointed_at_is_followed_when_it_moves() -> None:
+    moving = [frame_of(Card(-0.1 + 0.004 * i, 0.8, seed=1)) for i in range(8)]
+    seen = look(Camera(*moving), 8, pointed=moving[0].outlines["0"])
+    first, last = seen.percepts[0].scans[0], seen.percepts[0].scans[7]
+    shift = np.median(last.pixels[:, 0]) - np.median(first.pixels[:, 0])
+    true = middle(moving[7].outlines["0"])[0] - middle(moving[0].outlines["0"])[0]
+    assert shift == pytest.approx(true, abs=4)
+
+
+def test_a_look_takes_at_least_one_scan() -> None:
+    with pytest.raises(ValueError, match="at least one scan, not 0"):
+        look(Camera(frame_of(LEFT)), 0)
+
+
+def test_a_finger_may_miss_by_a_little() -> None:
+    frame = frame_of(LEFT)
+    rows, columns = np.nonzero(frame.outlines["0"])
+    beside = int(columns.max()) + 10, int(rows.mean())
+    found = region_at(frame, beside)
+    assert found is not None
+    assert share(frame.outlines["0"], found) > 0.85
+    assert region_at(frame, (beside[0] + 60, beside[1])) is None
+
+
+def test_pointing_into_a_pile_means_one_part_of_it(data: Path) -> None:
+    frame = open_recording(str(data / "ycbv_scenes" / "0002")).frame()
+    for name in ("pudding box", "potted meat can", "banana", "wood block"):
+        mask = frame.outlines[name]
+        plain = max(share(mask, region) for region in segment(frame).regions)
+        pointed = region_at(frame, middle(mask))
+        assert pointed is not None
+        assert share(mask, pointed) > 0.5 > plain, name
+
+
+def test_features_are_of_the_region_and_have_places() -> None:
+    frame = frame_of(LEFT, RIGHT)
+    region = region_of(frame, frame.outlines["0"])
+    features = features_of(frame, region)
+    count = len(features.descriptors)
+    assert count > 20
+    assert features.descriptors.dtype == np.uint8
+    assert features.pixels.shape == (count, 2)
+    assert features.points.shape == (count, 3)
+    left, top, right, bottom = region.box
+    assert (features.pixels >= np.array([left - 4, top - 4])).all()
+    assert (features.pixels <= np.array([right + 4, bottom + 4])).all()
+    lens, z = frame.intrinsics, features.points[:, 2]
+    assert lens is not None
+    back = lens.fx * features.points[:, 0] / z + lens.cx
+    measured = np.isfinite(z)
+    assert back[measured] == pytest.approx(features.pixels[measured, 0], abs=0.01)
+
+
+def test_features_without_depth_have_no_places() -> None:
+    frame = replace(frame_of(LEFT), depth=None, intrinsics=None)
+    features = features_of(frame, segment(frame).regions[0])
+    assert np.isnan(features.points).all()
+
+
+def test_a_thing_without_texture_has_no_features() -> None:
+    frame = frame_of(LEFT)
+    plain = replace(frame, colour=np.full_like(frame.colour, 90))
+    assert len(features_of(plain, segment(plain).regions[0]).descriptors) == 0
+    empty = region_of(frame, np.zeros(frame.colour.shape[:2], bool))
+    assert len(features_of(frame, empty).descriptors) == 0
