@@ -1,0 +1,37 @@
+"""The durable memory: what was said, seen and learned, kept in one SQLite file.
+
+What the robot was taught is on disk before it says "OK", with its evidence: the turn,
+the sensor's scans and places. Models are rebuilt from these observations.
+"""
+
+from kille.memory.errors import MemoryFileError, NoSuchLessonError
+from kille.memory.files import default_path
+from kille.memory.lessons import (
+    Arrangement,
+    Kind,
+    Lesson,
+    ObjectLesson,
+    RelationLesson,
+    Scan,
+    Sighting,
+    Turn,
+    Word,
+)
+from kille.memory.memory import Memory, MemoryReader
+
+__all__ = [
+    "Memory",
+    "MemoryReader",
+    "default_path",
+    "Word",
+    "Kind",
+    "Turn",
+    "Scan",
+    "Sighting",
+    "Arrangement",
+    "Lesson",
+    "ObjectLesson",
+    "RelationLesson",
+    "MemoryFileError",
+    "NoSuchLessonError",
+]

@@ -1,0 +1,175 @@
+"""Where a memory is, and how its file is opened: whole, ours, and by one writer.
+
+A writer holds SQLite's write lock from opening to closing, so a second one is refused
+at once while readers go on reading. The lock is the system's: a killed program loses
+it, and the write-ahead log then undoes what it had not committed.
+"""
+
+from __future__ import annotations
+
+import os
+import sqlite3
+from pathlib import Path
+from typing import Literal
+
+from platformdirs import user_data_dir
+
+from kille.memory import schema
+from kille.memory.errors import (
+    ELSEWHERE,
+    EXPLANATIONS,
+    MemoryFileError,
+    explained,
+    primary_code,
+)
+
+# A reader that comes or goes locks the file for an instant; an owner stays.
+PATIENCE_SECONDS = 0.2
+
+# SQLite takes a file of one byte for an empty one and would write over it.
+SMALLEST_DATABASE_BYTES = 512
+
+CANNOT_LOG = (sqlite3.SQLITE_CANTOPEN, sqlite3.SQLITE_READONLY)
+
+Mode = Literal["mode=rwc", "mode=ro", "mode=ro&immutable=1"]
+
+
+def default_path() -> Path:
+    """The memory of this user: `KILLE_MEMORY`, or `memory.db` in the data folder."""
+    chosen = os.environ.get("KILLE_MEMORY")
+    if chosen:
+        return Path(chosen).expanduser()
+    return Path(user_data_dir("kille", appauthor=False)) / "memory.db"
+
+
+def open_to_write(path: Path) -> sqlite3.Connection:
+    """A connection that owns the file, which is made where there is none.
+
+    Raises MemoryFileError if the file is no memory, damaged, too new, not writable,
+    or owned by another.
+    """
+    _make_folder(path)
+    with explained(str(path)):
+        connection = _connect(path, "mode=rwc")
+        try:
+            _check_ours(connection, path)
+            connection.execute("PRAGMA journal_mode = WAL")
+            _own(connection)
+        except BaseException:
+            connection.close()
+            raise
+    return connection
+
+
+def open_to_read(path: Path) -> sqlite3.Connection:
+    """A connection that only reads, beside a writer if there is one.
+
+    Raises MemoryFileError if there is no file, or it is no memory, damaged, or of
+    another version.
+    """
+    if not os.path.exists(path):
+        raise MemoryFileError(
+            f"{path} does not exist: teach a word first with kille talk, {ELSEWHERE}"
+        )
+    with explained(str(path)):
+        connection = _connect(path, _reading_mode(path))
+        try:
+            _check_ours(connection, path)
+            _check_readable(connection, path)
+        except BaseException:
+            connection.close()
+            raise
+    return connection
+
+
+def open_transient() -> sqlite3.Connection:
+    """A connection to a memory without a file."""
+    connection = sqlite3.connect(":memory:", isolation_level=None)
+    _own(connection)
+    return connection
+
+
+def hold(connection: sqlite3.Connection) -> None:
+    """Begin a transaction unless one is open: it keeps every other writer out."""
+    if not connection.in_transaction:
+        connection.execute("BEGIN IMMEDIATE")
+
+
+def _make_folder(path: Path) -> None:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise MemoryFileError(
+            f"{path} cannot be made, since {path.parent} is no folder and cannot "
+            f"become one ({error.strerror}): name a file elsewhere with --memory"
+        ) from error
+
+
+def _connect(path: Path, mode: Mode) -> sqlite3.Connection:
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise MemoryFileError(
+            f"{path} is a folder or a device: name a file with --memory"
+        )
+    if os.path.exists(path) and 0 < os.path.getsize(path) < SMALLEST_DATABASE_BYTES:
+        raise MemoryFileError(f"{path} {EXPLANATIONS[sqlite3.SQLITE_NOTADB]}")
+    return sqlite3.connect(
+        f"{path.absolute().as_uri()}?{mode}",
+        uri=True,
+        timeout=PATIENCE_SECONDS,
+        isolation_level=None,
+    )
+
+
+def _own(connection: sqlite3.Connection) -> None:
+    """Make this the only writer, commits durable and the tables up to date."""
+    connection.execute("PRAGMA synchronous = FULL")
+    connection.execute("PRAGMA foreign_keys = ON")
+    hold(connection)
+    schema.migrate(connection)
+    connection.execute("COMMIT")
+    hold(connection)
+
+
+def _check_ours(connection: sqlite3.Connection, path: Path) -> None:
+    """Refuse what is not ours before anything in it is changed."""
+    if not schema.is_memory(connection):
+        raise MemoryFileError(
+            f"{path} is the database of another program, not a kille memory: "
+            f"move it away, {ELSEWHERE}"
+        )
+    found = schema.version(connection)
+    if found > schema.VERSION:
+        raise MemoryFileError(
+            f"{path} was written by a newer kille (version {found} of the file, this "
+            f"program knows {schema.VERSION}): update kille, {ELSEWHERE}"
+        )
+    if connection.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
+        raise MemoryFileError(f"{path} {EXPLANATIONS[sqlite3.SQLITE_CORRUPT]}")
+
+
+def _check_readable(connection: sqlite3.Connection, path: Path) -> None:
+    found = schema.version(connection)
+    if found < schema.VERSION:
+        raise MemoryFileError(
+            f"{path} is not up to date (version {found} of the file, this program "
+            f"reads {schema.VERSION}): open it once with kille talk, {ELSEWHERE}"
+        )
+
+
+def _reading_mode(path: Path) -> Mode:
+    """How to read a file that may lie where nothing can be written.
+
+    SQLite wants to keep its log beside the file. Where it cannot, and no log waits
+    there to be read, the file alone is the whole memory.
+    """
+    connection = _connect(path, "mode=ro")
+    try:
+        schema.version(connection)
+    except sqlite3.OperationalError as error:
+        log = path.with_name(f"{path.name}-wal")
+        if primary_code(error) not in CANNOT_LOG or log.exists():
+            raise
+        return "mode=ro&immutable=1"
+    finally:
+        connection.close()
+    return "mode=ro"

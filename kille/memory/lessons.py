@@ -1,0 +1,136 @@
+"""What a memory holds: words, turns and lessons, as immutable values."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.scene import Point
+
+Kind = Literal["object", "relation"]
+
+DESCRIPTOR_LENGTH = 128
+
+
+@dataclass(frozen=True)
+class Word:
+    """A word that was learned.
+
+    `name` is what its predicate is called (`can_of_paint`), `surface` what the tutor
+    said when it was first taught ("can of paint").
+    """
+
+    name: str
+    surface: str
+    kind: Kind
+
+
+@dataclass(frozen=True)
+class Turn:
+    """Something said: the `number`-th turn of a dialogue.
+
+    `judgement` is what it was understood to be, in the notation of TTR; `time` is the
+    wall clock's, as ISO 8601 text.
+    """
+
+    dialogue: int
+    number: int
+    speaker: str
+    text: str
+    judgement: str
+    time: str
+
+
+@dataclass(frozen=True, eq=False)
+class Scan:
+    """The features of one scan of an object.
+
+    descriptors (n, 128) uint8; points (n, 3) float32 in metres, NaN where there was
+    no depth. Raises ValueError for arrays of another shape or type, which would not
+    come back as they were.
+    """
+
+    descriptors: NDArray[np.uint8]
+    points: NDArray[np.float32]
+
+    def __post_init__(self) -> None:
+        n = len(self.descriptors)
+        _require("descriptors", self.descriptors, "uint8", (n, DESCRIPTOR_LENGTH))
+        _require("points", self.points, "float32", (n, 3))
+
+
+@dataclass(frozen=True, eq=False)
+class Sighting:
+    """An object as it was seen when its word was taught.
+
+    `time` is that of the first frame, in seconds of the sensor's clock; `place` is in
+    metres, None where the sensor has no depth. Raises ValueError for numbers that are
+    not finite.
+    """
+
+    sensor: str
+    time: float
+    scans: tuple[Scan, ...]
+    place: Point | None
+
+    def __post_init__(self) -> None:
+        _require_finite("a sighting", self.time, *(self.place or ()))
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """Two objects as they stood when the word for their relation was taught.
+
+    `target` and `landmark` are names of words; `offset` is the target's place relative
+    to the landmark, in metres. Raises ValueError for numbers that are not finite.
+    """
+
+    sensor: str
+    time: float
+    target: str
+    landmark: str
+    offset: Point
+
+    def __post_init__(self) -> None:
+        _require_finite("an arrangement", self.time, *self.offset)
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """That a turn taught a word; `key` names the lesson for good."""
+
+    key: int
+    word: Word
+    turn: Turn
+
+
+@dataclass(frozen=True, eq=False)
+class ObjectLesson(Lesson):
+    """A lesson in what an object is called, with what was seen."""
+
+    seen: Sighting
+
+
+@dataclass(frozen=True)
+class RelationLesson(Lesson):
+    """A lesson in what a relation is called, with what was seen."""
+
+    seen: Arrangement
+
+
+def _require(
+    name: str, array: NDArray[np.generic], dtype: str, shape: tuple[int, int]
+) -> None:
+    if array.dtype != np.dtype(dtype) or array.shape != shape:
+        raise ValueError(
+            f"{name} must be {dtype} {shape}, not {array.dtype} {array.shape}"
+        )
+
+
+def _require_finite(owner: str, *numbers: float) -> None:
+    if not all(map(math.isfinite, numbers)):
+        raise ValueError(f"{owner} needs finite numbers, not {numbers}")

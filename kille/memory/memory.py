@@ -1,0 +1,173 @@
+"""The durable memory: what was said, seen and learned, in one file."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from kille.memory import files, reading, writing
+from kille.memory.errors import NoSuchLessonError, explained
+from kille.memory.lessons import (
+    Arrangement,
+    Lesson,
+    ObjectLesson,
+    RelationLesson,
+    Sighting,
+    Turn,
+    Word,
+)
+
+
+class MemoryReader:
+    """What a memory file holds, to look at; another may be writing meanwhile.
+
+    Made by `Memory.reading`; it is its own context manager. `place` says in words
+    where the memory is. Any method raises MemoryFileError when the file fails it.
+    """
+
+    def __init__(self, connection: sqlite3.Connection, place: str) -> None:
+        self._connection = connection
+        self.place = place
+
+    def close(self) -> None:
+        """Let go of the file; a second call does nothing."""
+        with explained(self.place):
+            self._connection.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def words(self) -> tuple[Word, ...]:
+        """Every word that a lesson teaches, as it was said first, oldest first."""
+        with explained(self.place):
+            return reading.words(self._connection)
+
+    def turns(self) -> tuple[Turn, ...]:
+        """All that was said, dialogue by dialogue."""
+        with explained(self.place):
+            return reading.turns(self._connection)
+
+    def lessons(self) -> tuple[Lesson, ...]:
+        """All lessons, oldest first, without what was seen in them."""
+        with explained(self.place):
+            return reading.lessons(self._connection)
+
+    def objects(self) -> Iterator[ObjectLesson]:
+        """The lessons about objects, oldest first, each read as it is asked for."""
+        with explained(self.place):
+            yield from reading.objects(self._connection)
+
+    def relations(self) -> Iterator[RelationLesson]:
+        """The lessons about relations, oldest first, each read as it is asked for."""
+        with explained(self.place):
+            yield from reading.relations(self._connection)
+
+
+class Memory(MemoryReader):
+    """Lessons, and the turns they came from, on disk before a method returns.
+
+    Made by `open` or `transient`; it is its own context manager. Any method raises
+    MemoryFileError when the file fails it, and leaves what was there.
+
+    >>> from kille.scene import Point
+    >>> with Memory.transient() as memory:
+    ...     dialogue = memory.begin_dialogue("2026-01-31T12:00:00")
+    ...     said = Turn(dialogue, 1, "tutor", "This is a cup.", "", "2026-01-31T12:01")
+    ...     seen = Sighting("synthetic", 0.0, scans=(), place=Point(0.0, 0.1, 0.8))
+    ...     key = memory.learn_object(said, "cup", "cup", seen)
+    ...     print(memory.words())
+    (Word(name='cup', surface='cup', kind='object'),)
+    """
+
+    @classmethod
+    def open(cls, path: Path) -> Self:
+        """The memory in this file, made where there is none, to read and to write.
+
+        One program at a time may hold it so. Raises MemoryFileError.
+        """
+        return cls(files.open_to_write(path), str(path))
+
+    @staticmethod
+    def reading(path: Path) -> MemoryReader:
+        """The memory in this file, only to read. Raises MemoryFileError."""
+        return MemoryReader(files.open_to_read(path), str(path))
+
+    @classmethod
+    def transient(cls) -> Self:
+        """A memory that is gone when it is closed."""
+        return cls(files.open_transient(), "the memory of this session")
+
+    def begin_dialogue(self, time: str) -> int:
+        """The number of a new dialogue that begins at this time (ISO 8601)."""
+        with self._transaction() as connection:
+            return writing.add_dialogue(connection, time)
+
+    def record_turn(self, turn: Turn) -> int:
+        """Keep what was said; the id of the turn, the same however often it is kept.
+
+        Raises ValueError if its dialogue never began, or if something else is on
+        record as that turn.
+        """
+        with self._transaction() as connection:
+            return writing.add_turn(connection, turn)
+
+    def learn_object(self, turn: Turn, name: str, surface: str, seen: Sighting) -> int:
+        """Keep the turn, the word it taught and what was seen, all or nothing.
+
+        The key of the lesson. Raises ValueError as `record_turn` does.
+        """
+        with self._transaction() as connection:
+            return writing.add_object_lesson(connection, turn, name, surface, seen)
+
+    def learn_relation(
+        self, turn: Turn, name: str, surface: str, seen: Arrangement
+    ) -> int:
+        """Keep the turn, the word it taught and what was seen, all or nothing.
+
+        The key of the lesson. Raises ValueError as `record_turn` does.
+        """
+        with self._transaction() as connection:
+            return writing.add_relation_lesson(connection, turn, name, surface, seen)
+
+    def forget(self, key: int) -> None:
+        """Unlearn one lesson; what was said stays on record.
+
+        A word goes with its last lesson. Raises NoSuchLessonError.
+        """
+        with self._transaction() as connection:
+            found = writing.delete_lesson(connection, key)
+        if not found:
+            raise NoSuchLessonError(
+                f"{self.place} has no lesson {key}: kille memory list shows them"
+            )
+
+    @contextmanager
+    def _transaction(self) -> Iterator[sqlite3.Connection]:
+        """What happens inside is on disk afterwards, or none of it ever happened.
+
+        The next transaction begins at once: it holds the lock that makes this the one
+        writer of the file.
+        """
+        connection = self._connection
+        with explained(self.place):
+            files.hold(connection)
+            try:
+                yield connection
+                connection.execute("COMMIT")
+            except BaseException:
+                connection.rollback()
+                raise
+            finally:
+                files.hold(connection)

@@ -1,0 +1,116 @@
+"""The tables of a memory file, and how older files are brought up to date.
+
+A word has no row of its own: it is known exactly as long as a lesson teaches it, so
+that forgetting a lesson leaves nothing behind.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Sequence
+
+# "KILL" in ASCII: tells our files from any other SQLite database.
+APPLICATION_ID = 0x4B494C4C
+
+Migration = tuple[str, ...]
+
+TABLES: Migration = (
+    """
+    CREATE TABLE dialogues (
+        id INTEGER PRIMARY KEY,
+        began TEXT NOT NULL
+    )
+    """,
+    """
+    CREATE TABLE turns (
+        id INTEGER PRIMARY KEY,
+        dialogue INTEGER NOT NULL REFERENCES dialogues,
+        number INTEGER NOT NULL,
+        speaker TEXT NOT NULL,
+        text TEXT NOT NULL,
+        judgement TEXT NOT NULL,
+        time TEXT NOT NULL,
+        UNIQUE (dialogue, number)
+    )
+    """,
+    # AUTOINCREMENT: the key of a forgotten lesson is never given to another.
+    """
+    CREATE TABLE lessons (
+        id INTEGER PRIMARY KEY AUTOINCREMENT,
+        kind TEXT NOT NULL CHECK (kind IN ('object', 'relation')),
+        name TEXT NOT NULL,
+        surface TEXT NOT NULL,
+        turn INTEGER NOT NULL REFERENCES turns,
+        sensor TEXT NOT NULL,
+        time REAL NOT NULL
+    )
+    """,
+    "CREATE INDEX lessons_by_word ON lessons (kind, name)",
+    """
+    CREATE TABLE sightings (
+        lesson INTEGER PRIMARY KEY REFERENCES lessons ON DELETE CASCADE,
+        x REAL, y REAL, z REAL
+    )
+    """,
+    """
+    CREATE TABLE scans (
+        id INTEGER PRIMARY KEY,
+        lesson INTEGER NOT NULL REFERENCES lessons ON DELETE CASCADE,
+        descriptors BLOB NOT NULL,
+        points BLOB NOT NULL
+    )
+    """,
+    "CREATE INDEX scans_by_lesson ON scans (lesson)",
+    """
+    CREATE TABLE arrangements (
+        lesson INTEGER PRIMARY KEY REFERENCES lessons ON DELETE CASCADE,
+        target TEXT NOT NULL,
+        landmark TEXT NOT NULL,
+        x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL
+    )
+    """,
+)
+
+# The n-th makes a file of version n out of one of version n - 1. Append, never edit:
+# files of every version are out there.
+MIGRATIONS: tuple[Migration, ...] = (TABLES,)
+VERSION = len(MIGRATIONS)
+
+
+def version(connection: sqlite3.Connection) -> int:
+    """The version of the tables in a file; 0 before there are any."""
+    return _pragma(connection, "user_version")
+
+
+def is_memory(connection: sqlite3.Connection) -> bool:
+    """Is this a memory, or a file with nothing in it that may become one?"""
+    return (
+        _pragma(connection, "application_id") == APPLICATION_ID
+        or _pragma(connection, "schema_version") == 0
+    )
+
+
+def migrate(
+    connection: sqlite3.Connection, migrations: Sequence[Migration] = MIGRATIONS
+) -> None:
+    """Bring the tables up to date, in the transaction that is open.
+
+    The mark of the version is written in any case: SQLite opens a file that may not
+    be written without a word, and this shows it before anything is lost.
+
+    >>> from contextlib import closing
+    >>> with closing(sqlite3.connect(":memory:")) as connection:
+    ...     migrate(connection)
+    ...     version(connection) == VERSION
+    True
+    """
+    for migration in migrations[version(connection) :]:
+        for statement in migration:
+            connection.execute(statement)
+    connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
+    connection.execute(f"PRAGMA user_version = {len(migrations)}")
+
+
+def _pragma(connection: sqlite3.Connection, name: str) -> int:
+    value: int = connection.execute(f"PRAGMA {name}").fetchone()[0]
+    return value
