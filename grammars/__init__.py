@@ -1,0 +1,1 @@
+"""What a semanticist edits: grammars, meanings and wordings. Data, not code."""

@@ -1,0 +1,311 @@
+"""The robot: it looks, hears, updates its state, learns for good, and speaks."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from kille.dialogue import games
+from kille.dialogue.language import NotUnderstood, understand
+from kille.dialogue.meanings import (
+    named,
+    noun,
+    predicate_at,
+    relation,
+    theory,
+    value_at,
+    word_of,
+)
+from kille.dialogue.state import STATE, blank_model, forms, initial
+from kille.dialogue.wording import english
+from kille.gaze import Gaze, View
+from kille.knowledge import Evidence, Knowledge
+from kille.memory import Memory, Turn
+from kille.perception.look import SCANS
+from kille.sensors.sensor import Sensor
+from kille.witness import Witnesses, thing
+from ttr import Judgement, Model, Record, RecordType, record
+from ttr.updates import Algorithm, Run, Step, run
+
+__all__ = ["Agent", "Exchange", "Said"]
+
+_POINTING = re.compile(r"#(\d+)")
+
+
+@dataclass(frozen=True)
+class Said:
+    """A sentence of the robot's, and the judgement of which move it was.
+
+    `judgement` is None for saying that it did not understand, which is no move.
+    """
+
+    text: str
+    judgement: Judgement | None
+
+
+@dataclass(frozen=True)
+class Exchange:
+    """What one turn did: what was heard, the rules that ran, what was said.
+
+    `heard` is None where the robot only looked, or did not understand.
+    """
+
+    text: str
+    heard: Judgement | None
+    steps: tuple[Step, ...]
+    said: tuple[Said, ...]
+
+    @property
+    def answer(self) -> str:
+        """What was said, one sentence a line; empty for silence."""
+        return "\n".join(said.text for said in self.said)
+
+
+class Agent:
+    """A robot that looks through a sensor and keeps what it learns in a memory.
+
+    It is its own context manager. `hear` takes what the tutor says, `do` changes the
+    scene, and both give the robot's answer. SensorError and MemoryFileError come as the
+    sensor and the memory raise them: the state is then as it was before the turn.
+
+    >>> with Agent(sensor="synthetic:empty") as robot:
+    ...     robot.hear("This is a cup.")
+    'I see nothing on the table.'
+    """
+
+    def __init__(
+        self,
+        sensor: str | Sensor = "synthetic",
+        memory: Memory | Path | str | None = None,
+        *,
+        scans: int = SCANS,
+        now: Callable[[], datetime] = lambda: datetime.now(UTC),
+    ) -> None:
+        self.gaze = Gaze(sensor, scans)
+        self._now = now
+        self._lexicon = english()
+        self.exchanges: list[Exchange] = []
+        try:
+            self._wake(_opened(memory))
+        except BaseException:
+            self.gaze.close()
+            raise
+
+    def _wake(self, memory: Memory) -> None:
+        """Begin a dialogue, knowing what the memory holds."""
+        self.memory = memory
+        self._knowledge = Knowledge(memory)
+        self._witnesses = Witnesses(self._knowledge.objects, self._knowledge.relations)
+        words = memory.words()
+        nouns = [noun(word.surface) for word in words if word.kind == "object"]
+        links = [relation(word.surface) for word in words if word.kind == "relation"]
+        self.state: Record = initial(nouns, links, self._lexicon.bands)
+        self.model: Model = self._witnesses.in_model(blank_model(), nouns, links)
+        self._dialogue = memory.begin_dialogue(self._time())
+        self._turns = self._looks = 0
+        self.view: View | None = None
+
+    # --- what a user does ------------------------------------------------------------
+
+    def hear(self, text: str) -> str:
+        """Take in what the tutor says; the robot's answer, a sentence a line.
+
+        `#2` in the text points at the thing with that number. What is not understood
+        leaves the state as it was.
+        """
+        turn = self._turn("tutor", text)
+        words = _POINTING.sub(" ", text)
+        try:
+            utterance = understand(words)
+        except NotUnderstood:
+            sorry = Said(self._lexicon.did_not_understand(words), None)
+            return self._ended(turn, Exchange(text, None, (), (sorry,)))
+        for number in _POINTING.findall(text):
+            self.gaze.point(number)
+        so_far = Run(self.state, self.model, ())
+        if "look" in utterance.content:
+            so_far = self._seeing(games.LOOKED, so_far)
+        event, model = so_far.model.create(utterance.type)
+        heard = model.judge(event, utterance.type)
+        so_far = self._playing(games.HEARD, so_far._replace(model=model), event)
+        turn = replace(turn, judgement=str(heard))
+        after, said = self._acting(so_far, turn)
+        return self._ended(turn, Exchange(text, heard, after.trace, said), after)
+
+    def look(self) -> str:
+        """Look at the scene of one's own accord; what the robot then says, if anything.
+
+        It may ask about what it sees.
+        """
+        turn = self._turn("world", "")
+        so_far = self._seeing(games.SCENE_CHANGED, Run(self.state, self.model, ()))
+        after, said = self._acting(so_far, turn)
+        return self._ended(None, Exchange("", None, after.trace, said), after)
+
+    def do(self, command: str) -> str:
+        """Change what there is to see, and look; what the robot then says, if anything.
+
+        Commands are those of `kille.sensors.stage`, and `point 2`, `point 320 240`,
+        `scene SENSOR`, `restart`.
+        """
+        verb, _, rest = command.strip().partition(" ")
+        match verb:
+            case "point":
+                self.gaze.point(rest)
+                return ""
+            case "restart":
+                self._wake(self.memory)
+                return ""
+            case "scene":
+                self.gaze.turn_to(rest)
+            case _:
+                self.gaze.change(command)
+        return self.look()
+
+    @property
+    def trace(self) -> tuple[Step, ...]:
+        """Every rule that ran, in order, with the states before and after it."""
+        return tuple(step for exchange in self.exchanges for step in exchange.steps)
+
+    def close(self) -> None:
+        """Let go of the sensor and the memory."""
+        self.gaze.close()
+        self.memory.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    # --- seeing ----------------------------------------------------------------------
+
+    def _seeing(self, algorithm: Algorithm, so_far: Run) -> Run:
+        """Take a look, and play it as an event."""
+        view = self.view = self.gaze.look()
+        self._looks += 1
+        handle = f"look{self._looks}"
+        self._witnesses.remember(handle, view.look)
+        percepts = view.look.percepts
+        things = [thing(number) for number in range(1, len(percepts) + 1)]
+        placed = [
+            x
+            for x, percept in zip(things, percepts, strict=True)
+            if percept.region.place is not None
+        ]
+        focus = [] if view.focus is None else [thing(view.focus)]
+        model = so_far.model.given(handle, theory()["Look"])
+        for x in things:
+            model = model.given(x, theory()["Ind"])
+        seen = record(look=handle, things=things, placed=placed, focus=focus)
+        event = record(view=seen)
+        return self._playing(algorithm, so_far._replace(model=model), event)
+
+    def _playing(self, algorithm: Algorithm, so_far: Run, event: Record) -> Run:
+        """Play an event through an algorithm, and add to the trace."""
+        state, model, _ = so_far
+        after = run(algorithm, state, type=STATE, model=model, events=[event])
+        return after._replace(trace=so_far.trace + after.trace)
+
+    # --- acting ----------------------------------------------------------------------
+
+    def _acting(self, so_far: Run, turn: Turn) -> tuple[Run, tuple[Said, ...]]:
+        """Make the moves on the agenda: learn, then say it, then it has been said."""
+        said: list[Said] = []
+        while so_far.state.private.agenda:
+            planned = so_far.state.private.agenda[0]
+            move, model = so_far.model.create(planned)
+            model = self._learned(planned, move, model, turn)
+            private = so_far.state.private
+            known = forms(private.nouns, private.relations, move.signs)
+            sentence = self._lexicon.say(move, predicate_at(planned, "e").name, known)
+            said.append(Said(sentence, model.judge(move, planned)))
+            so_far = self._playing(games.SAID, so_far._replace(model=model), move)
+        return so_far, tuple(said)
+
+    def _learned(
+        self, planned: RecordType, move: Record, model: Model, turn: Turn
+    ) -> Model:
+        """The model after the lesson that a move claims to have been, if it does."""
+        if planned <= named("Learned"):
+            self._learn_noun(move, turn)
+            self._witnesses.learned()
+            return self._witnesses.in_model(model, move.signs, ())
+        if planned <= named("LearnedRelation"):
+            self._learn_relation(move, turn)
+            return self._witnesses.in_model(model, (), move.signs)
+        return model
+
+    def _learn_noun(self, move: Record, turn: Turn) -> None:
+        (sign,) = move.signs
+        look = value_at(move.content, "look")
+        percept = self._witnesses.percept(value_at(move.content, "x"), look)
+        if percept is None:
+            raise RuntimeError(f"{look} was let go before its lesson")
+        evidence = self._evidence(turn, look)
+        name = word_of(sign).name
+        self._knowledge.learn_noun(name, sign.form, percept, evidence)
+
+    def _learn_relation(self, move: Record, turn: Turn) -> None:
+        (sign,) = move.signs
+        look = value_at(move.content, "look")
+        target, landmark = move.content["target"], move.content["landmark"]
+        x, y = value_at(target, "x"), value_at(landmark, "x")
+        offset = self._witnesses.offset(x, y, look)
+        if offset is None:
+            raise RuntimeError(f"{look} was let go before its lesson")
+        words = predicate_at(target, "c").name, predicate_at(landmark, "c").name
+        evidence = self._evidence(turn, look)
+        name = word_of(sign).name
+        self._knowledge.learn_relation(name, sign.form, words, offset, evidence)
+
+    def _evidence(self, turn: Turn, handle: str) -> Evidence:
+        look = self._witnesses.look(handle)
+        time = 0.0 if look is None else look.frame.time
+        return Evidence(turn, self.gaze.sensor.name, time)
+
+    # --- keeping track ---------------------------------------------------------------
+
+    def _ended(
+        self, turn: Turn | None, exchange: Exchange, after: Run | None = None
+    ) -> str:
+        """Keep what was said, and only then take over the state it led to."""
+        if turn is not None:
+            self._record(turn)
+        for said in exchange.said:
+            judged = "" if said.judgement is None else str(said.judgement)
+            self._record(self._turn("robot", said.text, judged))
+        if after is not None:
+            self.state, self.model = after.state, after.model
+        self.exchanges.append(exchange)
+        return exchange.answer
+
+    def _record(self, turn: Turn) -> None:
+        self.memory.record_turn(turn)
+        self._turns = turn.number
+
+    def _turn(self, speaker: str, text: str, judgement: str = "") -> Turn:
+        number = self._turns + 1
+        return Turn(self._dialogue, number, speaker, text, judgement, self._time())
+
+    def _time(self) -> str:
+        return self._now().isoformat(timespec="milliseconds")
+
+
+def _opened(memory: Memory | Path | str | None) -> Memory:
+    match memory:
+        case None:
+            return Memory.transient()
+        case Memory():
+            return memory
+    return Memory.open(Path(memory))

@@ -1,0 +1,1 @@
+"""Talking: utterances as judgements, games as update rules over one typed state."""

@@ -1,0 +1,1 @@
+"""The programs: how a person meets the robot."""

@@ -1,0 +1,83 @@
+"""How turns, judgements and things in view are written for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from kille.agent import Exchange
+from kille.dialogue.meanings import predicate_at
+from kille.gaze import View
+from ttr import Judgement, PType, Record, RecordType
+from ttr.printing import notation
+from ttr.substitution import grounded
+
+__all__ = ["claims", "derivation", "things_in_view"]
+
+
+def claims(turn: Exchange) -> Iterator[tuple[str, str]]:
+    """The judgements behind a turn, each with who made it: heard, judged, said."""
+    if turn.heard is not None:
+        yield from _move("heard", turn.heard)
+    for belief in _beliefs(turn)[:3]:
+        yield "judged", _belief(belief)
+    for said in turn.said:
+        if said.judgement is not None:
+            yield from _move("said", said.judgement)
+
+
+def _move(who: str, judgement: Judgement) -> Iterator[tuple[str, str]]:
+    """A move as a judgement, e : act(speaker, addressee), and what it is about."""
+    move, T = judgement.sit, judgement.type
+    if not isinstance(T, RecordType):
+        return
+    yield who, f"{move.e} : {predicate_at(T, 'e').name}({move.spkr}, {move.addr})"
+    if move.content.fields:
+        yield "about", notation(move.content)
+
+
+def _beliefs(turn: Exchange) -> tuple[Record, ...]:
+    """What the robot came to believe in this turn, the most probable first."""
+    if not turn.steps:
+        return ()
+    beliefs: tuple[Record, ...] = turn.steps[-1].after.private.beliefs
+    return beliefs
+
+
+def _belief(belief: Record) -> str:
+    """A belief as a judgement of the situation that makes the word's ptype true."""
+    sit = belief.sit
+    for label, field in belief.sign.meaning.fields:
+        if isinstance(field, PType) and label in sit:
+            return f"{sit[label]} : {grounded(field, (sit,))}   p = {belief.p:.2f}"
+    return f"{sit} : {belief.sign.meaning}   p = {belief.p:.2f}"
+
+
+def derivation(turn: Exchange) -> Iterator[str]:
+    """A turn in full: what was heard and why it is that, each rule and its changes."""
+    if turn.heard is not None:
+        yield str(turn.heard.why)
+    for step in turn.steps:
+        yield str(step)
+
+
+def things_in_view(view: View) -> str:
+    """The numbered things, where each is, and which is in focus, in a line or more."""
+    percepts = view.look.percepts
+    if not percepts:
+        return "Nothing is in view."
+    count = "One thing is" if len(percepts) == 1 else f"{len(percepts)} things are"
+    lines = [f"{count} in view:"]
+    for number, percept in enumerate(percepts, start=1):
+        mark = "  ← this" if number == view.focus else ""
+        lines.append(f"  #{number}  {_where(percept.region.place)}{mark}")
+    return "\n".join(lines)
+
+
+def _where(place: tuple[float, float, float] | None) -> str:
+    if place is None:
+        return "the whole picture, place unknown"
+    right, _, away = place
+    side = "right" if right >= 0 else "left"
+    if abs(right) < 0.02:
+        return f"{away:.2f} m away, straight ahead"
+    return f"{away:.2f} m away, {abs(right) * 100:.0f} cm to the {side}"

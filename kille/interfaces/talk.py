@@ -1,0 +1,194 @@
+"""`kille talk`: a conversation with the user as tutor, from a keyboard or a pipe."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from kille.agent import Agent
+from kille.dialogue.meanings import named
+from kille.interfaces.showing import derivation, things_in_view
+from kille.interfaces.terminal import FINE, complain, console, memory_path
+from kille.memory import Memory, MemoryFileError
+from kille.perception.sheet import overview, write_picture
+from kille.sensors.sensor import SensorError, Stage
+from ttr import TTRError
+
+__all__ = ["talk"]
+
+COMMANDS = """\
+Lines that begin with @ change what there is to see:
+  @ show cup                    only the cup is on the table
+  @ place book left of cup      also right of, in front of, behind, near
+  @ place book at 0.10 -0.05    metres right and away from the middle
+  @ remove cup
+  @ point 2                     "this" is thing #2 from now on; also in a sentence:
+                                #2 This is a book.
+  @ look                        what is in view
+  @ picture [FILE.png]          a picture of it, with the numbers
+  @ things                      all that can be shown
+  @ scene SENSOR                look through another sensor
+Ctrl-D or "Goodbye." ends the conversation; what was learned stays."""
+
+
+def talk(sensor: str, memory: Path | None, *, trace: bool) -> int:
+    """Talks until the tutor leaves; the exit code."""
+    try:
+        kept = Memory.open(memory_path(memory))
+        robot = Agent(sensor, kept)
+    except (SensorError, MemoryFileError) as error:
+        return complain(error)
+    with robot, _line_editing():
+        _Conversation(robot, trace=trace).hold()
+    return FINE
+
+
+class _Conversation:
+    """A conversation in a terminal, or through a pipe."""
+
+    def __init__(self, robot: Agent, *, trace: bool) -> None:
+        self._robot, self._trace = robot, trace
+        self._out = console()
+        self._typed = sys.stdin.isatty()
+
+    def hold(self) -> None:
+        """Listens line by line until the end of the input or a farewell."""
+        if self._typed:
+            self._welcome()
+        self._answer("@ look")
+        for line in self._lines():
+            if not self._typed:
+                self._print(f"U> {line}")
+            self._answer(line)
+            if self._has_left():
+                return
+
+    def _welcome(self) -> None:
+        known = len(self._robot.state.private.nouns)
+        self._print(
+            f"I look through {self._robot.gaze.sensor.name} and know "
+            f"{known or 'no'} word{'s' * (known != 1)} for things; they are kept in "
+            f"{self._robot.memory.place}.\n"
+            'Say "This is a cup." or "What is this?"; help says what else.'
+        )
+
+    def _lines(self) -> Iterator[str]:
+        """What the tutor types, without empty lines from a pipe."""
+        while True:
+            try:
+                line = input("U> " if self._typed else "").strip()
+            except EOFError:
+                if self._typed:
+                    self._print("")
+                return
+            if line or self._typed:
+                yield line
+
+    def _answer(self, line: str) -> None:
+        """Does what a line says; what goes wrong is one line, and the talk goes on."""
+        try:
+            answer = self._done(line)
+        except (SensorError, MemoryFileError, TTRError) as error:
+            self._out.file.flush()
+            complain(error)
+            return
+        for sentence in answer.split("\n") if answer else ():
+            self._print(sentence if sentence.startswith(" ") else f"S> {sentence}")
+
+    def _done(self, line: str) -> str:
+        if line.startswith("@"):
+            return self._command(line[1:].strip())
+        turns = len(self._robot.exchanges)
+        answer = self._robot.hear(line) if line else self._robot.look()
+        if self._trace and len(self._robot.exchanges) > turns:
+            for text in derivation(self._robot.exchanges[-1]):
+                self._print(text, style="dim")
+        if line.rstrip(".!?").lower() == "help":
+            answer += "".join(f"\n  {command}" for command in COMMANDS.splitlines())
+        return answer
+
+    def _command(self, command: str) -> str:
+        verb, _, rest = command.partition(" ")
+        match verb:
+            case "look":
+                answer = self._robot.look()
+                self._show_view()
+                return answer
+            case "picture":
+                return self._picture(Path(rest or "kille-view.png"))
+            case "things":
+                return self._things()
+            case "" | "help":
+                self._print(COMMANDS)
+                return ""
+        answer = self._robot.do(command)
+        if verb == "point":
+            answer = self._robot.look()
+        self._show_view()
+        return answer
+
+    def _picture(self, path: Path) -> str:
+        self._robot.look()
+        view = self._robot.view
+        if view is None:
+            return ""
+        try:
+            write_picture(path, overview(view.look))
+        except OSError as error:
+            raise SensorError(
+                f"the picture cannot be written to {path}: {error.strerror}"
+            ) from None
+        self._print(f"The picture is in {path}.")
+        return ""
+
+    def _things(self) -> str:
+        sensor = self._robot.gaze.sensor
+        if isinstance(sensor, Stage):
+            self._print("You can show: " + ", ".join(sensor.things()))
+        else:
+            self._print(f"{sensor.name} shows what was recorded, nothing else.")
+        return ""
+
+    def _show_view(self) -> None:
+        if self._robot.view is not None:
+            self._print(things_in_view(self._robot.view))
+
+    def _has_left(self) -> bool:
+        latest = self._robot.exchanges[-1:] if self._robot.exchanges else []
+        return any(
+            said.judgement is not None and said.judgement.type <= named("Part")
+            for turn in latest
+            for said in turn.said
+        )
+
+    def _print(self, text: str, style: str = "") -> None:
+        self._out.print(text, markup=False, style=style or None)
+
+
+@contextmanager
+def _line_editing() -> Iterator[None]:
+    """Line editing and a history over sessions, where the terminal can have them."""
+    try:
+        import readline
+    except ImportError:
+        yield
+        return
+    if not sys.stdin.isatty():
+        yield
+        return
+    history = memory_path(None).with_name("history")
+    try:
+        readline.read_history_file(history)
+    except OSError:
+        readline.clear_history()
+    try:
+        yield
+    finally:
+        readline.set_history_length(1000)
+        try:
+            history.parent.mkdir(parents=True, exist_ok=True)
+            readline.write_history_file(history)
+        except OSError:
+            complain(f"the history could not be kept in {history}")
