@@ -19,6 +19,7 @@ from ttr.errors import (
     Unsupported,
     UpdateError,
 )
+from ttr.formation import wellformed
 from ttr.judgements import Judgement, Why
 from ttr.merging import amerge, merge
 from ttr.models import Model
@@ -95,6 +96,7 @@ __all__ = [
     "subtype",
     "this",
     "updates",
+    "wellformed",
 ]
 
 _LATER = {

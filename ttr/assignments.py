@@ -43,7 +43,7 @@ def head(T: Atom) -> Head:
     return T if isinstance(T, Basic) else T.pred
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Assignment:
     """Facts, witness functions and open types, under the axioms of a theory.
 
@@ -106,7 +106,8 @@ class Assignment:
         opened = self.opened
         if p.hi > 0.0 and p.lo < 1.0 and head(T) not in opened:
             opened = opened.set(head(T), True)
-        return replace(self._with(sit, T, p), opened=opened)
+        told = self._with(sit, T, p)
+        return told if opened is self.opened else replace(told, opened=opened)
 
     def with_perceived(self, sit: Object, T: PType) -> Assignment:
         """The assignment in which sit is of T as far as T's witness function says."""

@@ -130,7 +130,7 @@ def following_nesting(function: Callable[P, R]) -> Callable[P, R]:
         except RecursionError:
             raise Unsupported(
                 "this nests deeper than can be followed",
-                hint="use lists and records side by side, or sys.setrecursionlimit",
+                hint="put fewer records, lists and types inside one another",
             ) from None
 
     return followed

@@ -237,7 +237,7 @@ class Hypothetical:
     def _chosen(self, path: Path) -> Object:
         """The term chosen for the class of a place, along all equations.
 
-        Places on the way are remembered to be equal to it, so that no way is gone twice.
+        Places on the way are noted to be equal to it, so that no way is gone twice.
         """
         passed: list[tuple[str, ...]] = []
         chosen: Object = path

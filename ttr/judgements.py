@@ -45,17 +45,26 @@ class Why:
             waiting.extend(reversed(step.parts))
 
     def failure(self) -> Why | None:
-        """The first step at the bottom that is not certain, if there is one."""
+        """The step at the bottom that fails first, or None where all is certain.
+
+        What is refuted fails before what is only uncertain.
+        """
         if self.p == CERTAIN:
             return None
-        return next(filter(None, (part.failure() for part in self.parts)), self)
+        failing = self._failing()
+        return failing.failure() if failing else self
 
     def path(self) -> str:
-        """The path of the first field that is not certain, or the empty string."""
-        for part in self.parts:
-            if part.p != CERTAIN:
-                return ".".join(filter(None, (part.where, part.path())))
-        return ""
+        """The path of the field that fails first, or the empty string."""
+        failing = self._failing()
+        if failing is None:
+            return ""
+        return ".".join(filter(None, (failing.where, failing.path())))
+
+    def _failing(self) -> Why | None:
+        uncertain = [part for part in self.parts if part.p != CERTAIN]
+        refuted = [part for part in uncertain if part.p == REFUTED]
+        return next(iter([*refuted, *uncertain]), None)
 
     def __str__(self) -> str:
         """The derivation as an indented tree, what is claimed before its grounds."""

@@ -52,10 +52,10 @@ def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeN
 
 def _says_all(S: TypeNode, T: TypeNode, theory: Signature | None) -> bool:
     """Whether S is below T and has its labels, though nothing may be of S."""
-    below = subtype(S, T, theory).yes
-    if isinstance(S, RecordType) and isinstance(T, RecordType):
-        return below and all(label in S for label in T)
-    return below
+    match S, T:
+        case RecordType(), RecordType() if any(label not in S for label in T):
+            return False
+    return subtype(S, T, theory).yes
 
 
 def _merge_records(

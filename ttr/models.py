@@ -95,12 +95,12 @@ class Model:
         except TTRError as error:
             raise TTRError(f"{notation(sit)} : {T}: {error.message}") from None
         if isinstance(T, Basic | PType):
-            return _model(self._facts.with_fact(sit, T, p))
+            return self._with(self._facts.with_fact(sit, T, p))
         if p != CERTAIN:
             raise Unsupported(
                 f"only basic types and ptypes take a degree, but {T} was given {p}"
             )
-        return _model(told(self._facts, sit, T))
+        return self._with(told(self._facts, sit, T))
 
     def witnessed(self, head: Basic | Pred, /, *, by: WitnessFunction) -> Model:
         """The model in which a Python function says what is of a type.
@@ -121,7 +121,7 @@ class Model:
             raise TTRError(
                 f"the witness function of {head} is a Python function, found {by!r}"
             )
-        return _model(self._facts.with_function(head, by))
+        return self._with(self._facts.with_function(head, by))
 
     @following_nesting
     def judge(self, sit: object, T: TypeNode, /) -> Judgement:
@@ -151,7 +151,7 @@ class Model:
         if not isinstance(sit, Record):
             return self.judge(sit, T)
         seen, facts = filled(self._facts, sit, T)
-        return _model(facts).judge(seen, T)
+        return self._with(facts).judge(seen, T)
 
     @following_nesting
     def create(self, T: TypeNode, /) -> tuple[Object, Model]:
@@ -164,7 +164,15 @@ class Model:
         """
         _, T = _closed((), T)
         witness, facts = created(self._facts, T)
-        return witness, _model(facts)
+        return witness, self._with(facts)
+
+    def _with(self, facts: Assignment) -> Model:
+        """The model of these facts: the same model where they are the same."""
+        if facts is self._facts:
+            return self
+        model = object.__new__(Model)
+        model._facts = facts
+        return model
 
 
 def _signature(theory: Signature | _HasSignature | None) -> Signature:
@@ -174,12 +182,6 @@ def _signature(theory: Signature | _HasSignature | None) -> Signature:
     if not isinstance(signature, Signature):
         raise TTRError(f"a model is of a theory, found {theory!r}")
     return signature
-
-
-def _model(facts: Assignment) -> Model:
-    model = object.__new__(Model)
-    model._facts = facts
-    return model
 
 
 def _closed(sit: object, T: object) -> tuple[Object, TypeNode]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ttr.errors import TTRError, suggestion
+from ttr.objects import labelled
+from ttr.printing import notation
 from ttr.syntax import Object, Record, freeze, identity
 
 __all__ = ["differences", "replace"]
@@ -23,7 +25,9 @@ def replace(
     >>> print(replace(r, {"bg.size": 4}, x="sam"))
     {bg = {size = 4}, x = sam}
     """
-    for path, value in {**(changes or {}), **labels}.items():
+    for path, value in labelled("replace", changes, labels).items():
+        if not isinstance(path, str):
+            raise TTRError(f"a path is written as a text, as in 'bg.x', found {path!r}")
         r = _replaced(r, tuple(path.split(".")), freeze(value))
     return r
 
@@ -47,8 +51,6 @@ def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:
     >>> list(differences(record(x="a", y="b"), record(x="c", y="b")))
     ['x: a → c']
     """
-    from ttr.printing import notation
-
     if not isinstance(before, Record) or not isinstance(after, Record):
         if identity(before) != identity(after):
             yield f"{path}: {notation(before)} → {notation(after)}"

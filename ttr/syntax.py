@@ -129,9 +129,9 @@ class Universe(TypeNode):
 
     @staticmethod
     def _normal(name: str, level: int = 0) -> tuple[str, int]:
-        if name not in ("Type", "RecType"):
+        if not isinstance(name, str) or name not in ("Type", "RecType"):
             raise IllFormed(f"a type of types is Type or RecType, found {_kind(name)}")
-        if not isinstance(level, int) or level < 0:
+        if type(level) is not int or level < 0:
             raise IllFormed(f"a level of types is 0 or more, found {level!r}")
         return name, level
 
@@ -144,9 +144,11 @@ class PType(TypeNode):
     args: tuple[Object, ...]
 
     @staticmethod
-    def _normal(pred: Pred, args: Iterable[object]) -> tuple[object, ...]:
+    def _normal(pred: Pred, args: object) -> tuple[object, ...]:
         if not isinstance(pred, Pred):
             raise IllFormed(f"a ptype is of a predicate, found {_kind(pred)}")
+        if not isinstance(args, tuple | list):
+            raise IllFormed(f"the arguments of {pred} are a tuple, found {_kind(args)}")
         frozen = tuple(map(freeze, args))
         if not any(len(arity) == len(frozen) for arity in pred.arities):
             raise IllFormed(_wrong_arity(pred, len(frozen)))
@@ -305,7 +307,7 @@ def rectype(
     Traceback (most recent call last):
     ttr.errors.IllFormed: the path y leads nowhere: [c : dog(.y), x : Ind] has no y
     """
-    from ttr.wellformed import checked
+    from ttr.formation import checked
 
     given = labelled("rectype", fields, labels)
     for label, T in given.items():

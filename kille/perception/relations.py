@@ -12,12 +12,16 @@ is nothing to part it from, and that nearness is its degree.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.svm import LinearSVC
 
 from kille.perception.geometry import Direction
 from kille.perception.learners import Key
+
+if TYPE_CHECKING:
+    from sklearn.svm import LinearSVC
 
 _UNIT = 0.1  # metres; offsets on a table are about one unit long
 _STRICTNESS = 10.0
@@ -74,6 +78,9 @@ class RelationMemory:
         return shares
 
     def _fitted(self) -> LinearSVC:
+        # Its import takes longer than all else at start: wait until a word needs it.
+        from sklearn.svm import LinearSVC
+
         places = np.array([place for place, _ in self._heard.values()]) / _UNIT
         labels = [label for _, label in self._heard.values()]
         # In the primal form the solver takes no random steps.

@@ -1,12 +1,13 @@
-"""Is a record type well-formed: does every path lead somewhere, to the right domain?"""
+"""Well-formed types: every path leads somewhere, to what fits, and in no circle."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ttr.errors import IllFormed, suggestion
+from ttr.circles import circle
+from ttr.errors import IllFormed, following_nesting, suggestion
 from ttr.printing import notation
-from ttr.subtyping import subtype
+from ttr.subtyping import Answer, subtype
 from ttr.syntax import (
     ListOf,
     Meet,
@@ -15,12 +16,38 @@ from ttr.syntax import (
     RecordType,
     Singleton,
     TypeNode,
+    as_type,
     escaping,
     meet,
 )
 from ttr.theories import Signature
 
-__all__ = ["checked", "target"]
+__all__ = ["checked", "target", "wellformed"]
+
+
+@following_nesting
+def wellformed(T: TypeNode, theory: Signature | None = None, /) -> Answer:
+    """Whether every path in T leads to a field that fits, and none in a circle.
+
+    A type with a circle can be judged, but no witness of it built. Where the theory is
+    given, what fits by an axiom fits. Raises `IllFormed` for what is no type.
+
+    >>> from ttr.syntax import Ind, rectype, this
+    >>> print(wellformed(rectype(x=Ind, y=Ind @ this.x)))
+    yes: every path leads to a field that fits
+    >>> print(wellformed(rectype(x=Ind @ this.y, y=Ind @ this.x)))
+    no: its paths go in a circle: x → y → x
+    """
+    T = as_type(T)
+    around = circle(T)
+    if around:
+        return Answer("no", f"its paths go in a circle: {around}")
+    if isinstance(T, RecordType):
+        try:
+            checked(T, theory)
+        except IllFormed as error:
+            return Answer("no", error.message)
+    return Answer("yes", "every path leads to a field that fits")
 
 
 def checked(T: RecordType, theory: Signature | None = None) -> RecordType:

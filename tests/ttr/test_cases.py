@@ -1,0 +1,282 @@
+"""The shared cases that the constructors of this version reach, by their ids."""
+
+import pytest
+
+from ttr import (
+    Basic,
+    IllFormed,
+    Ind,
+    ListOf,
+    Model,
+    Pred,
+    RecType,
+    Refused,
+    TTRError,
+    Type,
+    amerge,
+    merge,
+    outer,
+    record,
+    rectype,
+    subtype,
+    this,
+)
+from ttr.circles import circle
+from ttr.theories import Axiom, Signature
+
+man, run, dog, boy = (Pred(name, Ind) for name in ("man", "run", "dog", "boy"))
+love, hug = Pred("love", Ind, Ind), Pred("hug", Ind, Ind)
+A, B, C = Basic("A"), Basic("B"), Basic("C")
+
+
+@pytest.fixture
+def M():
+    """What every case starts from: four individuals, and e1 : man(j)."""
+    M = Model().given("e1", man("j"))
+    for name in "jklm":
+        M = M.given(name, Ind)
+    return M
+
+
+HUGGING = rectype(x=Ind, c1=boy(this.x), y=Ind, c2=dog(this.y), e=hug(this.x, this.y))
+
+
+def test_J01_basic_type(M):
+    assert M.judge("j", Ind).holds is True
+    assert M.judge("h", Ind).holds is False
+
+
+def test_J02_a_witness_condition(M):
+    Real = Basic("Real")
+    M = M.witnessed(Real, by=lambda a: isinstance(a, float))
+    assert M.judge(0.5, Real).holds is True
+    assert M.judge("a", Real).holds is False
+
+
+def test_J04_intensionality():
+    M = Model().given("a", A).given("b", A).given("b", B).given("a", B)
+    assert A is not B
+    assert M.judge("a", A).holds
+    assert M.judge("a", B).holds
+
+
+def test_J05_meet():
+    M = Model().given("a", A).given("a", B).given("b", A)
+    assert M.judge("a", A & B).holds is True
+    assert M.judge("b", A & B).holds is False
+
+
+def test_J07_singleton(M):
+    assert M.judge("j", Ind @ "j").holds is True
+    assert M.judge("k", Ind @ "j").holds is False
+    assert M.judge("x", Ind @ "j").holds is False
+    assert M.judge("x", Ind @ "x").holds is False
+
+
+def test_J10_dependent_field(M):
+    T = rectype(x=Ind, c=man(this.x))
+    assert M.judge(record(x="j", c="e1"), T).holds is True
+    assert M.judge(record(x="k", c="e1"), T).holds is False
+
+
+def test_J11_manifest_field(M):
+    T = rectype(x=Ind, y=Ind @ this.x)
+    assert M.judge(record(x="j", y="j", c="e1"), T).holds is True
+    assert M.judge(record(x="j", y="k"), T).holds is False
+
+
+def test_J13_a_boy_hugs_a_dog(M):
+    M = M.given("s1", boy("j")).given("s2", dog("k")).given("s3", hug("j", "k"))
+    events = {"c1": "s1", "c2": "s2", "e": "s3"}
+    assert M.judge(record(events, x="j", y="k"), HUGGING).holds is True
+    assert M.judge(record(events, x="k", y="j"), HUGGING).holds is False
+
+
+def test_J14_a_circle_is_checked_but_not_built(M):
+    T = rectype(x=Ind @ this.y, y=Ind @ this.x)
+    assert M.judge(record(x="j", y="j"), T).holds is True
+    assert M.judge(record(x="j", y="k"), T).holds is False
+    assert circle(T)
+    with pytest.raises(Refused, match="field x"):
+        M.create(T)
+
+
+def test_J17_converse_predicates():
+    left, right = Pred("left", Ind, Ind), Pred("right", Ind, Ind)
+    there = Axiom(right(this.b, this.a), left(this.a, this.b))
+    back = Axiom(left(this.a, this.b), right(this.b, this.a))
+    M = Model(Signature(axioms=(there, back))).given("s1", right("k", "j"))
+    assert M.judge("s1", left("j", "k")).holds is True
+    assert M.judge("s1", left("k", "j")).holds is False
+    assert M.judge("s9", left("j", "k")).holds is False
+
+
+def test_S01_width():
+    assert subtype(rectype(x=Ind, y=Ind), rectype(x=Ind)).yes
+    assert subtype(rectype(x=Ind), rectype(x=Ind, y=Ind)).no
+
+
+def test_S03_a_nested_field_tied_to_an_outer_one():
+    tied = rectype(x=rectype(x=Ind @ outer.y, e=man(this.x)), y=Ind)
+    free = rectype(x=rectype(x=Ind, e=man(this.x)), y=Ind)
+    assert subtype(tied, free).yes
+    assert subtype(free, tied).no
+
+
+def test_S04_meet():
+    assert A & B <= A
+    assert subtype(A, A & B).no
+
+
+def test_M01_disjoint():
+    assert merge(rectype(a=Ind), rectype(b=Ind)) is rectype(a=Ind, b=Ind)
+
+
+def test_M02_the_more_specific_field_is_kept():
+    merged = merge(rectype(a=Ind, b=Ind), rectype(a=Ind @ "j"))
+    assert merged is rectype(a=Ind @ "j", b=Ind)
+
+
+def test_M04_the_same_path():
+    merged = merge(rectype(x=Ind, e=run(this.x)), rectype(x=Ind, e=man(this.x)))
+    assert merged is rectype(x=Ind, e=run(this.x) & man(this.x))
+
+
+def test_M05_other_paths():
+    merged = merge(rectype(x=Ind, e=run(this.x)), rectype(y=Ind, e=man(this.y)))
+    assert merged is rectype(x=Ind, y=Ind, e=run(this.x) & man(this.y))
+
+
+def test_M07_and_X29_a_dependent_with_a_plain_field():
+    merged = merge(rectype(x=Ind, e=man(this.x)), rectype(e=man("j")))
+    assert merged is rectype(x=Ind, e=man(this.x) & man("j"))
+    assert merged.labels[0] == "x"
+
+
+def test_A01_amerge_replaces():
+    second = rectype(x=Ind, e=man(this.x))
+    assert amerge(rectype(x=Ind, e=run(this.x)), second) is second
+
+
+def test_A03_amerge_of_what_is_no_record_type():
+    assert amerge(Ind, RecType) is RecType
+
+
+def test_A05_amerge_goes_into_nested_types():
+    merged = amerge(rectype(a=rectype(x=Ind, y=Ind)), rectype(a=rectype(x=Type)))
+    assert merged is rectype(a=rectype(x=Type, y=Ind))
+
+
+def test_V01_well_formed():
+    with pytest.raises(IllFormed, match="the path x leads nowhere"):
+        rectype(x=Ind, c=rectype(c=man(this.x)))
+    assert rectype(x=rectype(x=Ind, e=man(this.x)), y=Ind @ this.x.x).labels
+    with pytest.raises(IllFormed, match=r"the field e, man\(x\) needs Ind for x"):
+        rectype(x=Type, e=man(this.x))
+
+
+def test_P01_nothing_known():
+    T = Basic("T")
+    M = Model(Signature(opened=frozenset([T])))
+    assert M.judge("b", T).p == (0, 1)
+
+
+def test_P07_a_record():
+    M = Model().given("a", Ind).given("b", Ind)
+    M = M.given("s1", boy("a"), 0.9).given("s2", dog("b"), 0.95)
+    M = M.given("s3", hug("a", "b"), 0.7)
+    r = record(x="a", c1="s1", y="b", c2="s2", e="s3")
+    assert M.judge(r, HUGGING).p == pytest.approx((0.5985, 0.5985))
+
+
+def test_P09_a_missing_field(M):
+    assert M.judge(record(x="a"), rectype(x=Ind, y=Ind)).p == (0, 0)
+
+
+def test_X01_lists_are_covariant():
+    Dog = Basic("Dog")
+    theory = Signature(axioms=(Axiom(Dog, Ind),))
+    assert subtype(ListOf(Dog), ListOf(Ind), theory).yes
+    assert subtype(ListOf(Dog), ListOf(Ind)).no
+
+
+def test_X07_a_singleton_of_an_unknown_object():
+    assert subtype(Ind @ "zz", Ind).yes
+
+
+def test_X09_asking_invents_no_witness():
+    M = Model(Signature(opened=frozenset([A])))
+    before = M.judge(record(x="a"), rectype(x=A)).p
+    assert subtype(rectype(x=A, y=A), rectype(x=A)).yes
+    assert M.judge(record(x="a"), rectype(x=A)).p == before == (0, 1)
+
+
+def test_X11_the_order_of_fields():
+    assert rectype({"x": Ind, "y": Ind}) is rectype({"y": Ind, "x": Ind})
+
+
+def test_X13_brackets_of_meets():
+    assert A & (B & C) is (A & B) & C
+    assert A & (B & C) <= (A & B) & C
+
+
+def test_X17_a_name_is_not_identity():
+    assert Basic("run(j)") is not run("j")
+    assert str(Basic("run(j)")) == str(run("j"))
+    assert Basic("run(j)") & run("j") is run("j") & Basic("run(j)")
+
+
+def test_X19_arity():
+    with pytest.raises(IllFormed, match=r"run takes 1 argument \(Ind\), but has 3"):
+        run("j", "k", "l")
+
+
+def test_X21_arrays():
+    import numpy as np
+
+    Image = Basic("Image")
+    M = Model().witnessed(Image, by=lambda a: isinstance(a, np.ndarray))
+    assert M.judge(np.zeros(3), Image).holds
+    assert M.judge(np.ones(3), Image).holds
+    assert M.judge(np.ones(3), Image).holds
+
+
+def test_X23_a_meet_is_judged_in_its_model_only():
+    outside = Model()
+    inside = outside.given("a", A & B)
+    assert inside.judge("a", A).holds is True
+    assert outside.judge("a", A).holds is False
+
+
+def test_X25_stratification(M):
+    assert M.judge(Type, Type).holds is False
+
+
+def test_X27_amerge_forgets_a_more_specific_field():
+    assert amerge(rectype(x=Ind @ "j"), rectype(x=Ind)) is rectype(x=Ind)
+
+
+@pytest.mark.parametrize("p", [-1, 1.5, "0.5", None, (0.5, 0.2), float("nan"), 10**400])
+def test_X35_probabilities_out_of_range(p):
+    with pytest.raises(TTRError, match=r"a : A: .* is a number in \[0, 1\]"):
+        Model().given("a", A, p)
+
+
+def test_T01_the_hierarchy_of_types(M):
+    assert M.judge(rectype(x=Ind), RecType).holds is True
+    assert M.judge(rectype(x=RecType), RecType).holds is False
+
+
+def test_D01_turn_change_then_greeting():
+    greet = Pred("greet", Ind, Ind)
+    board = rectype(spkr=Ind @ "a", addr=Ind @ "b", moves=ListOf(Type) @ [])
+    r, M = Model().create(board)
+    turned = amerge(board, rectype(spkr=Ind @ r.addr, addr=Ind @ r.spkr))
+    assert turned is rectype(spkr=Ind @ "b", addr=Ind @ "a", moves=ListOf(Type) @ [])
+    r, M = M.create(turned)
+    greeted = amerge(turned, rectype(moves=ListOf(Type) @ [greet(r.spkr, r.addr)]))
+    assert str(greeted) == (
+        "[addr = a : Ind, moves = [greet(b, a)] : list(Type), spkr = b : Ind]"
+    )
+    r, M = M.create(greeted)
+    assert M.judge(r, greeted).holds

@@ -1,0 +1,57 @@
+"""Errors keep their place and their way out, through pickles too."""
+
+import pickle
+
+import pytest
+
+from ttr import IllFormed, Refused, TTRError
+from ttr.errors import Span, Unsupported, following_nesting, suggestion
+
+TEXT = "basic Ind\nX := [x : Idn]\n"
+SPAN = Span.of("a.ttr", TEXT, 20, 23)
+
+
+def test_the_place_is_drawn():
+    error = IllFormed("nothing is called Idn", hint="did you mean Ind?").at(SPAN)
+    assert str(error) == (
+        "nothing is called Idn\n"
+        "  ┌─ a.ttr:2:11\n"
+        "2 │ X := [x : Idn]\n"
+        "  │           ^^^\n"
+        "help: did you mean Ind?"
+    )
+    assert isinstance(error, IllFormed)
+
+
+def test_the_first_place_stays():
+    error = Refused("no", span=SPAN)
+    assert error.at(Span.of("b.ttr", TEXT, 0, 1)) is error
+
+
+def test_a_pickled_error_is_whole():
+    error = pickle.loads(pickle.dumps(Refused("no", span=SPAN, hint="yes")))
+    assert (type(error), error.span, error.hint) == (Refused, SPAN, "yes")
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "line", "column", "length"),
+    [(0, 5, 1, 1, 5), (5, 15, 1, 6, 4), (10, 10, 2, 1, 1), (99, 120, 3, 1, 1)],
+)
+def test_spans(start, end, line, column, length):
+    span = Span.of("a.ttr", TEXT, start, end)
+    assert (span.line, span.column, span.length) == (line, column, length)
+
+
+def test_suggestions():
+    assert suggestion("dgo", ["dog", "cat"]) == "did you mean dog?"
+    assert suggestion("zebra", ["dog", "cat"]) == ""
+
+
+def test_too_deep_a_nesting_is_an_error_of_ours():
+    @following_nesting
+    def endless(n):
+        return endless.__wrapped__(n + 1)
+
+    with pytest.raises(Unsupported, match="nests deeper than can be followed"):
+        endless(0)
+    assert issubclass(Unsupported, TTRError)

@@ -1,0 +1,390 @@
+"""Models: telling, judging, and what axioms and witness functions add."""
+
+import gc
+
+import numpy as np
+import pytest
+
+from ttr import (
+    Basic,
+    Degree,
+    IllFormed,
+    Ind,
+    ListOf,
+    Model,
+    Pred,
+    Rec,
+    RecType,
+    Refused,
+    TTRError,
+    Type,
+    Undecided,
+    Unsupported,
+    outer,
+    record,
+    rectype,
+    this,
+)
+from ttr.theories import Axiom, Given, Signature
+
+A, B, C = Basic("A"), Basic("B"), Basic("C")
+dog, puppy, hug = Pred("dog", Ind), Pred("puppy", Ind), Pred("hug", Ind, Ind)
+left, right = Pred("left", Ind, Ind), Pred("right", Ind, Ind)
+
+Dog = rectype(x=Ind, c=dog(this.x))
+PUPPIES = Signature(axioms=(Axiom(puppy(this.x), dog(this.x)),))
+SIDES = Signature(
+    axioms=(
+        Axiom(right(this.x, this.y), left(this.y, this.x)),
+        Axiom(left(this.x, this.y), right(this.y, this.x)),
+    )
+)
+
+
+def test_a_record_is_taken_apart():
+    T = rectype(x=Ind, n=rectype(c=hug(outer.x, this.y), y=Ind), l=ListOf(Ind @ "j"))
+    r = record(x="a", n={"c": "s", "y": "b"}, l=["j", "j"])
+    M = Model().given(r, T)
+    for sit, atom in [("a", Ind), ("b", Ind), ("s", hug("a", "b")), ("j", Ind)]:
+        assert M.judge(sit, atom).holds is True
+    assert M.judge(r, T).holds is True
+
+
+def test_a_dictionary_is_a_record_and_a_list_a_tuple():
+    M = Model().given({"x": "a"}, rectype(x=Ind)).given(["b"], ListOf(Ind))
+    assert M.judge({"x": "a"}, rectype(x=Ind)).sit == record(x="a")
+    assert M.judge(("b", "a"), ListOf(Ind)).holds is True
+
+
+@pytest.mark.parametrize(
+    ("sit", "T", "message"),
+    [
+        (record(x="a"), Dog, "{x = a} : [x : Ind, c : dog(x)] cannot be given: there"),
+        ("a", Dog, "a : [x : Ind, c : dog(x)] cannot be given: it is no record"),
+        ("a", ListOf(Ind), "a : list(Ind) cannot be given: it is no list"),
+        ("a", Ind @ "b", "a : Ind@b cannot be given: it is another object"),
+        ("a", Type, "a : Type cannot be given: it is no type"),
+        (Type, Type, "Type : Type cannot be given: it is of level 1"),
+        (Ind, RecType, "Ind : RecType cannot be given: it is no record type"),
+        (
+            record(x="a", n={"c": "s"}),
+            rectype(x=Ind, n=rectype(c=dog(outer.x)) & rectype(d=dog("a"))),
+            "cannot be given: there is no d",
+        ),
+    ],
+)
+def test_what_cannot_be_given(sit, T, message):
+    with pytest.raises(Refused) as caught:
+        Model().given(sit, T)
+    assert message in str(caught.value)
+
+
+def test_what_a_model_takes():
+    M = Model()
+    with pytest.raises(IllFormed, match="expected a type, found the predicate dog"):
+        M.given("s", dog)
+    with pytest.raises(IllFormed, match="expected a type, found the object 'Ind'"):
+        M.judge("s", "Ind")
+    with pytest.raises(IllFormed, match=r"dog\(\.x\) has paths that lead nowhere"):
+        M.judge("s", dog(this.x))
+    with pytest.raises(IllFormed, match=r"\{x = \.y\} has paths that lead nowhere"):
+        M.given(record(x=this.y), rectype(x=Ind))
+    with pytest.raises(IllFormed, match="paths that lead nowhere"):
+        M.create(rectype(c=dog(outer.x)))
+    with pytest.raises(Unsupported, match="only basic types and ptypes take a degree"):
+        M.given("a", A & B, 0.5)
+    with pytest.raises(TTRError, match="a model is of a theory, found 3"):
+        Model(3)
+    with pytest.raises(TTRError, match="for a basic type or a predicate, found dog"):
+        M.witnessed(dog("a"), by=bool)
+    with pytest.raises(TTRError, match="witness function of Ind is a Python function"):
+        M.witnessed(Ind, by=0.5)
+
+
+def test_open_and_closed():
+    M = Model(Signature(opened=frozenset([A, dog])))
+    assert M.judge("a", A).p == M.judge("s", dog("a")).p == (0, 1)
+    assert M.judge("a", B).p == (0, 0)
+    M = M.given("a", B, 0.5)
+    assert M.judge("b", B).p == (0, 1)
+    M = Model().given("a", B, 0).given("b", B, 1)
+    assert M.judge("c", B).p == (0, 0)
+    with pytest.raises(Undecided, match="neither certain nor refuted"):
+        _ = Model(Signature(opened=frozenset([A]))).judge("a", A).holds
+
+
+def test_a_theory_gives_what_it_starts_from():
+    theory = Signature(givens=(Given("a", Ind), Given("s", dog("a"), (0.2, 0.4))))
+    M = Model(theory)
+    assert M.theory is theory
+    assert M.judge(record(x="a", c="s"), Dog).p == (0.2, 0.4)
+
+
+def test_what_was_said_last_counts():
+    M = Model().given("a", A, 0.3).given("a", A, (0.4, 0.6)).given("a", A)
+    assert M.judge("a", A).p == (1, 1)
+    assert M.given("a", A) is M
+    assert M.given(("a", "a"), ListOf(A)) is M
+
+
+def test_arrays_are_kept_apart():
+    M = Model()
+    for _ in range(50):
+        M = M.given(np.zeros(3), A)
+    gc.collect()
+    assert not any(M.judge(np.zeros(3), A).holds for _ in range(200))
+    a = np.ones(2)
+    M = M.given(a, A).given([a], ListOf(A))
+    assert M.judge(a, A).holds is True
+    assert M.judge([a], ListOf(A @ a)).holds is True
+    assert M.judge({"x": a}, rectype(x=A)) == M.judge({"x": a}, rectype(x=A))
+
+
+def test_objects_of_other_classes():
+    M = Model().given(1, A)
+    assert [M.judge(a, A).holds for a in (1, True, 1.0, "1", (1,))] == [
+        True,
+        False,
+        False,
+        False,
+        False,
+    ]
+
+
+def test_a_declared_subtype():
+    M = Model(PUPPIES).given("s", puppy("rex"), 0.7)
+    j = M.judge("s", dog("rex"))
+    assert j.p == (0.7, 1)
+    assert j.why.rule == "by puppy(x) <: dog(x) and s : puppy(rex)"
+    assert M.judge("s", dog("fido")).p == (0, 0)
+    assert M.judge("s", dog("rex") & puppy("rex")).p == (0.7, 0.7)
+
+
+def test_what_says_the_same_is_one_event():
+    M = Model(SIDES).given("s", right("a", "b"), 0.6)
+    assert M.judge("s", left("b", "a")).p == (0.6, 0.6)
+    assert M.judge("s", left("b", "a") & right("a", "b")).p == (0.6, 0.6)
+    T = rectype(c=left("b", "a"), d=right("a", "b"))
+    assert M.judge(record(c="s", d="s"), T).p == (0.6, 0.6)
+    assert M.given("t", right("a", "b"), 0.5).judge(
+        record(c="s", d="t"), T
+    ).p == pytest.approx((0.3, 0.3))
+
+
+def test_a_bound_from_above():
+    M = Model(PUPPIES).given("s", dog("rex"), (0.1, 0.4)).given("t", puppy("rex"), 0.2)
+    assert M.judge("s", puppy("rex")).p == (0, 0.4)
+    M = M.given("s", puppy("rex"), (0.05, 0.4))
+    assert M.judge("s", dog("rex")).p == (0.1, 0.4)
+    assert M.judge("s", puppy("rex") & dog("rex")).p == (0.05, 0.4)
+
+
+def test_a_model_refuses_what_an_axiom_contradicts():
+    M = Model(PUPPIES).given("s", dog("rex"), 0)
+    with pytest.raises(
+        Refused,
+        match=r"s : puppy\(rex\) cannot have the probability 1: by puppy\(x\) <: dog",
+    ):
+        M.given("s", puppy("rex"))
+    M = Model(PUPPIES).given("s", puppy("rex"))
+    with pytest.raises(
+        Refused, match=r"by puppy\(x\) <: dog\(x\) and s : puppy\(rex\)"
+    ):
+        M.given("s", dog("rex"), (0, 0.5))
+
+
+def test_the_reason_does_not_depend_on_addresses():
+    p, q = Pred("p", Ind), Pred("q", Ind, Ind)
+    theory = Signature(axioms=(Axiom(q(this.x, this.y), p(this.x)),))
+    M = Model(theory)
+    for name in "edcba":
+        M = M.given("s", q("j", name))
+    assert M.judge("s", p("j")).why.rule == "by q(x, y) <: p(x) and s : q(j, a)"
+
+
+# --- witness functions ----------------------------------------------------------------
+
+
+def test_a_witness_function_of_a_basic_type():
+    M = Model().witnessed(A, by=lambda a: a == "a")
+    assert M.judge("a", A).holds is True
+    assert M.judge("b", A).holds is False
+    assert M.judge("a", A).why.rule == "by the witness function of A"
+    with pytest.raises(Refused, match="b : A is refused by the witness function of A"):
+        M.given("b", A)
+    assert M.given("b", A, 0).judge("b", A).holds is False
+
+
+def test_a_witness_function_rules_over_declared_subtypes():
+    M = Model(Signature(axioms=(Axiom(A, B),))).witnessed(B, by=lambda b: False)
+    with pytest.raises(Refused, match="b : A is refused by the witness function of B"):
+        M.given("b", A)
+
+
+def test_the_word_of_the_tutor_outweighs_a_degree():
+    M = Model().witnessed(dog, by=lambda x: 0.1).given("s", dog("a"))
+    assert M.judge("s", dog("a")).holds is True
+
+
+def test_judging_asks_no_function_of_a_predicate():
+    asked = []
+    M = Model().witnessed(dog, by=asked.append)
+    assert M.judge("s", dog("a")).p == (0, 1)
+    assert asked == []
+
+
+@pytest.mark.parametrize(
+    ("answer", "p"),
+    [(True, (1, 1)), (0, (0, 0)), (0.25, (0.25, 0.25)), ((0.1, 0.2), (0.1, 0.2))],
+)
+def test_answers_of_witness_functions(answer, p):
+    assert Model().witnessed(A, by=lambda a: answer).judge("a", A).p == p
+    assert Model().witnessed(A, by=lambda a: np.float64(0.5)).judge("a", A).p[0] == 0.5
+
+
+def test_faults_of_witness_functions():
+    M = Model().witnessed(A, by=lambda a: a.missing)
+    with pytest.raises(TTRError, match=r"function of A\(a\) failed: AttributeError"):
+        M.judge("a", A)
+    M = Model().witnessed(A, by=lambda a: "yes")
+    with pytest.raises(TTRError, match=r"of A\(<ndarray 3>\): the answer is a number"):
+        M.judge(np.zeros(3), A)
+
+
+# --- perceiving -----------------------------------------------------------------------
+
+Image = Basic("Image")
+cup = Pred("cup", Ind, Image)
+Cup = rectype(x=Ind, img=Image, c=cup(this.x, this.img))
+
+
+@pytest.fixture
+def seeing():
+    degrees = {"frame7": 0.8, "frame8": (0.1, 0.3), "frame9": 0}
+    M = Model().witnessed(cup, by=lambda x, img: degrees[img])
+    M = M.given("o1", Ind)
+    for image in degrees:
+        M = M.given(image, Image)
+    return M
+
+
+@pytest.mark.parametrize(
+    ("image", "p"), [("frame7", (0.8, 0.8)), ("frame8", (0.1, 0.3)), ("frame9", (0, 0))]
+)
+def test_perceiving_fills_what_is_missing(seeing, image, p):
+    r = record(x="o1", img=image)
+    assert seeing.judge(r, Cup).holds is False
+    j = seeing.perceive(r, Cup)
+    assert j.sit == record(x="o1", img=image, c="e1")
+    assert j.p == p
+    assert j.model.judge("e1", cup("o1", image)).p == p
+    assert j.model.judge(j.sit, Cup).p == p
+    assert seeing.judge("e1", cup("o1", image)).p == (0, 1)
+
+
+def test_perceiving_in_nested_types_and_meets(seeing):
+    M = seeing.witnessed(dog, by=lambda x: 0.5)
+    T = rectype(x=Ind, n=rectype(c=dog(outer.x)), m=rectype(y=Ind))
+    j = M.perceive(record(x="o1"), T & rectype(d=dog("o1") & cup("o1", "frame7")))
+    assert j.sit == record(x="o1", n={"c": "e2"}, d="e1")
+    assert j.p == (0, 0)
+    assert j.why.path() == "m"
+    j = M.perceive({"x": "o1", "m": {"y": "o1"}}, T)
+    assert j.p == (0.5, 0.5)
+
+
+def test_what_is_there_is_not_looked_for(seeing):
+    r = record(x="o1", img="frame7", c="s")
+    j = seeing.perceive(r, Cup)
+    assert j.sit == r
+    assert j.p == (0, 1)
+
+
+def test_what_cannot_be_perceived(seeing):
+    assert seeing.perceive("o1", Ind).holds is True
+    assert seeing.perceive(record(img="frame7"), Cup).sit == record(img="frame7")
+    assert seeing.perceive(record(), rectype(x=Ind)).p == (0, 0)
+
+
+# --- creating -------------------------------------------------------------------------
+
+
+def test_a_created_name_is_new():
+    M = Model().given("a1", Ind).given("s", hug("a2", "a3")).given(["a4"], ListOf(Ind))
+    a, M = M.create(Ind)
+    assert a == "a5"
+    b, M = M.create(Ind)
+    assert b == "a6"
+    s, M = M.create(dog(a))
+    assert s == "s7"
+    assert M.judge(record(x=a, c=s), Dog).holds
+
+
+def test_creating_what_has_a_form():
+    M = Model()
+    assert M.create(ListOf(A))[0] == ()
+    assert M.create(ListOf(A) & ListOf(B) & C)[0] == ()
+    assert M.create(RecType)[0] is Rec
+    assert M.create(Ind @ "j")[0] == "j"
+    assert M.create(A & B @ "j")[0] == "j"
+    r, after = M.create(rectype(x=A) & rectype(x=B, y=C @ this.x) & A)
+    assert r.x == r.y
+    for T in (A & B & C,):
+        assert after.judge(r.x, T).holds
+    assert after.judge(r, A).holds
+
+
+@pytest.mark.parametrize(
+    "T",
+    [
+        A @ "a" & B @ "b",
+        ListOf(A) & Rec,
+        ListOf(A) @ "a",
+        Type @ Type,
+        rectype(c=dog("a") @ this.d, d=dog("a") @ this.c),
+        rectype(x=A @ {"y": this.x}),
+    ],
+)
+def test_what_cannot_be_created(T):
+    with pytest.raises(Refused):
+        Model().create(T)
+
+
+def test_a_witness_function_may_refuse_what_is_made_up():
+    M = Model().witnessed(A, by=lambda a: isinstance(a, float))
+    with pytest.raises(Refused, match="refused by the witness function of A"):
+        M.create(A)
+    assert M.create(A @ 0.5)[0] == 0.5
+
+
+# --- size -----------------------------------------------------------------------------
+
+
+def test_wide_types():
+    n = 5000
+    fields = {f"x{i}": Ind for i in range(n // 2)}
+    events = {f"c{i}": dog(this[f"x{i}"]) for i in range(n // 2)}
+    T = rectype({**fields, **events})
+    r, M = Model().create(T)
+    assert M.judge(r, T).holds
+    assert Model().given(r, T).judge(r, T).holds
+
+
+def test_long_lists():
+    names = [f"a{i}" for i in range(100_000)]
+    M = Model().given("a", A, 0.5)
+    assert M.judge(["a"] * 100_000, ListOf(A)).p == (0.5, 0.5)
+    failed = Model().judge(names, ListOf(A)).why
+    assert failed.failure().sit == "a0"
+
+
+def test_what_nests_too_deep_is_said_so():
+    r, T = record(), Rec
+    for _ in range(3000):
+        r, T = record(n=r), rectype(n=T)
+    with pytest.raises(Unsupported, match="nests deeper than can be followed"):
+        Model().judge(r, T)
+
+
+def test_degrees_are_intervals():
+    assert Model().given("a", A, [0.25, 0.5]).judge("a", A).p == Degree(0.25, 0.5)

@@ -1,0 +1,94 @@
+"""Notation and Python out of types and objects."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import ttr
+from ttr import (
+    Basic,
+    Ind,
+    ListOf,
+    Pred,
+    Rec,
+    RecType,
+    Type,
+    outer,
+    record,
+    rectype,
+    this,
+)
+from ttr.printing import notation
+
+dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)
+
+WRITTEN = {
+    "[x : Ind, c : dog(x)]": rectype(c=dog(this.x), x=Ind),
+    "[x = j : Ind]": rectype(x=Ind @ "j"),
+    "[x : Ind, y = x : Ind]": rectype(x=Ind, y=Ind @ this.x),
+    "[x : Ind, n : [c : dog(x)]]": rectype(x=Ind, n=rectype(c=dog(outer.x))),
+    "[x : Ind, n : [c : dog(^.x), x : Ind]]": rectype(
+        x=Ind, n=rectype(x=Ind, c=dog(outer.x))
+    ),
+    '[c : dog("x"), x : Ind]': rectype(x=Ind, c=dog("x")),
+    "Rec": Rec,
+    "list(Rec)": ListOf(Rec),
+    "list([x : Ind])": ListOf(rectype(x=Ind)),
+    "Ind@j": Ind @ "j",
+    "(Ind@j)@j": (Ind @ "j") @ "j",
+    "Type@(Ind@j)": Type @ (Ind @ "j"),
+    "A /\\ Ind": Ind & Basic("A"),
+    "(A /\\ Ind)@j": (Ind & Basic("A")) @ "j",
+    "[m = [greet(a, b)] : list(Type)]": rectype(
+        m=ListOf(Type) @ [Pred("greet", Ind, Ind)("a", "b")]
+    ),
+    "dog({n = 1, x = [2.5, -3]})": dog(record(x=[2.5, -3], n=1)),
+    "dog([])": dog([]),
+    "dog({})": dog({}),
+    'dog("Rec")': dog("Rec"),
+    "dog(Rec)": dog(Rec),
+    'dog("a b")': dog("a b"),
+    'dog("a\\nb\\"")': dog('a\nb"'),
+    'dog("")': dog(""),
+    "dog(été)": dog("été"),
+    "dog(RecType)": dog(RecType),
+    "dog(<bool True>)": dog(True),
+    "dog(<NoneType None>)": dog(None),
+    "dog(<float nan>)": dog(float("nan")),
+    "dog(<Fraction 1/2>)": dog(Fraction(1, 2)),
+    "dog(<ndarray 3>)": dog(np.zeros(3)),
+    "dog(<float64 1.5>)": dog(np.float64(1.5)),
+}
+
+
+@pytest.mark.parametrize("text", WRITTEN)
+def test_notation(text):
+    assert str(WRITTEN[text]) == text
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "rectype(x=Basic('Ind'), c=Pred('dog', Basic('Ind'))(this.x))",
+        "rectype({'if': Basic('Ind'), 'c': Pred('p', Basic('Ind'))(this['if'])})",
+        "rectype(x=Basic('Ind'), n=rectype(c=Pred('dog', Basic('Ind'))(outer.x)))",
+        "rectype(x=Rec, n=rectype(m=rectype(x=Singleton(Basic('Ind'), outer(2).x))))",
+        "Pred('open', (Basic('Ind'),), (Basic('Ind'), Basic('Ind')))",
+        "Pred('rain')()",
+        "Singleton(ListOf(Type), ())",
+        "Singleton(ListOf(RecType), (Rec,))",
+        "meet(Basic('A'), Basic('B'))",
+        "record(n=record(x='a'), x=(1, 2.5, True, None))",
+        "record({'if': 1, 'x': 'a'})",
+    ],
+)
+def test_python_is_its_own_repr(text):
+    names = {name: getattr(ttr, name) for name in ttr.__all__}
+    assert repr(eval(text, names)) == text
+
+
+def test_a_path_out_of_everything_keeps_its_dots():
+    assert str(dog(this.x)) == "dog(.x)"
+    assert str(rectype(c=dog(outer.x))) == "[c : dog(^.x)]"
+    assert notation(dog(this.x), (frozenset({"x"}),)) == "dog(x)"

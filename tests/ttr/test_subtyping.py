@@ -1,0 +1,181 @@
+"""Subtyping: what follows from form, from equations and from axioms, and why not."""
+
+import pytest
+
+from ttr import (
+    Basic,
+    IllFormed,
+    Ind,
+    ListOf,
+    Pred,
+    Rec,
+    RecType,
+    Type,
+    Unsupported,
+    outer,
+    rectype,
+    subtype,
+    this,
+)
+from ttr.theories import Axiom, Signature
+
+A, B, C = Basic("A"), Basic("B"), Basic("C")
+p, q = Pred("p", (A,), (B,)), Pred("q", (A, A), (B, B))
+
+YES = {
+    "equal through a path": (
+        rectype(x=A, y=A @ this.x, c=p(this.y)),
+        rectype(x=A, c=p(this.x)),
+    ),
+    "equal to the same object": (
+        rectype(x=A @ "a", y=A @ "a", c=p(this.x)),
+        rectype(y=A, c=p(this.y)),
+    ),
+    "a type through another field": (rectype(x=A, y=B @ this.x), rectype(x=B)),
+    "a type through an object": (rectype(x=A @ "a", y=B @ "a"), rectype(y=A)),
+    "a type out of a nested record": (
+        rectype(n=rectype(x=B @ outer.x), x=A),
+        rectype(x=A & B),
+    ),
+    "a circle": (
+        rectype(x=A @ this.y, y=B @ this.x, c=p(this.x)),
+        rectype(x=A & B, y=A, c=p(this.y)),
+    ),
+    "a chain": (
+        rectype(x=A @ this.y, y=A @ this.z, z=A @ "a", c=p(this.x)),
+        rectype(c=p("a")),
+    ),
+    "equal records": (
+        rectype(n=rectype(x=A), m=rectype(x=B) @ this.n, c=p(this["n.x"])),
+        rectype(m=rectype(x=A & B), c=p(this["m.x"])),
+    ),
+    "a record that is written": (
+        rectype(n=rectype(x=A) @ {"x": "a"}),
+        rectype(n=rectype(x=A @ "a")),
+    ),
+    "two fields of a meet": (rectype(x=A) & rectype(x=B), rectype(x=A & B)),
+    "lists of both": (ListOf(A) & ListOf(B), ListOf(A & B)),
+    "the empty list": (ListOf(A) @ [], ListOf(B)),
+    "a written list": (
+        rectype(x=A, y=B, l=ListOf(Ind) @ [this.x, this.x]),
+        rectype(l=ListOf(A)),
+    ),
+    "lists of types": (ListOf(Type) @ [p("a")], ListOf(Type)),
+    "a written record type": (Type @ rectype(x=A), RecType),
+    "types of types": (RecType, Type),
+    "a meet with a singleton": (A @ "a" & B, B @ "a"),
+    "elements tied to a field outside": (
+        rectype(x=A, l=ListOf(rectype(y=B @ outer.x, z=C))),
+        rectype(x=A, l=ListOf(rectype(y=(A & B) @ outer.x))),
+    ),
+    "lists that must be empty": (ListOf(A @ "a" & A @ "b"), ListOf(C)),
+    "nothing": (rectype(x=A @ "a" & A @ "b"), rectype(z=C)),
+    "no list is a record": (ListOf(A) & Rec, C),
+    "no name is a list": (ListOf(A) @ "a", C),
+}
+
+NO = {
+    "other types": (A, B),
+    "no record": (A, Rec),
+    "no basic type": (rectype(x=A), A),
+    "another path": (rectype(x=A, y=A, c=p(this.x)), rectype(x=A, y=A, c=p(this.y))),
+    "not only that": (A, A @ "a"),
+    "another object": (A @ "a", A @ "b"),
+    "1 is not True": (A @ 1, A @ True),
+    "types of types": (Type, RecType),
+    "no record type": (Type @ A, RecType),
+    "lists of others": (ListOf(A), ListOf(B)),
+    "a list that may be empty says nothing of a field": (
+        rectype(x=A, l=ListOf(rectype(y=B @ outer.x))),
+        rectype(x=B),
+    ),
+    "arguments in another order": (q("a", "b"), q("b", "a")),
+}
+
+
+@pytest.mark.parametrize("name", YES)
+def test_yes(name):
+    S, T = YES[name]
+    assert subtype(S, T).yes, subtype(S, T).why
+    assert S <= T
+    assert T >= S
+
+
+@pytest.mark.parametrize("name", NO)
+def test_no(name):
+    S, T = NO[name]
+    assert subtype(S, T).no, subtype(S, T).why
+    assert not (S <= T)
+
+
+def test_unknown_where_equations_are_not_followed():
+    S = rectype(x=A @ {"r": this.x})
+    assert subtype(S, rectype(x=B)).unknown
+    assert "nothing may be of" in subtype(S, rectype(x=B)).why
+
+
+WHY = [
+    (rectype(x=A), rectype(x=A, c=p(this.x)), "[x : A] has no field c"),
+    (rectype(x=A), rectype(x=A & B), "in the field x, A is not below B"),
+    (
+        rectype(n=rectype(x=A, c=p(this.x))),
+        rectype(n=rectype(x=A, c=p("a"))),
+        "in the field n.c, p(n.x) is not below p(a)",
+    ),
+    (rectype(x=A), rectype(x=A @ "a"), "in the field x, x need not be a"),
+    (A, A @ "a", "a witness of A need not be a"),
+    (A, A, "A is below itself"),
+    (A & B, A, "A /\\ B is below A by its form"),
+    (A @ "a" & A @ "b", C, "nothing can be of (A@a) /\\ (A@b)"),
+    (Type @ Type, C, "nothing can be of Type@Type"),
+    (A @ Type, Type, "Type: it is of level 1"),
+]
+
+
+@pytest.mark.parametrize(("S", "T", "why"), WHY)
+def test_why(S, T, why):
+    assert subtype(S, T).why == why
+
+
+def test_axioms():
+    theory = Signature(
+        axioms=(
+            Axiom(p(this.x), q(this.x, this.x)),
+            Axiom(A, B),
+            Axiom(B, C),
+            Axiom(C, A),
+        )
+    )
+    S = rectype(x=A, c=p(this.x))
+    T = rectype({"x": C, "c": q(this.x, this.x)}, theory)
+    assert subtype(S, T, theory).yes
+    assert subtype(S, T).no
+    assert str(subtype(A, C, theory)) == "yes: by the axiom B <: C"
+    assert subtype(p("a"), q("a", "b"), theory).no
+
+
+def test_an_answer_is_no_truth_value():
+    with pytest.raises(TypeError, match=r"ask for \.yes or \.no"):
+        bool(subtype(A, B))
+
+
+def test_what_is_no_type():
+    with pytest.raises(IllFormed, match="expected a type, found the predicate p"):
+        subtype(A, p)
+    with pytest.raises(IllFormed, match="expected a type, found the object 'a'"):
+        _ = A <= "a"
+
+
+def test_long_chains_of_equations():
+    n = 2000
+    chain = {f"x{i}": A @ this[f"x{i + 1}"] for i in range(n)}
+    S = rectype({**chain, f"x{n}": A, "c": p(this.x0)})
+    assert subtype(S, rectype({f"x{n}": A, "c": p(this[f"x{n}"])})).yes
+
+
+def test_what_nests_too_deep_is_said_so():
+    T = rectype(x=A)
+    for _ in range(3000):
+        T = rectype(n=T)
+    with pytest.raises(Unsupported, match="nests deeper than can be followed"):
+        subtype(T, rectype(n=rectype(y=A)))
