@@ -252,7 +252,7 @@ def _is_of(query: IsOf, model: Model) -> _Answer:
 def _merges(query: Merges, theory: Theory) -> _Answer:
     operations: dict[str, Callable[[], TypeNode]] = {
         "merge": lambda: merge(query.left, query.right, theory),
-        "amerge": lambda: amerge(query.left, query.right),
+        "amerge": lambda: amerge(query.left, query.right, theory),
     }
     merged = operations[query.operation]()
     if merged is query.result:

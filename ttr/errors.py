@@ -26,6 +26,10 @@ __all__ = [
 ]
 
 
+_SHOWN = 120
+"""How many characters of a line are shown around a place."""
+
+
 @dataclass(frozen=True)
 class Span:
     """A place in a text: where it came from, line and column from 1, length."""
@@ -53,12 +57,19 @@ class Span:
         return cls(source, line, start - line_start + 1, length, shown)
 
     def __str__(self) -> str:
-        """The place, then the line with the span underlined."""
+        """The place, then the line with the span underlined; a long line is cut."""
         gutter = " " * len(str(self.line))
-        caret = " " * (self.column - 1) + "^" * self.length
+        first = self.column - 1
+        start = max(0, first - _SHOWN // 2) if len(self.text) > _SHOWN else 0
+        end = start + _SHOWN
+        before = "…" * (start > 0)
+        after = "…" * (end < len(self.text))
+        caret = " " * (first - start + len(before)) + "^" * min(
+            self.length, end - first
+        )
         return (
             f"{gutter} ┌─ {self.source}:{self.line}:{self.column}\n"
-            f"{self.line} │ {self.text}\n"
+            f"{self.line} │ {before}{self.text[start:end]}{after}\n"
             f"{gutter} │ {caret}"
         )
 

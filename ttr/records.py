@@ -47,10 +47,15 @@ def _replaced(r: Record, path: tuple[str, ...], value: Object) -> Record:
 def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:
     """What is different, path by path, as lines `path: old → new`.
 
+    Of a list that has only got longer or shorter, what came (+) or went (−) is told.
+
     >>> from ttr.syntax import record
-    >>> list(differences(record(x="a", y="b"), record(x="c", y="b")))
-    ['x: a → c']
+    >>> list(differences(record(x="a", y=["b"]), record(x="c", y=["b", "d"])))
+    ['x: a → c', 'y: + d']
     """
+    if isinstance(before, tuple) and isinstance(after, tuple):
+        yield from _list_differences(before, after, path)
+        return
     if not isinstance(before, Record) or not isinstance(after, Record):
         if identity(before) != identity(after):
             yield f"{path}: {notation(before)} → {notation(after)}"
@@ -63,3 +68,29 @@ def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:
             yield f"{inner}: nothing → {notation(after[label])}"
         else:
             yield from differences(before[label], after[label], inner)
+
+
+def _list_differences(
+    before: tuple[Object, ...], after: tuple[Object, ...], path: str
+) -> Iterator[str]:
+    """What is different between two lists, element by element where that is plain."""
+    came, went = _beyond(after, before), _beyond(before, after)
+    if came is None and went is None:
+        yield f"{path}: {notation(before)} → {notation(after)}"
+        return
+    yield from (f"{path}: + {notation(a)}" for a in came or ())
+    yield from (f"{path}: − {notation(a)}" for a in went or ())
+
+
+def _beyond(
+    long: tuple[Object, ...], short: tuple[Object, ...]
+) -> tuple[Object, ...] | None:
+    """What a list has besides another that it begins or ends with, else None."""
+    rest = len(long) - len(short)
+    if rest < 0:
+        return None
+    if identity(long[: len(short)]) == identity(short):
+        return long[len(short) :]
+    if identity(long[rest:]) == identity(short):
+        return long[:rest]
+    return None

@@ -55,3 +55,12 @@ def test_too_deep_a_nesting_is_an_error_of_ours():
     with pytest.raises(Unsupported, match="nests deeper than can be followed"):
         endless(0)
     assert issubclass(Unsupported, TTRError)
+
+
+def test_a_long_line_is_cut_around_the_place():
+    text = "a" * 5_000 + "?" + "b" * 5_000
+    place, line, caret = str(Span.of("x.ttr", text, 5_000, 5_001)).splitlines()
+    assert place.endswith("x.ttr:1:5001")
+    assert len(line) < 140
+    assert line.count("…") == 2
+    assert line[caret.index("^")] == "?"

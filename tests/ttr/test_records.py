@@ -36,3 +36,13 @@ def test_differences():
         "y: nothing → 1",
     ]
     assert list(differences(r, r)) == []
+
+
+def test_differences_of_lists_name_what_came_and_went():
+    def told(before, after):
+        return list(differences(record(xs=before), record(xs=after)))
+
+    assert told(["a"], ["a", "b", "c"]) == ["xs: + b", "xs: + c"]
+    assert told(["a", "b"], ["b"]) == ["xs: − a"]
+    assert told(["a"], ["a"]) == []
+    assert told(["a"], ["b"]) == ["xs: [a] → [b]"]

@@ -185,7 +185,7 @@ def test_a_rule_may_give_a_type():
         extra=1,
     )
     assert model.judge("s1", greet("b", "a")).holds is True
-    assert trace[1].changes == ("e: nothing → s1", "moves: [] → [greet(b, a)]")
+    assert trace[1].changes == ("e: nothing → s1", "moves: + greet(b, a)")
 
 
 def test_a_field_left_without_a_value_is_created():
