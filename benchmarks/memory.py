@@ -16,6 +16,7 @@ from kille.memory import Memory, Scan, Sighting, Turn
 from kille.scene import Point
 
 FEATURES = 300
+COLOURS = 800
 SIZES = (1_000, 10_000)
 
 
@@ -32,6 +33,8 @@ def sightings(rng: np.random.Generator) -> list[Sighting]:
                 ),
             ),
             Point(0.0, 0.0, 1.0),
+            rng.random(COLOURS, dtype=np.float32),
+            (0.2, 0.1, 0.05),
         )
         for _ in range(16)
     ]

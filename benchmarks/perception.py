@@ -21,6 +21,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from kille.perception.appearance import traits_of
 from kille.perception.features import features_of
 from kille.perception.geometry import offset
 from kille.perception.index import View
@@ -63,11 +64,11 @@ def speed(sizes: Sequence[int] = (100, 1_000, 10_000)) -> list[Row]:
     rows = []
     for size in sizes:
         memory = ObjectMemory.of(_varied(scans, size, chance))
-        percept = Percept(region, (scan,))
+        percept = Percept(region, (scan,), lambda: traits_of(frame, region))
         start = time.perf_counter()
         memory.predict_proba_one(percept)
         built = time.perf_counter() - start
-        query = _milliseconds(lambda: memory.predict_proba_one(percept))  # noqa: B023
+        query = _milliseconds(lambda: _asked(memory, percept))  # noqa: B023
         rows.append(
             {
                 "views": size,
@@ -227,9 +228,14 @@ def _varied(
     chance: np.random.Generator,
 ) -> Iterator[View]:
     for key in range(count):
-        scan = scans[key % len(scans)][2]
+        frame, region, scan = scans[key % len(scans)]
         rows = _varied_rows(scan.descriptors, chance)
-        yield View(key, TEN[key % len(TEN)], rows)
+        yield View(key, TEN[key % len(TEN)], rows, traits_of(frame, region))
+
+
+def _asked(memory: ObjectMemory, percept: Percept) -> Mapping[str, float]:
+    """The answer for a thing whose traits have not been measured yet."""
+    return memory.predict_proba_one(replace(percept))
 
 
 def _varied_rows(

@@ -7,8 +7,9 @@ the sensor gave no reading.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -89,15 +90,37 @@ class Features:
 
 
 @dataclass(frozen=True, eq=False)
+class Traits:
+    """What a thing looks like as a whole; None for what cannot be told.
+
+    colour (k,) float32 of length 1, the roots of a histogram; size (3,) float32, how
+    far what is visible of it reaches in metres, longest first.
+    """
+
+    colour: NDArray[np.float32] | None = None
+    size: NDArray[np.float32] | None = None
+
+
+UNMEASURED = Traits()
+"""The traits of what was only described by features."""
+
+
+@dataclass(frozen=True, eq=False)
 class Percept:
     """One thing as seen in one look: its region in the first frame, its scans.
 
     The scans are of consecutive frames, ten of them where the sensor has as many; they
-    may be extracted only when they are asked for.
+    may be extracted only when they are asked for, and so are the traits measured.
     """
 
     region: Region
     scans: Sequence[Features]
+    measure: Callable[[], Traits] = Traits
+
+    @cached_property
+    def traits(self) -> Traits:
+        """What `measure` finds, which is asked once."""
+        return self.measure()
 
 
 @dataclass(frozen=True, eq=False)

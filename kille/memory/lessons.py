@@ -13,6 +13,8 @@ from kille.scene import Point
 
 Kind = Literal["object", "relation"]
 
+Size = tuple[float, float, float]
+
 DESCRIPTOR_LENGTH = 128
 
 
@@ -68,17 +70,25 @@ class Sighting:
     """An object as it was seen when its word was taught.
 
     `time` is that of the first frame, in seconds of the sensor's clock; `place` is in
-    metres, None where the sensor has no depth. Raises ValueError for numbers that are
-    not finite.
+    metres, None where the sensor has no depth. `colour` (k,) float32 and `size`, in
+    metres along three axes, are those of the object as a whole, None where they were
+    not measured. Raises ValueError for numbers that are not finite and for a colour of
+    another shape or type.
     """
 
     sensor: str
     time: float
     scans: tuple[Scan, ...]
     place: Point | None
+    colour: NDArray[np.float32] | None = None
+    size: Size | None = None
 
     def __post_init__(self) -> None:
-        _require_finite("a sighting", self.time, *(self.place or ()))
+        numbers = *(self.place or ()), *(self.size or ())
+        _require_finite("a sighting", self.time, *numbers)
+        if self.colour is not None:
+            _require("colour", self.colour, "float32", (self.colour.size,))
+            _require_finite("a colour", *self.colour.tolist())
 
 
 @dataclass(frozen=True)
@@ -123,7 +133,7 @@ class RelationLesson(Lesson):
 
 
 def _require(
-    name: str, array: NDArray[np.generic], dtype: str, shape: tuple[int, int]
+    name: str, array: NDArray[np.generic], dtype: str, shape: tuple[int, ...]
 ) -> None:
     if array.dtype != np.dtype(dtype) or array.shape != shape:
         raise ValueError(

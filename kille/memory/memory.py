@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -20,6 +20,9 @@ from kille.memory.lessons import (
     Turn,
     Word,
 )
+
+Scope = Callable[[sqlite3.Connection], AbstractContextManager[None]]
+"""How much is kept or undone at once."""
 
 
 class MemoryReader:
@@ -78,8 +81,9 @@ class MemoryReader:
 class Memory(MemoryReader):
     """Lessons, and the turns they came from, on disk before a method returns.
 
-    Made by `open` or `transient`; it is its own context manager. Any method raises
-    MemoryFileError when the file fails it, and leaves what was there.
+    Inside `together` they are on disk when that ends. Made by `open` or `transient`;
+    it is its own context manager. Any method raises MemoryFileError when the file fails
+    it, and leaves what was there.
 
     >>> from kille.scene import Point
     >>> with Memory.transient() as memory:
@@ -90,6 +94,10 @@ class Memory(MemoryReader):
     ...     print(memory.words())
     (Word(name='cup', surface='cup', kind='object'),)
     """
+
+    def __init__(self, connection: sqlite3.Connection, place: str) -> None:
+        super().__init__(connection, place)
+        self._scope: Scope = _committed
 
     @classmethod
     def open(cls, path: Path) -> Self:
@@ -154,20 +162,51 @@ class Memory(MemoryReader):
             )
 
     @contextmanager
-    def _transaction(self) -> Iterator[sqlite3.Connection]:
-        """What happens inside is on disk afterwards, or none of it ever happened.
-
-        The next transaction begins at once: it holds the lock that makes this the one
-        writer of the file.
-        """
-        connection = self._connection
-        with explained(self.place):
-            files.hold(connection)
+    def together(self) -> Iterator[None]:
+        """All that is kept inside is on disk afterwards, or nothing of it is."""
+        with self._transaction():
+            outer, self._scope = self._scope, _part
             try:
-                yield connection
-                connection.execute("COMMIT")
-            except BaseException:
-                connection.rollback()
-                raise
+                yield
             finally:
-                files.hold(connection)
+                self._scope = outer
+
+    @contextmanager
+    def _transaction(self) -> Iterator[sqlite3.Connection]:
+        """What happens inside is kept wholly, or none of it ever happened."""
+        with explained(self.place), self._scope(self._connection):
+            yield self._connection
+
+
+@contextmanager
+def _committed(connection: sqlite3.Connection) -> Iterator[None]:
+    """A transaction that is on disk afterwards.
+
+    The next one begins at once: it holds the lock that makes this the one writer of
+    the file.
+    """
+    files.hold(connection)
+    try:
+        yield
+        connection.execute("COMMIT")
+    except BaseException:
+        connection.rollback()
+        raise
+    finally:
+        files.hold(connection)
+
+
+@contextmanager
+def _part(connection: sqlite3.Connection) -> Iterator[None]:
+    """A part of a larger transaction: it is on disk when the whole is."""
+    connection.execute("SAVEPOINT part")
+    try:
+        yield
+    except BaseException:
+        # Some failures, such as a full disk, have undone the whole by themselves.
+        if connection.in_transaction:
+            connection.execute("ROLLBACK TO part")
+        raise
+    finally:
+        if connection.in_transaction:
+            connection.execute("RELEASE part")

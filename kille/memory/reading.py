@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kille.memory.lessons import (
     DESCRIPTOR_LENGTH,
@@ -47,7 +48,8 @@ LESSONS = f"""
 """
 
 OBJECT_LESSON = f"""
-    SELECT {LESSON_COLUMNS}, sensor, lessons.time, x, y, z
+    SELECT {LESSON_COLUMNS}, sensor, lessons.time, x, y, z,
+        colour, length, breadth, thickness
     FROM lessons JOIN turns ON turns.id = turn JOIN sightings ON lesson = lessons.id
     WHERE lessons.id = ?
 """
@@ -85,9 +87,12 @@ def objects(connection: sqlite3.Connection) -> Iterator[ObjectLesson]:
     """
     for key in _keys(connection, "object"):
         for row in connection.execute(OBJECT_LESSON, (key,)).fetchall():
-            sensor, time, x, y, z = row[LESSON_WIDTH:]
+            sensor, time, x, y, z, blob, *lengths = row[LESSON_WIDTH:]
             place = None if x is None else Point(x, y, z)
-            seen = Sighting(sensor, time, _scans(connection, key), place)
+            colour = None if blob is None else floats(blob)
+            size = None if lengths[0] is None else (lengths[0], lengths[1], lengths[2])
+            scans = _scans(connection, key)
+            seen = Sighting(sensor, time, scans, place, colour, size)
             yield ObjectLesson(*_lesson_fields(row), seen)
 
 
@@ -104,8 +109,13 @@ def scan(descriptors: bytes, points: bytes) -> Scan:
     """The scan whose arrays, row by row and little-endian, are these bytes."""
     return Scan(
         np.frombuffer(descriptors, np.uint8).reshape(-1, DESCRIPTOR_LENGTH),
-        np.frombuffer(points, "<f4").astype(np.float32, copy=False).reshape(-1, 3),
+        floats(points).reshape(-1, 3),
     )
+
+
+def floats(blob: bytes) -> NDArray[np.float32]:
+    """The numbers (n,) whose little-endian bytes these are."""
+    return np.frombuffer(blob, "<f4").astype(np.float32, copy=False)
 
 
 def _scans(connection: sqlite3.Connection, key: int) -> tuple[Scan, ...]:

@@ -49,7 +49,9 @@ TABLES: Migration = (
     """
     CREATE TABLE sightings (
         lesson INTEGER PRIMARY KEY REFERENCES lessons ON DELETE CASCADE,
-        x REAL, y REAL, z REAL
+        x REAL, y REAL, z REAL,
+        colour BLOB,
+        length REAL, breadth REAL, thickness REAL
     )
     """,
     """

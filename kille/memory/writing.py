@@ -44,7 +44,15 @@ def add_object_lesson(
     """The key of a new lesson, with its turn and every scan."""
     key = _add_lesson(connection, "object", turn, name, surface, seen)
     place = seen.place or (None, None, None)
-    _insert(connection, "INSERT INTO sightings VALUES (?, ?, ?, ?)", key, *place)
+    _insert(
+        connection,
+        "INSERT INTO sightings (lesson, x, y, z, colour, length, breadth, thickness) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+        key,
+        *place,
+        None if seen.colour is None else seen.colour.astype("<f4").tobytes(),
+        *(seen.size or (None, None, None)),
+    )
     for scan in seen.scans:
         _insert(
             connection,

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import astuple
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.scene import Depth, Frame, Intrinsics, Mask, Point
+from kille.scene import Box, Depth, Frame, Intrinsics, Mask, Point
 
 Array = NDArray[np.float32]
 Direction = tuple[float, float, float]
@@ -57,6 +58,19 @@ def points_under(depth: Depth, mask: Mask, lens: Intrinsics) -> Array:
     x = (us - lens.cx) / lens.fx * z
     y = (vs - lens.cy) / lens.fy * z
     return np.stack([x, y, z], axis=1).astype(np.float32)
+
+
+def points_in(frame: Frame, mask: Mask, box: Box) -> Array:
+    """The points (n, 3) in metres read under a mask (H, W) that lies in the box.
+
+    There are none if the frame has no depth or no intrinsics.
+    """
+    if frame.depth is None or frame.intrinsics is None:
+        return np.empty((0, 3), np.float32)
+    fx, fy, cx, cy = astuple(frame.intrinsics)
+    lens = Intrinsics(fx, fy, cx - box.left, cy - box.top)
+    inside = np.s_[box.top : box.bottom, box.left : box.right]
+    return points_under(frame.depth[inside], mask[inside], lens)
 
 
 def table_axes(up: Direction) -> NDArray[np.float64]:

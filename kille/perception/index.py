@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.learners import Key
+from kille.scene import UNMEASURED, Traits
 
 Rows = NDArray[np.float32]
 
@@ -35,11 +36,15 @@ _SEED = 1
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """One lesson about one thing: its key, the word, its descriptors (n, 128) uint8."""
+    """One lesson about one thing: its key, the word, its descriptors (n, 128) uint8.
+
+    The traits are those it had as a whole, as far as they were measured.
+    """
 
     key: Key
     label: str
     descriptors: NDArray[np.uint8]
+    traits: Traits = UNMEASURED
 
 
 class Part(Protocol):

@@ -1,18 +1,19 @@
 """A look: some consecutive frames, and the things that stay in view in them.
 
-Features are extracted when they are first asked for, so that a look costs what its
-segmentation costs and only what is attended to is described.
+Features are extracted, and traits measured, when they are first asked for, so that a
+look costs what its segmentation costs and only what is attended to is described.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
+from functools import cache, partial
 from typing import overload
 
 import cv2
 import numpy as np
 
+from kille.perception.appearance import traits_of
 from kille.perception.features import features_of
 from kille.perception.pointing import region_at
 from kille.perception.segment import Scene, overlap, region_of, segment
@@ -58,14 +59,14 @@ class Scans(Sequence[Features]):
 def look(
     sensor: Sensor,
     scans: int = SCANS,
-    pointed: Mask | tuple[int, int] | None = None,
+    pointed: Sighting | Mask | tuple[int, int] | None = None,
 ) -> Look:
     """Look at the scene for so many frames.
 
     The percepts are the things that stay in view, nearest first. What the tutor points
-    at comes before all others: the pixels of a mask (H, W), or whatever is at a pixel
-    (u, v). A still picture is scanned once. ValueError for less than one scan;
-    SensorError as the sensor raises it.
+    at comes before all others: a region of an earlier frame, the pixels of a mask
+    (H, W), or whatever is at a pixel (u, v). A still picture is scanned once.
+    ValueError for less than one scan; SensorError as the sensor raises it.
     """
     if scans < 1:
         raise ValueError(f"a look takes at least one scan, not {scans}")
@@ -80,7 +81,8 @@ def look(
 
 
 def _percept(track: Sequence[Sighting]) -> Percept:
-    return Percept(track[0][1], Scans(track))
+    frame, region = track[0]
+    return Percept(region, Scans(track), partial(traits_of, frame, region))
 
 
 def _distinct(frames: Sequence[Frame]) -> list[Frame]:
@@ -102,16 +104,19 @@ def _track(
 
 
 def _focus(
-    frames: Sequence[Frame], pointed: Mask | tuple[int, int] | None
+    frames: Sequence[Frame], pointed: Sighting | Mask | tuple[int, int] | None
 ) -> list[list[Sighting]]:
     """The track of what the tutor points at, or no track."""
-    if pointed is None:
-        return []
-    if isinstance(pointed, tuple):
-        region = region_at(frames[0], pointed)
-    else:
-        region = region_of(frames[0], pointed) if pointed.any() else None
-    return [] if region is None else [_followed(region, frames)]
+    match pointed:
+        case None:
+            return []
+        case (Frame() as earlier, Region() as region):
+            return [_followed(region, [earlier, *frames])[1:]]
+        case (int(u), int(v)):
+            found = region_at(frames[0], (u, v))
+        case mask:
+            found = region_of(frames[0], mask) if mask.any() else None
+    return [] if found is None else [_followed(found, frames)]
 
 
 def _followed(region: Region, frames: Sequence[Frame]) -> list[Sighting]:

@@ -1,17 +1,23 @@
-"""Object words: SIFT features vote for the words under which their like was learned.
+"""Object words: features vote for them, size and colour are heard beside the votes.
 
-Each feature of a query votes for the word of its nearest learned descriptor, at
+Each SIFT feature of a query votes for the word of its nearest learned descriptor, at
 distance d, with the weight 1 - d / d', where d' is the distance to the nearest of any
 other word, or that to the things nobody taught, whichever is less. Votes are averaged
 over the scans and divided by the square root of the word's share of the memory, since
-a word with many descriptors collects chance votes. With V the votes of each word and
-n the features of a scan, the degree of a word is
+a word with many descriptors collects chance votes. With V the votes of a word and n
+the features of a scan, v = (V / C)^g is how far the votes are beyond chance, C = a n^b.
 
-    p(word) = V(word)^g / (ΣV^g + C^g),  C = a n^b
+With S and K in [0, 1] how well the word fits in size and in colour, the strength of a
+word and its degree are
 
-and the rest belongs to what has not been learned: C is what chance gives a thing of n
-features. a, b and g were fitted to rendered objects and real captures, among which
-most things asked about had not been taught.
+    s(word) = S (v + K (h v + k)),  p(word) = s(word) / (1 + Σs)
+
+and the rest belongs to what has not been learned. So another size speaks against any
+word, and colour speaks for a word but never against it: alone, at the right size, it
+gives a degree of k / (1 + k) at most, which is less than a half, so that what no
+feature confirms is not asserted. Where size is unknown S = 1 and k = 0: colour alone is
+no reason to use a word. All numbers were fitted to rendered objects and real captures,
+among which most things asked about had not been taught.
 """
 
 from __future__ import annotations
@@ -23,11 +29,14 @@ from numpy.typing import NDArray
 
 from kille.perception.index import Index, Rows, View, distances, rooted
 from kille.perception.learners import Key
+from kille.perception.resemblance import Resemblance
 from kille.scene import Features, Percept, Point
 
 _UNTAUGHT = 0.45  # RootSIFT distance to expect of a descriptor of something else
 _CHANCE, _CHANCE_POWER = 0.23, 0.65  # a and b
 _STEEPNESS = 3.0  # g
+_HELP = 40.0  # h
+_LOOKS = 0.9  # k
 _SIZE_POWER = 0.5
 
 _KEPT_SCANS = 4
@@ -50,6 +59,7 @@ class ObjectMemory:
     def __init__(self) -> None:
         self._views: dict[Key, View] = {}
         self._index = Index(())
+        self._resemblance = Resemblance((), ())
         self._indexed: tuple[View, ...] = ()
 
     @classmethod
@@ -87,16 +97,17 @@ class ObjectMemory:
         del self._views[key]
 
     def predict_proba_one(self, x: Percept) -> dict[str, float]:
-        """The degree of each learned word for what is seen; {} without features."""
-        query = _descriptors(x.scans)
-        if not self._views or not len(query):
+        """The degree of each learned word for what is seen; {} if nothing is."""
+        query, traits = _descriptors(x.scans), x.traits
+        unseen = traits.size is None and traits.colour is None
+        if not self._views or (unseen and not len(query)):
             return {}
         index = self._current()
-        votes = _votes(index.nearest(rooted(query))) / len(x.scans)
-        strength = (votes / self._bulk(index.labels)) ** _STEEPNESS
-        features = len(query) / len(x.scans)
-        chance = (_CHANCE * features**_CHANCE_POWER) ** _STEEPNESS
-        degrees = strength / (strength.sum() + chance)
+        beyond = self._beyond_chance(index, query, len(x.scans))
+        fit = self._resemblance.fit(traits)
+        looks = fit.colour * (_HELP * beyond + _LOOKS * fit.size_known)
+        strength = fit.size * (beyond + looks)
+        degrees = strength / (1 + strength.sum())
         return dict(zip(index.labels, degrees.tolist(), strict=True))
 
     def locate(self, x: Percept, label: str) -> Point | None:
@@ -118,9 +129,21 @@ class ObjectMemory:
         right, down, forward = points[measured][best].mean(axis=0, dtype=np.float64)
         return Point(float(right), float(down), float(forward))
 
+    def _beyond_chance(
+        self, index: Index, query: NDArray[np.uint8], scans: int
+    ) -> NDArray[np.float64]:
+        """How far the votes for each word are beyond what chance gives: v."""
+        if not len(query):
+            return np.zeros(len(index.labels))
+        votes = _votes(index.nearest(rooted(query))) / scans
+        chance = _CHANCE * (len(query) / scans) ** _CHANCE_POWER
+        beyond: NDArray[np.float64] = votes / self._bulk(index.labels) / chance
+        return beyond**_STEEPNESS
+
     def _current(self) -> Index:
         if self._indexed != self.views:
             self._index = Index(self.views, self._index)
+            self._resemblance = Resemblance(self.views, self._index.labels)
             self._indexed = self.views
         return self._index
 
@@ -135,8 +158,8 @@ class ObjectMemory:
 
 
 def view_of(x: Percept, label: str, *, key: Key) -> View:
-    """What is learned from a lesson: the features that are kept of it."""
-    return View(key, label, kept_features(x).descriptors)
+    """What is learned from a lesson: the features that are kept of it, and traits."""
+    return View(key, label, kept_features(x).descriptors, x.traits)
 
 
 def kept_features(x: Percept) -> Features:
@@ -191,6 +214,7 @@ def _votes(nearest: Rows) -> NDArray[np.float64]:
     others = nearest.copy()
     others[rows, winner] = np.inf
     second = np.minimum(others.min(axis=1), _UNTAUGHT)
-    weights = np.where(first < second, 1 - first / second, 0)
+    # The same picture under two words: both distances are 0, and so is the weight.
+    weights = np.where(first < second, 1 - first / np.maximum(second, 1e-9), 0)
     votes = np.bincount(winner, weights, minlength=nearest.shape[1])
     return np.asarray(votes, np.float64)

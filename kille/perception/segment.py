@@ -7,7 +7,7 @@ its block, so that the depths of two things are never mixed.
 
 from __future__ import annotations
 
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
@@ -18,7 +18,7 @@ from kille.perception.geometry import (
     Array,
     Direction,
     Rays,
-    points_under,
+    points_in,
     rays_of,
 )
 from kille.perception.table import Plane, find_table, reach_of
@@ -262,12 +262,7 @@ def _without_walls(labels: Labels) -> Labels:
 
 def _place(frame: Frame, mask: Mask, box: Box) -> Point | None:
     """The median of the points under the mask; None if none was measured."""
-    if frame.depth is None or frame.intrinsics is None:
-        return None
-    fx, fy, cx, cy = astuple(frame.intrinsics)
-    lens = Intrinsics(fx, fy, cx - box.left, cy - box.top)
-    inside = slice(box.top, box.bottom), slice(box.left, box.right)
-    points = points_under(frame.depth[inside], mask[inside], lens)
+    points = points_in(frame, mask, box)
     if not len(points):
         return None
     x, y, z = np.median(points, axis=0)

@@ -33,4 +33,11 @@ def seen() -> Sighting:
         rng.integers(0, 256, (30, 128), dtype=np.uint8),
         rng.random((30, 3), dtype=np.float32),
     )
-    return Sighting("synthetic", 0.5, (scan, scan), Point(0.1, -0.2, 0.9))
+    return Sighting(
+        "synthetic",
+        0.5,
+        (scan, scan),
+        Point(0.1, -0.2, 0.9),
+        rng.random(50, dtype=np.float32),
+        (0.25, 0.125, 0.0625),
+    )

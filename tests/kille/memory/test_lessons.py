@@ -36,4 +36,14 @@ def test_a_place_is_finite_or_none(bad: float) -> None:
     with pytest.raises(ValueError, match="finite"):
         Sighting("synthetic", bad, (), None)
     with pytest.raises(ValueError, match="finite"):
+        Sighting("synthetic", 0.0, (), None, size=(0.1, bad, 0.1))
+    with pytest.raises(ValueError, match="finite"):
+        Sighting("synthetic", 0.0, (), None, colour=np.array([bad], np.float32))
+    with pytest.raises(ValueError, match="finite"):
         Arrangement("synthetic", 0.0, "book", "car", Point(bad, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("bad", [np.zeros(3), np.zeros((3, 1), np.float32)])
+def test_a_colour_that_would_not_come_back_is_refused(bad: np.ndarray) -> None:
+    with pytest.raises(ValueError, match="colour must be float32"):
+        Sighting("synthetic", 0.0, (), None, colour=bad)

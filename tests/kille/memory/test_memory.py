@@ -47,13 +47,21 @@ SIGHTINGS = st.builds(
     NUMBERS,
     st.lists(scans(), max_size=3).map(tuple),
     st.none() | PLACES,
+    st.none()
+    | arrays.arrays(
+        np.float32,
+        st.integers(0, 5),
+        elements=st.floats(allow_nan=False, allow_infinity=False, width=32),
+    ),
+    st.none() | st.tuples(NUMBERS, NUMBERS, NUMBERS),
 )
 
 
 def plain(seen: Sighting) -> tuple[object, ...]:
     """A sighting that can be compared; the bits of NaNs count too."""
     pairs = [(s.descriptors.tobytes(), s.points.tobytes()) for s in seen.scans]
-    return seen.sensor, seen.time, pairs, seen.place
+    colour = None if seen.colour is None else seen.colour.tobytes()
+    return seen.sensor, seen.time, pairs, seen.place, colour, seen.size
 
 
 class Remembering(RuleBasedStateMachine):
