@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from contextlib import ExitStack
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
@@ -23,47 +24,22 @@ from kille.dialogue.meanings import (
 )
 from kille.dialogue.state import STATE, blank_model, forms, initial
 from kille.dialogue.wording import english
+from kille.exchange import Exchange, Said
 from kille.gaze import Gaze, View
 from kille.knowledge import Evidence, Knowledge
 from kille.memory import Memory, Turn
 from kille.perception.look import SCANS
 from kille.sensors.sensor import Sensor
 from kille.witness import Witnesses, thing
-from ttr import Judgement, Model, Record, RecordType, record
+from ttr import Model, Record, RecordType, record
 from ttr.updates import Algorithm, Run, Step, run
 
-__all__ = ["Agent", "Exchange", "Said"]
+__all__ = ["Agent"]
 
-_POINTING = re.compile(r"#(\d+)")
+_POINTING = re.compile(r"#([0-9]{1,6})\b")
 
-
-@dataclass(frozen=True)
-class Said:
-    """A sentence of the robot's, and the judgement of which move it was.
-
-    `judgement` is None for saying that it did not understand, which is no move.
-    """
-
-    text: str
-    judgement: Judgement | None
-
-
-@dataclass(frozen=True)
-class Exchange:
-    """What one turn did: what was heard, the rules that ran, what was said.
-
-    `heard` is None where the robot only looked, or did not understand.
-    """
-
-    text: str
-    heard: Judgement | None
-    steps: tuple[Step, ...]
-    said: tuple[Said, ...]
-
-    @property
-    def answer(self) -> str:
-        """What was said, one sentence a line; empty for silence."""
-        return "\n".join(said.text for said in self.said)
+Played = tuple[Exchange, Run]
+"""A turn, and the state and model that it leads to."""
 
 
 class Agent:
@@ -90,25 +66,25 @@ class Agent:
         self._now = now
         self._lexicon = english()
         self.exchanges: list[Exchange] = []
-        try:
-            self._wake(_opened(memory))
-        except BaseException:
-            self.gaze.close()
-            raise
+        with ExitStack() as failing:
+            failing.callback(self.gaze.close)
+            opened = _opened(memory)
+            failing.callback(opened.close)
+            self._wake(opened)
+            failing.pop_all()
 
     def _wake(self, memory: Memory) -> None:
         """Begin a dialogue, knowing what the memory holds."""
-        self.memory = memory
-        self._knowledge = Knowledge(memory)
-        self._witnesses = Witnesses(self._knowledge.objects, self._knowledge.relations)
+        knowledge = Knowledge(memory)
+        witnesses = Witnesses(knowledge.objects, knowledge.relations)
         words = memory.words()
         nouns = [noun(word.surface) for word in words if word.kind == "object"]
         links = [relation(word.surface) for word in words if word.kind == "relation"]
-        self.state: Record = initial(nouns, links, self._lexicon.bands)
-        self.model: Model = self._witnesses.in_model(blank_model(), nouns, links)
         self._dialogue = memory.begin_dialogue(self._time())
         self._turns = self._looks = 0
-        self.view: View | None = None
+        self.memory, self._knowledge, self._witnesses = memory, knowledge, witnesses
+        self.state: Record = initial(nouns, links, self._lexicon.bands)
+        self.model: Model = witnesses.in_model(blank_model(), nouns, links)
 
     # --- what a user does ------------------------------------------------------------
 
@@ -118,40 +94,21 @@ class Agent:
         `#2` in the text points at the thing with that number. What is not understood
         leaves the state as it was.
         """
-        turn = self._turn("tutor", text)
-        words = _POINTING.sub(" ", text)
-        try:
-            utterance = understand(words)
-        except NotUnderstood:
-            sorry = Said(self._lexicon.did_not_understand(words), None)
-            return self._ended(turn, Exchange(text, None, (), (sorry,)))
-        for number in _POINTING.findall(text):
-            self.gaze.point(number)
-        so_far = Run(self.state, self.model, ())
-        if "look" in utterance.content:
-            so_far = self._seeing(games.LOOKED, so_far)
-        event, model = so_far.model.create(utterance.type)
-        heard = model.judge(event, utterance.type)
-        so_far = self._playing(games.HEARD, so_far._replace(model=model), event)
-        turn = replace(turn, judgement=str(heard))
-        after, said = self._acting(so_far, turn)
-        return self._ended(turn, Exchange(text, heard, after.trace, said), after)
+        return self._taking(lambda: self._hearing(_legible(text)))
 
     def look(self) -> str:
         """Look at the scene of one's own accord; what the robot then says, if anything.
 
         It may ask about what it sees.
         """
-        turn = self._turn("world", "")
-        so_far = self._seeing(games.SCENE_CHANGED, Run(self.state, self.model, ()))
-        after, said = self._acting(so_far, turn)
-        return self._ended(None, Exchange("", None, after.trace, said), after)
+        return self._taking(self._looking)
 
     def do(self, command: str) -> str:
         """Change what there is to see, and look; what the robot then says, if anything.
 
-        Commands are those of `kille.sensors.stage`, and `point 2`, `point 320 240`,
-        `scene SENSOR`, `restart`.
+        Commands are those of `kille.sensors.stage`, and `look`, `point 2`,
+        `point 320 240`, `scene SENSOR`, `restart`. Pointing and restarting take no
+        look.
         """
         verb, _, rest = command.strip().partition(" ")
         match verb:
@@ -163,9 +120,16 @@ class Agent:
                 return ""
             case "scene":
                 self.gaze.turn_to(rest)
+            case "look":
+                pass
             case _:
                 self.gaze.change(command)
         return self.look()
+
+    @property
+    def view(self) -> View | None:
+        """The latest view of the scene, with the numbers of the things in it."""
+        return self.gaze.attention.view
 
     @property
     def trace(self) -> tuple[Step, ...]:
@@ -188,14 +152,62 @@ class Agent:
     ) -> None:
         self.close()
 
+    # --- taking turns ----------------------------------------------------------------
+
+    def _taking(self, turn: Callable[[], Played]) -> str:
+        """Take a turn, and keep it for good; or, if anything fails, none of it.
+
+        The state is taken over, and the answer given, when all of it is on disk.
+        """
+        attention, turns = self.gaze.attention, self._turns
+        try:
+            with self._knowledge.together():
+                exchange, after = turn()
+                self._record_answer(exchange)
+        except BaseException:
+            self.gaze.attention, self._turns = attention, turns
+            self._witnesses.reconsider()
+            raise
+        self.state, self.model = after.state, after.model
+        self.exchanges.append(exchange)
+        return exchange.answer
+
+    def _hearing(self, text: str) -> Played:
+        turn = self._turn("tutor", text)
+        so_far = Run(self.state, self.model, ())
+        words = _POINTING.sub(" ", text)
+        try:
+            utterance = understand(words)
+        except NotUnderstood:
+            self._record(turn)
+            sorry = Said(self._lexicon.did_not_understand(words), None)
+            return Exchange(text, None, (), (sorry,)), so_far
+        for number in _POINTING.findall(text):
+            self.gaze.point(number)
+        if "look" in utterance.content:
+            so_far = self._seeing(games.LOOKED, so_far)
+        event, model = so_far.model.create(utterance.type)
+        heard = model.judge(event, utterance.type)
+        so_far = self._playing(games.HEARD, so_far._replace(model=model), event)
+        turn = replace(turn, judgement=str(heard))
+        self._record(turn)
+        after, said = self._acting(so_far, turn)
+        return Exchange(text, heard, after.trace, said), after
+
+    def _looking(self) -> Played:
+        """A look of one's own accord, about which nothing can be learned yet."""
+        so_far = self._seeing(games.SCENE_CHANGED, Run(self.state, self.model, ()))
+        after, said = self._acting(so_far, self._turn("world", ""))
+        return Exchange("", None, after.trace, said), after
+
     # --- seeing ----------------------------------------------------------------------
 
     def _seeing(self, algorithm: Algorithm, so_far: Run) -> Run:
         """Take a look, and play it as an event."""
-        view = self.view = self.gaze.look()
+        view = self.gaze.look()
         self._looks += 1
         handle = f"look{self._looks}"
-        self._witnesses.remember(handle, view.look)
+        self._witnesses.remember(handle, view.look, _looks_of(so_far.state))
         percepts = view.look.percepts
         things = [thing(number) for number in range(1, len(percepts) + 1)]
         placed = [
@@ -239,7 +251,7 @@ class Agent:
         """The model after the lesson that a move claims to have been, if it does."""
         if planned <= named("Learned"):
             self._learn_noun(move, turn)
-            self._witnesses.learned()
+            self._witnesses.reconsider()
             return self._witnesses.in_model(model, move.signs, ())
         if planned <= named("LearnedRelation"):
             self._learn_relation(move, turn)
@@ -276,19 +288,10 @@ class Agent:
 
     # --- keeping track ---------------------------------------------------------------
 
-    def _ended(
-        self, turn: Turn | None, exchange: Exchange, after: Run | None = None
-    ) -> str:
-        """Keep what was said, and only then take over the state it led to."""
-        if turn is not None:
-            self._record(turn)
+    def _record_answer(self, exchange: Exchange) -> None:
         for said in exchange.said:
             judged = "" if said.judgement is None else str(said.judgement)
             self._record(self._turn("robot", said.text, judged))
-        if after is not None:
-            self.state, self.model = after.state, after.model
-        self.exchanges.append(exchange)
-        return exchange.answer
 
     def _record(self, turn: Turn) -> None:
         self.memory.record_turn(turn)
@@ -309,3 +312,13 @@ def _opened(memory: Memory | Path | str | None) -> Memory:
         case Memory():
             return memory
     return Memory.open(Path(memory))
+
+
+def _looks_of(s: Record) -> set[str]:
+    """The looks that the tutor may still confirm something about."""
+    return {str(value_at(content, "look")) for content in s.shared.pending}
+
+
+def _legible(text: str) -> str:
+    """The text without halves of characters, which no file can keep."""
+    return text.encode("utf-8", "replace").decode("utf-8")

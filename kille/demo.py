@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from kille.agent import Agent, Exchange
+from kille.agent import Agent
 from kille.dialogue.wording import english
+from kille.exchange import Exchange
 from kille.gaze import View
 
 __all__ = ["OBJECTS", "PLACES", "Answer", "Event", "demonstration"]

@@ -2,102 +2,158 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from kille.perception.look import SCANS, look
-from kille.perception.segment import nearness
-from kille.scene import Frame, Look, Mask, Percept
+from kille.perception.look import SCANS, Sighting, look
+from kille.perception.pointing import region_at
+from kille.perception.segment import nearness, overlap, region_of
+from kille.scene import Frame, Look, Mask, Percept, Region
 from kille.sensors.sensor import Sensor, SensorError
 from kille.sensors.sources import open_sensor
 from kille.sensors.stage import perform
 
-__all__ = ["Gaze", "View"]
+__all__ = ["Attention", "Gaze", "View"]
+
+_NUMBER = re.compile(r"[0-9]{1,6}")
+_SAME = 0.5  # overlap of a thing with itself in another look
 
 
 @dataclass(frozen=True, eq=False)
 class View:
     """A look whose things are numbered by nearness, from 1, and the one in focus.
 
-    `focus` is the number of what the tutor points at, else of the nearest thing; None
-    when nothing is in view.
+    Numbers stay as long as the same things are in view, even if noise in the depth
+    makes one of two the nearer now and then. `focus` is the number of what the tutor
+    points at, else of the nearest thing; None when nothing is in view.
     """
 
     look: Look
     focus: int | None
 
 
-class Gaze:
-    """A sensor to look through, and what the tutor last pointed at.
+@dataclass(frozen=True, eq=False)
+class Attention:
+    """What the tutor points at, if at anything, and the latest view of the scene."""
 
-    Pointing holds until the tutor points elsewhere or the scene changes.
+    pointed: Sighting | None = None
+    view: View | None = None
+
+
+class Gaze:
+    """A sensor to look through, and what is attended to.
+
+    Pointing holds until the tutor points elsewhere or the scene changes. `attention`
+    may be put back to an earlier value.
     """
 
     def __init__(self, sensor: str | Sensor, scans: int = SCANS) -> None:
         self.sensor = open_sensor(sensor) if isinstance(sensor, str) else sensor
+        self.attention = Attention()
         self._scans = scans
-        self._pointed: Mask | tuple[int, int] | None = None
 
     def look(self) -> View:
         """Look at the scene as it is now. SensorError as the sensor raises it."""
-        seen = look(self.sensor, self._scans, self._pointed)
-        in_focus = seen.percepts[0] if seen.percepts else None
-        order = sorted(seen.percepts, key=_nearness)
-        if self._pointed is None:
-            in_focus = order[0] if order else None
-        focus = None if in_focus is None else order.index(in_focus) + 1
-        return View(replace(seen, percepts=tuple(order)), focus)
+        pointed = self.attention.pointed
+        seen = look(self.sensor, self._scans, pointed)
+        order = _in_order(seen.percepts, self.attention.view)
+        # A look puts what is pointed at first.
+        first = order if pointed is None else seen.percepts
+        focus = order.index(first[0]) + 1 if order else None
+        view = View(replace(seen, percepts=tuple(order)), focus)
+        self.attention = Attention(pointed, view)
+        return view
 
     def point(self, target: str) -> None:
         """Point at a thing by its number, a pixel (`320 240`) or its outline's name.
 
-        SensorError if there is nothing like it.
+        Numbers are those of the latest view. SensorError if there is nothing like it.
         """
-        words = target.replace("#", " ").replace(",", " ").split()
-        if all(word.isdecimal() for word in words) and len(words) in (1, 2):
-            first, *second = map(int, words)
-            self._pointed = (first, *second) if second else self._numbered(first)  # type: ignore[assignment]
-            return
-        self._pointed = _outline(self.sensor.frame(), target)
+        self.attention = replace(self.attention, pointed=self._target(target))
 
-    def _numbered(self, number: int) -> Mask:
-        """The pixels of the thing with this number, as it is now."""
-        self._pointed = None
-        things = self.look().look.percepts
+    def _target(self, target: str) -> Sighting:
+        """What is pointed at, in the frame in which it is."""
+        words = target.replace("#", " ").replace(",", " ").split()
+        numbers = [int(word) for word in words if _NUMBER.fullmatch(word)]
+        if len(numbers) == len(words) == 1:
+            return self._numbered(numbers[0])
+        frame = self.sensor.frame()
+        if len(numbers) == len(words) == 2:
+            return frame, _touched(frame, (numbers[0], numbers[1]))
+        return frame, region_of(frame, _outline(frame, target))
+
+    def _numbered(self, number: int) -> Sighting:
+        """The thing that has this number in the latest view."""
+        view = self.attention.view or self.look()
+        things = view.look.percepts
         if not 1 <= number <= len(things):
             raise SensorError(
                 f"there is no thing #{number} to point at: "
                 + (f"there are {len(things)}" if things else "nothing is in view")
             )
-        return things[number - 1].region.mask
+        return view.look.frame, things[number - 1].region
 
     def change(self, command: str) -> None:
         """Change the scene, as `kille.sensors.stage.perform` does."""
         perform(self.sensor, command)
-        self._pointed = None
+        self.attention = Attention()
 
     def turn_to(self, name: str) -> None:
         """Look through another sensor from now on; the old one stays if it fails."""
         sensor = open_sensor(name)
         self.sensor.close()
-        self.sensor, self._pointed = sensor, None
+        self.sensor, self.attention = sensor, Attention()
 
     def close(self) -> None:
         """Let go of the sensor."""
         self.sensor.close()
 
 
+def _in_order(percepts: Sequence[Percept], before: View | None) -> list[Percept]:
+    """The things as they were numbered before, if they are the same, or by nearness."""
+    earlier = () if before is None else before.look.percepts
+    again = [
+        next((now for now in percepts if _same(now, then)), None) for then in earlier
+    ]
+    found = [percept for percept in again if percept is not None]
+    if len({id(percept) for percept in found}) == len(percepts) == len(earlier):
+        return found
+    return sorted(percepts, key=_nearness)
+
+
+def _same(one: Percept, other: Percept) -> bool:
+    return overlap(one.region, other.region) >= _SAME
+
+
 def _nearness(percept: Percept) -> float:
     return nearness(percept.region)
 
 
+def _touched(frame: Frame, pixel: tuple[int, int]) -> Region:
+    """The thing at a pixel (u, v)."""
+    region = region_at(frame, pixel)
+    if region is None:
+        height, width = frame.colour.shape[:2]
+        raise SensorError(
+            f"there is nothing at {pixel[0]} {pixel[1]} to point at: give a pixel of a "
+            f"thing, right and down from the upper left corner of {width}x{height}"
+        )
+    return region
+
+
 def _outline(frame: Frame, name: str) -> Mask:
     """The outline that a labelled recording or a simulation has under this name."""
-    wanted = name.strip().lower().replace(" ", "_").replace("-", "_")
+    wanted = _spoken(name)
     for known, mask in frame.outlines.items():
-        if known.lower().replace(" ", "_").replace("-", "_") == wanted:
+        if _spoken(known) == wanted:
             return mask
     names = ", ".join(sorted(frame.outlines)) or "no named outlines"
     raise SensorError(
-        f"`point {name}`: point by number, by pixel (`point 320 240`) or by the name "
-        f"of an outline; here there are {names}"
+        f"`point {name[:40]}`: point by number, by pixel (`point 320 240`) or by the "
+        f"name of an outline; here there are {names}"
     )
+
+
+def _spoken(name: str) -> str:
+    return re.sub(r"[\W_]+", " ", name.lower()).strip()

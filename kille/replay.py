@@ -30,8 +30,11 @@ def play(
     The first difference, or None if there is none. `echo` is given each line as it is
     played. Raises StoryError for a line that cannot be played.
     """
-    owned = memory if memory is not None else Memory.transient()
-    with Agent(_first_scene(story), owned) as robot:
+    try:
+        robot = Agent(_first_scene(story), memory)
+    except SensorError as error:
+        raise StoryError(f"{story.lines[0].place}: {error}") from error
+    with robot:
         return _Playing(robot, echo).play(story)
 
 
@@ -46,6 +49,8 @@ def _first_scene(story: Story) -> str:
 def _expanded(line: Line) -> str:
     """The sensor that an `@ scene` line names; a path is from the story's folder."""
     name = os.path.expandvars(line.text.removeprefix("scene ").strip())
+    if unset := re.search(r"\$\{?(\w+)", name):
+        raise StoryError(f"{line.place}: set the variable {unset[1]} before")
     beside = Path(line.file).parent / name
     return str(beside) if not Path(name).is_absolute() and beside.exists() else name
 

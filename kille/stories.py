@@ -57,7 +57,7 @@ def read_stories(path: Path) -> tuple[Story, ...]:
     'a greeting'
     """
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         raise StoryError(f"{path} is not there") from None
     except IsADirectoryError:

@@ -7,7 +7,7 @@ memory, that of a relation of two things and a look by the relation memory.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import partial
 
 from kille.dialogue.meanings import word_of
@@ -20,7 +20,7 @@ from ttr import Model, Record
 __all__ = ["Witnesses", "thing"]
 
 UNKNOWN = (0.0, 1.0)
-_REMEMBERED_LOOKS = 8
+_REMEMBERED_LOOKS = 4
 
 
 def thing(number: int) -> str:
@@ -39,16 +39,19 @@ class Witnesses:
         self._looks: dict[str, Look] = {}
         self._named: dict[tuple[str, str], Mapping[str, float]] = {}
 
-    def remember(self, handle: str, look: Look) -> None:
-        """Have words judged of this look too; the oldest of eight is let go."""
+    def remember(self, handle: str, look: Look, needed: Collection[str] = ()) -> None:
+        """Have words judged of this look too.
+
+        Of the others only those that are still needed and the latest are kept.
+        """
         self._looks[handle] = look
-        while len(self._looks) > _REMEMBERED_LOOKS:
-            del self._looks[next(iter(self._looks))]
+        kept = {*needed, *list(self._looks)[-_REMEMBERED_LOOKS:]}
+        self._looks = {name: it for name, it in self._looks.items() if name in kept}
         self._named = {
             key: p for key, p in self._named.items() if key[1] in self._looks
         }
 
-    def learned(self) -> None:
+    def reconsider(self) -> None:
         """Forget what was judged: the learners have changed."""
         self._named.clear()
 

@@ -21,6 +21,10 @@ if TYPE_CHECKING:
 __all__ = ["NotUnderstood", "Utterance", "understand"]
 
 
+_LONGEST = 400
+"""Characters; no sentence of the grammar has more, and parsing slows down beyond."""
+
+
 class NotUnderstood(Exception):
     """A text that is no utterance of the grammar."""
 
@@ -53,6 +57,8 @@ def understand(text: str) -> Utterance:
     """
     from lark.exceptions import LarkError
 
+    if len(text) > _LONGEST:
+        raise NotUnderstood(text)
     try:
         tree = _grammar().parse(text)
     except LarkError:

@@ -7,6 +7,7 @@ theory with the word's own predicate in place of the one that stands for it ther
 from __future__ import annotations
 
 import re
+import unicodedata
 from functools import cache
 from importlib.resources import files
 
@@ -62,7 +63,9 @@ def predicate_name(form: str) -> str:
     >>> predicate_name("Can of Paint"), predicate_name("shoe-box"), predicate_name("3D")
     ('can_of_paint', 'shoe_box', 'n3d')
     """
-    name = re.sub(r"\W+", "_", form.lower()).strip("_")
+    plain = unicodedata.normalize("NFKC", form.lower())
+    name = re.sub(r"\W+", "_", plain).strip("_")
+    name = "".join(c if f"n{c}".isidentifier() else f"u{ord(c):x}" for c in name)
     return name if name.isidentifier() else f"n{name}"
 
 

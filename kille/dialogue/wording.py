@@ -14,6 +14,9 @@ from ttr import PType, Record, RecordType
 
 __all__ = ["Lexicon", "english"]
 
+_NEAR = 0.6
+"""Share of characters in common, in their order, that makes two sentences alike."""
+
 
 @dataclass(frozen=True)
 class Lexicon:
@@ -64,11 +67,20 @@ class Lexicon:
         return f"a {noun}"
 
     def did_not_understand(self, text: str) -> str:
-        """One sentence: that it was not understood, and the nearest that could be."""
+        """One sentence: that it was not understood, and what could be said instead.
+
+        It is the example that is near to the text, or else the first.
+
+        >>> print(english().did_not_understand("Where is teh book?"))
+        Sorry, I did not understand "Where is teh book?". You could say
+        "Where is the book?"; ...
+        """
         shown = re.sub(r"\s+", " ", text).strip()
+        shown = "".join(c if c.isprintable() else "�" for c in shown)
         shown = shown if len(shown) <= 60 else shown[:57] + "…"
-        near = difflib.get_close_matches(text, self.examples, n=1, cutoff=0.0)
-        return self.not_understood.format(text=shown, nearest=near[0])
+        near = difflib.get_close_matches(shown, self.examples, n=1, cutoff=_NEAR)
+        nearest = near[0] if near else self.examples[0]
+        return self.not_understood.format(text=shown, nearest=nearest)
 
 
 def _words(content: RecordType, forms: Mapping[str, str]) -> Iterator[tuple[str, str]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from pathlib import Path
 
@@ -11,7 +12,7 @@ from rich.table import Table
 from kille.agent import Agent
 from kille.demo import Answer, Event, demonstration
 from kille.gaze import View
-from kille.interfaces.showing import claims
+from kille.interfaces.showing import claims, explained
 from kille.interfaces.terminal import FINE, complain, console
 from kille.perception.sheet import sheet, write_picture
 
@@ -22,6 +23,12 @@ Row = tuple[str, View]
 
 def demo(seed: int, picture: Path) -> int:
     """Plays the demonstration, prints it, and writes the sheet; the exit code."""
+    folder = picture.absolute().parent
+    if picture.is_dir() or not folder.is_dir() or not os.access(folder, os.W_OK):
+        return complain(
+            f"the picture cannot be written to {picture}: name a file in a folder that "
+            "is there and may be written, with --out"
+        )
     out, started = console(), time.monotonic()
     answers: list[Answer] = []
     rows: list[Row] = []
@@ -49,8 +56,8 @@ def _print_event(out: Console, event: Event) -> None:
         out.print(f"U> {event.turn.text}", style="bold", markup=False)
     for said in event.turn.said:
         out.print(f"S> {said.text}", style="bold cyan", markup=False)
-    for source, claim in claims(event.turn):
-        out.print(f"     {source:>6}  {claim}", style="dim", markup=False)
+    for line in explained(claims(event.turn)):
+        out.print(line, style="dim", markup=False)
 
 
 def _table(answers: list[Answer]) -> Table:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 import platform
+import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import PackageNotFoundError, requires, version
+from importlib.util import find_spec
 
-from kille.interfaces.terminal import FAILED, FINE, console
+from kille.interfaces.terminal import FAILED, FINE, console, hanging
 
-__all__ = ["doctor"]
+__all__ = ["Finding", "as_json", "as_text", "doctor"]
 
 KINECT_VENDOR, KINECT_CAMERAS = 0x045E, (0x02AE, 0x02BF)
 
@@ -27,34 +29,52 @@ class Finding:
     remedy: str = ""
 
 
-def doctor(*, as_json: bool) -> int:
+Report = Callable[[Sequence[Finding]], None]
+"""How findings are printed."""
+
+
+def doctor(report: Report) -> int:
     """Prints the findings; the exit code is 1 if a needed part does not work."""
     findings = list(_findings())
-    if as_json:
-        console().print_json(json.dumps([asdict(finding) for finding in findings]))
-    else:
-        for finding in findings:
-            _tell(finding)
+    report(findings)
     broken = any(finding.needed and not finding.works for finding in findings)
     return FAILED if broken else FINE
 
 
-def _tell(finding: Finding) -> None:
-    mark = "ok" if finding.works else ("MISSING" if finding.needed else "absent")
-    style = "green" if finding.works else ("red" if finding.needed else "yellow")
-    remedy = f"; {finding.remedy}" if finding.remedy else ""
+def as_json(findings: Sequence[Finding]) -> None:
+    """The findings as a list of objects, for machines."""
+    console().print_json(json.dumps([asdict(finding) for finding in findings]))
+
+
+def as_text(findings: Sequence[Finding]) -> None:
+    """A line for each finding, for people."""
+    width = max(len(finding.part) for finding in findings)
     out = console()
-    out.print(f"{mark:>7}", style=style, end="  ")
-    out.print(f"{finding.part:<16} {finding.state}{remedy}", markup=False)
+    for finding in findings:
+        mark, style = _mark(finding)
+        state = ": ".join(filter(None, (finding.state, finding.remedy)))
+        out.print(f"{mark:>7}", style=style, end="")
+        line = hanging(f"{'':7}  {finding.part:<{width}}  ", state)
+        out.print(line[7:], markup=False)
+
+
+def _mark(finding: Finding) -> tuple[str, str]:
+    """The word for how it is, and its colour."""
+    if finding.works:
+        return "ok", "green"
+    return ("MISSING", "red") if finding.needed else ("absent", "yellow")
 
 
 def _findings() -> Iterator[Finding]:
     yield _python()
-    for package in ("numpy", "opencv-contrib-python-headless", "scikit-learn", "lark"):
-        yield _package(package)
-    yield _tried("synthetic Kinect", _look_at_nothing, needed=True)
-    yield _tried("memory", _open_memory, needed=True)
+    for requirement in _required(""):
+        yield _package(requirement)
+    yield _tried("synthetic Kinect", _look_at_nothing)
+    yield _tried("memory", _open_memory)
     yield _kinect()
+    yield _line_editing()
+    yield _extra("test")
+    yield _extra("dev")
 
 
 def _python() -> Finding:
@@ -62,18 +82,58 @@ def _python() -> Finding:
     return Finding("Python", sys.version_info >= (3, 11), True, found)
 
 
-def _package(name: str) -> Finding:
+def _required(extra: str) -> list[str]:
+    """What this distribution requires, plainly or for an extra, as pip writes it."""
+    parted = [line.partition(";") for line in requires("kille") or ()]
+    return [
+        requirement.strip()
+        for requirement, _, marker in parted
+        if re.findall(r"extra == ['\"](\w+)['\"]", marker) == ([extra] if extra else [])
+    ]
+
+
+def _package(requirement: str) -> Finding:
+    name = _name(requirement)
+    found = _installed(name)
+    if found is None:
+        remedy = f"pip install '{requirement}'"
+        return Finding(name, False, True, "not installed", remedy)
+    return Finding(name, True, True, found)
+
+
+def _extra(extra: str) -> Finding:
+    """The packages that only those who change the code need."""
+    part = f"extra [{extra}]"
+    wanted = [it for it in _required(extra) if _name(it) != "kille"]
+    missing = [it for it in wanted if _installed(_name(it)) is None]
+    if not missing:
+        return Finding(part, True, False, ", ".join(map(_name, wanted)))
+    state = f"not installed are {', '.join(map(_name, missing))}"
+    return Finding(part, False, False, state, f"pip install {_quoted(missing)}")
+
+
+def _quoted(words: Iterable[str]) -> str:
+    return " ".join(f"'{word}'" for word in words)
+
+
+def _name(requirement: str) -> str:
+    return re.split(r"[^\w.-]", requirement, maxsplit=1)[0]
+
+
+def _installed(name: str) -> str | None:
+    """The version of a package, or None."""
     try:
-        return Finding(name, True, True, version(name))
+        return version(name)
     except PackageNotFoundError:
-        return Finding(name, False, True, "not installed", f"pip install {name}")
+        return None
 
 
-def _tried(part: str, attempt: Callable[[], str], *, needed: bool) -> Finding:
+def _tried(part: str, attempt: Callable[[], str]) -> Finding:
+    """A needed part, found working or not by using it."""
     try:
-        return Finding(part, True, needed, attempt())
+        return Finding(part, True, True, attempt())
     except Exception as error:
-        return Finding(part, False, needed, " ".join(str(error).split()))
+        return Finding(part, False, True, " ".join(str(error).split()))
 
 
 def _look_at_nothing() -> str:
@@ -94,6 +154,18 @@ def _open_memory() -> str:
     with Memory.reading(path) as memory:
         words = len(memory.words())
     return f"{words} word{'s' * (words != 1)} in {path}"
+
+
+def _line_editing() -> Finding:
+    if find_spec("readline") is not None:
+        return Finding("line editing", True, False, "arrow keys and history")
+    return Finding(
+        "line editing",
+        False,
+        False,
+        "this Python has no readline",
+        "install a Python that was built with it",
+    )
 
 
 def _kinect() -> Finding:

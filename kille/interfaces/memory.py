@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from rich.table import Table
+from rich.text import Text
 
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import Lesson, Memory, MemoryFileError
 
-__all__ = ["list_words"]
+__all__ = ["as_json", "as_table", "list_words"]
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,11 @@ class _Entry:
     last_taught: str
 
 
-def list_words(given: Path | None, *, as_json: bool) -> int:
+Report = Callable[[Path, Sequence[_Entry]], None]
+"""How a list of words is printed."""
+
+
+def list_words(given: Path | None, report: Report) -> int:
     """Prints the words of the memory; the exit code."""
     path = memory_path(given)
     try:
@@ -33,15 +38,23 @@ def list_words(given: Path | None, *, as_json: bool) -> int:
             entries = _entries(memory.lessons())
     except MemoryFileError as error:
         return complain(error)
-    out = console()
-    if as_json:
-        out.print_json(json.dumps([asdict(entry) for entry in entries]))
-        return FINE
-    if not entries:
-        out.print(f"{path} holds no words yet: teach some with kille talk")
-        return FINE
-    out.print(_table(path, entries))
+    report(path, entries)
     return FINE
+
+
+def as_json(_: Path, entries: Sequence[_Entry]) -> None:
+    """The words as a list of objects, for machines."""
+    console().print_json(json.dumps([asdict(entry) for entry in entries]))
+
+
+def as_table(path: Path, entries: Sequence[_Entry]) -> None:
+    """The words in a table, for people."""
+    if not entries:
+        console().print(
+            f"{path} holds no words yet: teach some with kille talk", markup=False
+        )
+        return
+    console().print(_table(path, entries))
 
 
 def _entries(lessons: Sequence[Lesson]) -> list[_Entry]:
@@ -55,7 +68,7 @@ def _entries(lessons: Sequence[Lesson]) -> list[_Entry]:
 
 
 def _table(path: Path, entries: Sequence[_Entry]) -> Table:
-    table = Table(title=str(path), title_justify="left", box=None, pad_edge=False)
+    table = Table(title=Text(str(path)), title_justify="left", box=None, pad_edge=False)
     for heading in ("word", "kind", "lessons", "last taught"):
         table.add_column(heading, justify="right" if heading == "lessons" else "left")
     for entry in entries:

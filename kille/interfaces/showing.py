@@ -2,27 +2,80 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 
-from kille.agent import Exchange
 from kille.dialogue.meanings import predicate_at
+from kille.exchange import Exchange
 from kille.gaze import View
+from kille.interfaces.terminal import hanging_type
 from ttr import Judgement, PType, Record, RecordType
 from ttr.printing import notation
 from ttr.substitution import grounded
+from ttr.updates import Step
 
-__all__ = ["claims", "derivation", "things_in_view"]
+__all__ = [
+    "Account",
+    "claims",
+    "derivation",
+    "explained",
+    "nothing",
+    "things_in_view",
+]
+
+Account = Callable[[Exchange], Iterable[tuple[str, str]]]
+"""What is told of a turn beside its words: lines, each with what kind of line it is."""
+
+_TOLD_APART = ("shared.latest", "private.beliefs")
+
+
+def nothing(turn: Exchange) -> Iterator[tuple[str, str]]:
+    """No account at all."""
+    yield from ()
 
 
 def claims(turn: Exchange) -> Iterator[tuple[str, str]]:
-    """The judgements behind a turn, each with who made it: heard, judged, said."""
+    """The judgements behind a turn: what was heard, judged of things, and said."""
     if turn.heard is not None:
         yield from _move("heard", turn.heard)
+    yield from _judged_and_said(turn)
+
+
+def derivation(turn: Exchange) -> Iterator[tuple[str, str]]:
+    """A turn in full: the judgement that the parse is, each rule and its changes."""
+    if turn.heard is not None:
+        yield "heard", notation(turn.heard.sit)
+        yield "", f": {notation(turn.heard.type)}"
+    for step in turn.steps:
+        doc = step.rule.doc.split("\n")[0]
+        yield "rule", f"{step.rule.name}: {doc}"
+        for change in _changes(step):
+            yield "", change
+    yield from _judged_and_said(turn)
+
+
+def explained(account: Iterable[tuple[str, str]]) -> Iterator[str]:
+    """An account as lines, in a column beside the dialogue."""
+    for kind, text in account:
+        yield hanging_type(f"     {kind:>6}  ", text)
+
+
+def _judged_and_said(turn: Exchange) -> Iterator[tuple[str, str]]:
     for belief in _beliefs(turn)[:3]:
         yield "judged", _belief(belief)
     for said in turn.said:
         if said.judgement is not None:
             yield from _move("said", said.judgement)
+
+
+def _changes(step: Step) -> Iterator[str]:
+    """What a rule changed, but for the moves and beliefs, which have their own lines.
+
+    What was taken off a list was told when it came on.
+    """
+    for change in step.changes:
+        path, taken_off, _ = change.partition(": − ")
+        if not path.startswith(_TOLD_APART):
+            yield f"{path}: − …" if taken_off else change
 
 
 def _move(who: str, judgement: Judgement) -> Iterator[tuple[str, str]]:
@@ -50,14 +103,6 @@ def _belief(belief: Record) -> str:
         if isinstance(field, PType) and label in sit:
             return f"{sit[label]} : {grounded(field, (sit,))}   p = {belief.p:.2f}"
     return f"{sit} : {belief.sign.meaning}   p = {belief.p:.2f}"
-
-
-def derivation(turn: Exchange) -> Iterator[str]:
-    """A turn in full: what was heard and why it is that, each rule and its changes."""
-    if turn.heard is not None:
-        yield str(turn.heard.why)
-    for step in turn.steps:
-        yield str(step)
 
 
 def things_in_view(view: View) -> str:

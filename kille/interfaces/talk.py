@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -9,9 +10,9 @@ from pathlib import Path
 
 from kille.agent import Agent
 from kille.dialogue.meanings import named
-from kille.interfaces.showing import derivation, things_in_view
+from kille.interfaces.showing import Account, explained, things_in_view
 from kille.interfaces.terminal import FINE, complain, console, memory_path
-from kille.memory import Memory, MemoryFileError
+from kille.memory import MemoryFileError
 from kille.perception.sheet import overview, write_picture
 from kille.sensors.sensor import SensorError, Stage
 from ttr import TTRError
@@ -30,26 +31,28 @@ Lines that begin with @ change what there is to see:
   @ picture [FILE.png]          a picture of it, with the numbers
   @ things                      all that can be shown
   @ scene SENSOR                look through another sensor
+  @ restart                     a new dialogue, with the same memory
 Ctrl-D or "Goodbye." ends the conversation; what was learned stays."""
 
+_POINTING = re.compile(r"#[0-9]{1,6}")
 
-def talk(sensor: str, memory: Path | None, *, trace: bool) -> int:
-    """Talks until the tutor leaves; the exit code."""
+
+def talk(sensor: str, memory: Path | None, account: Account) -> int:
+    """Talks until the tutor leaves, with an account of each turn; the exit code."""
     try:
-        kept = Memory.open(memory_path(memory))
-        robot = Agent(sensor, kept)
+        robot = Agent(sensor, memory_path(memory))
     except (SensorError, MemoryFileError) as error:
         return complain(error)
     with robot, _line_editing():
-        _Conversation(robot, trace=trace).hold()
+        _Conversation(robot, account).hold()
     return FINE
 
 
 class _Conversation:
     """A conversation in a terminal, or through a pipe."""
 
-    def __init__(self, robot: Agent, *, trace: bool) -> None:
-        self._robot, self._trace = robot, trace
+    def __init__(self, robot: Agent, account: Account) -> None:
+        self._robot, self._account = robot, account
         self._out = console()
         self._typed = sys.stdin.isatty()
 
@@ -91,7 +94,6 @@ class _Conversation:
         try:
             answer = self._done(line)
         except (SensorError, MemoryFileError, TTRError) as error:
-            self._out.file.flush()
             complain(error)
             return
         for sentence in answer.split("\n") if answer else ():
@@ -100,10 +102,12 @@ class _Conversation:
     def _done(self, line: str) -> str:
         if line.startswith("@"):
             return self._command(line[1:].strip())
+        if _POINTING.fullmatch(line):
+            return self._command(f"point {line}")
         turns = len(self._robot.exchanges)
         answer = self._robot.hear(line) if line else self._robot.look()
-        if self._trace and len(self._robot.exchanges) > turns:
-            for text in derivation(self._robot.exchanges[-1]):
+        for turn in self._robot.exchanges[turns:]:
+            for text in explained(self._account(turn)):
                 self._print(text, style="dim")
         if line.rstrip(".!?").lower() == "help":
             answer += "".join(f"\n  {command}" for command in COMMANDS.splitlines())
@@ -112,10 +116,6 @@ class _Conversation:
     def _command(self, command: str) -> str:
         verb, _, rest = command.partition(" ")
         match verb:
-            case "look":
-                answer = self._robot.look()
-                self._show_view()
-                return answer
             case "picture":
                 return self._picture(Path(rest or "kille-view.png"))
             case "things":
@@ -130,18 +130,16 @@ class _Conversation:
         return answer
 
     def _picture(self, path: Path) -> str:
-        self._robot.look()
-        view = self._robot.view
-        if view is None:
-            return ""
+        answer = self._robot.look()
+        if self._robot.view is None:
+            return answer
         try:
-            write_picture(path, overview(view.look))
+            write_picture(path, overview(self._robot.view.look))
         except OSError as error:
-            raise SensorError(
-                f"the picture cannot be written to {path}: {error.strerror}"
-            ) from None
+            complain(f"the picture cannot be written to {path}: {error.strerror}")
+            return answer
         self._print(f"The picture is in {path}.")
-        return ""
+        return answer
 
     def _things(self) -> str:
         sensor = self._robot.gaze.sensor

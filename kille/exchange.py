@@ -1,0 +1,39 @@
+"""What passes between tutor and robot in one turn, as immutable values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ttr import Judgement
+from ttr.updates import Step
+
+__all__ = ["Exchange", "Said"]
+
+
+@dataclass(frozen=True)
+class Said:
+    """A sentence of the robot's, and the judgement of which move it was.
+
+    `judgement` is None for saying that it did not understand, which is no move.
+    """
+
+    text: str
+    judgement: Judgement | None
+
+
+@dataclass(frozen=True)
+class Exchange:
+    """What one turn did: what was heard, the rules that ran, what was said.
+
+    `heard` is None where the robot only looked, or did not understand.
+    """
+
+    text: str
+    heard: Judgement | None
+    steps: tuple[Step, ...]
+    said: tuple[Said, ...]
+
+    @property
+    def answer(self) -> str:
+        """What was said, one sentence a line; empty for silence."""
+        return "\n".join(said.text for said in self.said)

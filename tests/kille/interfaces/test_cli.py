@@ -1,0 +1,411 @@
+"""The commands: exit codes, one line for each mistake, and what they do not load."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from kille.memory import Memory
+
+from .conftest import COMMAND, Run
+
+# --- what is typed wrong -------------------------------------------------------------
+
+MISSPELT = {
+    ("demmo",): "did you mean demo?",
+    ("xyzzy",): "try demo, talk, replay, memory, doctor",
+    ("memory", "lits"): "did you mean list?",
+    ("talk", "--memry", "x"): "did you mean --memory?",
+    ("talk", "--sensro=synthetic"): "did you mean --sensor?",
+    ("talk", "--tra"): "did you mean --trace?",
+    ("talk", "synthetic"): "there is no synthetic",
+    ("demo", "--seed", "x"): "x is no whole number",
+    ("demo", "--seed", "-1"): "-1 is no whole number",
+    ("talk", "--lang", "sv"): "there is no sv: try en",
+    ("memory", "list", "--jsn"): "did you mean --json?",
+    ("doctor", "--jason"): "did you mean --json?",
+    ("--verison",): "did you mean --version?",
+    ("replay",): "FILE.dlg",
+    ("replay", "--quiet", "--json", "a.dlg"): "not allowed with",
+    (): "a command is missing",
+    ("memory",): "a command is missing",
+}
+
+
+@pytest.mark.parametrize(("words", "told"), MISSPELT.items(), ids=" ".join)
+def test_wrong_use_is_one_line_with_a_way_out(
+    kille: Run, words: tuple[str, ...], told: str
+) -> None:
+    outcome = kille(*words)
+    assert outcome.code == 2
+    assert outcome.out == ""
+    assert told in outcome.complaint
+    assert "--help says more" in outcome.complaint
+
+
+@pytest.mark.parametrize("words", [(), ("talk",), ("memory", "list"), ("replay",)])
+def test_help(kille: Run, words: tuple[str, ...]) -> None:
+    outcome = kille(*words, "--help")
+    assert outcome.code == 0
+    assert outcome.out.startswith("usage: kille")
+    assert outcome.err == ""
+
+
+def test_version(kille: Run) -> None:
+    assert kille("--version").out.startswith("kille ")
+
+
+def test_help_loads_neither_eyes_nor_learners() -> None:
+    code = (
+        "import sys\nfrom kille.interfaces.cli import main\n"
+        "try: main(['--help'])\nexcept SystemExit: pass\n"
+        "print(*{name.partition('.')[0] for name in sys.modules})"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    )
+    loaded = set(done.stdout.splitlines()[-1].split())
+    assert loaded.isdisjoint({"cv2", "sklearn", "scipy", "numpy", "lark", "rich"})
+
+
+# --- sensors that cannot be opened ---------------------------------------------------
+
+
+def a_picture_that_does_not_open(folder: Path) -> Path:
+    (folder / "cup.png").write_bytes(b"\x89PNG\r\n\x1a\nno more")
+    return folder
+
+
+def an_empty_picture(folder: Path) -> Path:
+    (folder / "cup.png").touch()
+    return folder / "cup.png"
+
+
+def an_empty_folder(folder: Path) -> Path:
+    return folder
+
+
+def a_depth_of_another_size(folder: Path) -> Path:
+    cv2.imwrite(str(folder / "1_color.png"), np.zeros((48, 64, 3), np.uint8))
+    cv2.imwrite(str(folder / "1_depth.png"), np.ones((24, 32), np.uint16))
+    described = {
+        "intrinsics": {"fx": 50, "fy": 50, "cx": 32, "cy": 24},
+        "depth_units_per_metre": 1000,
+        "frames": {"1": []},
+    }
+    (folder / "scene.json").write_text(json.dumps(described))
+    return folder
+
+
+def a_path_that_is_not_there(folder: Path) -> Path:
+    return folder / "nowhere"
+
+
+SENSORS = {
+    a_picture_that_does_not_open: "does not open",
+    an_empty_picture: "the file is empty",
+    an_empty_folder: "the folder is empty",
+    a_depth_of_another_size: "is 32x24 but 1_color.png is 64x48",
+    a_path_that_is_not_there: "there is no such folder",
+}
+
+
+@pytest.mark.parametrize("source", SENSORS, ids=lambda it: it.__name__)
+def test_a_sensor_that_cannot_be_opened(
+    kille: Run, tmp_path: Path, source: Callable[[Path], Path]
+) -> None:
+    folder = tmp_path / "captures"
+    folder.mkdir()
+    path = source(folder)
+    outcome = kille("talk", "--sensor", str(path), typed="Hello.\n")
+    assert outcome.code == 2
+    assert outcome.out == ""
+    assert SENSORS[source] in outcome.complaint
+    assert str(path) in outcome.complaint
+
+
+@pytest.mark.parametrize("name", ["synthetic:dsk", "synthetic?sed=1", "kinect", ""])
+def test_a_sensor_that_is_not_known(kille: Run, memory: Path, name: str) -> None:
+    outcome = kille("talk", "--sensor", name)
+    assert outcome.code == 2
+    assert outcome.complaint.startswith("kille: ")
+    assert not memory.exists()
+
+
+# --- memories that cannot be opened --------------------------------------------------
+
+
+def test_a_memory_that_is_none(kille: Run, memory: Path) -> None:
+    memory.parent.mkdir()
+    memory.write_text("Dear diary, " * 100)
+    outcome = kille("talk", "--sensor", "synthetic:empty", typed="Hello.\n")
+    assert outcome.code == 2
+    assert "is not a kille memory" in outcome.complaint
+    assert memory.read_text().startswith("Dear diary")
+    assert kille("memory", "list").code == 2
+
+
+def test_a_memory_that_is_in_use(kille: Run, memory: Path) -> None:
+    with Memory.open(memory):
+        outcome = kille("talk", "--sensor", "synthetic:empty", typed="Hello.\n")
+    assert outcome.code == 2
+    assert "is in use" in outcome.complaint
+
+
+def test_a_memory_that_is_a_folder(kille: Run, tmp_path: Path) -> None:
+    outcome = kille("talk", "--memory", str(tmp_path))
+    assert outcome.code == 2
+    assert "is a folder" in outcome.complaint
+
+
+def test_a_memory_in_a_file(kille: Run, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    outcome = kille("talk", "--memory", str(tmp_path / "file" / "memory.db"))
+    assert outcome.code == 2
+    assert "name a file elsewhere" in outcome.complaint
+
+
+def test_a_memory_that_is_read_only(program: Run, memory: Path) -> None:
+    Memory.open(memory).close()
+    memory.chmod(0o444)
+    memory.parent.chmod(0o555)
+    outcome = program("talk", "--sensor", "synthetic:empty", typed=b"Hello.\n")
+    memory.parent.chmod(0o755)
+    assert outcome.code == 2
+    assert "is read-only" in outcome.complaint
+    assert outcome.out == ""
+
+
+def test_a_memory_that_may_not_be_read(program: Run, memory: Path) -> None:
+    Memory.open(memory).close()
+    memory.chmod(0)
+    outcome = program("memory", "list")
+    assert outcome.code == 2
+    assert "permissions" in outcome.complaint
+
+
+def test_a_memory_that_is_not_there(kille: Run) -> None:
+    outcome = kille("memory", "list")
+    assert outcome.code == 2
+    assert "teach a word first" in outcome.complaint
+
+
+# --- pictures that cannot be written -------------------------------------------------
+
+
+@pytest.mark.parametrize("where", ["nowhere/sheet.png", "file/sheet.png", "."])
+def test_a_demo_that_could_not_write_its_picture_does_not_begin(
+    kille: Run, tmp_path: Path, where: str
+) -> None:
+    (tmp_path / "file").touch()
+    outcome = kille("demo", "--out", str(tmp_path / where))
+    assert outcome.code == 2
+    assert outcome.out == ""
+    assert "--out" in outcome.complaint
+
+
+def test_a_folder_that_may_not_be_written(program: Run, tmp_path: Path) -> None:
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    folder.chmod(0o555)
+    outcome = program("demo", "--out", str(folder / "sheet.png"))
+    assert outcome.code == 2
+    assert "may be written" in outcome.complaint
+
+
+# --- ends that come early ------------------------------------------------------------
+
+
+def test_a_pipe_that_closes_ends_the_demo_quietly(tmp_path: Path) -> None:
+    with subprocess.Popen(
+        [*COMMAND, "demo", "--out", str(tmp_path / "sheet.png")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    ) as child:
+        assert child.stdout is not None
+        assert child.stderr is not None
+        assert child.stdout.readline() == b"\n"
+        child.stdout.close()
+        err = child.stderr.read()
+    assert child.returncode == 141
+    assert err == b""
+
+
+def test_ctrl_c_ends_the_demo(tmp_path: Path) -> None:
+    with subprocess.Popen(
+        [*COMMAND, "demo", "--out", str(tmp_path / "sheet.png")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    ) as child:
+        assert child.stdout is not None
+        assert child.stderr is not None
+        child.stdout.readline()
+        child.send_signal(signal.SIGINT)
+        child.stdout.read()
+        err = child.stderr.read()
+    assert child.returncode == 130
+    assert err == b"\n"
+    assert not (tmp_path / "sheet.png").exists()
+
+
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+def test_a_stream_that_was_closed_beforehand(closed: str) -> None:
+    command = (
+        f'"{sys.executable}" -m kille.interfaces.cli talk --sensor synthetic:empty'
+    )
+    done = subprocess.run(
+        ["bash", "-c", f"echo Hello. | {{ {command} {closed}; }}"],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=os.environ,
+    )
+    assert done.returncode == 0
+    assert "Traceback" not in done.stderr
+
+
+def test_characters_that_cannot_be_shown_are_replaced(program: Run) -> None:
+    outcome = program(
+        "talk", "--sensor", "synthetic", typed=b"Hello.\n", PYTHONIOENCODING="ascii"
+    )
+    assert outcome.code == 0
+    assert "straight ahead  ? this" in outcome.out
+    assert outcome.err == ""
+
+
+# --- reports -------------------------------------------------------------------------
+
+
+def test_memory_list_as_a_table_and_for_machines(kille: Run, memory: Path) -> None:
+    Memory.open(memory).close()
+    assert "holds no words yet" in kille("memory", "list").out
+    assert json.loads(kille("memory", "list", "--json").out) == []
+    typed = "@ show cup\nThis is a cup.\nThis is a cup.\nThis is an [apple].\n"
+    kille("talk", "--sensor", "synthetic:empty", typed=typed)
+    (entry,) = json.loads(kille("memory", "list", "--json").out)
+    assert (entry["word"], entry["kind"], entry["lessons"]) == ("cup", "object", 2)
+    row = kille("memory", "list").out.splitlines()[-1].split()
+    assert row[:3] == ["cup", "object", "2"]
+
+
+def test_doctor_finds_what_is_needed_and_lines_it_up(kille: Run) -> None:
+    outcome = kille("doctor")
+    assert outcome.code == 0
+    lines = [line for line in outcome.out.splitlines() if line[6] != " "]
+    states = {line[9:].split("  ")[0].strip() for line in lines}
+    assert {"Python", "numpy", "synthetic Kinect", "memory", "Kinect"} <= states
+    width = max(map(len, states))
+    assert all(line[9 + width : 11 + width] == "  " for line in lines)
+    assert all(line[11 + width] != " " for line in lines)
+
+
+def test_doctor_for_machines(kille: Run) -> None:
+    outcome = kille("doctor", "--json")
+    findings = {finding["part"]: finding for finding in json.loads(outcome.out)}
+    assert findings["synthetic Kinect"]["state"] == "640x480 frames"
+    assert findings["Kinect"]["needed"] is False
+    broken = [it for it in findings.values() if it["needed"] and not it["works"]]
+    assert (outcome.code == 0) is (not broken)
+
+
+def test_doctor_says_what_is_wrong_with_a_memory(kille: Run, memory: Path) -> None:
+    memory.parent.mkdir()
+    memory.write_text("Dear diary, " * 100)
+    outcome = kille("doctor")
+    assert outcome.code == 1
+    assert "MISSING  memory" in outcome.out
+    assert "is not a kille memory" in outcome.out
+
+
+# --- replay --------------------------------------------------------------------------
+
+
+@pytest.fixture
+def stories(tmp_path: Path) -> Path:
+    path = tmp_path / "two.dlg"
+    path.write_text(
+        "--- right\nU> Hello.\nS> Hello.\n--- wrong\nU> Hello.\nS> Good day.\n"
+    )
+    return path
+
+
+@pytest.fixture
+def fine(tmp_path: Path) -> Path:
+    path = tmp_path / "fine.dlg"
+    path.write_text("U> Hello.\nS> Hello.\n")
+    return path
+
+
+def test_replay_of_what_is_as_written(kille: Run, fine: Path) -> None:
+    outcome = kille("replay", str(fine))
+    assert outcome.code == 0
+    assert outcome.out.splitlines() == [
+        "--- fine",
+        "U> Hello.",
+        "S> Hello.",
+        f"{fine}: 1 story as written",
+    ]
+
+
+def test_replay_says_what_differs(kille: Run, stories: Path, fine: Path) -> None:
+    outcome = kille("replay", "--quiet", str(stories), str(fine))
+    assert outcome.code == 1
+    assert outcome.out.splitlines() == [
+        f"{stories}:6",
+        "  expected: Good day.",
+        "     found: Hello.",
+        f"{stories}: 1 of 2 stories differ",
+        f"{fine}: 1 story as written",
+    ]
+
+
+def test_replay_for_machines(kille: Run, stories: Path) -> None:
+    outcome = kille("replay", "--json", str(stories))
+    assert outcome.code == 1
+    right, wrong = json.loads(outcome.out)
+    assert (right["title"], right["difference"]) == ("right", None)
+    assert wrong["difference"]["expected"] == "Good day."
+    assert wrong["difference"]["line"]["number"] == 6
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("U> Hello.\nS< Hello.\n", ":2: a line begins with"),
+        ("U> Hello.\nS~ (\n", ":2: '(' is no regular expression"),
+        ("U> Hello.\nS> Hello.\n= s : [\n", ":3: "),
+        ("@ scene nowhere\n", ":1: nowhere"),
+        ("", "has no story"),
+    ],
+)
+def test_a_story_with_a_mistake(
+    kille: Run, tmp_path: Path, text: str, told: str
+) -> None:
+    path = tmp_path / "wrong.dlg"
+    path.write_text(text)
+    outcome = kille("replay", str(path))
+    assert outcome.code == 2
+    assert f"{path}{told}" in outcome.complaint or told in outcome.complaint
+    assert "wrong.dlg" in outcome.complaint
+
+
+def test_a_story_that_is_not_there(kille: Run, fine: Path) -> None:
+    outcome = kille("replay", str(fine), "nowhere.dlg")
+    assert outcome.code == 2
+    assert outcome.complaint == "kille: nowhere.dlg is not there"
+
+
+def test_a_story_that_may_not_be_read(program: Run, fine: Path) -> None:
+    fine.chmod(0)
+    outcome = program("replay", str(fine))
+    assert outcome.code == 2
+    assert "Permission denied" in outcome.complaint

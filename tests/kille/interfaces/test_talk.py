@@ -1,0 +1,326 @@
+"""`kille talk`: from a pipe and at a terminal, and whatever way it ends."""
+
+from __future__ import annotations
+
+import os
+import pty
+import re
+import select
+import signal
+import subprocess
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from kille.memory import Memory, MemoryFileError
+
+from .conftest import COMMAND, Run
+
+EMPTY = "synthetic:empty?seed=3"
+SHOWN = "@ show cup\n"
+
+
+def talked(kille: Run, typed: str, *options: str) -> list[str]:
+    """The lines that a conversation prints, without the first view."""
+    outcome = kille("talk", "--sensor", EMPTY, *options, typed=typed)
+    assert outcome.code == 0
+    assert outcome.err == ""
+    first, *others = outcome.out.splitlines()
+    assert first == "Nothing is in view."
+    return others
+
+
+# --- from a pipe ---------------------------------------------------------------------
+
+
+def test_a_lesson_and_a_question(kille: Run) -> None:
+    said = talked(kille, f"{SHOWN}This is a cup.\n\n  \nWhat is this?\n")
+    assert said[0] == "U> @ show cup"
+    assert said[1] == "One thing is in view:"
+    assert re.fullmatch(r"  #1  0\.\d\d m away, .*← this", said[2])
+    assert said[3:] == [
+        "U> This is a cup.",
+        "S> OK, I learned a cup.",
+        "U> What is this?",
+        "S> This is a cup.",
+    ]
+
+
+def test_what_was_learned_is_known_the_next_time(kille: Run) -> None:
+    talked(kille, f"{SHOWN}This is a cup.\n")
+    assert talked(kille, f"{SHOWN}What is this?\n")[-1] == "S> This is a cup."
+
+
+def test_a_farewell_ends_it(kille: Run) -> None:
+    said = talked(kille, "Goodbye.\nThis is a cup.\n")
+    assert said == ["U> Goodbye.", "S> Goodbye."]
+
+
+def test_mistakes_are_told_in_a_line_and_the_talk_goes_on(kille: Run) -> None:
+    typed = (
+        "@ show unicorn\n@ fly\n@ point 7\n@ picture /nowhere/a.png\n"
+        "#3 This is a cup.\n@ scene nowhere\nHello.\n"
+    )
+    outcome = kille("talk", "--sensor", EMPTY, typed=typed)
+    assert outcome.code == 0
+    complaints = outcome.err.splitlines()
+    assert len(complaints) == 6
+    assert all(line.startswith("kille: ") for line in complaints)
+    assert outcome.out.splitlines()[-1] == "S> Hello."
+
+
+def test_mistakes_and_answers_come_in_order(program: Run, tmp_path: Path) -> None:
+    both = tmp_path / "both"
+    with both.open("wb") as sink:
+        subprocess.run(
+            [*COMMAND, "talk", "--sensor", EMPTY],
+            input=b"Hello.\n@ fly\nThank you.\n",
+            stdout=sink,
+            stderr=subprocess.STDOUT,
+            check=True,
+        )
+    lines = both.read_text().splitlines()
+    assert [line[:12] for line in lines[1:]] == [
+        "U> Hello.",
+        "S> Hello.",
+        "U> @ fly",
+        "kille: unkno",
+        "U> Thank you",
+        "S> You are w",
+    ]
+
+
+def test_bytes_that_are_no_text_are_only_not_understood(program: Run) -> None:
+    typed = b"\xff\xfe\x00 is this\nHello.\n"
+    outcome = program("talk", "--sensor", EMPTY, typed=typed)
+    assert outcome.code == 0
+    assert outcome.err == ""
+    assert "Sorry, I did not understand" in outcome.out
+    assert outcome.out.endswith("S> Hello.\n")
+
+
+def test_help_and_the_menu(kille: Run) -> None:
+    said = talked(kille, "help\n@\n")
+    menu = said.index("U> @")
+    assert said[1] == "S> You can say:"
+    assert "  This is a cup." in said[:menu]
+    for command in ("show cup", "place book", "point 2", "scene SENSOR", "restart"):
+        assert any(line.strip().startswith(f"@ {command}") for line in said[:menu])
+        assert any(line.strip().startswith(f"@ {command}") for line in said[menu:])
+
+
+def test_what_can_be_shown(kille: Run) -> None:
+    (line,) = talked(kille, "@ things\n")[1:]
+    assert line.startswith("You can show: apple, banana, teddy bear")
+
+
+def test_a_number_alone_points(kille: Run) -> None:
+    typed = "@ show car\n@ place book at -0.25 0.1\n#2\nThis is a book.\n"
+    said = talked(kille, typed)
+    view = said[said.index("U> #2") :]
+    assert view[1] == "2 things are in view:"
+    assert "← this" not in view[2]
+    assert "← this" in view[3]
+    assert view[-1] == "S> OK, I learned a book."
+
+
+def test_a_picture_of_what_is_in_view(kille: Run, tmp_path: Path) -> None:
+    path = tmp_path / "view.png"
+    said = talked(kille, f"{SHOWN}@ picture {path}\n")
+    assert said[-1] == f"The picture is in {path}."
+    assert path.read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_trace_shows_the_judgements_and_fits_the_line(kille: Run) -> None:
+    said = talked(kille, f"{SHOWN}This is a cup.\nWhat is this?\n", "--trace")
+    assert all(len(line) <= 100 for line in said)
+    text = re.sub(r"\s+", " ", " ".join(said))
+    assert "content = [look : Look, x : Ind, c : cup(x, look)] : RecType" in text
+    assert "e : instruct(spkr, addr)]" in text
+    assert "learn_word: The tutor names the thing in focus" in text
+    assert re.search(r"judged e\d+ : cup\(o1, look\d\) p = 0\.\d\d|p = 1\.00", text)
+    assert re.search(r"said s\d+ : assert_name\(robot, tutor\)", text)
+
+
+# --- at a terminal -------------------------------------------------------------------
+
+
+class Terminal:
+    """A program at a terminal of its own, and what it has shown so far."""
+
+    def __init__(self, *words: str) -> None:
+        self._ours, theirs = pty.openpty()
+        self._child = subprocess.Popen(
+            [*COMMAND, *words],
+            stdin=theirs,
+            stdout=theirs,
+            stderr=theirs,
+            start_new_session=True,
+            env=os.environ | {"TERM": "xterm", "COLUMNS": "90"},
+        )
+        os.close(theirs)
+        self.shown = ""
+
+    def type(self, keys: str) -> None:
+        os.write(self._ours, keys.encode())
+
+    def wait_for(self, text: str, seconds: float = 60.0) -> str:
+        """What is shown up to this text, from where the last one ended."""
+        ends = time.monotonic() + seconds
+        while text not in self.shown:
+            assert time.monotonic() < ends, f"{text!r} is not in {self.shown!r}"
+            if select.select([self._ours], [], [], 0.1)[0]:
+                self.shown += os.read(self._ours, 65536).decode()
+        before, _, self.shown = self.shown.partition(text)
+        return before
+
+    def interrupt(self) -> None:
+        # Python's own readline misses a signal between the prompt and its waiting.
+        time.sleep(0.3)
+        self._child.send_signal(signal.SIGINT)
+
+    def code(self) -> int:
+        return self._child.wait(60)
+
+    def close(self) -> None:
+        self._child.kill()
+        self._child.wait()
+        os.close(self._ours)
+
+
+@contextmanager
+def at_terminal(*words: str) -> Iterator[Terminal]:
+    terminal = Terminal(*words)
+    try:
+        yield terminal
+    finally:
+        terminal.close()
+
+
+def test_a_talk_at_a_terminal_has_history_over_sessions(memory: Path) -> None:
+    with at_terminal("talk", "--sensor", EMPTY) as screen:
+        welcome = screen.wait_for("U> ")
+        assert f"I look through {EMPTY} and know no words" in welcome
+        assert "help says what else" in welcome
+        screen.type("@ show cup\r")
+        screen.wait_for("One thing is in view")
+        screen.wait_for("U> ")
+        screen.type("This is a cut\x7fp.\r")  # mended with backspace
+        screen.wait_for("OK, I learned a cup.")
+        screen.wait_for("U> ")
+        screen.type("\x1b[A\r")  # the line before, with arrow up
+        screen.wait_for("OK, I learned a cup.")
+        screen.wait_for("U> ")
+        screen.type("\x04")
+        assert screen.code() == 0
+    assert "This is a cup." in memory.with_name("history").read_text().splitlines()
+    with at_terminal("talk", "--sensor", EMPTY) as screen:
+        assert "know 1 word for things" in screen.wait_for("U> ")
+        screen.type("\x1b[A\r")
+        screen.wait_for("S> I see nothing on the table.")
+        screen.wait_for("U> ")
+        screen.type("Goodbye.\r")
+        screen.wait_for("S> Goodbye.")
+        assert screen.code() == 0
+
+
+def test_ctrl_c_at_a_terminal_loses_nothing(memory: Path) -> None:
+    with at_terminal("talk", "--sensor", EMPTY) as screen:
+        screen.wait_for("U> ")
+        screen.type("@ show cup\r")
+        screen.wait_for("U> ")
+        screen.type("This is a cup.\r")
+        screen.wait_for("OK, I learned a cup.")
+        screen.wait_for("U> ")
+        screen.interrupt()
+        assert screen.code() == 130
+        assert "Traceback" not in screen.shown
+    assert words_in(memory) == {"cup"}
+    assert memory.with_name("history").exists()
+
+
+# --- whatever way it ends ------------------------------------------------------------
+
+
+def words_in(path: Path) -> set[str]:
+    with Memory.open(path) as memory:
+        return {word.surface for word in memory.words()}
+
+
+def acknowledged(out: str) -> set[str]:
+    """The words that it said in whole lines that it had learned."""
+    said = re.findall(r"S> OK, I learned an? (\w+)\.\n", out)
+    return set(said)
+
+
+@contextmanager
+def lessons(first: int) -> Iterator[subprocess.Popen[str]]:
+    """A talk that is fed many lessons through a pipe, once it has begun."""
+    with subprocess.Popen(
+        [*COMMAND, "talk", "--sensor", EMPTY],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as child:
+        assert child.stdin is not None
+        assert child.stdout is not None
+        taught = "".join(f"This is a thing{n}.\n" for n in range(first, first + 200))
+        child.stdin.write(SHOWN + taught)
+        child.stdin.flush()
+        assert child.stdout.readline() == "Nothing is in view.\n"
+        yield child
+
+
+def test_kill_9_in_mid_lesson_loses_no_acknowledged_lesson(memory: Path) -> None:
+    rng = np.random.default_rng(9)
+    known: set[str] = set()
+    for number, seconds in enumerate(rng.uniform(0.3, 1.6, size=5)):
+        with lessons(1000 * number) as child:
+            time.sleep(seconds)
+            child.kill()
+            assert child.stdout is not None
+            known |= acknowledged(child.stdout.read())
+        kept = words_in(memory)
+        assert kept >= known
+        # Killed between its commit and its word: at most one each time.
+        assert len(kept) <= len(known) + number + 1
+    assert known
+
+
+def test_ctrl_c_in_mid_lesson(memory: Path) -> None:
+    with lessons(0) as child:
+        time.sleep(0.8)
+        child.send_signal(signal.SIGINT)
+        assert child.stdout is not None
+        assert child.stderr is not None
+        said, err = child.stdout.read(), child.stderr.read()
+    assert child.returncode == 130
+    assert err == "\n"
+    kept = words_in(memory)
+    assert kept >= acknowledged(said)
+    assert len(kept) <= len(acknowledged(said)) + 1
+
+
+def test_two_talks_cannot_share_a_memory(kille: Run, memory: Path) -> None:
+    with lessons(0) as child:
+        outcome = kille("talk", "--sensor", EMPTY, typed="Hello.\n")
+        with pytest.raises(MemoryFileError):
+            Memory.open(memory)
+        child.kill()
+    assert outcome.code == 2
+    assert "is in use" in outcome.complaint
+
+
+def test_a_pipe_that_closes_ends_the_talk_quietly(memory: Path) -> None:
+    with lessons(0) as child:
+        assert child.stdout is not None
+        assert child.stderr is not None
+        child.stdout.close()
+        assert child.stderr.read() == ""
+    assert child.returncode == 141
+    Memory.open(memory).close()

@@ -1,0 +1,140 @@
+"""Learners as witness functions: degrees of words for things in remembered looks."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from kille.dialogue.meanings import noun, relation, theory
+from kille.dialogue.state import blank_model
+from kille.gaze import Gaze
+from kille.perception.objects import ObjectMemory
+from kille.perception.relations import RelationMemory
+from kille.scene import Look, Point
+from kille.witness import UNKNOWN, Witnesses, thing
+from ttr import record
+
+
+@pytest.fixture(scope="module")
+def seen() -> Look:
+    """A book and a car, nearest first."""
+    gaze = Gaze("synthetic:empty?seed=5", scans=2)
+    gaze.change("show car")
+    gaze.change("place book at -0.28 0.1")
+    return gaze.look().look
+
+
+@pytest.fixture
+def objects(seen: Look) -> ObjectMemory:
+    memory = ObjectMemory()
+    for number, word in ((1, "car"), (2, "book")):
+        memory.learn_one(seen.percepts[number - 1], word, key=number)
+    return memory
+
+
+@pytest.fixture
+def witnesses(seen: Look, objects: ObjectMemory) -> Witnesses:
+    relations = RelationMemory()
+    relations.learn_one((-0.2, 0.1, 0.0), "to_the_left_of", key=1)
+    relations.learn_one((0.2, 0.1, 0.0), "to_the_right_of", key=2)
+    made = Witnesses(objects, relations)
+    made.remember("look1", seen)
+    return made
+
+
+def test_a_degree_is_what_the_learner_says(
+    witnesses: Witnesses, objects: ObjectMemory, seen: Look
+) -> None:
+    for number, percept in enumerate(seen.percepts, start=1):
+        for word, p in objects.predict_proba_one(percept).items():
+            assert witnesses.noun(word, thing(number), "look1") == pytest.approx(p)
+    assert witnesses.noun("unicorn", "o1", "look1") == 0.0
+
+
+@pytest.mark.parametrize(("x", "look"), [("o3", "look1"), ("o1", "look9")])
+def test_what_is_not_in_a_remembered_look_is_unknown(
+    witnesses: Witnesses, x: str, look: str
+) -> None:
+    assert witnesses.percept(x, look) is None
+    assert witnesses.place(x, look) is None
+    assert witnesses.offset(x, "o2", look) is None
+    assert witnesses.noun("car", x, look) == UNKNOWN
+    assert witnesses.relation("to_the_left_of", x, "o2", look) == UNKNOWN
+
+
+def test_without_depth_a_place_is_unknown_but_a_name_is_not(
+    witnesses: Witnesses, seen: Look
+) -> None:
+    flat = [
+        replace(it, region=replace(it.region, place=None), scans=it.scans[:1])
+        for it in seen.percepts
+    ]
+    bare = [
+        replace(
+            it, scans=[replace(s, points=s.points * float("nan")) for s in it.scans]
+        )
+        for it in flat
+    ]
+    witnesses.remember("look2", replace(seen, percepts=tuple(bare)))
+    assert witnesses.place("o1", "look2") is None
+    assert witnesses.relation("to_the_left_of", "o2", "o1", "look2") == UNKNOWN
+    assert isinstance(witnesses.noun("car", "o1", "look2"), float)
+
+
+def test_offsets_are_right_away_and_up_and_turn_around(witnesses: Witnesses) -> None:
+    there = witnesses.offset("o2", "o1", "look1")
+    back = witnesses.offset("o1", "o2", "look1")
+    assert isinstance(there, Point)
+    assert there.x == pytest.approx(-0.28, abs=0.08)
+    assert there.y == pytest.approx(0.1, abs=0.08)
+    assert back == pytest.approx(Point(-there.x, -there.y, -there.z))
+
+
+def test_old_looks_are_let_go_but_for_those_still_needed(
+    witnesses: Witnesses, seen: Look
+) -> None:
+    for number in range(2, 20):
+        witnesses.remember(f"look{number}", seen, {"look1"})
+    assert witnesses.look("look1") is seen
+    assert witnesses.look("look2") is None
+    assert witnesses.look("look19") is seen
+    witnesses.remember("look20", seen)
+    assert witnesses.look("look1") is None
+
+
+def test_after_a_lesson_it_is_judged_anew(
+    witnesses: Witnesses, objects: ObjectMemory, seen: Look
+) -> None:
+    before = witnesses.noun("car", "o2", "look1")
+    objects.learn_one(seen.percepts[1], "car", key=3)
+    assert witnesses.noun("car", "o2", "look1") == before
+    witnesses.reconsider()
+    after = witnesses.noun("car", "o2", "look1")
+    assert isinstance(before, float)
+    assert isinstance(after, float)
+    assert after > before
+
+
+def test_the_theory_asks_them_when_it_perceives(witnesses: Witnesses) -> None:
+    car, left = noun("car"), relation("to the left of")
+    model = witnesses.in_model(blank_model(), [car], [left])
+    model = model.given("look1", theory()["Look"])
+    for x in ("o1", "o2"):
+        model = model.given(x, theory()["Ind"])
+    named_car = model.perceive(record(x="o1", look="look1"), car.meaning)
+    degree = witnesses.noun("car", "o1", "look1")
+    assert named_car.p.lo == named_car.p.hi == pytest.approx(degree)
+    pair = record(look="look1", target=record(x="o2"), landmark=record(x="o1"))
+    placed = model.perceive(pair, left.meaning)
+    degree = witnesses.relation("to_the_left_of", "o2", "o1", "look1")
+    assert placed.p.lo == pytest.approx(degree)
+    assert placed.p.lo > 0.5
+
+
+def test_what_cannot_be_seen_is_undecided_in_the_theory(witnesses: Witnesses) -> None:
+    car = noun("car")
+    model = witnesses.in_model(blank_model(), [car], [])
+    model = model.given("look9", theory()["Look"]).given("o1", theory()["Ind"])
+    judged = model.perceive(record(x="o1", look="look9"), car.meaning)
+    assert (judged.p.lo, judged.p.hi) == UNKNOWN

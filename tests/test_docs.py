@@ -1,0 +1,297 @@
+"""The documents are true: links lead somewhere, what is shown is what happens.
+
+Python in the pages runs as doctests. Here the rest is rehearsed, page by page, in a
+folder of its own with a copy of the program. A block `diff FILE` is a change of a file
+of the copy, a block `dlg` is replayed, a block `console` is typed line by line and must
+answer as shown, and any other block with the name of a file is that file.
+"""
+
+from __future__ import annotations
+
+import argparse
+import doctest
+import importlib
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from itertools import takewhile
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+import kille
+import ttr
+from kille import Agent, Memory
+from kille.sensors.sources import open_sensor
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+SAME = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+PROGRAMS = {"kille": "kille.interfaces.cli", "ttr": "ttr.cli"}
+
+
+def named(page: Path) -> str:
+    return page.relative_to(ROOT).as_posix()
+
+
+# --- links ---------------------------------------------------------------------------
+
+
+def links(page: Path) -> list[str]:
+    """The targets of links and pictures, outside of code."""
+    text = re.sub(r"^```.*?^```", "", page.read_text("utf-8"), flags=re.M | re.S)
+    return re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`]*`", "", text))
+
+
+def anchors(page: Path) -> set[str]:
+    """What a link into the page can name: its headings, as web pages write them."""
+    text = re.sub(r"^```.*?^```", "", page.read_text("utf-8"), flags=re.M | re.S)
+    headings = re.findall(r"^#+ +(.+)$", text, flags=re.M)
+    return {
+        re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-")
+        for heading in headings
+    }
+
+
+@pytest.mark.parametrize("page", PAGES, ids=named)
+def test_relative_links_lead_to_files_and_headings(page: Path) -> None:
+    lost = []
+    for link in links(page):
+        path, _, anchor = link.partition("#")
+        if "://" in link:
+            continue
+        target = page.parent / path if path else page
+        if not target.exists() or (anchor and anchor not in anchors(target)):
+            lost.append(link)
+    assert not lost
+
+
+def test_every_page_can_be_reached_from_the_index() -> None:
+    reached, waiting = set[Path](), [ROOT / "docs" / "index.md"]
+    while waiting:
+        page = waiting.pop()
+        if page.suffix != ".md" or page in reached:
+            continue
+        reached.add(page)
+        local = (link.partition("#")[0] for link in links(page) if "://" not in link)
+        waiting += [(page.parent / path).resolve() for path in local if path]
+    assert not set(PAGES) - reached - {ROOT / "README.md"}
+
+
+def test_pictures_are_small() -> None:
+    pictures = list((ROOT / "docs" / "pictures").glob("*.png"))
+    assert pictures
+    assert max(picture.stat().st_size for picture in pictures) < 300_000
+
+
+# --- what pages show -----------------------------------------------------------------
+
+
+class Block(NamedTuple):
+    """A fenced block: its language, the file it is or "", its text."""
+
+    language: str
+    file: str
+    text: str
+
+
+class Command(NamedTuple):
+    """A command with what is typed into it, and what page shows of its answer."""
+
+    line: str
+    typed: str
+    shown: str
+
+
+def blocks(page: Path) -> list[Block]:
+    found = re.findall(
+        r"^```(\w+) ?(\S*)\n(.*?)^```", page.read_text("utf-8"), flags=re.M | re.S
+    )
+    return [Block(*parts) for parts in found]
+
+
+def commands(block: Block) -> Iterator[Command]:
+    for session in re.split(r"^\$ ", block.text, flags=re.M)[1:]:
+        line, *shown = session.splitlines()
+        typed = [it.removeprefix("U> ") for it in shown if it.startswith("U> ")]
+        yield Command(line, "".join(f"{it}\n" for it in typed), "\n".join(shown))
+
+
+def rehearsed(page: Path) -> bool:
+    return any(block.language in ("console", "dlg", "diff") for block in blocks(page))
+
+
+class Stage:
+    """A folder with a copy of the program, where a page is rehearsed."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        for name in ("ttr", "kille", "grammars"):
+            skipped = shutil.ignore_patterns("__pycache__")
+            shutil.copytree(ROOT / name, folder / name, ignore=skipped)
+        (folder / "kille" / "grammars").symlink_to("../grammars")
+        self.environment = {
+            **os.environ,
+            "PYTHONPATH": str(folder),
+            "PYTHONUTF8": "1",
+            "KILLE_MEMORY": str(folder / "memory.db"),
+            "COLUMNS": "88",
+        }
+
+    def run(self, arguments: list[str], typed: str = "") -> tuple[int, str]:
+        """The exit code, and what is printed on either stream."""
+        done = subprocess.run(
+            arguments,
+            input=typed,
+            cwd=self.folder,
+            env=self.environment,
+            text=True,
+            encoding="utf-8",
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            timeout=60,
+            check=False,
+        )
+        return done.returncode, done.stdout
+
+    def program(self, name: str, *arguments: str, typed: str = "") -> tuple[int, str]:
+        return self.run([sys.executable, "-m", PROGRAMS[name], *arguments], typed)
+
+    def rehearse(self, block: Block, number: int) -> None:
+        """Does what the block shows, and compares."""
+        match block.language:
+            case "diff":
+                edit(self.folder / block.file, block.text)
+            case "dlg":
+                story = self.folder / f"{number}.dlg"
+                story.write_text(block.text, encoding="utf-8")
+                code, printed = self.program("kille", "replay", "--quiet", str(story))
+                assert code == 0, printed
+            case "console":
+                for command in commands(block):
+                    self.type(command)
+            case _ if block.file:
+                (self.folder / block.file).write_text(block.text, encoding="utf-8")
+
+    def type(self, command: Command) -> None:
+        name, *arguments = shlex.split(command.line.replace("make talk", "kille talk"))
+        assert name in PROGRAMS, f"nobody knows how to rehearse: {command.line}"
+        _, printed = self.program(name, *arguments, typed=command.typed)
+        shown, printed = timeless(command.shown), timeless(printed)
+        if not doctest.OutputChecker().check_output(shown, printed, SAME):
+            pytest.fail(
+                f"$ {command.line}\n--- shown\n{shown}\n--- printed\n{printed}",
+                pytrace=False,
+            )
+
+
+def edit(file: Path, diff: str) -> None:
+    """Makes the changes: what a part between `@@` lines has without its `+` lines must
+    be in the file once, and becomes what it has without its `-` lines."""
+    text = file.read_text(encoding="utf-8")
+    for part in re.split(r"^@@\n", diff, flags=re.M):
+        lines = part.splitlines(keepends=True)
+        before = "".join(line[1:] for line in lines if not line.startswith("+"))
+        after = "".join(line[1:] for line in lines if not line.startswith("-"))
+        assert text.count(before) == 1, f"{file.name} should have once:\n{before}"
+        text = text.replace(before, after)
+    file.write_text(text, encoding="utf-8")
+
+
+def timeless(text: str) -> str:
+    """The text with the same date wherever there is one."""
+    return re.sub(r"\d{4}-\d\d-\d\d \d\d:\d\d", "2026-01-31 12:00", text).strip()
+
+
+@pytest.mark.parametrize("page", [*filter(rehearsed, PAGES)], ids=named)
+def test_what_a_page_shows_is_what_happens(page: Path, tmp_path: Path) -> None:
+    stage = Stage(tmp_path)
+    for number, block in enumerate(blocks(page)):
+        stage.rehearse(block, number)
+
+
+# --- reference -----------------------------------------------------------------------
+
+
+def tables(page: Path) -> dict[str, set[str]]:
+    """The names in the first columns of a page's tables, by the heading above."""
+    found: dict[str, set[str]] = {}
+    for section in re.split(r"^#+ ", page.read_text("utf-8"), flags=re.M)[1:]:
+        heading, *lines = section.splitlines()
+        rows = [line for line in lines if line.startswith("| `")]
+        names = [name for row in rows for name in first_column(row)]
+        assert len(names) == len(set(names)), f"{heading} has a name twice"
+        if rows:
+            found[heading.strip("`")] = set(names)
+    return found
+
+
+def first_column(row: str) -> list[str]:
+    """The names in a row's first cell."""
+    return re.findall(r"`(\w+)`", row.split("|")[1])
+
+
+def public(value: object) -> set[str]:
+    return {name for name in dir(value) if not name.startswith("_")}
+
+
+def test_the_python_reference_names_what_is_public() -> None:
+    described = tables(ROOT / "docs" / "reference" / "python.md")
+    with Agent(sensor="synthetic:empty") as robot, Memory.transient() as memory:
+        expected = {
+            "ttr": set(ttr.__all__),
+            "ttr.updates": set(importlib.import_module("ttr.updates").__all__),
+            "kille": set(kille.__all__),
+            "ttr.Model": public(ttr.Model()),
+            "ttr.Judgement": public(ttr.Model().judge("a", ttr.Ind)),
+            "ttr.Why": public(ttr.Model().judge("a", ttr.Ind).why),
+            "ttr.Answer": public(ttr.subtype(ttr.Ind, ttr.Ind)),
+            "ttr.Theory": public(ttr.Theory()),
+            "kille.Agent": public(robot),
+            "kille.Memory": public(memory),
+        }
+    assert described == expected
+
+
+def test_the_commands_reference_names_every_command_and_option() -> None:
+    page = (ROOT / "docs" / "reference" / "commands.md").read_text("utf-8")
+    rows = re.findall(r"^\| `([^`]+)` \|", page, flags=re.M)
+    for name, module in PROGRAMS.items():
+        parser = importlib.import_module(module)._parser()
+        described = {row for row in rows if row.startswith(name)}
+        assert {synopsis(row) for row in described} == set(usages(parser, name))
+
+
+def synopsis(row: str) -> tuple[str, frozenset[str]]:
+    """A row as the words of the command, and its options."""
+    words = row.replace("[", " ").replace("]", " ").split()
+    command = takewhile(lambda word: word.isalpha() and word.islower(), words)
+    return " ".join(command), frozenset(it for it in words if it.startswith("--"))
+
+
+def usages(
+    parser: argparse.ArgumentParser, words: str
+) -> Iterator[tuple[str, frozenset[str]]]:
+    """The words and the options of every command below this one."""
+    inner = [
+        (name, below)
+        for action in parser._actions
+        if isinstance(action, argparse._SubParsersAction)
+        for name, below in action.choices.items()
+    ]
+    for name, below in inner:
+        yield from usages(below, f"{words} {name}")
+    if not inner:
+        options = [option for it in parser._actions for option in it.option_strings]
+        yield words, frozenset(options) - {"-h", "--help"}
+
+
+def test_the_scenes_and_faults_of_the_reference_can_be_opened() -> None:
+    page = (ROOT / "docs" / "reference" / "commands.md").read_text("utf-8")
+    for name in re.findall(r"`(synthetic[^`]*)`", page):
+        open_sensor(name).close()
