@@ -26,9 +26,9 @@ test: $(INSTALLED) ## format, lint, types, import directions, then all tests and
 	$(BIN)/lint-imports
 	$(BIN)/pytest
 
-bench: $(INSTALLED) ## measure how fast things are
+bench: $(INSTALLED) ## measure how fast things are, on one thread
 	@for script in benchmarks/*.py; do \
-	    echo "== $$script"; $(BIN)/python "$$script" || exit 1; \
+	    echo "== $$script"; OPENBLAS_NUM_THREADS=1 $(BIN)/python "$$script" || exit 1; \
 	done
 
 # Some tests compare with other people's programs. The day one is needed, the Debian

@@ -36,7 +36,8 @@ class Scans(Sequence[Features]):
 
     def __init__(self, sightings: Sequence[Sighting]) -> None:
         self._sightings = tuple(sightings)
-        self._extracted = cache(self._extract)
+        # Kept by no cycle of references: a look goes as soon as it is let go.
+        self._extracted = cache(partial(_extracted, self._sightings))
 
     def __len__(self) -> int:
         return len(self._sightings)
@@ -52,8 +53,9 @@ class Scans(Sequence[Features]):
             return tuple(self[i] for i in range(*index.indices(len(self))))
         return self._extracted(range(len(self))[index])
 
-    def _extract(self, index: int) -> Features:
-        return features_of(*self._sightings[index])
+
+def _extracted(sightings: Sequence[Sighting], index: int) -> Features:
+    return features_of(*sightings[index])
 
 
 def look(

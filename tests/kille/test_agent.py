@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import math
 import os
@@ -9,6 +10,7 @@ import re
 import sqlite3
 import subprocess
 import sys
+import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
@@ -487,6 +489,24 @@ def test_a_failed_restart_leaves_the_dialogue_as_it_was(tmp_path: Path) -> None:
             robot.do("restart")
         assert robot.state is before
         assert robot.hear("Yes.") == "OK, I learned a cup."
+
+
+def test_looks_that_are_over_are_let_go_at_once() -> None:
+    """A long talk does not fill the memory of the machine with frames."""
+    frames = []
+    gc.collect()
+    gc.disable()
+    try:
+        with awake() as robot:
+            robot.do("show cup")
+            for _ in range(12):
+                tell(robot, "This is a cup.", "What is this?")
+                assert robot.view is not None
+                frames.append(weakref.ref(robot.view.look.frame))
+            alive = sum(frame() is not None for frame in frames)
+    finally:
+        gc.enable()
+    assert alive <= 4
 
 
 # --- letting go ----------------------------------------------------------------------

@@ -279,7 +279,7 @@ def lessons(first: int) -> Iterator[subprocess.Popen[str]]:
 def test_kill_9_in_mid_lesson_loses_no_acknowledged_lesson(memory: Path) -> None:
     rng = np.random.default_rng(9)
     known: set[str] = set()
-    for number, seconds in enumerate(rng.uniform(0.3, 1.6, size=5)):
+    for number, seconds in enumerate(rng.uniform(0.2, 1.2, size=4)):
         with lessons(1000 * number) as child:
             time.sleep(seconds)
             child.kill()
