@@ -10,7 +10,7 @@ import signal
 import subprocess
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import numpy as np
@@ -179,9 +179,13 @@ class Terminal:
         return before
 
     def interrupt(self) -> None:
-        # Python's own readline misses a signal between the prompt and its waiting.
-        time.sleep(0.3)
-        self._child.send_signal(signal.SIGINT)
+        # Python's own readline misses a signal between the prompt and its waiting; who
+        # sees nothing happen presses the keys again.
+        for _ in range(10):
+            self._child.send_signal(signal.SIGINT)
+            with suppress(subprocess.TimeoutExpired):
+                self._child.wait(2)
+                return
 
     def code(self) -> int:
         return self._child.wait(60)
