@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ttr import updates
+from ttr.constructors import Pi, fun, rectype
 from ttr.errors import (
     IllFormed,
     NotationError,
@@ -19,61 +20,95 @@ from ttr.errors import (
     Unsupported,
     UpdateError,
 )
+from ttr.flattening import flatten, unflatten
 from ttr.formation import wellformed
+from ttr.functions import fix, restrict
 from ttr.judgements import Judgement, Why
 from ttr.merging import amerge, merge
 from ttr.models import Model
+from ttr.normal_forms import join_normal_form, meet_normal_form
+from ttr.objects import concat, fst, rst
 from ttr.probability import Degree
+from ttr.propositions import proposition
 from ttr.records import replace
-from ttr.subtyping import Answer, subtype
+from ttr.relabelling import relabel
+from ttr.subtraction import subtract
+from ttr.subtyping import Answer, consistent, subtype
+from ttr.supertypes import common_supertype
 from ttr.syntax import (
+    Application,
     Basic,
+    EventString,
+    FiniteSet,
+    Function,
+    FunType,
     Ind,
+    Join,
     ListOf,
     Meet,
+    Negation,
+    NonEmpty,
+    Operation,
     Path,
+    Plus,
     Pred,
     PType,
     Rec,
     Record,
     RecordType,
     RecType,
+    SetOf,
     Singleton,
+    Str,
     Type,
     TypeNode,
     Universe,
+    join,
     meet,
     outer,
     record,
-    rectype,
     this,
 )
 
 if TYPE_CHECKING:
     from ttr.checking import check
     from ttr.notation import parse
+    from ttr.render import box, html, latex
     from ttr.theories import Theory, load
 
 __all__ = [
     "Answer",
+    "Application",
     "Basic",
     "Degree",
+    "EventString",
+    "FiniteSet",
+    "FunType",
+    "Function",
     "IllFormed",
     "Ind",
+    "Join",
     "Judgement",
     "ListOf",
     "Meet",
     "Model",
+    "Negation",
+    "NonEmpty",
     "NotationError",
+    "Operation",
     "PType",
     "Path",
+    "Pi",
+    "Plus",
     "Pred",
     "Rec",
     "RecType",
     "Record",
     "RecordType",
     "Refused",
+    "SetOf",
     "Singleton",
+    "Str",
     "TTRError",
     "Theory",
     "Type",
@@ -84,31 +119,53 @@ __all__ = [
     "UpdateError",
     "Why",
     "amerge",
+    "box",
     "check",
+    "common_supertype",
+    "concat",
+    "consistent",
+    "fix",
+    "flatten",
+    "fst",
+    "fun",
+    "html",
+    "join",
+    "join_normal_form",
+    "latex",
     "load",
     "meet",
+    "meet_normal_form",
     "merge",
     "outer",
     "parse",
+    "proposition",
     "record",
     "rectype",
+    "relabel",
     "replace",
+    "restrict",
+    "rst",
+    "subtract",
     "subtype",
     "this",
+    "unflatten",
     "updates",
     "wellformed",
 ]
 
 _LATER = {
     "Theory": "ttr.theories",
+    "box": "ttr.render",
     "check": "ttr.checking",
+    "html": "ttr.render",
+    "latex": "ttr.render",
     "load": "ttr.theories",
     "parse": "ttr.notation",
 }
 
 
 def __getattr__(name: str) -> Any:
-    """Loads what needs the parser only when it is asked for."""
+    """Loads what needs the parser, or draws, only when it is asked for."""
     if name in _LATER:
         from importlib import import_module
 

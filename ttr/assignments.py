@@ -9,15 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from operator import itemgetter
 from typing import Any, TypeAlias
 
 from immutables import Map
 
 from ttr.axioms import above, below, match_schema
 from ttr.errors import Refused, TTRError
+from ttr.paths import escaping, occurring
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
-from ttr.syntax import Basic, Object, Pred, PType, escaping, identity
+from ttr.syntax import Basic, Object, Pred, PType, TypeNode, identity
 from ttr.theories import Signature
 
 __all__ = ["Assignment", "Atom", "Head", "WitnessFunction", "head"]
@@ -48,14 +50,18 @@ class Assignment:
     """Facts, witness functions and open types, under the axioms of a theory.
 
     `known` has an entry for every object that a fact is about, or that a ptype with a
-    fact mentions; `created` counts the names given out.
+    fact mentions; `told` has the objects that were told to be of a type, each with its
+    number, so that they have an order; `created` counts the names given out, `facts`
+    the facts told.
     """
 
     theory: Signature
     known: Map[object, Facts] = _EMPTY
+    told: Map[Atom, Map[object, tuple[int, Object]]] = _EMPTY
     functions: Map[Head, WitnessFunction] = _EMPTY
     opened: Map[Head, bool] = _EMPTY
     created: int = 0
+    facts: int = 0
 
     def degree_of(self, sit: Object, T: Atom) -> tuple[Degree, str]:
         """How probable it is that sit is of T, and what says so."""
@@ -95,6 +101,30 @@ class Assignment:
             fault = f"{type(error).__name__}: {error}"
             raise TTRError(f"{_call(T, args)} failed: {fault}") from error
 
+    def types_of(self, sit: Object) -> list[Atom]:
+        """What the object was told, and perhaps is, to be of; in no order."""
+        facts = self.known.get(identity(sit), _EMPTY)
+        return [T for T, p in facts.items() if p.hi > 0.0]
+
+    def leaves_open(self, T: TypeNode) -> bool:
+        """Whether a type mentions atoms that more may be of than what was told."""
+        heads = [head(part) for part in occurring([T]) if isinstance(part, Atom)]
+        return any(one in self.opened or one in self.functions for one in heads)
+
+    def witnesses(self, T: Atom) -> Iterator[Object]:
+        """The objects that certainly are of T by what was told, in the order told."""
+        kinds = [T]
+        for _, lower in below(T, self.theory.axioms):
+            kinds += _instances(lower, self.told)
+        told = {
+            key: entry
+            for kind in kinds
+            for key, entry in self.told.get(kind, _EMPTY).items()
+        }
+        for _, sit in sorted(told.values(), key=itemgetter(0)):
+            if self.degree_of(sit, T)[0] == CERTAIN:
+                yield sit
+
     # --- new assignments -----------------------------------------------------------
 
     def with_fact(self, sit: Object, T: Atom, p: Degree) -> Assignment:
@@ -133,7 +163,12 @@ class Assignment:
         for name in _names(T):
             if name not in known:
                 known = known.set(name, _EMPTY)
-        return replace(self, known=known)
+        mine = self.told.get(T, _EMPTY)
+        number = self.facts + 1
+        told = (
+            self.told if key in mine else self.told.set(T, mine.set(key, (number, sit)))
+        )
+        return replace(self, known=known, told=told, facts=number)
 
     def _check(self, sit: Object, T: Atom, p: Degree) -> None:
         facts = self.known.get(identity(sit), _EMPTY)
@@ -185,7 +220,7 @@ def _within(told: Degree, least: float, most: float) -> Degree:
     return Degree(lo, hi) if lo <= hi else told
 
 
-def _instances(schema: Atom, facts: Facts) -> list[Atom]:
+def _instances(schema: Atom, facts: Map[Atom, Any]) -> list[Atom]:
     """The types of facts that one side of an axiom stands for, in a fixed order."""
     if not escaping(schema):
         return [schema] if schema in facts else []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from ttr.substitution import replace_paths
+from ttr.paths import replace_paths
 from ttr.syntax import Basic, Object, Path, PType, identity
 from ttr.theories import Axiom
 

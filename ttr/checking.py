@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, TypeAlias, assert_never
 
 from ttr.circles import circle
@@ -54,7 +54,7 @@ class IsBelow:
 
 @dataclass(frozen=True)
 class IsSame:
-    """S = T: the same type, or the same object."""
+    """S = T: the same type, or the same object; f(a) is what the function gives."""
 
     left: Object
     right: Object
@@ -206,11 +206,22 @@ def _answered(query: Query | TTRError, theory: Theory, model: Model) -> _Answer:
     if isinstance(query, TTRError):
         return _Answer("error", "error", query.message)
     try:
-        return _asked(query, theory, model)
+        return _asked(_reduced(query, model), theory, model)
     except TTRError as error:
         return _Answer("error", "error", error.message)
     except RecursionError:
         return _Answer("error", "error", "the types nest too deep to be compared here")
+
+
+def _reduced(query: Query, model: Model) -> Query:
+    """The query with every application in it worked out.
+
+    Raises `Refused` where an argument is not of the domain of the function.
+    """
+    if isinstance(query, IsWellFormed):
+        return query
+    inside = {part.name: getattr(query, part.name) for part in fields(query)}
+    return replace(query, **{k: model.reduced(v) for k, v in inside.items()})
 
 
 def _asked(query: Query, theory: Theory, model: Model) -> _Answer:

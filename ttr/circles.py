@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
 
-from ttr.syntax import RecordType, TypeNode, escaping
+from ttr.constructors import ordered
+from ttr.paths import escaping, occurring, rebuilt
+from ttr.syntax import Object, RecordType, Singleton, TypeNode
 
-__all__ = ["circle"]
+__all__ = ["circle", "in_order", "straightened"]
 
 Address = tuple[str, ...]
 """A field of a record type or of one nested in it: the labels that lead to it."""
@@ -19,7 +21,8 @@ def circle(T: TypeNode) -> str:
     A field depends on another where its type or value mentions a path to it, to what is
     in it or to what it is in. Such a type can be checked, but no witness built.
 
-    >>> from ttr.syntax import Ind, rectype, this
+    >>> from ttr.constructors import rectype
+    >>> from ttr.syntax import Ind, this
     >>> circle(rectype(x=Ind @ this.y, y=Ind @ this.x))
     'x → y → x'
     >>> circle(rectype(x=Ind, y=Ind @ this.x))
@@ -41,6 +44,51 @@ def circle(T: TypeNode) -> str:
     except CycleError as error:
         return " → ".join(".".join(leaf) for leaf in reversed(error.args[1]))
     return ""
+
+
+def in_order(T: TypeNode) -> bool:
+    """Whether each field depends on fields before it only, in T and in what is in it.
+
+    Then no paths of it go in a circle.
+    """
+    return all(
+        _is_in_order(part) for part in occurring([T]) if isinstance(part, RecordType)
+    )
+
+
+def _is_in_order(T: RecordType) -> bool:
+    before: set[str] = set()
+    for label, field in T.fields:
+        for path in escaping(field):
+            if path.up == 0 and path.labels[0] not in before:
+                return False
+        before.add(label)
+    return True
+
+
+def straightened(T: TypeNode) -> TypeNode:
+    """T without the equations that go in a circle, each of which may be so by itself.
+
+    >>> from ttr.constructors import rectype
+    >>> from ttr.syntax import Ind, this
+    >>> print(straightened(rectype(x=Ind @ this.y, y=Ind @ this.x)))
+    [x : Ind, y = x : Ind]
+    """
+    found: TypeNode = _without_circles(T)
+    return found
+
+
+def _without_circles(value: Object) -> Object:
+    value = rebuilt(value, lambda part, _: _without_circles(part))
+    if not isinstance(value, RecordType):
+        return value
+    fields: dict[str, TypeNode] = {}
+    for label, field in value.fields:
+        needs = {path.labels[0] for path in escaping(field) if path.up == 0}
+        if isinstance(field, Singleton) and not needs <= fields.keys():
+            field = field.base
+        fields[label] = field
+    return RecordType(ordered(fields))
 
 
 def _leaves(T: TypeNode, at: Address) -> Iterator[tuple[Address, TypeNode]]:

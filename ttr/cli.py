@@ -1,4 +1,4 @@
-"""The command `ttr`: check what a theory file claims, show what it defines."""
+"""The command `ttr`: check a theory file, show what it defines, try things out."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from io import TextIOWrapper
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ttr.errors import TTRError
 
 if TYPE_CHECKING:
     from ttr.checking import Failure
+    from ttr.objects import Object
     from ttr.theories import Theory
 
 __all__ = ["main"]
@@ -53,7 +55,7 @@ def _run(argv: Sequence[str] | None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="ttr",
-        description="Type Theory with Records in files: check them, show them.",
+        description="Type Theory with Records: check files, show them, try things.",
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
@@ -75,8 +77,27 @@ def _parser() -> argparse.ArgumentParser:
     show.add_argument(
         "--as", dest="form", choices=_FORMATS, default="text", help="how to print it"
     )
+    show.add_argument(
+        "--unfold",
+        type=_levels,
+        metavar="N",
+        help="show names for the definitions inside, but for N levels (default: all)",
+    )
     show.set_defaults(command=_show)
+    repl = commands.add_parser(
+        "repl",
+        help="type statements and questions, and get answers",
+        description="A session in which a theory grows line by line.",
+    )
+    repl.add_argument("file", nargs="?", metavar="FILE", help="a theory to start from")
+    repl.set_defaults(command=_repl)
     return parser
+
+
+def _levels(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"expected 0, 1, 2 or so, found {text}")
+    return int(text)
 
 
 class _Version(argparse.Action):
@@ -206,8 +227,6 @@ def _show(options: argparse.Namespace) -> int:
     from ttr.loading import Unreadable
     from ttr.theories import load
 
-    if options.form != "text":
-        return _complain(f"--as {options.form} is not part of this version: use text")
     try:
         theory = load(options.file)
     except Unreadable as error:
@@ -218,24 +237,66 @@ def _show(options: argparse.Namespace) -> int:
     if options.name in theory.objects:
         return _complain(f"{options.file}: {options.name} is an object, only a name")
     try:
-        _say(_declaration(theory, options.name))
+        _say(_shown(theory, options))
     except KeyError as missing:
         return _complain(f"{options.file}: {missing.args[0]}")
+    except TTRError as error:
+        _say(f"error: {error}")
+        return FAILED
     return FINE
 
 
-def _declaration(theory: Theory, name: str) -> str:
-    """The name as a statement that declares it; raises `KeyError` if nothing does."""
+def _shown(theory: Theory, options: argparse.Namespace) -> str:
+    """What the name stands for, as asked; raises `KeyError` for a name nobody knows."""
+    from ttr.folding import folding
+    from ttr.markup import page
+    from ttr.render import box, html, latex
+
+    # What was asked for is opened itself, whatever else is not.
+    unfold = None if options.unfold is None else options.unfold + 1
+    value = folding(theory, unfold)(theory[options.name])
+    match options.form:
+        case "box":
+            return box(value)
+        case "latex":
+            return latex(value)
+        case "html":
+            return page(options.name, html(value))
+    return _declaration(theory, options.name, value)
+
+
+def _declaration(theory: Theory, name: str, value: Object) -> str:
+    """The name as a statement that declares it."""
     from ttr.printing import notation
     from ttr.syntax import Pred
 
-    value = theory[name]
     if name in theory.definitions:
         return f"{name} := {notation(value)}"
     if isinstance(value, Pred):
         arities = [", ".join(map(str, arity)) for arity in value.arities]
         return f"pred {', '.join(f'{name}({arity})' for arity in arities)}"
     return f"basic {name}"
+
+
+# --- ttr repl ------------------------------------------------------------------------
+
+
+def _repl(options: argparse.Namespace) -> int:
+    from ttr.loading import Unreadable
+    from ttr.sessions import Session, loaded
+    from ttr.terminal import talk
+
+    session = Session()
+    try:
+        if options.file is not None:
+            session, _ = loaded(session, Path(options.file))
+    except Unreadable as error:
+        return _complain(error.message)
+    except TTRError as error:
+        _say(f"error: {error}")
+        return FAILED
+    talk(session)
+    return FINE
 
 
 if __name__ == "__main__":

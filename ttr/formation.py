@@ -1,28 +1,38 @@
-"""Well-formed types: every path leads somewhere, to what fits, and in no circle."""
+"""Well-formed types: every path leads somewhere, to what fits, and in no circle.
+
+A scope is here a record type; that of a binder has one field, for its variable.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TypeVar
 
 from ttr.circles import circle
 from ttr.errors import IllFormed, following_nesting, suggestion
+from ttr.paths import escaping, parts
 from ttr.printing import notation
 from ttr.subtyping import Answer, subtype
 from ttr.syntax import (
-    ListOf,
+    BOUND,
+    Application,
+    Function,
+    FunType,
+    Join,
     Meet,
+    Object,
     Path,
     PType,
     RecordType,
     Singleton,
     TypeNode,
     as_type,
-    escaping,
+    join,
     meet,
 )
 from ttr.theories import Signature
 
-__all__ = ["checked", "target", "wellformed"]
+__all__ = ["checked", "checked_binder", "target", "wellformed"]
 
 
 @following_nesting
@@ -32,7 +42,8 @@ def wellformed(T: TypeNode, theory: Signature | None = None, /) -> Answer:
     A type with a circle can be judged, but no witness of it built. Where the theory is
     given, what fits by an axiom fits. Raises `IllFormed` for what is no type.
 
-    >>> from ttr.syntax import Ind, rectype, this
+    >>> from ttr.constructors import rectype
+    >>> from ttr.syntax import Ind, this
     >>> print(wellformed(rectype(x=Ind, y=Ind @ this.x)))
     yes: every path leads to a field that fits
     >>> print(wellformed(rectype(x=Ind @ this.y, y=Ind @ this.x)))
@@ -50,18 +61,46 @@ def wellformed(T: TypeNode, theory: Signature | None = None, /) -> Answer:
     return Answer("yes", "every path leads to a field that fits")
 
 
+Where = tuple[str, ...]
+"""The labels that lead to the field that is looked at."""
+
+
 def checked(T: RecordType, theory: Signature | None = None) -> RecordType:
     """The record type itself, if its paths resolve and fit; else `IllFormed`.
 
     Paths that lead out of T are left to the record type that will be built around it.
     """
     for label, field in T.fields:
-        paths = [path for path in escaping(field) if path.up == 0]
-        for path in sorted(paths, key=lambda p: p.labels):
-            target(path, T)
-        if paths:
-            _check_domains(label, field, (T,), theory)
+        _check(field, T, (label,), theory)
     return T
+
+
+_BINDER = TypeVar("_BINDER", Function, FunType)
+
+
+def checked_binder(binder: _BINDER, theory: Signature | None = None) -> _BINDER:
+    """The function or function type itself, if its paths resolve and fit."""
+    inside = binder.body if isinstance(binder, Function) else binder.result
+    _check(inside, _scope(binder), (), theory)
+    return binder
+
+
+def _scope(value: RecordType | Function | FunType) -> RecordType:
+    """A record type as it is; for a binder, one that has its variable."""
+    if isinstance(value, RecordType):
+        return value
+    return RecordType(((BOUND, value.domain),))
+
+
+def _check(
+    inside: Object, scope: RecordType, where: Where, theory: Signature | None
+) -> None:
+    """What stands in a scope leads somewhere in it, and to what fits."""
+    paths = [path for path in escaping(inside) if path.up == 0]
+    for path in sorted(paths, key=lambda p: p.labels):
+        target(path, scope)
+    if paths:
+        _check_domains(inside, (scope,), where, theory)
 
 
 def target(path: Path, T: RecordType) -> TypeNode:
@@ -74,11 +113,21 @@ def target(path: Path, T: RecordType) -> TypeNode:
             is_record = labels or isinstance(here, RecordType)
             lacks = f"has no {label}" if is_record else "is no record type"
             raise IllFormed(
-                f"the path {'.'.join(path.labels)} leads nowhere: {here} {lacks}",
+                f"the path {_written(path)} leads nowhere: {_shown(here)} {lacks}",
                 hint=suggestion(label, labels),
             )
         here = field
     return here
+
+
+def _written(path: Path) -> str:
+    """The labels of a path; those from a variable after a dot, as its name is gone."""
+    return ".".join("" if label == BOUND else label for label in path.labels)
+
+
+def _shown(T: TypeNode) -> str:
+    is_variable = isinstance(T, RecordType) and BOUND in T
+    return "the function" if is_variable else str(T)
 
 
 def _field(T: TypeNode, label: str) -> TypeNode | None:
@@ -92,6 +141,10 @@ def _field(T: TypeNode, label: str) -> TypeNode | None:
             found = [_field(part, label) for part in parts]
             fields = [field for field in found if field is not None]
             return meet(*fields) if fields else None
+        case Join(parts):
+            found = [_field(part, label) for part in parts]
+            fields = [field for field in found if field is not None]
+            return join(*fields) if len(fields) == len(found) else None
     return None
 
 
@@ -101,66 +154,89 @@ def _labels(T: TypeNode) -> Iterator[str]:
             yield from T
         case Singleton(base, _):
             yield from _labels(base)
-        case Meet(parts):
+        case Meet(parts) | Join(parts):
             for part in parts:
                 yield from _labels(part)
 
 
 def _check_domains(
-    label: str,
-    field: TypeNode,
+    value: Object,
     around: tuple[RecordType, ...],
+    where: Where,
     theory: Signature | None,
 ) -> None:
-    """Every path to the outermost record that a ptype takes fits an arity.
+    """Every path to the outermost scope that is an argument fits what it is given to.
 
-    `around` are the record types around the field, innermost first.
+    `around` are the scopes around the value, innermost first.
     """
-    match field:
-        case PType():
-            _check_ptype(label, field, around, theory)
-        case Meet(parts):
-            for part in parts:
-                _check_domains(label, part, around, theory)
-        case Singleton(base, _) | ListOf(base):
-            _check_domains(label, base, around, theory)
-        case RecordType(fields):
-            for name, inner in fields:
-                path = f"{label}.{name}"
-                _check_domains(path, inner, (field, *around), theory)
+    outermost = len(around) - 1
+    if not any(path.up == outermost for path in escaping(value)):
+        return
+    match value:
+        case PType(pred, args):
+            arities = [a for a in pred.arities if len(a) == len(args)]
+            _check_arguments(value, args, arities, around, where, theory)
+        case Application(Path() as function, argument) if function.up == outermost:
+            domain = _domain(target(function, around[outermost]))
+            if domain is not None:
+                _check_arguments(value, (argument,), [(domain,)], around, where, theory)
+    same, inner = parts(value)
+    for part in same:
+        _check_domains(part, around, where, theory)
+    if not inner:
+        return
+    within = (_scope(value), *around)
+    labels = value.labels if isinstance(value, RecordType) else ()
+    for i, part in enumerate(inner):
+        _check_domains(part, within, (*where, *labels[i : i + 1]), theory)
 
 
-def _check_ptype(
-    label: str,
-    field: PType,
+def _domain(T: TypeNode) -> TypeNode | None:
+    """What functions of the type are surely defined for, where that is plain."""
+    if isinstance(T, FunType) and not escaping(T.domain):
+        return T.domain
+    return None
+
+
+def _check_arguments(
+    value: PType | Application,
+    args: tuple[Object, ...],
+    arities: list[tuple[TypeNode, ...]],
     around: tuple[RecordType, ...],
+    where: Where,
     theory: Signature | None,
 ) -> None:
-    arities = [a for a in field.pred.arities if len(a) == len(field.args)]
-    misfits = [_misfit(field, arity, around, theory) for arity in arities]
+    """Refuses arguments that fit none of the arities, as far as their types tell."""
+    misfits = [
+        _misfit(args, arity, around[-1], len(around) - 1, theory) for arity in arities
+    ]
     first = misfits[0]
     if first is None or None in misfits:
         return
     arg, wanted, found = first
-    scope = tuple(frozenset(R.labels) for R in around)
+    scope = tuple("it" if BOUND in R else frozenset(R.labels) for R in around)
     raise IllFormed(
-        f"in the field {label}, {notation(field, scope)} needs "
-        f"{wanted} for {'.'.join(arg.labels)}, but that is of {found}"
+        f"{_in_field(where)}{notation(value, scope)} needs {wanted} for "
+        f"{notation(arg, scope)}, but that is of {found}"
     )
 
 
+def _in_field(where: Where) -> str:
+    return f"in the field {'.'.join(where)}, " if where else ""
+
+
 def _misfit(
-    field: PType,
+    args: tuple[Object, ...],
     arity: tuple[TypeNode, ...],
-    around: tuple[RecordType, ...],
+    scope: RecordType,
+    up: int,
     theory: Signature | None,
 ) -> tuple[Path, TypeNode, TypeNode] | None:
-    """The first argument that is a path out to an object that does not fit."""
-    outermost = len(around) - 1
-    for arg, wanted in zip(field.args, arity, strict=True):
-        if not isinstance(arg, Path) or arg.up != outermost:
+    """The first argument that is a path to an object of the scope that does not fit."""
+    for arg, wanted in zip(args, arity, strict=True):
+        if not isinstance(arg, Path) or arg.up != up:
             continue
-        found = target(arg, around[outermost])
-        if subtype(found, wanted, theory).no:
+        found = target(arg, scope)
+        if found is not wanted and subtype(found, wanted, theory).no:
             return arg, wanted, found
     return None

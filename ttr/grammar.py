@@ -8,11 +8,11 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from importlib.resources import files
-from typing import Any, NoReturn, TypeVar
+from typing import Any, TypeVar
 
 from lark import Lark, Token
 from lark.exceptions import UnexpectedInput, UnexpectedToken, VisitError
@@ -21,13 +21,11 @@ from lark.visitors import Transformer_NonRecursive, v_args
 
 from ttr import trees
 from ttr.errors import NotationError, Span
-from ttr.misreadings import KEYWORDS, explained, stopped
+from ttr.misreadings import explained, shown, stopped
+from ttr.scanning import DEPTH, blocks, too_deep, vetted, with_backslashes
 from ttr.trees import Source, Statement, Term
 
-__all__ = ["DEPTH", "blocks", "statement", "term", "vetted"]
-
-DEPTH = 100
-"""How deep brackets may nest."""
+__all__ = ["blocks", "statement", "term", "vetted"]
 
 
 def term(source: Source) -> Term:
@@ -44,11 +42,19 @@ def statement(source: Source, start: int, end: int) -> Statement:
 
 
 def _tree(rule: str, source: Source, start: int, end: int) -> Any:
+    text = with_backslashes(source.text[start:end])
+    deep = too_deep(text)
+    if deep:
+        raise NotationError(
+            f"types and objects nest at most {DEPTH} deep",
+            span=Span.of(source.name, source.text, start + deep[0], start + deep[1]),
+            hint="give the inner part a name of its own: Name := …",
+        )
     try:
-        tree = _parser().parse(source.text[start:end], start=rule)
+        tree = _parser().parse(text, start=rule)
         return _Trees(source, start).transform(tree)
     except UnexpectedInput as error:
-        wanted = _wanted(rule, source.text[start:end], error)
+        wanted = _wanted(rule, text, error)
         raise explained(error, source, start, end, wanted) from None
     except VisitError as error:
         raise error.orig_exc from None
@@ -81,100 +87,6 @@ def _parser() -> Lark:
     )
 
 
-# --- before the grammar --------------------------------------------------------------
-
-_WORDS = re.compile(
-    r""" (?P<quoted> "(?:\\.|[^"\\\n])*"? | '(?:\\.|[^'\\\n])*'? | \#[^\n]* )
-       | (?P<opening> [\[({] )
-       | (?P<closing> [\])}] ) """,
-    re.VERBOSE,
-)
-
-_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f]")
-"""What is never meant in a text: control characters but for tabs and line ends."""
-
-
-def vetted(source: Source) -> None:
-    """Refuses control characters, and brackets nested deeper than `DEPTH`."""
-    stray = _CONTROL.search(source.text)
-    if stray:
-        _refuse_control(source, stray)
-    depth = 0
-    for found in _WORDS.finditer(source.text):
-        depth += (found.lastgroup == "opening") - (found.lastgroup == "closing")
-        depth = max(0, depth)
-        if depth > DEPTH:
-            raise NotationError(
-                f"brackets nest at most {DEPTH} deep",
-                span=Span.of(source.name, source.text, *found.span()),
-                hint="give the inner part a name of its own: Name := …",
-            )
-
-
-def _refuse_control(source: Source, stray: re.Match[str]) -> NoReturn:
-    # Where a terminal acts on the character, what is underlined would be shifted.
-    shown = _CONTROL.sub(" ", source.text)
-    raise NotationError(
-        f"the control character {stray[0]!r} is no notation",
-        span=Span.of(source.name, shown, *stray.span()),
-        hint=r"in a plain string Python reads \ as the start of an escape: write r'…'",
-    )
-
-
-_STARTS = re.compile(
-    rf"""[ \t]* (?: (?:{"|".join(KEYWORDS)}) [ \t]+ [^\s:=,.)\]}}]
-                  | \w+ [ \t]* :=
-                  | \w+ (?:\([^()]*\))? [ \t]* <: )""",
-    re.VERBOSE,
-)
-
-
-def blocks(text: str) -> Iterator[tuple[int, int]]:
-    """Where the statements of a theory stand: [start, end) of each.
-
-    A statement goes on over lines that are indented further than the first statement,
-    and inside brackets. A line that looks like a statement starts one all the same, so
-    that a forgotten bracket spoils one statement and not the rest of the text.
-
-    >>> list(blocks("basic A\\nX :=\\n  [x : A]\\n"))
-    [(0, 7), (8, 22)]
-    """
-    start, end, depth, margin = -1, -1, 0, None
-    at = 0
-    for line in text.split("\n"):
-        words = _WORDS.sub(_bracket, line)
-        written = words.strip()
-        if written:
-            indent = len(line) - len(line.lstrip())
-            margin = indent if margin is None else margin
-            if start >= 0 and (_STARTS.match(line) or (not depth and indent <= margin)):
-                yield start, end
-                start = -1
-            if start < 0:
-                start, depth = at + indent, 0
-            end = at + _code_end(line)
-        depth = max(
-            0, depth + sum(map(words.count, "[({")) - sum(map(words.count, "])}"))
-        )
-        at += len(line) + 1
-    if start >= 0:
-        yield start, end
-
-
-def _bracket(found: re.Match[str]) -> str:
-    """Brackets as they are; a quoted name as a dot; a comment as nothing."""
-    if found.lastgroup != "quoted":
-        return found[0]
-    return "" if found[0].startswith("#") else "."
-
-
-def _code_end(line: str) -> int:
-    for found in _WORDS.finditer(line):
-        if found[0].startswith("#"):
-            line = line[: found.start()]
-    return len(line.rstrip())
-
-
 # --- from the parser's trees to ours -------------------------------------------------
 
 _P = TypeVar("_P", bound=trees.Part)
@@ -195,28 +107,36 @@ class _Trees(Transformer_NonRecursive[Token, Any]):
     def _word(self, token: Token) -> trees.Word:
         """The token as a name; raises `NotationError` if it is no identifier."""
         word = self._at(trees.Word, token, str(token))
-        if word.text.isidentifier():
-            return word
-        curly = set(word.text) & set("‘’“”")
+        self._identifier(word.text, word)
+        return word
+
+    def _identifier(self, text: str, place: trees.Part) -> None:
+        if text.isidentifier():
+            return
+        curly = set(text) & set("‘’“”")
         raise NotationError(
-            f"{word.text} is no name: a name is letters, digits and _",
-            span=self._source.span(word),
+            f"{shown(text)} is no name: a name is letters, digits and _",
+            span=self._source.span(place),
             hint="quotes are straight: 'a name'" if curly else "",
         )
 
-    def _labels(self, tokens: list[Token]) -> tuple[str, ...]:
-        return tuple(self._word(token).text for token in tokens)
+    def _labels(self, path: Token, dotted: str) -> tuple[str, ...]:
+        labels = tuple(dotted.split("."))
+        for label in labels:
+            self._identifier(label, self._at(trees.Word, path, label))
+        return labels
 
-    def bare(self, meta: Meta, children: list[Token]) -> trees.Name:
-        return self._at(trees.Name, meta, self._labels(children), None)
-
-    def level(self, meta: Meta, children: list[Token]) -> trees.Name:
-        return self._at(trees.Name, meta, (str(children[0]),), None)
+    def name(self, meta: Meta, children: list[Token]) -> trees.Name:
+        token = children[0]
+        label = str(token) if token.type == "LEVEL" else self._word(token).text
+        return self._at(trees.Name, meta, (label,), None)
 
     def path(self, meta: Meta, children: list[Token]) -> trees.Name:
-        carets = [token for token in children if token.type == "UP"]
-        labels = self._labels(children[len(carets) :])
-        return self._at(trees.Name, meta, labels, sum(map(len, carets)))
+        dotted = children[0].lstrip("^")
+        carets = len(children[0]) - len(dotted)
+        up = carets if dotted.startswith(".") else None
+        labels = self._labels(children[0], dotted.lstrip("."))
+        return self._at(trees.Name, meta, labels, up)
 
     def text(self, meta: Meta, children: list[Token]) -> trees.Literal:
         return self._at(trees.Literal, meta, self._unquoted(children[0]))
@@ -238,16 +158,40 @@ class _Trees(Transformer_NonRecursive[Token, Any]):
             return str(json.loads(f'"{body}"', strict=False))
         except ValueError:
             raise NotationError(
-                f"{token} has an unknown escape",
+                f"{shown(token)} has an unknown escape",
                 span=self._source.span(self._at(trees.Word, token, str(token))),
                 hint=r"the escapes are \" \' \\ \n \t \r \b \f and \u with four digits",
             ) from None
 
     def application(self, meta: Meta, children: list[Any]) -> trees.Application:
         head, *args = children
-        return self._at(trees.Application, meta, self._word(head), tuple(args))
+        return self._at(trees.Application, meta, head, tuple(args))
 
-    arity = application
+    def arity(self, meta: Meta, children: list[Any]) -> trees.Arity:
+        name, *types = children
+        return self._at(trees.Arity, meta, self._word(name), tuple(types))
+
+    def function(self, meta: Meta, children: list[Any]) -> trees.Abstraction:
+        variable, domain, body = children
+        word = self._word(variable)
+        return self._at(trees.Abstraction, meta, word, domain, body)
+
+    def arrow(self, meta: Meta, children: list[Term]) -> trees.Arrow:
+        return self._at(trees.Arrow, meta, None, *children)
+
+    def product(self, meta: Meta, children: list[Any]) -> trees.Arrow:
+        variable, domain, result = children
+        word = self._word(variable)
+        return self._at(trees.Arrow, meta, word, domain, result)
+
+    def disjunction(self, meta: Meta, children: list[Term]) -> trees.Disjunction:
+        return self._at(trees.Disjunction, meta, tuple(children))
+
+    def negation(self, meta: Meta, children: list[Term]) -> trees.Denial:
+        return self._at(trees.Denial, meta, *children)
+
+    def concatenation(self, meta: Meta, children: list[Term]) -> trees.Concatenation:
+        return self._at(trees.Concatenation, meta, tuple(children))
 
     def restriction(self, meta: Meta, children: list[Term]) -> trees.Restriction:
         return self._at(trees.Restriction, meta, *children)
@@ -268,6 +212,12 @@ class _Trees(Transformer_NonRecursive[Token, Any]):
 
     def braces(self, meta: Meta, children: list[object]) -> trees.Braces:
         return self._at(trees.Braces, meta, tuple(children))
+
+    def finite_set(self, meta: Meta, children: list[Term]) -> trees.Elements:
+        return self._at(trees.Elements, meta, tuple(children))
+
+    def events(self, meta: Meta, children: list[Term]) -> trees.Events:
+        return self._at(trees.Events, meta, tuple(children))
 
     def setting(self, meta: Meta, children: list[Any]) -> tuple[trees.Word, Term]:
         return self._word(children[0]), children[1]
@@ -317,8 +267,9 @@ class _Trees(Transformer_NonRecursive[Token, Any]):
     def exactly(self, meta: Meta, children: list[Term]) -> trees.Degree:
         return self._at(trees.Degree, meta, "=", *children)
 
-    def within(self, meta: Meta, children: list[Term]) -> trees.Degree:
-        return self._at(trees.Degree, meta, "in", *children)
+    def within(self, meta: Meta, children: list[Any]) -> trees.Degree:
+        _, value = children
+        return self._at(trees.Degree, meta, "in", value)
 
     def judgement(self, meta: Meta, children: list[Term]) -> trees.Judged:
         return self._at(trees.Judged, meta, *children)
@@ -330,8 +281,7 @@ class _Trees(Transformer_NonRecursive[Token, Any]):
         return self._at(trees.Comparison, meta, "=", *children)
 
     def probability(self, meta: Meta, children: list[Any]) -> trees.Probability:
-        head, *rest = children
-        return self._at(trees.Probability, meta, self._word(head), *rest)
+        return self._at(trees.Probability, meta, *children)
 
     def claim(self, meta: Meta, children: list[Term]) -> trees.Claim:
         return self._at(trees.Claim, meta, *children)

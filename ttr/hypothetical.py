@@ -4,39 +4,62 @@ It is symbolic. Its parts are *places*, paths from the witness itself; manifest 
 make places equal to one another or to objects, and each class of equal places is of the
 types that are claimed of any of them. Nothing is judged and nothing is remembered.
 
-What is claimed of an arbitrary element of a list holds only where the list has one, so
-such a claim has a *condition*, the place of that element.
+What is claimed of an arbitrary element of a list or set holds only where there is one,
+so such a claim has a *condition*, the place of that element.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 
 from ttr.levels import why_outside
-from ttr.substitution import replace_paths
+from ttr.paths import escaping, occurring, replace_paths
 from ttr.syntax import (
+    Application,
     Basic,
+    EventString,
+    FiniteSet,
+    Function,
+    FunType,
     ListOf,
     Meet,
+    Negation,
+    NonEmpty,
     Object,
+    Operation,
     Path,
+    Plus,
     PType,
     Record,
     RecordType,
+    SetOf,
     Singleton,
+    Str,
     TypeNode,
     Universe,
-    escaping,
     identity,
 )
 
-__all__ = ["ITSELF", "Hypothetical", "element", "step", "unpacked"]
+__all__ = [
+    "ITSELF",
+    "Assumption",
+    "Hypothetical",
+    "element",
+    "elements",
+    "event",
+    "instantiated",
+    "step",
+    "unpacked",
+]
 
 ITSELF = Path(0, ("·",))
 """The place of the witness itself; its name is no label."""
 
+Assumption = tuple[Object, TypeNode]
+"""That a place or an object is of a type."""
+
 _EACH = "*"
-"""The step from a list to an arbitrary element of it; it is no label."""
+"""The step from a list or set to an arbitrary element of it; it is no label."""
 
 
 def step(place: Path, label: str) -> Path:
@@ -45,8 +68,20 @@ def step(place: Path, label: str) -> Path:
 
 
 def element(place: Path) -> Path:
-    """The place of an arbitrary element of the list at a place."""
+    """The place of an arbitrary element of the list or set at a place."""
     return step(place, _EACH)
+
+
+def event(place: Path, number: int) -> Path:
+    """The place of an event of the string at a place; they are counted from 0."""
+    return step(place, str(number))
+
+
+def elements(term: Object) -> tuple[Object, ...] | None:
+    """What is in a list, a set or a string that is written out; else None."""
+    if isinstance(term, FiniteSet | EventString):
+        return term.items
+    return term if isinstance(term, tuple) else None
 
 
 def unpacked(field: TypeNode, whole: Path | Record) -> TypeNode:
@@ -64,6 +99,17 @@ def unpacked(field: TypeNode, whole: Path | Record) -> TypeNode:
     return found
 
 
+def instantiated(inside: Object, term: Object) -> Object:
+    """The inside of a binder, as seen from outside, with a term for its variable."""
+
+    def outside(path: Path) -> Object:
+        if path.up > 0:
+            return Path(path.up - 1, path.labels)
+        return _inside(term, path.labels[1:])
+
+    return replace_paths(inside, outside)
+
+
 def _inside(value: Object, labels: tuple[str, ...]) -> Object:
     """Where the labels lead in an object or from a place.
 
@@ -72,16 +118,25 @@ def _inside(value: Object, labels: tuple[str, ...]) -> Object:
     for done, label in enumerate(labels):
         if isinstance(value, Path):
             return Path(value.up, value.labels + labels[done:])
+        if isinstance(value, EventString) and _is_event(value, label):
+            value = value.items[int(label)]
+            continue
         if not isinstance(value, Record) or label not in value:
             return Path(0, ("", *labels))
         value = value[label]
     return value
 
 
-class Hypothetical:
-    """An arbitrary witness of S.
+def _is_event(string: EventString, label: str) -> bool:
+    """Whether a label, which may be a number, is that of an event of the string."""
+    return label.isdigit() and int(label) < len(string)
 
-    >>> from ttr.syntax import Ind, rectype, this
+
+class Hypothetical:
+    """An arbitrary witness of S, and others that are assumed beside it.
+
+    >>> from ttr.constructors import rectype
+    >>> from ttr.syntax import Ind, this
     >>> witness = Hypothetical(rectype(x=Ind, y=Ind @ this.x))
     >>> witness.normal(step(ITSELF, "y")) is step(ITSELF, "x")
     True
@@ -89,7 +144,7 @@ class Hypothetical:
     True
     """
 
-    def __init__(self, S: TypeNode) -> None:
+    def __init__(self, S: TypeNode, assumed: Iterable[Assumption] = ()) -> None:
         self._equal: dict[tuple[str, ...], Object] = {}
         self._around_bound: set[tuple[str, ...]] = set()
         self._absent: set[Path | None] = set()
@@ -97,14 +152,22 @@ class Hypothetical:
         self._classes: dict[object, _Class] = {}
         self._claims: list[tuple[Path, TypeNode]] = []
         self._claim(ITSELF, S)
+        written = []
+        for term, T in assumed:
+            if isinstance(term, Path):
+                self._claim(term, T)
+            else:
+                written.append((term, T))
         self._equate_manifest()
         for place, T in self._claims:
             self._classify(place, T, self._condition(place))
+        for term, T in written:
+            self._spread(term, T, None)
         self._find_misfits()
 
     def normal(self, value: Object) -> Object:
         """The value with every place in it replaced by the one chosen for its class."""
-        return replace_paths(value, self._chosen)
+        return replace_paths(value, self._chosen) if self._equal else value
 
     def types_of(self, term: Object, given: Collection[Path] = ()) -> list[TypeNode]:
         """The types claimed of a normal term, none of them a singleton or a meet.
@@ -128,6 +191,15 @@ class Hypothetical:
         """Whether there cannot be such an element, so that its list is empty."""
         return place in self._absent
 
+    def negated(self, given: Collection[Path]) -> list[Assumption]:
+        """The terms that are surely not of a type, each with that type."""
+        return [
+            (known.term, T.body)
+            for known in self._classes.values()
+            for T in known.types(given)
+            if isinstance(T, Negation)
+        ]
+
     # --- what is claimed, place by place ---
 
     def _claim(self, place: Path, T: TypeNode) -> None:
@@ -138,8 +210,11 @@ class Hypothetical:
                 return
             case Singleton(base, _):
                 self._claim(place, base)
-            case ListOf(item):
+            case ListOf(item) | NonEmpty(item) | SetOf(item):
                 self._claim(element(place), item)
+            case Str(items):
+                for number, item in enumerate(items):
+                    self._claim(event(place, number), item)
             case RecordType(fields):
                 for label, field in fields:
                     self._claim(step(place, label), unpacked(field, place))
@@ -151,10 +226,19 @@ class Hypothetical:
             return
         term = self.normal(term)
         known = self._classes.setdefault(identity(term), _Class(term))
-        known.claims.append((self.normal(T) if isinstance(T, PType) else T, condition))
-        if isinstance(T, ListOf) and isinstance(term, tuple):
-            for one in term:
-                self._spread(one, T.item, condition)
+        claimed = T if isinstance(T, RecordType) else self.normal(T)
+        known.claims.append((claimed, condition))
+        value = _value(claimed)
+        if isinstance(value, Basic | PType):
+            known.claims.append((value, condition))
+        inside = elements(term)
+        match T:
+            case ListOf(item) | NonEmpty(item) | SetOf(item) if inside is not None:
+                for one in inside:
+                    self._spread(one, item, condition)
+            case Str(items) if inside is not None and len(inside) == len(items):
+                for one, item in zip(inside, items, strict=True):
+                    self._spread(one, item, condition)
 
     def _spread(self, term: Object, T: TypeNode, condition: Path | None) -> None:
         """Adds what a list's type claims of an element that is written in it."""
@@ -179,9 +263,9 @@ class Hypothetical:
 
     def _condition(self, place: Path) -> Path | None:
         """The innermost element of a list that a place is, or is in."""
-        labels = _to_element(place)
-        if not labels:
+        if _EACH not in place.labels:
             return None
+        labels = _to_element(place)
         found = self.normal(Path(0, labels[:-1]))
         return element(found) if isinstance(found, Path) else Path(0, labels)
 
@@ -203,7 +287,7 @@ class Hypothetical:
             self._bind(left, right)
         elif isinstance(right, Path) and self._may_bind(right, at):
             self._bind(right, left)
-        elif not escaping(left) and not escaping(right):
+        elif not _is_open(left) and not _is_open(right):
             self._absent.add(self._condition(at))
         elif _same_form(left, right):
             for mine, theirs in zip(_contents(left), _contents(right), strict=True):
@@ -259,12 +343,20 @@ class Hypothetical:
     def _find_misfits(self) -> None:
         """Notes what cannot be there, as nothing has the form of all its types."""
         for known in self._classes.values():
+            if isinstance(known.term, Path) and len(known.claims) == 1:
+                continue
+            if known.is_mixed():
+                self._followed = False
             if known.fits([T for T, _ in known.claims]):
                 continue
             conditions = dict.fromkeys((None, *(c for _, c in known.claims)))
             absent = [c for c in conditions if not known.fits(known.types((c,)))]
             self._absent.update(absent)
             self._followed = False
+        for known in self._classes.values() if self._absent else ():
+            place = known.term
+            if isinstance(place, Path) and element(place) in self._absent:
+                self._absent.update(known.conditions(NonEmpty))
 
 
 class _Class:
@@ -278,12 +370,42 @@ class _Class:
         """The types claimed where these elements of lists are there."""
         return [T for T, c in self.claims if c is None or c in given]
 
+    def is_mixed(self) -> bool:
+        """Whether something of a given form is claimed to be of atoms, too.
+
+        There may be such things, but none can be made up where it stands.
+        """
+        kinds = {isinstance(T, Basic | PType) for T, _ in self.claims}
+        return len(kinds) > 1
+
+    def conditions(self, kind: type[TypeNode]) -> list[Path | None]:
+        """Under which conditions a type of this kind is claimed."""
+        return [c for T, c in self.claims if isinstance(T, kind)]
+
     def fits(self, types: list[TypeNode]) -> bool:
         """Whether the types can all be of the term, as far as their form says."""
-        shapes = [T for T in types if not isinstance(T, Basic | PType)]
+        shapes = [T for T in types if isinstance(T, _Shape)]
         if isinstance(self.term, Path):
-            return len({type(shape) for shape in shapes}) <= 1
+            lengths = {len(T.items) for T in shapes if isinstance(T, Str)}
+            return len({_SHAPES[type(T)] for T in shapes}) <= 1 and len(lengths) <= 1
+        if isinstance(self.term, Application | Operation):
+            return True
         return all(_has_form(self.term, shape) for shape in shapes)
+
+
+_SHAPES: dict[type[TypeNode], str] = {
+    RecordType: "record",
+    ListOf: "list",
+    NonEmpty: "list",
+    SetOf: "set",
+    Str: "string",
+    Plus: "string",
+    FunType: "function",
+    Universe: "type",
+}
+"""The form that everything of a type has, where it says so."""
+
+_Shape = tuple(_SHAPES)
 
 
 def _has_form(term: Object, shape: TypeNode) -> bool:
@@ -292,23 +414,53 @@ def _has_form(term: Object, shape: TypeNode) -> bool:
             return isinstance(term, Record) and all(label in term for label in shape)
         case ListOf():
             return isinstance(term, tuple)
+        case NonEmpty():
+            return isinstance(term, tuple) and len(term) > 0
+        case SetOf():
+            return isinstance(term, FiniteSet)
+        case Str(items):
+            return isinstance(term, EventString) and len(term) == len(items)
+        case Plus():
+            return isinstance(term, EventString) and len(term) > 0
+        case FunType():
+            return isinstance(term, Function)
         case Universe():
             return not why_outside(term, shape)
-    return False
+    return True
+
+
+def _value(T: TypeNode) -> Object:
+    """What an application of a function that is written out gives, else nothing.
+
+    If the argument were outside the domain, nothing would be of the type.
+    """
+    match T:
+        case Application(Function(_, body), argument):
+            return instantiated(body, argument)
+    return None
+
+
+def _is_open(value: Object) -> bool:
+    """Whether what the value is depends on a place or on what a function gives."""
+    return bool(escaping(value)) or any(
+        isinstance(part, Application) for part in occurring([value])
+    )
 
 
 def _same_form(left: Object, right: Object) -> bool:
     """Whether two objects are equal just where their contents are, one by one."""
-    if isinstance(left, Record) and isinstance(right, Record):
-        return left._fields.keys() == right._fields.keys()
-    pair = isinstance(left, tuple) and isinstance(right, tuple)
-    return pair and len(left) == len(right)
+    match left, right:
+        case Record(), Record():
+            return left._fields.keys() == right._fields.keys()
+        case (tuple(), tuple()) | (EventString(), EventString()):
+            return len(left) == len(right)
+    return False
 
 
-def _contents(value: Record | tuple[Object, ...]) -> list[Object]:
+def _contents(value: Object) -> list[Object]:
     if isinstance(value, Record):
         return [value[label] for label in sorted(value)]
-    return list(value)
+    return list(elements(value) or ())
 
 
 def _to_element(place: Path) -> tuple[str, ...]:

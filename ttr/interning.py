@@ -10,12 +10,33 @@ import struct
 from dataclasses import dataclass, field
 from threading import RLock
 from typing import TYPE_CHECKING, Any, dataclass_transform
-from weakref import WeakValueDictionary
+from weakref import ref
+
+from ttr.notebooks import Drawn
 
 __all__ = ["Node", "identity", "node"]
 
-_pool: WeakValueDictionary[tuple[object, ...], Node] = WeakValueDictionary()
+
+class _Entry(ref):  # type: ignore[type-arg]
+    """A weak reference to a node that knows the node's key."""
+
+    __slots__ = ("key",)
+
+    key: tuple[object, ...]
+
+
+_pool: dict[tuple[object, ...], _Entry] = {}
 _lock = RLock()
+
+
+def _forget(entry: _Entry, pool: Any = _pool, lock: Any = _lock) -> None:
+    """Takes a node that is no more out of the pool, unless another has its place.
+
+    The pool is bound here, as nodes may outlive the names of this module.
+    """
+    with lock:
+        if pool.get(entry.key) is entry:
+            del pool[entry.key]
 
 
 class _Interning(type):
@@ -26,10 +47,17 @@ class _Interning(type):
         def __call__(cls, *args, **kwargs):
             values = cls._normal(*args, **kwargs)
             key = (cls, *cls._key(*values))
+            entry = _pool.get(key)
+            found = None if entry is None else entry()
+            if found is not None:
+                return found
             with _lock:
-                found = _pool.get(key)
+                entry = _pool.get(key)
+                found = None if entry is None else entry()
                 if found is None:
-                    found = _pool[key] = super().__call__(*values)
+                    found = super().__call__(*values)
+                    entry = _pool[key] = _Entry(found, _forget)
+                    entry.key = key
             return found
 
 
@@ -39,7 +67,7 @@ def node(cls: type[Node]) -> Any:
     return dataclass(frozen=True, eq=False, repr=False, slots=True)(cls)
 
 
-class Node(metaclass=_Interning):
+class Node(Drawn, metaclass=_Interning):
     """An interned value: it prints as notation, and its repr as Python."""
 
     __slots__ = ("__weakref__",)

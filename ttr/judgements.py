@@ -4,27 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from itertools import islice
+from typing import TYPE_CHECKING, Literal, TypeAlias, assert_never
 
 from ttr.errors import Undecided
+from ttr.notebooks import Drawn
 from ttr.printing import notation
-from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.probability import CERTAIN, REFUTED, All, AnyOf, Atomic, Degree, Event, Not
 from ttr.syntax import Basic, Object, PType, TypeNode, identity
 
 if TYPE_CHECKING:
+    from ttr.assignments import Assignment
     from ttr.models import Model
 
-__all__ = ["Claim", "Judgement", "Why"]
+__all__ = ["Claim", "How", "Judgement", "Why", "together"]
 
-Claim: TypeAlias = tuple[object, Basic | PType]
-"""An atomic judgement: the identity of an object, and the type it is asked to be of."""
+Claim: TypeAlias = tuple[object, TypeNode]
+"""A judgement that rests on no other: the identity of an object, and a type."""
+
+How: TypeAlias = Literal["all", "any", "none"]
+"""What a claim needs of its grounds: that all of them hold, any or none."""
+
+SHOWN = 3
+"""How many objects that would have done are named."""
 
 
 @dataclass(frozen=True, eq=False)
-class Why:
+class Why(Drawn):
     """A step of a derivation: what is claimed, how probable, by which rule, from what.
 
-    `where` is the path of the field this step is about, from the one above.
+    `where` is the path of the field this step is about, from the one above; `how` is
+    what it needs of its parts. `facts` is what a claim that fails was asked of.
     """
 
     sit: Object
@@ -33,15 +43,26 @@ class Why:
     rule: str
     parts: tuple[Why, ...] = ()
     where: str = ""
-    atom: Claim | None = None
+    how: How = "all"
+    facts: Assignment | None = field(default=None, repr=False)
+
+    def event(self) -> Event:
+        """The claim as an event over the uncertain judgements that it rests on."""
+        if self.p == CERTAIN:
+            return All(())
+        if self.p == REFUTED:
+            return AnyOf(())
+        if not self.parts:
+            return Atomic((identity(self.sit), self.type), self.p)
+        return together(self.how, self.parts)
 
     def atoms(self) -> Iterator[tuple[Claim, Degree]]:
-        """The atomic judgements it rests on, in order, as often as they occur."""
+        """The judgements it rests on, in order, as often as they occur."""
         waiting = [self]
         while waiting:
             step = waiting.pop()
-            if step.atom is not None:
-                yield step.atom, step.p
+            if not step.parts:
+                yield (identity(step.sit), step.type), step.p
             waiting.extend(reversed(step.parts))
 
     def failure(self) -> Why | None:
@@ -61,7 +82,24 @@ class Why:
             return ""
         return ".".join(filter(None, (failing.where, failing.path())))
 
+    def remedy(self) -> str:
+        """Of a claim that fails: what the object is of, and what would have done.
+
+        >>> from ttr.models import Model
+        >>> from ttr.syntax import Ind, Pred
+        >>> dog = Pred("dog", Ind)
+        >>> M = Model().given("s1", dog("fido")).given("s2", dog("sam"))
+        >>> M.judge("s2", dog("fido")).why.remedy()
+        's2 is of dog(sam); s1 would do'
+        """
+        if self.facts is None:
+            return ""
+        found = (_found(self.facts, self.sit), _would_do(self.facts, self.type))
+        return "; ".join(filter(None, found))
+
     def _failing(self) -> Why | None:
+        if self.how == "none":
+            return None
         uncertain = [part for part in self.parts if part.p != CERTAIN]
         refuted = [part for part in uncertain if part.p == REFUTED]
         return next(iter([*refuted, *uncertain]), None)
@@ -73,9 +111,37 @@ class Why:
     def _lines(self, indent: str) -> Iterator[str]:
         where = f"{self.where}: " if self.where else ""
         claim = f"{notation(self.sit)} : {self.type}"
-        yield f"{indent}{_mark(self.p)} {where}{claim}   ({self.rule})"
+        grounds = "; ".join(filter(None, (self.rule, self.remedy())))
+        yield f"{indent}{_mark(self.p)} {where}{claim}   ({grounds})"
         for part in self.parts:
             yield from part._lines(indent + "  ")
+
+
+def together(how: How, parts: tuple[Why, ...]) -> Event:
+    """What a claim needs of its grounds, as one event."""
+    events = tuple([part.event() for part in parts])
+    match how:
+        case "all":
+            return All(events)
+        case "any":
+            return AnyOf(events)
+        case "none":
+            return Not(AnyOf(events))
+    raise assert_never(how)
+
+
+def _found(facts: Assignment, sit: Object) -> str:
+    kinds = sorted(str(kind) for kind in facts.types_of(sit))
+    shown = ", ".join(kinds[:SHOWN]) + ", …" * (len(kinds) > SHOWN)
+    return f"{notation(sit)} is of {shown}" if kinds else ""
+
+
+def _would_do(facts: Assignment, T: TypeNode) -> str:
+    if not isinstance(T, Basic | PType):
+        return ""
+    some = list(islice(facts.witnesses(T), SHOWN + 1))
+    names = ", ".join(map(notation, some[:SHOWN])) + ", …" * (len(some) > SHOWN)
+    return f"{names} would do" if some else ""
 
 
 def _mark(p: Degree) -> str:
@@ -85,7 +151,7 @@ def _mark(p: Degree) -> str:
 
 
 @dataclass(frozen=True, eq=False)
-class Judgement:
+class Judgement(Drawn):
     """s : T with a probability: a situation, a type, an interval and the reason.
 
     Two judgements are equal when situation, type and probability are the same. `model`

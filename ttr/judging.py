@@ -2,30 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from typing import assert_never
 
 from ttr.assignments import Assignment, Atom
 from ttr.axioms import above
-from ttr.judgements import Claim, Why
+from ttr.errors import Refused
+from ttr.judgements import How, Why, together
 from ttr.levels import why_outside
-from ttr.probability import CERTAIN, REFUTED, Degree, conjunction
-from ttr.substitution import Around, Unresolved, grounded
+from ttr.objects import Missing, Unresolved
+from ttr.paths import escaping, parts, rebuilt
+from ttr.printing import notation
+from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, chance
+from ttr.strings import divided, is_of_strings
+from ttr.substitution import Around, grounded
 from ttr.syntax import (
+    BOUND,
+    Application,
     Basic,
+    EventString,
+    FiniteSet,
+    Function,
+    FunType,
+    Join,
     ListOf,
     Meet,
+    Negation,
+    NonEmpty,
     Object,
+    Plus,
     PType,
     Record,
     RecordType,
+    SetOf,
     Singleton,
+    Str,
     TypeNode,
     Universe,
     identity,
 )
 
-__all__ = ["derivation"]
+__all__ = ["derivation", "reduced"]
 
 
 def derivation(facts: Assignment, sit: Object, T: TypeNode) -> Why:
@@ -39,22 +57,32 @@ def derivation(facts: Assignment, sit: Object, T: TypeNode) -> Why:
 
 
 class _Derivation:
-    """Derives claims; `around` are the records around a field, innermost first."""
+    """Derives claims; `around` are the scopes around a field, innermost first."""
 
     def __init__(self, facts: Assignment) -> None:
         self._facts = facts
 
     def of(self, sit: Object, T: TypeNode, around: Around, where: str) -> Why:
         match T:
-            case Basic() | PType():
-                return self._atom(sit, T, around, where)
+            case Basic():
+                return self._atom(sit, T, where)
+            case PType() | Application() | FunType():
+                return self._ground(sit, T, around, where)
             case Singleton():
                 return self._singleton(sit, T, around, where)
             case Meet(parts):
                 grounds = [self.of(sit, part, around, "") for part in parts]
-                return self._all(sit, T, "each part", grounds, where)
-            case ListOf(item):
-                return self._list(sit, T, item, around, where)
+                return self._whole(sit, T, "each part", grounds, where)
+            case Join(parts):
+                grounds = [self.of(sit, part, around, "") for part in parts]
+                return self._whole(sit, T, "one part", grounds, where, "any")
+            case Negation(body):
+                grounds = [self.of(sit, body, around, "")]
+                return self._whole(sit, T, "what is denied", grounds, where, "none")
+            case ListOf() | NonEmpty() | SetOf():
+                return self._collection(sit, T, around, where)
+            case Str() | Plus():
+                return self._string(sit, T, around, where)
             case RecordType():
                 return self._record(sit, T, around, where)
             case Universe():
@@ -63,32 +91,129 @@ class _Derivation:
                 return Why(sit, T, p, outside or "by its form", where=where)
         raise assert_never(T)  # type: ignore[arg-type]
 
-    def _atom(self, sit: Object, T: Atom, around: Around, where: str) -> Why:
+    # --- what paths and functions come to ---
+
+    def _ground(
+        self, sit: Object, T: PType | Application | FunType, around: Around, where: str
+    ) -> Why:
+        """A claim of a type that has to be worked out first."""
         try:
-            ground: Atom = grounded(T, around)
-        except Unresolved as unresolved:
-            return Why(sit, T, REFUTED, unresolved.message, where=where)
-        p, rule = self._facts.degree_of(sit, ground)
-        return Why(sit, ground, p, rule, where=where, atom=(identity(sit), ground))
+            ground = reduced(self._facts, grounded(T, around))
+        except (Unresolved, Refused) as wrong:
+            return Why(sit, T, REFUTED, wrong.message, where=where)
+        match ground:
+            case FunType():
+                return self._function(sit, ground, where)
+            case PType():
+                return self._atom(sit, ground, where)
+            case TypeNode() if not isinstance(ground, Application):
+                return self.of(sit, ground, (), where)
+        return Why(sit, T, REFUTED, f"{notation(ground)} is no type", where=where)
+
+    def _atom(self, sit: Object, T: Atom, where: str) -> Why:
+        p, rule = self._facts.degree_of(sit, T)
+        asked = self._facts if p == REFUTED else None
+        return Why(sit, T, p, rule, where=where, facts=asked)
 
     def _singleton(self, sit: Object, T: Singleton, around: Around, where: str) -> Why:
         try:
-            wanted = grounded(T.value, around)
-        except Unresolved as unresolved:
-            return Why(sit, T, REFUTED, unresolved.message, where=where)
+            wanted = reduced(self._facts, grounded(T.value, around))
+        except (Unresolved, Refused) as wrong:
+            return Why(sit, T, REFUTED, wrong.message, where=where)
         ground = Singleton(T.base, wanted)
         if identity(sit) != identity(wanted):
             return Why(sit, ground, REFUTED, "it is another object", where=where)
         base = self.of(sit, T.base, around, "")
-        return self._all(sit, ground, "it is that object", [base], where)
+        return self._whole(sit, ground, "it is that object", [base], where)
 
-    def _list(
-        self, sit: Object, T: ListOf, item: TypeNode, around: Around, where: str
+    # --- lists, sets and strings ---
+
+    def _collection(
+        self, sit: Object, T: ListOf | NonEmpty | SetOf, around: Around, where: str
     ) -> Why:
-        if not isinstance(sit, tuple):
-            return Why(sit, T, REFUTED, "it is no list", where=where)
-        grounds = [self.of(element, item, around, "") for element in sit]
-        return self._all(sit, T, "each element", grounds, where)
+        if isinstance(T, SetOf):
+            inside = sit.items if isinstance(sit, FiniteSet) else None
+        else:
+            inside = sit if isinstance(sit, tuple) else None
+        if inside is None:
+            kind = "set" if isinstance(T, SetOf) else "list"
+            return Why(sit, T, REFUTED, f"it is no {kind}", where=where)
+        if isinstance(T, NonEmpty) and not inside:
+            return Why(sit, T, REFUTED, "it is empty", where=where)
+        grounds = [self.of(element, T.item, around, "") for element in inside]
+        return self._whole(sit, T, "each element", grounds, where)
+
+    def _string(self, sit: Object, T: Str | Plus, around: Around, where: str) -> Why:
+        if not isinstance(sit, EventString):
+            return Why(sit, T, REFUTED, "it is no string of events", where=where)
+        if isinstance(T, Plus):
+            return self._repeated(sit, T, around, where)
+        if len(sit) != len(T.items):
+            rule = f"it has {len(sit)} events, not {len(T.items)}"
+            return Why(sit, T, REFUTED, rule, where=where)
+        pairs = zip(sit, T.items, strict=True)
+        grounds = [self.of(event, item, around, "") for event, item in pairs]
+        return self._whole(sit, T, "event by event", grounds, where)
+
+    def _repeated(self, sit: EventString, T: Plus, around: Around, where: str) -> Why:
+        """One or more strings or events of a type in a row."""
+        if not sit.items and is_of_strings(T.item):
+            grounds = [self.of(sit, T.item, around, "")]
+            return self._whole(sit, T, "piece by piece", grounds, where)
+        judge = _Pieces(self, sit, around)
+        sure = divided(len(sit), T.item, judge, lambda why: why.p == CERTAIN)
+        found = sure
+        if not sure.ways:
+            found = divided(len(sit), T.item, judge, lambda why: why.p != REFUTED)
+        if not found.ways:
+            rule = f"it cannot be divided beyond its first {found.furthest} events"
+            return Why(sit, T, REFUTED, rule, where=where)
+        ways = [
+            tuple([one for piece in way for one in piece.grounds]) for way in found.ways
+        ]
+        if sure.ways or len(ways) == 1:
+            return self._whole(sit, T, "piece by piece", ways[0], where)
+        each = [self._whole(sit, T, "divided so", way, "") for way in ways]
+        whole = self._whole(sit, T, "one way to divide it", each, where, "any")
+        if found.all:
+            return whole
+        rule = f"at least one of {len(ways)} ways to divide it"
+        return Why(sit, T, Degree(whole.p.lo, 1.0), rule, where=where)
+
+    # --- functions and records ---
+
+    def _function(self, sit: Object, T: FunType, where: str) -> Why:
+        """Does the function take whatever is of the domain to what is of the result?
+
+        It is asked of a fresh object of which nothing else is known.
+        """
+        from ttr.creating import created
+
+        if not isinstance(sit, Function):
+            return Why(sit, T, REFUTED, "it is no function", where=where)
+        try:
+            x, facts = created(self._facts, T.domain, size=1)
+        except Refused as refused:
+            rule = f"nothing of {T.domain} can be made up: {refused.message}"
+            return Why(sit, T, UNKNOWN, rule, where=where)
+        inner = _Derivation(facts)
+        scope: Around = ({BOUND: x},)
+        inside = inner.of(x, sit.domain, (), "")
+        grounds = [inside]
+        if inside.p == CERTAIN:
+            grounds.append(inner._given(sit.body, T.result, scope))
+        whole = self._whole(sit, T, f"for a fresh {notation(x)}", grounds, where)
+        if whole.p in (CERTAIN, REFUTED):
+            return whole
+        return Why(sit, T, UNKNOWN, whole.rule, whole.parts, where)
+
+    def _given(self, body: Object, T: TypeNode, scope: Around) -> Why:
+        """Is what a function gives of a type?"""
+        try:
+            value = reduced(self._facts, grounded(body, scope))
+        except (Unresolved, Refused) as wrong:
+            return Why(body, T, REFUTED, wrong.message)
+        return self.of(value, T, scope, "")
 
     def _record(self, sit: Object, T: RecordType, around: Around, where: str) -> Why:
         if not isinstance(sit, Record):
@@ -97,40 +222,122 @@ class _Derivation:
         grounds = [
             self.of(sit._fields[label], field, inside, label)
             if label in sit
-            else Why(sit, field, REFUTED, f"there is no {label}", where=label)
+            else self._missing(label, field, inside)
             for label, field in T.fields
         ]
-        return self._all(sit, T, "field by field", grounds, where)
+        return self._whole(sit, T, "field by field", grounds, where)
 
-    def _all(
-        self, sit: Object, T: TypeNode, rule: str, grounds: list[Why], where: str
+    def _missing(self, label: str, T: TypeNode, around: Around) -> Why:
+        with suppress(Unresolved):
+            T = grounded(T, around)
+        rule = f"there is no {label}"
+        return Why(Missing(), T, REFUTED, rule, where=label, facts=self._facts)
+
+    # --- claims with grounds ---
+
+    def _whole(
+        self,
+        sit: Object,
+        T: TypeNode,
+        rule: str,
+        grounds: Iterable[Why],
+        where: str,
+        how: How = "all",
     ) -> Why:
-        """A claim that holds where all its grounds do."""
-        return Why(sit, T, self._joint(grounds), rule, tuple(grounds), where)
+        """A claim that holds where all its grounds do, or any, or none of them."""
+        grounds = tuple(grounds)
+        return Why(sit, T, self._degree(how, grounds), rule, grounds, where, how)
 
-    def _joint(self, grounds: list[Why]) -> Degree:
-        if all(ground.p == CERTAIN for ground in grounds):
-            return CERTAIN
-        if any(ground.p == REFUTED for ground in grounds):
-            return REFUTED
-        atoms = {atom: p for ground in grounds for atom, p in ground.atoms()}
-        uncertain = {atom: p for atom, p in atoms.items() if p != CERTAIN}
-        return conjunction(uncertain[atom] for atom in self._strongest(uncertain))
+    def _degree(self, how: How, grounds: tuple[Why, ...]) -> Degree:
+        decided = _decided(how, [ground.p for ground in grounds])
+        if decided is not None:
+            return decided
+        return chance(together(how, grounds), self._entailed(grounds))
 
-    def _strongest(self, atoms: dict[Claim, Degree]) -> Iterator[Claim]:
-        """The atoms that no other one entails, and one of those that say the same."""
+    def _entailed(self, grounds: tuple[Why, ...]) -> Mapping[object, frozenset[object]]:
+        """What other judgements each of the judgements entails by the axioms."""
         axioms = self._facts.theory.axioms
-        entails = {
-            (sit, T): {(sit, upper) for _, upper in above(T, axioms)}
+        if not axioms:
+            return {}
+        atoms = {atom for ground in grounds for atom, _ in ground.atoms()}
+        return {
+            (sit, T): frozenset((sit, upper) for _, upper in above(T, axioms))
             for sit, T in atoms
+            if isinstance(T, Basic | PType)
         }
-        stronger: dict[Claim, set[Claim]] = {}
-        for atom in atoms:
-            for weaker in entails[atom]:
-                stronger.setdefault(weaker, set()).add(atom)
-        kept: set[Claim] = set()
-        for atom in atoms:
-            same = entails[atom] & stronger.get(atom, set())
-            if stronger.get(atom, set()) <= same and not same & kept:
-                kept.add(atom)
-                yield atom
+
+
+class _Pieces:
+    """Judges the parts of a string, each event once for every type."""
+
+    def __init__(self, derives: _Derivation, sit: EventString, around: Around) -> None:
+        self._derives, self._sit, self._around = derives, sit, around
+        self._known: dict[tuple[object, TypeNode], Why] = {}
+
+    def event(self, number: int, T: TypeNode) -> Why:
+        event = self._sit.items[number]
+        key = (identity(event), T)
+        known = self._known.get(key)
+        if known is None:
+            known = self._derives.of(event, T, self._around, "")
+            self._known[key] = known
+        return known
+
+    def string(self, start: int, end: int, T: TypeNode) -> Why:
+        part = EventString(*self._sit.items[start:end])
+        return self._derives.of(part, T, self._around, "")
+
+
+def _decided(how: How, degrees: list[Degree]) -> Degree | None:
+    """What is certain of a claim, whatever its uncertain grounds come to; else None."""
+    if how == "all":
+        if REFUTED in degrees:
+            return REFUTED
+        return CERTAIN if all(p == CERTAIN for p in degrees) else None
+    some = CERTAIN in degrees
+    if not some and any(p != REFUTED for p in degrees):
+        return None
+    return CERTAIN if some == (how == "any") else REFUTED
+
+
+# --- applications --------------------------------------------------------------------
+
+
+def reduced(facts: Assignment, value: Object) -> Object:
+    """The value with every application in it worked out that mentions no path.
+
+    Raises `Refused` where an argument is not certainly of the function's domain, or
+    what is applied is no function.
+    """
+    if not _applies(value):
+        return value
+    value = rebuilt(value, lambda part, _: reduced(facts, part))
+    if not isinstance(value, Application) or escaping(value):
+        return value
+    function, argument = value.function, value.argument
+    if not isinstance(function, Function):
+        raise Refused(f"{notation(function)} is no function, so {value} is nothing")
+    inside = derivation(facts, argument, function.domain)
+    if inside.p != CERTAIN:
+        raise Refused(
+            f"{notation(function)} takes objects of {function.domain}, which "
+            f"{notation(argument)} is not{_where(inside)}: "
+            f"{(inside.failure() or inside).rule}"
+        )
+    return reduced(facts, grounded(function.body, ({BOUND: argument},)))
+
+
+def _where(why: Why) -> str:
+    return f" in the field {why.path()}" if why.path() else ""
+
+
+def _applies(value: Object) -> bool:
+    """Whether an application stands in the value."""
+    if type(value) is str or isinstance(value, Basic):
+        return False
+    if isinstance(value, Application):
+        return True
+    if isinstance(value, PType):
+        return any(map(_applies, value.args))
+    same, inner = parts(value)
+    return any(map(_applies, same)) or any(map(_applies, inner))

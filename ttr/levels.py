@@ -2,19 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
-from ttr.syntax import (
-    ListOf,
-    Meet,
-    Object,
-    PType,
-    Record,
-    RecordType,
-    Singleton,
-    TypeNode,
-    Universe,
-)
+from ttr.paths import parts
+from ttr.syntax import Object, RecordType, TypeNode, Universe
 
 __all__ = ["level_of", "why_outside"]
 
@@ -22,7 +11,8 @@ __all__ = ["level_of", "why_outside"]
 def why_outside(value: Object, universe: Universe) -> str:
     """Why the object is not of a type of types, or the empty string where it is.
 
-    >>> from ttr.syntax import Ind, RecType, Type, rectype
+    >>> from ttr.constructors import rectype
+    >>> from ttr.syntax import Ind, RecType, Type
     >>> why_outside(rectype(x=Ind), RecType), why_outside(Type, Universe("Type", 1))
     ('', '')
     >>> why_outside(Type, Type), why_outside(Ind, RecType)
@@ -41,27 +31,12 @@ def why_outside(value: Object, universe: Universe) -> str:
 def level_of(value: Object) -> int:
     """The level of a type or object: one above the highest Typeⁿ that it mentions.
 
-    >>> from ttr.syntax import Ind, RecType, rectype
+    >>> from ttr.constructors import rectype
+    >>> from ttr.syntax import Ind, RecType
     >>> level_of(Ind), level_of(RecType), level_of(rectype(T=Universe("Type", 1)))
     (0, 1, 2)
     """
-    match value:
-        case Universe(_, level):
-            return level + 1
-        case RecordType(fields):
-            return _highest(field for _, field in fields)
-        case Singleton(base, obj):
-            return max(level_of(base), level_of(obj))
-        case PType(_, args) | Meet(args):
-            return _highest(args)
-        case ListOf(item):
-            return level_of(item)
-        case tuple():
-            return _highest(value)
-        case Record():
-            return _highest(value._fields.values())
-    return 0
-
-
-def _highest(values: Iterable[Object]) -> int:
-    return max(map(level_of, values), default=0)
+    if isinstance(value, Universe):
+        return value.level + 1
+    same, inner = parts(value)
+    return max(map(level_of, (*same, *inner)), default=0)

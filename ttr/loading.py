@@ -7,7 +7,7 @@ a spoilt statement should have declared is passed over, so each mistake is told 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -25,6 +25,9 @@ __all__ = ["Unreadable", "theory_of_file", "theory_of_text"]
 
 IMPORTS = 50
 """How long a chain of files may be that import one another."""
+
+MISTAKES = 100
+"""After how many mistakes a text is read no further."""
 
 
 class Unreadable(TTRError):
@@ -99,6 +102,8 @@ class _Files:
                 later.setdefault(name, source.text.count("\n", 0, start) + 1)
         file = _File(source, folder, chain, self, later)
         for start, end in places:
+            if len(reading.mistakes) >= MISTAKES:
+                return file.given_up(reading, start, end)
             reading = file.after(reading, start, end)
         return reading
 
@@ -128,7 +133,18 @@ def _announced(text: str, start: int) -> list[str]:
         return []
     if found[3]:
         return [found[3]]
-    return re.findall(r"\w+", re.sub(r"\([^)]*\)|:.*", "", found[2]))
+    return list(_listed(found[2]))
+
+
+def _listed(text: str) -> Iterator[str]:
+    """The names in a list of them, but for those in brackets or behind a colon."""
+    depth = 0
+    for sign in re.findall(r"\w+|[\[({\])}:#]", text):
+        if sign in (":", "#"):
+            return
+        depth += (sign in "[({") - (sign in "])}")
+        if depth == 0 and sign not in "])}":
+            yield sign
 
 
 @dataclass(frozen=True)
@@ -153,9 +169,15 @@ class _File:
             return self._spoilt(reading, start, error)
         except RecursionError:
             span = self.source.span(Part(start, end))
-            deep = NotationError("this nests too deep to be read", span=span)
+            deep = NotationError("this nests too deep to be read here", span=span)
             return self._spoilt(reading, start, deep)
         return replace(found, mentioned=found.mentioned | names)
+
+    def given_up(self, reading: _Reading, start: int, end: int) -> _Reading:
+        """What has been read, and that it goes no further than text[start:end]."""
+        span = self.source.span(Part(start, end))
+        last = NotationError(f"reading stops after {MISTAKES} mistakes", span=span)
+        return replace(reading, mistakes=(*reading.mistakes, last))
 
     def _spoilt(self, reading: _Reading, start: int, *mistakes: TTRError) -> _Reading:
         names = frozenset(_announced(self.source.text, start)) - reading.theory.names

@@ -2,18 +2,10 @@
 
 from __future__ import annotations
 
+from ttr.constructors import rectype
 from ttr.errors import TTRError, following_nesting
 from ttr.subtyping import subtype
-from ttr.syntax import (
-    Record,
-    RecordType,
-    Singleton,
-    TypeNode,
-    as_type,
-    identity,
-    meet,
-    rectype,
-)
+from ttr.syntax import Record, RecordType, Singleton, TypeNode, as_type, identity, meet
 from ttr.theories import Signature
 
 __all__ = ["amerge", "merge", "singleton_type"]
@@ -35,6 +27,9 @@ def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeN
     >>> print(merge(rectype(x=Ind, e=run(this.x)), rectype(x=Ind @ "j")))
     [x = j : Ind, e : run(x)]
     """
+    S, T = as_type(S), as_type(T)
+    if S is T:
+        return S
     simplest = [one for one, other in ((S, T), (T, S)) if _says_all(one, other, theory)]
     if simplest:
         return min(simplest, key=lambda one: (len(str(one)), str(one), repr(one)))

@@ -9,10 +9,13 @@ from lark.exceptions import UnexpectedInput
 from ttr.errors import NotationError, Span, suggestion
 from ttr.trees import Source
 
-__all__ = ["KEYWORDS", "explained", "stopped"]
+__all__ = ["KEYWORDS", "explained", "shown", "stopped"]
 
 NEAR = 200
 """How much of the text before a failure is looked at for what was meant."""
+
+LONGEST = 60
+"""How many characters of a text an error repeats."""
 
 KEYWORDS = ("basic", "check", "given", "import", "object", "open", "pred", "rule")
 """The words that begin a statement."""
@@ -30,6 +33,7 @@ def explained(
     before, after = text[:at], text[at:]
     found = _found(after)
     span = Span.of(source.name, source.text, start + at, start + at + len(found))
+    found = shown(found)
     near = before[-NEAR:]
     construct = _unsupported(near, after)
     if construct:
@@ -64,6 +68,17 @@ def _found(after: str) -> str:
     return found[0][:40] if found else ""
 
 
+def shown(text: str) -> str:
+    """The text on one line, cut where it is long; what cannot be seen as escapes.
+
+    >>> print(shown("[a,\\n b]"), shown("\\u202edog"))
+    [a, b] '\\u202edog'
+    """
+    text = text if len(text) <= LONGEST else f"{text[:LONGEST]}…"
+    text = " ".join(text.split())
+    return text if text.isprintable() else repr(text)
+
+
 # --- what was expected ---------------------------------------------------------------
 
 _SIGNS = {
@@ -77,6 +92,9 @@ _SIGNS = {
     "RSQB": "]",
     "RPAR": ")",
     "RBRACE": "}",
+    "MORETHAN": ">",
+    "_ARROW": "->",
+    "_DOT": "a dot and the body",
     "LPAR": "(",
     "STRING": "a quoted name",
     "$END": "the end",
@@ -86,12 +104,18 @@ _SIGNS = {
 _TERM = "NUMBER"
 """A sign that may stand only where a type or object begins."""
 
+_OPERATOR = "_AND"
+"""A sign that may stand only where a type or object ends."""
+
 _AFTER = (
-    (r"(^|[^\w])(<:|<=|⊑|/\\|&|∧)$", "a type"),
+    (r"(^|[^\w])(<:|<=|⊑|/\\|&|∧|\\/|\||∨|~|¬|->|→)$", "a type"),
     (r":=$", "a type or an object"),
     (r":$", "a type"),
     (r"(=|@)$", "an object"),
     (r"\bin$", "an interval [lo, hi]"),
+    (r"\.$", "the body of the function"),
+    (r"\+$", "a list or a string of events"),
+    (r"\{$", "a setting x = a, an object or }"),
     (r"\w\($", "an argument or )"),
     (r"\[$", "a field x : T, an object or ]"),
 )
@@ -99,12 +123,18 @@ _AFTER = (
 
 def _expected(wanted: frozenset[str], before: str) -> str:
     """What the parser would have gone on with, in words."""
+    head = before[-NEAR:].rstrip()
+    if _TERM in wanted and "MORETHAN" in wanted:
+        return "an event or >"
     if _TERM in wanted:
-        head = before[-NEAR:].rstrip()
         words = (said for sign, said in _AFTER if re.search(sign, head))
         return next(words, "a type or an object")
+    if re.search(r"\\$|λ$", head):
+        return "a variable"
     names = ["a label" if _inside(before, "[{") else "a name"] * ("NAME" in wanted)
     signs = [word for sign, word in _SIGNS.items() if sign in wanted]
+    if _OPERATOR in wanted:
+        signs = [word for word in signs if word != "->"]
     if len(signs) > 1:
         signs = [word for word in signs if word != "("]
     return _either(names + signs) or "the end"
@@ -130,37 +160,32 @@ def _either(words: list[str]) -> str:
 # --- what is written another way -----------------------------------------------------
 
 _LATER = (
-    (r"", r"\\/|\||∨", "a join S \\/ T is"),
-    (r"", r"~|¬", "a negation ~T is"),
-    (r"", r"->|→", "a function type (S -> T) is"),
-    (
-        r"(^|[^\w\s])\s*\(\s*\w+\s*$",
-        r":(?!=)",
-        "a dependent function type ((x : S) -> T) is",
-    ),
-    (r"", r"\\\s*\w|λ", r"a function \x:T. body is"),
-    (r"\bfun\s+$", r"\w", "a function fun x:T. body is"),
-    (r"", r"<(?![:=])", "<…>, a string of events or an object without notation, is"),
-    (r"", r"\+", "a concatenation a + b is"),
-    (r"\)\s*$", r"\(", "an application of a function, as in f(a)(b), is"),
-    (r"\bset\s*$", r"\{", "a set set{} is"),
-    (r"\{\s*$", r"[\[{(\d\"'-]", "a set {a, b} is"),
-    (r"\{\s*\w+\s*$", r"[,}]", "a set {a, b} is"),
     (r"^rule\s+$", r"\S", "a rule statement is"),
+    (
+        r"\bP\s*\([^|]*:[^|:]*\|[^:]*$",
+        r":",
+        "a conditional probability P(a : T | b : S) is",
+    ),
 )
 """What of the whole notation is still to come: before, after, the words for it."""
 
 
 def _unsupported(before: str, after: str) -> str:
-    if re.search(r"\bP\s*\([^|]*:[^|]*$", before) and after.startswith("|"):
-        return "a conditional probability P(a : T | b : S) is"
     for left, right, construct in _LATER:
         if re.match(right, after) and re.search(left, before):
             return construct
     return ""
 
 
+_DOTTED = r"a function is written \x:T. body, with a space after the dot"
+
 _HINTS = (
+    (r"(\\|\bfun\s)\s*\w+\s*:[^:]*[^\W\d]\.\w[^:]*$", r"", _DOTTED),
+    (r"(\\|\bfun\s|λ)\s*\w*\s*$", r"[:.\w](?!=)", _DOTTED),
+    (r"(\\|\bfun\s)\s*\w+\s*:[^.]*$", r"\.\w", _DOTTED),
+    (r"<\w+ [^<>]*$", r"", "an object that prints as <ndarray 3> does not read back"),
+    (r"\bset\s+$", r"\{", "a set is written {a, b}, the empty one set{}"),
+    (r"", r"\^+\s+\.", "a path has no spaces in it: ^.x"),
     (r"\b(Type|RecType)\s*$", r"\^", "a level of types is written Type^1 to Type^999"),
     (r":$", r"=", "a field is written x : T, a manifest field x = a : T"),
     (r"\[[^\[\]]*:[^\[\],]*$", r"=", "a manifest field is written [x = a : T]"),
@@ -168,15 +193,18 @@ _HINTS = (
     (r"\{[^\[\]{}]*$", r":", "a record is written {x = a}, a record type [x : T]"),
     (r"^\w+\s*$", r"=", "a definition is written Name := T"),
     (
-        r"^[^\[({]*$",
+        r"^[^\[({\\λ]*$",
         r":(?!=)",
         "to start from a judgement write given a : T; to ask for it, check a : T",
     ),
     (r"^[^\[({]*$", r"<=", "an axiom is written S <: T; to ask for it, check S <= T"),
-    (r"", r"/|\\", r"a meet is written S /\ T; in Python write r'…'"),
+    (r"([/\\&|∧∨~¬+@]|->|→)\s*$", r"\\|λ|fun\b", r"write brackets: (\x:T. body)"),
+    (r"\)\s*$", r":=", r"a function is defined as f := \x:T. body"),
+    (r"", r"/(?!\\)|\\(?!/)", r"a meet is written S /\ T; in Python write r'…'"),
     (r"", r"[\"']", "the quote does not close on this line"),
     (r"@\s*[^\s@]+\s*$", r"@", "write brackets: (T@a)@b"),
 )
+"""What may have been meant: before, after, the way to write it."""
 
 
 def _hint(before: str, after: str) -> str:

@@ -15,11 +15,14 @@ from ttr.assignments import Assignment, WitnessFunction
 from ttr.creating import created, told
 from ttr.errors import IllFormed, TTRError, Unsupported, following_nesting
 from ttr.judgements import Judgement
-from ttr.judging import derivation
+from ttr.judging import derivation, reduced
+from ttr.paths import escaping
 from ttr.perceiving import filled
 from ttr.printing import notation
-from ttr.probability import CERTAIN, degree
+from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
+from ttr.propositions import claim
 from ttr.syntax import (
+    Application,
     Basic,
     Object,
     Pred,
@@ -27,10 +30,10 @@ from ttr.syntax import (
     Record,
     TypeNode,
     as_type,
-    escaping,
     freeze,
 )
 from ttr.theories import Signature
+from ttr.witnesses import witnesses
 
 __all__ = ["Model"]
 
@@ -46,7 +49,8 @@ class Model:
     An unlisted judgement is refuted, unless its type is open: the theory says so, or it
     has a witness function, or a judgement of it was given with a degree between.
 
-    >>> from ttr.syntax import Ind, record, rectype, this
+    >>> from ttr.constructors import rectype
+    >>> from ttr.syntax import Ind, record, this
     >>> dog = Pred("dog", Ind)
     >>> Dog = rectype(x=Ind, c=dog(this.x))
     >>> M = Model().given("fido", Ind).given("s1", dog("fido"))
@@ -55,7 +59,7 @@ class Model:
     >>> print(M.judge(record(x="fido", c="s2"), Dog).why)
     ✗ {c = s2, x = fido} : [x : Ind, c : dog(x)]   (field by field)
       ✓ x: fido : Ind   (given)
-      ✗ c: s2 : dog(fido)   (nothing says so)
+      ✗ c: s2 : dog(fido)   (nothing says so; s1 would do)
     """
 
     __slots__ = ("_facts",)
@@ -71,6 +75,13 @@ class Model:
         for given in signature.givens:
             start = start.given(given.sit, given.type, given.p)
         self._facts = start._facts
+
+    @classmethod
+    def of(cls, facts: Assignment) -> Model:
+        """The model of these facts."""
+        model = object.__new__(cls)
+        model._facts = facts
+        return model
 
     @property
     def theory(self) -> Signature:
@@ -140,7 +151,8 @@ class Model:
         A field that the record lacks and whose ptype's predicate has a witness function
         gets a fresh situation, judged with the function's degree.
 
-        >>> from ttr.syntax import Ind, record, rectype, this
+        >>> from ttr.constructors import rectype
+        >>> from ttr.syntax import Ind, record, this
         >>> cup = Pred("cup", Ind)
         >>> M = Model().given("o1", Ind).witnessed(cup, by=lambda x: 0.75)
         >>> j = M.perceive(record(x="o1"), rectype(x=Ind, c=cup(this.x)))
@@ -166,13 +178,76 @@ class Model:
         witness, facts = created(self._facts, T)
         return witness, self._with(facts)
 
+    @following_nesting
+    def apply(self, function: object, argument: object, /) -> Object:
+        """f(a), worked out: the body of the function for the argument.
+
+        Raises `Refused` where the argument is not certainly of the function's domain.
+
+        >>> from ttr.constructors import fun
+        >>> from ttr.syntax import Ind, this
+        >>> run = fun(x=Ind)(Pred("run", Ind)(this.x))
+        >>> print(Model().given("j", Ind).apply(run, "j"))
+        run(j)
+        >>> Model().apply(run, "zz")
+        Traceback (most recent call last):
+        ttr.errors.Refused: \\x:Ind. run(x) takes objects of Ind, which zz is not: ...
+        """
+        return self.reduced(Application(function, argument))
+
+    @following_nesting
+    def reduced(self, value: object, /) -> Object:
+        """The type or object with every application in it worked out."""
+        return reduced(self._facts, freeze(value))
+
+    @following_nesting
+    def witnesses(self, T: TypeNode, /) -> tuple[Object, ...]:
+        """The known objects that certainly are of T, in the order they were told.
+
+        For a record type they are all its records of known objects. Raises
+        `Unsupported` for a type of which there may be others without end, such as
+        lists.
+
+        >>> from ttr.constructors import rectype
+        >>> from ttr.syntax import Ind, this
+        >>> dog = Pred("dog", Ind)
+        >>> M = Model().given("fido", Ind).given("sam", Ind).given("s1", dog("fido"))
+        >>> print(*M.witnesses(rectype(x=Ind, c=dog(this.x))))
+        {c = s1, x = fido}
+        """
+        _, T = _closed((), T)
+        return tuple(witnesses(self._facts, T))
+
+    def true(self, proposition: object, /) -> Degree:
+        """How certain it is that a proposition is true.
+
+        A type is true if something is of it: certainly if something is known to be, not
+        if nothing is and nobody could say otherwise. An Austinian proposition
+        {sit = s, sit_type = T} is true as far as s is of T.
+
+        >>> from ttr.syntax import Ind
+        >>> M = Model().given("s1", Pred("dog", Ind)("fido"))
+        >>> print(M.true(Pred("dog", Ind)("fido")), M.true(Pred("dog", Ind)("sam")))
+        1 0
+        """
+        if not isinstance(proposition, TypeNode):
+            return self.judge(*claim(freeze(proposition))).p
+        if self._has_witness(proposition):
+            return CERTAIN
+        return UNKNOWN if self._facts.leaves_open(proposition) else REFUTED
+
+    def _has_witness(self, T: TypeNode) -> bool:
+        """Whether something is known to be of T, be it only an empty list."""
+        _, T = _closed((), T)
+        try:
+            return any(True for _ in witnesses(self._facts, T))
+        except Unsupported:
+            sit, _ = created(self._facts, T)
+            return derivation(self._facts, sit, T).p == CERTAIN
+
     def _with(self, facts: Assignment) -> Model:
         """The model of these facts: the same model where they are the same."""
-        if facts is self._facts:
-            return self
-        model = object.__new__(Model)
-        model._facts = facts
-        return model
+        return self if facts is self._facts else Model.of(facts)
 
 
 def _signature(theory: Signature | _HasSignature | None) -> Signature:

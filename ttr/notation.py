@@ -1,8 +1,8 @@
 r"""Reading notation: what each name in a text means, and the type or object it builds.
 
-In argument position a bare name is the innermost label of that name in the record types
-around it, else an object; a dot or carets start a path explicitly. In type position a
-name is a type. `read` turns one term into a value, `parse` a whole text.
+In argument position a bare name is the innermost variable or label of that name around
+it, else an object; a dot or carets start a path explicitly. In type position a name is
+a type. Before a bracket it is a variable, else a predicate, else any function.
 
 >>> from ttr.syntax import Ind, Pred
 >>> dog = Pred("dog", Ind)
@@ -15,38 +15,59 @@ rectype(x=Basic('Ind'), c=Pred('dog', Basic('Ind'))(this.x))
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import NoReturn
+from typing import Any, NoReturn, TypeVar
 
+from ttr.constructors import Pi, fun, function_type, rectype
+from ttr.culprits import culprit, misfit, refused
 from ttr.errors import IllFormed, NotationError, TTRError, suggestion
-from ttr.objects import check_label
+from ttr.misreadings import shown
+from ttr.objects import Unresolved, check_label, concat, fst, rst
+from ttr.printing import RESERVED, Scope
 from ttr.probability import degree
-from ttr.substitution import Unresolved, along
+from ttr.substitution import along
 from ttr.syntax import (
-    Ind,
+    BOUND,
+    Application,
+    EventString,
+    FiniteSet,
+    Function,
+    FunType,
     ListOf,
+    Negation,
+    NonEmpty,
     Object,
+    Operation,
     Path,
+    Plus,
     Pred,
     Rec,
     Record,
     RecordType,
     RecType,
+    SetOf,
     Singleton,
+    Str,
     Type,
     TypeNode,
     Universe,
-    escaping,
+    applied,
+    join,
     meet,
-    rectype,
 )
 from ttr.theories import Interval, Theory
 from ttr.trees import (
-    Application,
+    Abstraction,
+    Arrow,
     Braces,
+    Concatenation,
     Conjunction,
     Degree,
+    Denial,
+    Disjunction,
+    Elements,
+    Events,
     Fields,
     Items,
     Literal,
@@ -57,19 +78,27 @@ from ttr.trees import (
     Term,
     Word,
 )
+from ttr.trees import Application as Call
 
-__all__ = ["Reader", "Scope", "parse", "read"]
-
-Scope = tuple[frozenset[str], ...]
-"""The labels of the record types around, innermost first."""
+__all__ = ["LOGICAL", "Reader", "parse", "read"]
 
 LOGICAL: Mapping[str, TypeNode] = {"Type": Type, "RecType": RecType, "Rec": Rec}
 """The types that every theory has."""
 
-RESERVED = frozenset({*LOGICAL, "list"})
-"""Names that no theory may declare."""
+_OF_A_TYPE: Mapping[str, Callable[[TypeNode], TypeNode]] = {
+    "list": ListOf,
+    "nelist": NonEmpty,
+    "set": SetOf,
+    "plus": Plus,
+}
+"""Words before a type in brackets."""
 
-_LATER = frozenset({"set", "str", "plus"})
+_OF_AN_OBJECT: Mapping[str, Callable[[Object], Object]] = {"fst": fst, "rst": rst}
+"""Words before an object in brackets."""
+
+_WORDS = ("str", *_OF_A_TYPE, *_OF_AN_OBJECT)
+
+_B = TypeVar("_B", Function, FunType)
 
 _LEVEL = re.compile(r"(Type|RecType)[_^]([0-9]{1,3})")
 
@@ -81,6 +110,7 @@ def parse(text: str, using: Iterable[object] = ()) -> Object:
     types and objects built of them. Raises `NotationError` for what is no notation and
     `IllFormed` for a type that cannot be.
 
+    >>> from ttr.syntax import Ind
     >>> parse("list(Ind)", using=[Ind]) is ListOf(Ind)
     True
     """
@@ -95,7 +125,8 @@ def read(text: str, theory: Theory, source: str = "<text>") -> Object:
     try:
         return Reader(theory, place).object(grammar.term(place), ())
     except RecursionError:
-        raise NotationError("the text nests too deep to be read here") from None
+        span = place.span(Part(0, len(place.text)))
+        raise NotationError("this nests too deep to be read here", span=span) from None
 
 
 @dataclass(frozen=True)
@@ -118,28 +149,77 @@ class Reader:
                 return term.value
             case Name():
                 return self._named_object(term, scope)
-            case Items():
-                return tuple([self.object(item, scope) for item in term.items])
+            case Call():
+                return self._call(term, scope)
+            case Items(_, _, items):
+                return self._objects(items, scope)
+            case Elements(_, _, items):
+                return FiniteSet(*self._objects(items, scope))
+            case Events():
+                return self._string(term, scope)
             case Braces():
                 return self._record(term, scope)
+            case Abstraction():
+                return self._function(term, scope)
+            case Concatenation(_, _, parts):
+                return self._computed(term, concat, self._objects(parts, scope))
         return self.type(term, scope)
+
+    def _objects(self, terms: tuple[Term, ...], scope: Scope) -> tuple[Object, ...]:
+        return tuple([self.object(term, scope) for term in terms])
 
     def _record(self, term: Braces, scope: Scope) -> Record:
         self._distinct([label for label, _ in term.settings])
         pairs = [(k.text, self.object(v, scope)) for k, v in term.settings]
         return Record(dict(pairs))
 
+    def _string(self, term: Events, scope: Scope) -> EventString:
+        match term.items:
+            case (Name(_, _, (kind,), None), _) if self._is_unknown(kind, scope):
+                self.refuse(
+                    term,
+                    f"an object that prints as {self.written(term)} has no notation, "
+                    "so it cannot be read",
+                    f"if it is a string of events, declare {kind} first",
+                )
+        return EventString(*self._objects(term.items, scope))
+
+    def _is_unknown(self, name: str, scope: Scope) -> bool:
+        """Whether a name means nothing, and is not like one that does."""
+        known = {*self.theory.names, *_around(scope)}
+        if name in known or self._value(name) is not None:
+            return False
+        return not suggestion(name, known)
+
+    def _function(self, term: Abstraction, scope: Scope) -> Function:
+        name = self._variable(term.variable)
+        domain = self.type(term.domain, scope)
+        body = self.object(term.body, (name, *scope))
+        build = fun({name: domain}, self.theory)
+        return self._bound(build, term.body, body)
+
+    def _computed(
+        self, term: Term, operation: Callable[..., Object], args: tuple[Object, ...]
+    ) -> Object:
+        try:
+            return operation(*args)
+        except TTRError as error:
+            raise error.at(self.source.span(term)) from None
+
     def _named_object(self, name: Name, scope: Scope) -> Object:
         head, rest = name.labels[0], name.labels[1:]
         if name.up is not None:
             return self._path(name, name.up, scope)
-        for up, labels in enumerate(scope):
-            if head in labels:
+        for up, names in enumerate(scope):
+            if head == names:
+                return Path(up, (BOUND, *rest))
+            if isinstance(names, frozenset) and head in names:
                 return Path(up, name.labels)
-        if not rest and head in self.theory.objects:
+        is_object = head in self.theory.objects and head not in RESERVED
+        if is_object and not rest:
             return head
         value = self._value(head)
-        if head in self.theory.objects:
+        if is_object:
             self.refuse(name, f"{head} is an object without labels")
         if value is None:
             self._unknown(name, head, scope)
@@ -148,16 +228,66 @@ class Reader:
         except Unresolved as error:
             raise error.at(self.source.span(name)) from None
 
-    def _path(self, name: Name, up: int, scope: Scope) -> Path:
-        if up < len(scope):
-            return Path(up, name.labels)
-        if not scope:
+    def _path(self, name: Name, carets: int, scope: Scope) -> Path:
+        """A path that starts so many record types out; binders have no caret."""
+        records = [up for up, names in enumerate(scope) if not isinstance(names, str)]
+        if carets < len(records):
+            return Path(records[carets], name.labels)
+        if not records:
             self.refuse(name, "a path stands in a record type, but there is none")
-        around = f"{len(scope)} record type{'s' * (len(scope) != 1)}"
+        around = f"{len(records)} record type{'s' * (len(records) != 1)}"
         self.refuse(
             name,
-            f"the path goes out of {up}, but stands in {around}",
+            f"the path goes out of {carets}, but stands in {around}",
             "each ^ goes out of one record type",
+        )
+
+    # --- what stands before a bracket ---
+
+    def _call(self, term: Call, scope: Scope) -> Object:
+        match term.head:
+            case Name(_, _, (name,), None) if name in _WORDS:
+                return self._word(term, name, scope)
+            case Name(_, _, (name,), None) as head:
+                function = self._called(term, head, name, scope)
+            case head:
+                function = self.object(head, scope)
+        args = self._objects(term.args, scope)
+        match function:
+            case Pred():
+                return self._computed(term, function, args)
+            case Path() | Function() | Application() | Operation() | str():
+                return self._computed(term, applied, (function, *args))
+        written = self.written(term.head)
+        kind = "a type" if isinstance(function, TypeNode) else "no function"
+        self.refuse(
+            term,
+            f"{written} is {kind} and takes no arguments: only predicates and "
+            "functions do",
+        )
+
+    def _called(self, term: Call, head: Name, name: str, scope: Scope) -> Object:
+        """What a bare name before a bracket means; a variable hides a predicate."""
+        for up, names in enumerate(scope):
+            if name == names:
+                return Path(up, (BOUND,))
+        if name in self.theory.predicates:
+            return self.theory.predicates[name]
+        known = _captured(name, scope) or name in self.theory.objects
+        if not known and self._value(name) is None:
+            self._no_predicate(term, name, scope)
+        return self._named_object(head, scope)
+
+    def _word(self, term: Call, word: str, scope: Scope) -> Object:
+        if word == "str":
+            return Str(*[self.type(arg, scope) for arg in term.args])
+        if len(term.args) != 1:
+            kind = "type" if word in _OF_A_TYPE else "list"
+            self.refuse(term, f"{word} takes one {kind}, but has {len(term.args)}")
+        if word in _OF_A_TYPE:
+            return _OF_A_TYPE[word](self.type(term.args[0], scope))
+        return self._computed(
+            term, _OF_AN_OBJECT[word], self._objects(term.args, scope)
         )
 
     # --- where a type must stand ---
@@ -167,8 +297,9 @@ class Reader:
         match term:
             case Name():
                 return self._named_type(term, scope)
-            case Application():
-                return self._application(term, scope)
+            case Call():
+                found = self._call(term, scope)
+                return found if isinstance(found, TypeNode) else self._no_type(term)
             case Fields():
                 return self._record_type(term, scope)
             case Restriction():
@@ -176,6 +307,12 @@ class Reader:
                 return Singleton(base, self.object(term.value, scope))
             case Conjunction():
                 return meet(*[self.type(part, scope) for part in term.parts])
+            case Disjunction():
+                return join(*[self.type(part, scope) for part in term.parts])
+            case Denial():
+                return Negation(self.type(term.body, scope))
+            case Arrow():
+                return self._function_type(term, scope)
             case Items(_, _, ()):
                 return Rec
         return self._no_type(term)
@@ -200,23 +337,22 @@ class Reader:
             self._no_type(name)
         self._unknown(name, head, scope)
 
-    def _application(self, term: Application, scope: Scope) -> TypeNode:
-        head = term.head.text
-        pred = self.theory.predicates.get(head)
-        if head == "list":
-            return self._list(term, scope)
-        if pred is None:
-            self._no_predicate(term, scope)
-        args = [self.object(arg, scope) for arg in term.args]
-        try:
-            return pred(*args)
-        except IllFormed as error:
-            raise error.at(self.source.span(term)) from None
+    def _function_type(self, term: Arrow, scope: Scope) -> FunType:
+        domain = self.type(term.domain, scope)
+        if term.variable is None:
+            return function_type(domain, self.type(term.result, scope))
+        name = self._variable(term.variable)
+        result = self.type(term.result, (name, *scope))
+        build = Pi({name: domain}, self.theory)
+        return self._bound(build, term.result, result)
 
-    def _list(self, term: Application, scope: Scope) -> TypeNode:
-        if len(term.args) != 1:
-            self.refuse(term, f"list takes one type, but has {len(term.args)}")
-        return ListOf(self.type(term.args[0], scope))
+    def _bound(self, build: Callable[[Any], _B], term: Term, inside: Object) -> _B:
+        """The function or function type with this inside; its misfit is underlined."""
+        try:
+            return build(inside)
+        except IllFormed as error:
+            wrong = culprit(term, inside, lambda T: refused(lambda: build(T)))
+            raise error.at(self.source.span(wrong)) from None
 
     def _record_type(self, term: Fields, scope: Scope) -> RecordType:
         self._distinct([f.label for f in term.fields])
@@ -230,8 +366,8 @@ class Reader:
         try:
             return rectype(found, self.theory)
         except IllFormed as error:
-            culprit = _culprit(term, found, self.theory)
-            raise error.at(self.source.span(culprit)) from None
+            wrong = misfit(term, found, self.theory)
+            raise error.at(self.source.span(wrong)) from None
 
     # --- where a degree must stand ---
 
@@ -267,38 +403,27 @@ class Reader:
                 f"{name} is used before its definition in line {self.later[name]}",
                 "move the definition up",
             )
-        labels = [label for around in scope for label in around]
-        hint = suggestion(name, [*self.theory.names, *RESERVED, *labels])
+        known = [*self.theory.names, *RESERVED, *_around(scope)]
+        hint = suggestion(name, known)
         self.refuse(
             part,
-            f"nothing is called {name} here",
-            hint or f"declare it first, or quote it to name an object: '{name}'",
+            f"nothing is called {shown(name)} here",
+            hint or f"declare it first, or quote it to name an object: '{shown(name)}'",
         )
 
-    def _no_predicate(self, term: Application, scope: Scope) -> NoReturn:
-        head = term.head.text
-        value = self._value(head)
-        if isinstance(value, TypeNode):
-            self.refuse(
-                term, f"{head} is a type and takes no arguments: only predicates do"
-            )
-        if _captured(head, scope) or head in self.theory.objects:
-            self._unsupported(term, f"{head}(…), the application of a function,")
-        if head in _LATER:
-            self._unsupported(term, f"{head}(…)")
-        if value is not None:
-            self.refuse(term, f"{head} is {value}, no predicate")
-        if head in self.later:
-            self._unknown(term.head, head, scope)
+    def _no_predicate(self, term: Call, name: str, scope: Scope) -> NoReturn:
+        if name in self.later:
+            self._unknown(term.head, name, scope)
+        known = {*self.theory.names, *_WORDS, *_around(scope)} - {*self.theory.basics}
+        arity = ", ".join(["…"] * len(term.args[:5]))
         self.refuse(
             term.head,
-            f"there is no predicate {head}",
-            suggestion(head, [*self.theory.predicates, "list"])
-            or f"declare it first: pred {head}({', '.join(['…'] * len(term.args))})",
+            f"there is no predicate {shown(name)}",
+            suggestion(name, known) or f"declare it first: pred {shown(name)}({arity})",
         )
 
     def _no_type(self, term: Term) -> NoReturn:
-        written = self.source.text[term.start : term.end]
+        written = self.written(term)
         match term:
             case Name(_, _, _, int()):
                 kind = f"the path {written}"
@@ -310,6 +435,12 @@ class Reader:
                 kind = f"the list {written}"
             case Braces():
                 kind = f"the record {written}"
+            case Elements():
+                kind = f"the set {written}"
+            case Events():
+                kind = f"the string of events {written}"
+            case Abstraction():
+                kind = f"the function {written}"
             case _:
                 kind = f"the object {written}"
         self.refuse(term, f"expected a type, found {kind}")
@@ -322,42 +453,37 @@ class Reader:
         for label in labels:
             span = self.source.span(label)
             if label.text in seen:
-                raise IllFormed(f"the label {label.text} is there twice", span=span)
+                told = f"the label {shown(label.text)} is there twice"
+                raise IllFormed(told, span=span)
             try:
                 check_label(label.text)
             except IllFormed as error:
                 raise error.at(span) from None
             seen.add(label.text)
 
-    def _unsupported(self, part: Part, construct: str) -> NoReturn:
-        self.refuse(part, f"{construct} is not part of this version of the notation")
+    def _variable(self, word: Word) -> str:
+        self._distinct([word])
+        return word.text
+
+    def written(self, part: Part) -> str:
+        """The part as it stands in the text, to be shown in an error."""
+        return shown(self.source.text[part.start : part.end])
 
     def refuse(self, part: Part, message: str, hint: str = "") -> NoReturn:
         """Raises a `NotationError` at a part of the text."""
         raise NotationError(message, span=self.source.span(part), hint=hint)
 
 
+def _around(scope: Scope) -> Iterator[str]:
+    """The labels and variables that are in scope."""
+    for names in scope:
+        yield from (names,) if isinstance(names, str) else names
+
+
 def _captured(name: str, scope: Scope) -> bool:
-    return any(name in labels for labels in scope)
+    return name in _around(scope)
 
 
 def _domains(pred: Pred) -> str:
     arities = (", ".join(map(str, arity)) for arity in pred.arities)
     return " or ".join(f"({arity})" for arity in arities)
-
-
-def _culprit(term: Fields, fields: Mapping[str, TypeNode], theory: Theory) -> Part:
-    """The part of a record type that makes it ill-formed, as far as one field does."""
-    for part in term.fields:
-        label = part.label.text
-        if escaping(fields[label]) and _well_formed({**fields, label: Ind}, theory):
-            return part if part.value else part.type
-    return term
-
-
-def _well_formed(fields: Mapping[str, TypeNode], theory: Theory) -> bool:
-    try:
-        rectype(fields, theory)
-    except TTRError:
-        return False
-    return True

@@ -1,27 +1,40 @@
 """What types are about: objects, records of them, and paths into records.
 
-Objects are any Python values. A string is a name; a list is a tuple; a record is a
-`Record`; an array is itself, compared by identity; a type is an object as well.
+Objects are any Python values. A Python string is a name; a list is a tuple; a record is
+a `Record`, a set a `FiniteSet`, a string of events an `EventString`; an array is
+itself, compared by identity; a type is an object as well.
 """
 
 from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterator, Mapping
-from typing import Any, TypeAlias, TypeVar
+from itertools import chain, groupby
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from ttr.errors import IllFormed, TTRError
 from ttr.interning import Node, identity, node
+from ttr.notebooks import Drawn
 
 __all__ = [
+    "BOUND",
+    "EventString",
+    "FiniteSet",
+    "Missing",
     "Object",
+    "Operation",
     "Path",
     "Record",
+    "Unresolved",
     "check_label",
+    "concat",
     "freeze",
+    "fst",
+    "in_print",
     "labelled",
     "outer",
     "record",
+    "rst",
     "this",
 ]
 
@@ -29,6 +42,10 @@ Object: TypeAlias = Any
 """Any Python value; containers are frozen by `freeze`."""
 
 _Value = TypeVar("_Value")
+
+
+class Unresolved(TTRError):
+    """An object that is not there: a path to nowhere, the first of an empty list."""
 
 
 def freeze(value: object) -> Object:
@@ -45,18 +62,37 @@ def freeze(value: object) -> Object:
         return tuple(map(freeze, value))  # type: ignore[call-overload]
     if kind is dict:
         return Record(value)  # type: ignore[arg-type]
+    if kind is set or kind is frozenset:
+        return FiniteSet(*value)  # type: ignore[misc]
     return value._path() if isinstance(value, PathTo) else value
 
 
 # --- paths ---------------------------------------------------------------------------
 
 
+BOUND = "•"
+"""The first label of a path to a bound variable; no label that can be written."""
+
+
 @node
 class Path(Node):
-    """A path into a record: `up` record types outwards, then along the labels."""
+    """A path into a record: `up` scopes outwards, then along the labels.
+
+    Every record type is a scope of its labels, and every binder one of its variable,
+    which has no name there but `BOUND`: so names of variables never matter.
+    """
 
     up: int
     labels: tuple[str, ...]
+
+    @staticmethod
+    def _key(up: int, labels: tuple[str, ...]) -> tuple[object, ...]:
+        return up, labels
+
+
+@node
+class Missing(Node):
+    """What a record has where it lacks a label: no object at all."""
 
 
 class PathTo:
@@ -81,12 +117,23 @@ class PathTo:
     def __iter__(self) -> Iterator[object]:
         raise TypeError("a path is no list: write its labels, as in this['bg.x']")
 
-    def __call__(self, up: int) -> PathTo:
-        if self._labels or self._up == 0:
+    def __call__(self, *args: Any) -> Any:
+        """`outer(2)` is two scopes out; `this.f(a)` applies what a path leads to."""
+        if self._labels:
+            from ttr.syntax import applied
+
+            return applied(self._path(), *args)
+        if self._up == 0 or len(args) != 1:
             raise IllFormed("only outer can be called, as in outer(2).x")
-        if type(up) is not int or up < 1:
-            raise IllFormed(f"outer takes how many record types out, found {up!r}")
-        return PathTo(up)
+        if type(args[0]) is not int or args[0] < 1:
+            raise IllFormed(f"outer takes how many scopes out, found {args[0]!r}")
+        return PathTo(args[0])
+
+    def __add__(self, other: object) -> Object:
+        return concat(self, other)
+
+    def __radd__(self, other: object) -> Object:
+        return concat(other, self)
 
     def __repr__(self) -> str:
         from ttr.printing import python
@@ -107,10 +154,177 @@ outer = PathTo(1)
 """The record one further out, `^.x`; `outer(2).x` is two further out."""
 
 
+# --- sets, strings of events and what is computed -------------------------------------
+
+
+@node
+class FiniteSet(Node):
+    """{a, b}: a finite set of objects, each there once, in whatever order written.
+
+    >>> FiniteSet("b", "a") is FiniteSet("a", "b", "a"), len(FiniteSet())
+    (True, 0)
+    """
+
+    items: tuple[Object, ...]
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *items: object) -> None: ...
+
+    @staticmethod
+    def _normal(*items: object) -> tuple[object, ...]:
+        once = {identity(item): item for item in map(freeze, items)}
+        if len(once) < 2:
+            return (tuple(once.values()),)
+        return (tuple(sorted(once.values(), key=in_print)),)
+
+    @staticmethod
+    def _key(items: tuple[Object, ...]) -> tuple[object, ...]:
+        return (frozenset(map(identity, items)),)
+
+    def __iter__(self) -> Iterator[Object]:
+        return iter(self.items)
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def __contains__(self, value: object) -> bool:
+        return identity(freeze(value)) in map(identity, self.items)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return FiniteSet, self.items
+
+
+@node
+class EventString(Node):
+    """<a b>: a string of events, one after the other.
+
+    >>> print(EventString("e1", "e2") + EventString("e3"))
+    <e1 e2 e3>
+    """
+
+    items: tuple[Object, ...]
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *items: object) -> None: ...
+
+    @staticmethod
+    def _normal(*items: object) -> tuple[object, ...]:
+        return (tuple(map(freeze, items)),)
+
+    def __iter__(self) -> Iterator[Object]:
+        return iter(self.items)
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def __add__(self, other: object) -> Object:
+        return concat(self, other)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return EventString, self.items
+
+
+@node
+class Operation(Node):
+    """A list or string computed from others: a + b, fst(a) or rst(a).
+
+    It stands where a part of it is a path or an application; else `concat`, `fst` and
+    `rst` give what it comes to.
+    """
+
+    name: str
+    args: tuple[Object, ...]
+
+    def __add__(self, other: object) -> Object:
+        return concat(self, other)
+
+
+def concat(*parts: object) -> Object:
+    """a + b: the concatenation of lists, or of strings of events.
+
+    Raises `Unresolved` for what is neither.
+
+    >>> concat(["a"], ["b", "c"])
+    ('a', 'b', 'c')
+    >>> print(concat(["a"], this.x))
+    [a] + .x
+    """
+    flat: list[Object] = []
+    for part in map(freeze, parts):
+        flat += part.args if _is_operation(part, "+") else (part,)
+    if not flat:
+        raise IllFormed("a concatenation needs at least one list or string")
+    for piece in flat:
+        if not _stays(piece) and not isinstance(piece, tuple | EventString):
+            raise Unresolved(f"only lists and strings can be concatenated, not {piece}")
+    joined: list[Object] = []
+    for stays, group in groupby(flat, _stays):
+        pieces = list(group)
+        joined += pieces if stays else [_joined(pieces)]
+    return joined[0] if len(joined) == 1 else Operation("+", tuple(joined))
+
+
+def _joined(pieces: list[Object]) -> Object:
+    """Lists, or strings, one after the other."""
+    kinds = {type(piece) for piece in pieces}
+    if len(kinds) > 1:
+        whole = Operation("+", tuple(pieces))
+        raise Unresolved(f"two lists or two strings can be concatenated, not {whole}")
+    if len(pieces) == 1:
+        return pieces[0]
+    events = tuple(chain.from_iterable(pieces))
+    return EventString(*events) if kinds == {EventString} else events
+
+
+def fst(value: object) -> Object:
+    """The first element of a list; raises `Unresolved` where there is none.
+
+    >>> fst(["a", "b"])
+    'a'
+    """
+    value = freeze(value)
+    return Operation("fst", (value,)) if _stays(value) else _elements(value)[0]
+
+
+def rst(value: object) -> Object:
+    """A list without its first element; raises `Unresolved` where it has none.
+
+    >>> rst(["a", "b"])
+    ('b',)
+    """
+    value = freeze(value)
+    return Operation("rst", (value,)) if _stays(value) else _elements(value)[1:]
+
+
+def _elements(value: Object) -> tuple[Object, ...]:
+    if isinstance(value, tuple) and value:
+        return value
+    kind = "an empty list" if value == () else "no list"
+    raise Unresolved(f"there is no first element: it is {kind}")
+
+
+def _is_operation(value: Object, name: str) -> bool:
+    return isinstance(value, Operation) and value.name == name
+
+
+def _stays(value: Object) -> bool:
+    """Whether what an object is depends on what a path or an application leads to."""
+    from ttr.syntax import Application
+
+    return isinstance(value, Path | Operation | Application)
+
+
+def in_print(value: object) -> tuple[str, str]:
+    """A key for putting objects in an order that does not depend on addresses."""
+    return str(value), repr(value)
+
+
 # --- records -------------------------------------------------------------------------
 
 
-class Record:
+class Record(Drawn):
     """A record {ℓ = a, …}: labels are its attributes, and it has no public methods.
 
     Two records are equal when they have the same labels with the same objects.

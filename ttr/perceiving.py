@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from ttr.assignments import Assignment
-from ttr.substitution import Unresolved, grounded
+from ttr.objects import Unresolved
+from ttr.substitution import grounded
 from ttr.syntax import Meet, Object, PType, Record, RecordType, TypeNode
 
 __all__ = ["filled"]

@@ -12,59 +12,101 @@ import keyword
 import math
 from collections.abc import Iterable
 
+from ttr.objects import Missing
+from ttr.paths import escaping, occurring, replace_paths
+from ttr.paths import parts as contents
 from ttr.syntax import (
+    BOUND,
+    Application,
     Basic,
+    EventString,
+    FiniteSet,
+    Function,
+    FunType,
+    Join,
     ListOf,
     Meet,
+    Negation,
+    NonEmpty,
     Object,
+    Operation,
     Path,
+    Plus,
     Pred,
     PType,
     Record,
     RecordType,
+    SetOf,
     Singleton,
+    Str,
     TypeNode,
     Universe,
 )
 
-__all__ = ["notation", "python"]
+__all__ = ["Scope", "notation", "python", "variable"]
 
-Scope = tuple[frozenset[str], ...]
-"""The labels of the record types around, innermost first."""
+Scope = tuple[frozenset[str] | str, ...]
+"""The scopes around, innermost first: the labels of a record type, or a variable."""
 
 
 def notation(value: Object, scope: Scope = ()) -> str:
     """The value in the notation of the papers, on one line.
 
-    >>> from ttr.syntax import Ind, Pred, rectype, outer
+    >>> from ttr.constructors import rectype
+    >>> from ttr.syntax import Ind, outer
     >>> run = Pred("run", Ind)
     >>> inner = rectype(x=Ind, c=run(outer.x))
     >>> print(notation(rectype(x=Ind, y=inner)))
     [x : Ind, y : [c : run(^.x), x : Ind]]
     """
     match value:
-        case Basic(name) | Universe(name, 0):
+        case Basic(name) | Universe(name, 0) | Pred(name):
             return name
         case Universe(name, level):
             return f"{name}^{level}"
         case PType(pred, args):
             return f"{pred.name}({_listed(args, scope)})"
-        case Singleton(base, obj):
-            return f"{_tight(base, scope)}@{_operand(obj, scope)}"
-        case Meet(parts):
-            return " /\\ ".join(_tight(part, scope) for part in parts)
-        case ListOf(item):
-            return f"list({notation(item, scope)})"
         case RecordType(()):
             return "Rec"
         case RecordType(fields):
             inner = (frozenset(value.labels), *scope)
             return f"[{', '.join(_field(k, f, inner) for k, f in fields)}]"
-        case Pred(name, _):
-            return name
+        case Singleton(base, obj):
+            return f"{_tight(base, scope)}@{_tight(obj, scope)}"
+        case Meet(parts):
+            return " /\\ ".join(_operand(part, scope) for part in parts)
+        case Join(parts):
+            return " \\/ ".join(_operand(part, scope) for part in parts)
+        case Negation(body):
+            return f"~{_operand(body, scope)}"
+        case FunType() | Function():
+            return _binder(value, scope)
+        case Application(function, argument):
+            return f"{_head(function, scope)}({notation(argument, scope)})"
+        case Operation("+", args):
+            return " + ".join(_tight(arg, scope) for arg in args)
         case Path():
             return _path(value, scope)
+    call = _CALLS.get(type(value))
+    if call is not None:
+        return f"{call}({_listed(_arguments(value), scope)})"
+    if isinstance(value, Operation):
+        return f"{value.name}({_listed(value.args, scope)})"
     return _object(value, scope)
+
+
+_CALLS: dict[type, str] = {
+    ListOf: "list",
+    NonEmpty: "nelist",
+    SetOf: "set",
+    Plus: "plus",
+    Str: "str",
+}
+"""Types that are written as a word with arguments."""
+
+
+def _arguments(T: Object) -> tuple[TypeNode, ...]:
+    return T.items if isinstance(T, Str) else (T.item,)
 
 
 def _field(label: str, field: TypeNode, scope: Scope) -> str:
@@ -74,28 +116,117 @@ def _field(label: str, field: TypeNode, scope: Scope) -> str:
     return f"{label} : {notation(field, scope)}"
 
 
-def _tight(T: TypeNode, scope: Scope) -> str:
-    """A type as an operand: in brackets unless it holds together by itself."""
-    text = notation(T, scope)
-    return f"({text})" if isinstance(T, Meet | Singleton) else text
-
-
 def _operand(value: Object, scope: Scope) -> str:
-    """An object after @: in brackets where it is a type that falls apart."""
+    """A part of a meet, join or negation: in brackets unless it binds closer."""
     text = notation(value, scope)
-    return f"({text})" if isinstance(value, Meet | Singleton) else text
+    loose = isinstance(value, Meet | Join | Singleton | Function)
+    return f"({text})" if loose else text
+
+
+def _tight(value: Object, scope: Scope) -> str:
+    """A part beside @, + or an arrow: in brackets unless it holds together."""
+    loose = isinstance(value, Negation) or _is_sum(value)
+    return f"({notation(value, scope)})" if loose else _operand(value, scope)
+
+
+def _is_sum(value: Object) -> bool:
+    return isinstance(value, Operation) and value.name == "+"
 
 
 def _listed(values: Iterable[Object], scope: Scope) -> str:
-    return ", ".join(notation(v, scope) for v in values)
+    return ", ".join([notation(v, scope) for v in values])
+
+
+# --- functions and their variables ---------------------------------------------------
+
+
+def _binder(value: FunType | Function, scope: Scope) -> str:
+    match value:
+        case Function(domain, body):
+            name = variable(value, scope)
+            inner = notation(body, (name, *scope))
+            return f"\\{name}:{_tight(domain, scope)}. {inner}"
+        case FunType(domain, result):
+            if not _binds(result):
+                inner = _result(result, ("", *scope))
+                return f"({_tight(domain, scope)} -> {inner})"
+            name = variable(value, scope)
+            inner = _result(result, (name, *scope))
+            return f"(({name} : {notation(domain, scope)}) -> {inner})"
+
+
+def _result(T: TypeNode, scope: Scope) -> str:
+    """What stands after an arrow."""
+    text = notation(T, scope)
+    return f"({text})" if isinstance(T, Meet | Join | Singleton) else text
+
+
+def _binds(inside: Object) -> bool:
+    """Whether the inside of a binder mentions its variable."""
+    return any(path.up == 0 for path in escaping(inside))
+
+
+def variable(value: FunType | Function, scope: Scope) -> str:
+    """The name to write for the variable: its hint, unless that would be misread.
+
+    It is another than the variables around, the labels in the body and the predicates
+    applied in it.
+    """
+    inside = value.body if isinstance(value, Function) else value.result
+    taken = {name for name in scope if isinstance(name, str)} | RESERVED
+    for part in occurring([inside]):
+        match part:
+            case RecordType():
+                taken.update(part)
+            case Pred(name):
+                taken.add(name)
+    name, number = value.hint, 1
+    while name in taken:
+        name, number = f"{value.hint}{number}", number + 1
+    return name
+
+
+def _head(function: Object, scope: Scope) -> str:
+    """What is applied: a path with its dot, so that it is not read as a predicate."""
+    match function:
+        case Path(up, labels) if labels[0] != BOUND:
+            return _dotted(up, labels, scope)
+        case Path() | Application():
+            return notation(function, scope)
+        case str():
+            return json.dumps(function, ensure_ascii=False)
+    return f"({notation(function, scope)})"
 
 
 def _path(path: Path, scope: Scope) -> str:
-    name = ".".join(path.labels)
-    nearest = next((i for i, ls in enumerate(scope) if path.labels[0] in ls), None)
-    if nearest == path.up:
-        return name
-    return f"{'^' * path.up}.{name}"
+    if path.labels[0] == BOUND:
+        return _bound(path, scope)
+    for up, names in enumerate(scope):
+        if path.labels[0] == names or path.labels[0] in _labels(names):
+            if up == path.up:
+                return ".".join(path.labels)
+            break
+    return _dotted(path.up, path.labels, scope)
+
+
+def _bound(path: Path, scope: Scope) -> str:
+    """A variable, or a path from it; where it is bound outside, a dot says so."""
+    around = scope[path.up] if path.up < len(scope) else ""
+    name = around if isinstance(around, str) else ""
+    return ".".join([name or BOUND, *path.labels[1:]])
+
+
+def _dotted(up: int, labels: tuple[str, ...], scope: Scope) -> str:
+    """The path with a caret for each record type that it leads out of."""
+    binders = sum(isinstance(names, str) for names in scope[:up])
+    return f"{'^' * (up - binders)}.{'.'.join(labels)}"
+
+
+def _labels(names: frozenset[str] | str) -> frozenset[str]:
+    return names if isinstance(names, frozenset) else frozenset()
+
+
+# --- other objects -------------------------------------------------------------------
 
 
 def _object(value: Object, scope: Scope) -> str:
@@ -106,22 +237,38 @@ def _object(value: Object, scope: Scope) -> str:
         return f"[{_listed(value, scope)}]"
     if kind is int or (kind is float and math.isfinite(value)):
         return repr(value)
-    if isinstance(value, Record):
-        items = sorted(value._fields.items())
-        inside = ", ".join(f"{label} = {notation(v, scope)}" for label, v in items)
-        return f"{{{inside}}}"
+    match value:
+        case Record():
+            items = sorted(value._fields.items())
+            inside = ", ".join(f"{label} = {notation(v, scope)}" for label, v in items)
+            return f"{{{inside}}}"
+        case Missing():
+            return "nothing"
+        case FiniteSet(items):
+            return f"{'' if items else 'set'}{{{_listed(items, scope)}}}"
+        case EventString(items):
+            return _string([_tight(item, scope) for item in items])
     return f"<{kind.__name__} {_size(value)}>"
+
+
+def _string(items: list[str]) -> str:
+    """<a b>, with commas where an event could be read as an argument of the last."""
+    between = ", " if any(item.startswith("(") for item in items) else " "
+    return f"<{between.join(items)}>"
 
 
 def _name(name: str, scope: Scope) -> str:
     """A name, quoted where it would be read as a label or as something else."""
-    bare = name.isidentifier() and name not in _RESERVED
-    if bare and not any(name in labels for labels in scope):
+    bare = name.isidentifier() and name not in RESERVED
+    if bare and not any(name == names or name in _labels(names) for names in scope):
         return name
     return json.dumps(name, ensure_ascii=False)
 
 
-_RESERVED = frozenset({"Type", "RecType", "Rec", "list"})
+_TYPES = ("Type", "RecType", "Rec", "list", "nelist", "set", "str", "plus")
+
+RESERVED = frozenset((*_TYPES, "fst", "rst", "fun"))
+"""The words of the notation, which name nothing else."""
 
 
 def _size(value: object) -> object:
@@ -135,7 +282,7 @@ def _size(value: object) -> object:
 def python(value: Object) -> str:
     """The value as Python that evaluates back, with the names of `ttr` imported.
 
-    >>> from ttr.syntax import *
+    >>> from ttr import *
     >>> T = rectype(x=Ind, c=Pred("run", Ind)(this.x))
     >>> T
     rectype(x=Basic('Ind'), c=Pred('run', Basic('Ind'))(this.x))
@@ -155,10 +302,20 @@ def python(value: Object) -> str:
             return f"{python(pred)}({', '.join(map(python, args))})"
         case Singleton(base, obj):
             return f"Singleton({python(base)}, {python(obj)})"
-        case Meet(parts):
-            return f"meet({', '.join(map(python, parts))})"
-        case ListOf(item):
-            return f"ListOf({python(item)})"
+        case Meet(parts) | Join(parts):
+            return f"{type(value).__name__.lower()}({', '.join(map(python, parts))})"
+        case ListOf() | NonEmpty() | SetOf() | Plus() | Negation():
+            ((part,), _) = contents(value)
+            return f"{type(value).__name__}({python(part)})"
+        case Str(items) | EventString(items) | FiniteSet(items):
+            return f"{type(value).__name__}({', '.join(map(python, items))})"
+        case FunType() | Function():
+            return _python_binder(value)
+        case Application(function, argument):
+            return f"Application({python(function)}, {python(argument)})"
+        case Operation(name, args):
+            call = "concat" if name == "+" else name
+            return f"{call}({', '.join(map(python, args))})"
         case RecordType(()):
             return "Rec"
         case RecordType(fields):
@@ -171,6 +328,26 @@ def python(value: Object) -> str:
             inner = ", ".join(map(python, value))
             return f"({inner}{',' * (len(value) == 1)})"
     return repr(value)
+
+
+def _python_binder(value: FunType | Function) -> str:
+    match value:
+        case Function(domain, body, hint):
+            call, inside = "fun", body
+        case FunType(domain, result) if not _binds(result):
+            outside = replace_paths(result, lambda p: Path(p.up - 1, p.labels))
+            return f"({python(domain)} >> {python(outside)})"
+        case FunType(domain, inside, hint):
+            call = "Pi"
+    named = replace_paths(inside, lambda path: _named(path, hint))
+    return f"{call}({_keywords([(hint, domain)])})({python(named)})"
+
+
+def _named(path: Path, variable: str) -> Path:
+    """The path, with the name of the variable if it is the innermost one."""
+    if path.up > 0 or path.labels[0] != BOUND:
+        return path
+    return Path(0, (variable, *path.labels[1:]))
 
 
 def _arities(arities: tuple[tuple[TypeNode, ...], ...]) -> list[str]:

@@ -19,7 +19,7 @@ from ttr.checking import (
 from ttr.errors import IllFormed, TTRError
 from ttr.notation import Reader
 from ttr.syntax import Object, TypeNode
-from ttr.trees import Application, Term, Word
+from ttr.trees import Application, Name, Term
 
 __all__ = ["Asking"]
 
@@ -54,28 +54,30 @@ class Asking:
                 return IsBelow(kind(left), kind(right))
             case trees.Comparison(_, _, _, left, right):
                 return self._equation(left, right)
-            case trees.Probability(_, _, head, sit, T, p) if head.text == "P":
+            case trees.Probability(_, _, Name(_, _, ("P",)), sit, T, p):
                 return HasDegree(read(sit), kind(T), p.relation, self.reader.degree(p))
-            case trees.Claim(_, _, Application(_, _, Word(_, _, "create"), (T,))):
+            case trees.Claim(_, _, Application(_, _, Name(_, _, ("create",)), (T,))):
                 return Creates(kind(T))
-            case trees.Claim(_, _, Application(_, _, Word(_, _, "wellformed"), (T,))):
+            case trees.Claim(
+                _, _, Application(_, _, Name(_, _, ("wellformed",)), (T,))
+            ):
                 return IsWellFormed(self._built(T))
         self.reader.refuse(
             tree,
             "this is nothing that can be checked",
-            "ask a : T, S <= T, S = T, merge(S, T) = U, amerge(S, T) = U, create(T), "
-            "wellformed(T), P(a : T) = p or P(a : T) in [lo, hi]",
+            "ask a : T, S <= T, S = T, f(a) = b, merge(S, T) = U, amerge(S, T) = U, "
+            "create(T), wellformed(T), P(a : T) = p or P(a : T) in [lo, hi]",
         )
 
     def _equation(self, left: Term, right: Term) -> Query:
         match left:
-            case Application(_, _, Word(_, _, operation), (S, T)) if (
+            case Application(_, _, Name(_, _, (operation,)), (S, T)) if (
                 operation in _MERGES
             ):
                 result = self._type(right)
                 return Merges(operation, self._type(S), self._type(T), result)
-            case Application(_, _, Word(_, _, "P")) if (
-                "P" not in self.reader.theory.predicates
+            case Application(_, _, Name(_, _, ("P",))) if (
+                "P" not in self.reader.theory.names
             ):
                 self.reader.refuse(left, "P(T) = p is not part of this version")
         return IsSame(self._object(left), self._object(right))

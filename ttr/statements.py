@@ -7,11 +7,13 @@ from dataclasses import dataclass, replace
 
 from ttr import trees
 from ttr.errors import suggestion
-from ttr.notation import LOGICAL, RESERVED, Reader
+from ttr.notation import LOGICAL, Reader
+from ttr.paths import escaping
+from ttr.printing import RESERVED
 from ttr.questions import Asking
-from ttr.syntax import Basic, Path, Pred, PType, escaping
+from ttr.syntax import Basic, Path, Pred, PType
 from ttr.theories import Axiom, Given, Theory
-from ttr.trees import Application, Name, Statement, Term, Word, inside
+from ttr.trees import Application, Arity, Name, Statement, Term, Word, inside
 
 __all__ = ["Declaring", "mentioned"]
 
@@ -60,12 +62,12 @@ class Declaring:
         found = {word.text: Basic(word.text) for word in names}
         return replace(self.theory, basics={**self.theory.basics, **found})
 
-    def _predicates(self, arities: tuple[Application, ...]) -> Theory:
+    def _predicates(self, arities: tuple[Arity, ...]) -> Theory:
         predicates = dict(self.theory.predicates)
         for one in arities:
-            self._claim(one.head, "a predicate", predicates)
-            arity = tuple(self.reader.type(arg, ()) for arg in one.args)
-            name = one.head.text
+            self._claim(one.name, "a predicate", predicates)
+            arity = tuple(self.reader.type(T, ()) for T in one.types)
+            name = one.name.text
             known = predicates[name].arities if name in predicates else ()
             if arity in known:
                 continue
@@ -132,7 +134,9 @@ class Declaring:
 
     def _schema(self, term: Term) -> Basic | PType:
         """A side of an axiom: the bare names in it that are no types are variables."""
-        names = {part for part in inside(term) if isinstance(part, Name)}
+        terms = term.args if isinstance(term, Application) else (term,)
+        found_in = (part for one in terms for part in inside(one))
+        names = {part for part in found_in if isinstance(part, Name)}
         for name in names:
             if name.up is not None or len(name.labels) > 1:
                 self.reader.refuse(
@@ -146,7 +150,7 @@ class Declaring:
             self.reader.refuse(
                 term,
                 "an axiom relates basic types and predicates applied to names, "
-                f"found {self.reader.source.text[term.start : term.end]}",
+                f"found {self.reader.written(term)}",
             )
         return found
 
@@ -180,12 +184,7 @@ def mentioned(tree: Statement) -> frozenset[str]:
         case trees.OpenNames(_, _, words):
             return frozenset(word.text for word in words)
         case trees.Predicates(_, _, arities):
-            parts = [
-                part for one in arities for arg in one.args for part in inside(arg)
-            ]
+            parts = [part for one in arities for T in one.types for part in inside(T)]
         case _:
             parts = list(inside(tree))
-    names = {part.labels[0] for part in parts if isinstance(part, Name)}
-    return frozenset(
-        names | {part.head.text for part in parts if isinstance(part, Application)}
-    )
+    return frozenset(part.labels[0] for part in parts if isinstance(part, Name))

@@ -3,64 +3,85 @@
 Nodes are interned: two nodes of the same structure are the same Python object, so that
 `is` is structural identity, a hash is an address and a type can be a key. The classes
 with capital letters only hold data, to be matched on; types are built with `rectype`,
-`meet`, `Pred.__call__` and the operators, which normalise and refuse the ill-formed.
+`meet`, `join`, `fun`, `Pi`, `Pred.__call__` and the operators, which normalise and
+refuse the ill-formed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field
-from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING
 
 from ttr.errors import IllFormed
 from ttr.interning import Node, identity, node
 from ttr.objects import (
+    BOUND,
+    EventString,
+    FiniteSet,
     Object,
+    Operation,
     Path,
+    PathTo,
     Record,
     check_label,
+    concat,
     freeze,
-    labelled,
+    in_print,
     outer,
     record,
     this,
 )
 
-if TYPE_CHECKING:
-    from ttr.theories import Signature
-
 __all__ = [
+    "BOUND",
+    "Application",
     "Basic",
+    "EventString",
+    "FiniteSet",
+    "FunType",
+    "Function",
     "Ind",
+    "Join",
     "ListOf",
     "Meet",
+    "Negation",
+    "NonEmpty",
     "Object",
+    "Operation",
     "PType",
     "Path",
+    "Plus",
     "Pred",
     "Rec",
     "RecType",
     "Record",
     "RecordType",
+    "SetOf",
     "Singleton",
+    "Str",
     "Type",
     "TypeNode",
     "Universe",
+    "applied",
     "as_type",
-    "escaping",
     "freeze",
     "identity",
+    "join",
+    "kind_of",
     "meet",
     "outer",
     "record",
-    "rectype",
     "this",
 ]
 
 
 class TypeNode(Node):
-    """A type. `S <= T` asks for subtyping; `S & T` is the meet, `T @ a` a singleton."""
+    """A type, with the signs of the notation as operators.
+
+    `S & T` is the meet, `S | T` the join, `~T` the negation, `S >> T` the type of
+    functions from S to T, `T @ a` a singleton; `S <= T` asks for subtyping.
+    """
 
     __slots__ = ("_escaping",)
 
@@ -77,6 +98,17 @@ class TypeNode(Node):
     def __and__(self, other: object) -> TypeNode:
         return meet(self, as_type(other))
 
+    def __or__(self, other: object) -> TypeNode:
+        return join(self, as_type(other))
+
+    def __invert__(self) -> TypeNode:
+        return Negation(self)
+
+    def __rshift__(self, other: object) -> TypeNode:
+        from ttr.constructors import function_type
+
+        return function_type(self, as_type(other))
+
     def __matmul__(self, value: object) -> TypeNode:
         return Singleton(self, freeze(value))
 
@@ -85,10 +117,10 @@ def as_type(value: object) -> TypeNode:
     """The value, if it is a type; else `IllFormed` says what it is."""
     if isinstance(value, TypeNode):
         return value
-    raise IllFormed(f"expected a type, found {_kind(value)}")
+    raise IllFormed(f"expected a type, found {kind_of(value)}")
 
 
-def _kind(value: object) -> str:
+def kind_of(value: object) -> str:
     """What a value is, in a word or two, for an error."""
     match value:
         case Pred():
@@ -98,6 +130,10 @@ def _kind(value: object) -> str:
             )
         case Record():
             return f"the record {value}"
+        case Function():
+            return f"the function {value}"
+        case PathTo() | Path() | Operation():
+            return f"the object {value}"
         case str():
             return f"the object {value!r}"
     return f"{type(value).__name__} {value!r}"
@@ -112,7 +148,7 @@ class Basic(TypeNode):
     @staticmethod
     def _normal(name: str) -> tuple[str]:
         if not isinstance(name, str) or not name:
-            raise IllFormed(f"a basic type is named by a string, found {_kind(name)}")
+            raise IllFormed(f"a basic type is named by a string, found {kind_of(name)}")
         return (str(name),)
 
 
@@ -130,7 +166,9 @@ class Universe(TypeNode):
     @staticmethod
     def _normal(name: str, level: int = 0) -> tuple[str, int]:
         if not isinstance(name, str) or name not in ("Type", "RecType"):
-            raise IllFormed(f"a type of types is Type or RecType, found {_kind(name)}")
+            raise IllFormed(
+                f"a type of types is Type or RecType, found {kind_of(name)}"
+            )
         if type(level) is not int or level < 0:
             raise IllFormed(f"a level of types is 0 or more, found {level!r}")
         return name, level
@@ -146,13 +184,16 @@ class PType(TypeNode):
     @staticmethod
     def _normal(pred: Pred, args: object) -> tuple[object, ...]:
         if not isinstance(pred, Pred):
-            raise IllFormed(f"a ptype is of a predicate, found {_kind(pred)}")
+            raise IllFormed(f"a ptype is of a predicate, found {kind_of(pred)}")
         if not isinstance(args, tuple | list):
-            raise IllFormed(f"the arguments of {pred} are a tuple, found {_kind(args)}")
+            raise IllFormed(
+                f"the arguments of {pred} are a tuple, found {kind_of(args)}"
+            )
         frozen = tuple(map(freeze, args))
-        if not any(len(arity) == len(frozen) for arity in pred.arities):
-            raise IllFormed(_wrong_arity(pred, len(frozen)))
-        return pred, frozen
+        for arity in pred.arities:
+            if len(arity) == len(frozen):
+                return pred, frozen
+        raise IllFormed(_wrong_arity(pred, len(frozen)))
 
 
 def _wrong_arity(pred: Pred, found: int) -> str:
@@ -187,14 +228,168 @@ class Meet(TypeNode):
 
 
 @node
-class ListOf(TypeNode):
-    """list(T): the type of the finite lists of objects of T."""
+class Join(TypeNode):
+    """S ∨ T: a is of it iff a is of one of the parts. Built by `join`."""
 
-    item: TypeNode
+    parts: tuple[TypeNode, ...]
+
+    @staticmethod
+    def _key(parts: tuple[TypeNode, ...]) -> tuple[object, ...]:
+        return (frozenset(parts),)
+
+
+@node
+class Negation(TypeNode):
+    """¬T: a is of it iff a is not of T."""
+
+    body: TypeNode
+
+    @staticmethod
+    def _normal(body: TypeNode) -> tuple[object, ...]:
+        return (as_type(body),)
+
+
+# --- collections and strings ---------------------------------------------------------
+
+
+class _Of(TypeNode):
+    """A type of things that are made of objects of one type."""
+
+    __slots__ = ()
 
     @staticmethod
     def _normal(item: TypeNode) -> tuple[object, ...]:
         return (as_type(item),)
+
+
+@node
+class ListOf(_Of):
+    """list(T): the type of the finite lists of objects of T."""
+
+    item: TypeNode
+
+
+@node
+class NonEmpty(_Of):
+    """nelist(T): the lists of objects of T that have a first element and a rest."""
+
+    item: TypeNode
+
+
+@node
+class SetOf(_Of):
+    """set(T): the type of the finite sets of objects of T."""
+
+    item: TypeNode
+
+
+@node
+class Plus(_Of):
+    """plus(T), T⁺: the strings that are one or more strings or events of T in a row."""
+
+    item: TypeNode
+
+
+@node
+class Str(TypeNode):
+    """str(T₁, …, Tₙ): the strings of n events, the first of T₁ and so on."""
+
+    items: tuple[TypeNode, ...]
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *items: object) -> None: ...
+
+    @staticmethod
+    def _normal(*items: object) -> tuple[object, ...]:
+        return (tuple(map(as_type, items)),)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Str, self.items
+
+
+# --- functions -----------------------------------------------------------------------
+
+
+class _Binder(Node):
+    """Something with a bound variable of a domain; the variable's name is a hint.
+
+    Inside, the variable is the path `BOUND`, so its name is no part of identity.
+    """
+
+    __slots__ = ()
+
+    @staticmethod
+    def _key(domain: TypeNode, inside: object, hint: str) -> tuple[object, ...]:
+        return domain, identity(inside)
+
+
+@node
+class FunType(_Binder, TypeNode):
+    """((x : S) → T), the functions that take each x of S to an object of T.
+
+    Where T does not mention x it is written (S → T). Built by `S >> T` and `Pi`.
+    """
+
+    domain: TypeNode
+    result: TypeNode
+    hint: str = "x"
+
+    @staticmethod
+    def _normal(
+        domain: TypeNode, result: TypeNode, hint: str = "x"
+    ) -> tuple[object, ...]:
+        check_label(hint)
+        return as_type(domain), as_type(result), hint
+
+
+@node
+class Function(_Binder):
+    """λx:S. body, the function that takes each x of S to the body. Built by `fun`."""
+
+    domain: TypeNode
+    body: Object
+    hint: str = "x"
+
+    @staticmethod
+    def _normal(domain: TypeNode, body: object, hint: str = "x") -> tuple[object, ...]:
+        check_label(hint)
+        return as_type(domain), freeze(body), hint
+
+    def __call__(self, *args: object) -> Application:
+        """The application of the function, as written; `Model.apply` works it out."""
+        return applied(self, *args)
+
+
+@node
+class Application(TypeNode):
+    """f(a): what a function gives for an argument, a type or any other object."""
+
+    function: Object
+    argument: Object
+
+    @staticmethod
+    def _normal(function: object, argument: object) -> tuple[object, ...]:
+        return freeze(function), freeze(argument)
+
+    def __call__(self, *args: object) -> Application:
+        """What the result, a function, gives for another argument: f(a)(b)."""
+        return applied(self, *args)
+
+    def __add__(self, other: object) -> Object:
+        return concat(self, other)
+
+
+def applied(function: object, *args: object) -> Application:
+    """f(a), or f(a)(b) and so on where there are more arguments."""
+    if not args:
+        raise IllFormed(f"a function is applied to an argument: {function}(…)")
+    for arg in args:
+        function = Application(function, arg)
+    return function  # type: ignore[return-value]
+
+
+# --- records and predicates ----------------------------------------------------------
 
 
 @node
@@ -213,7 +408,7 @@ class RecordType(TypeNode):
     def __getitem__(self, label: str) -> TypeNode:
         """The type of the field with this label; raises `KeyError` if there is none.
 
-        >>> rectype(x=Ind)["x"]
+        >>> RecordType((("x", Ind),))["x"]
         Basic('Ind')
         """
         return self._types[label]
@@ -276,69 +471,10 @@ class Pred(Node):
 
 
 def _shortest_first(arity: tuple[TypeNode, ...]) -> tuple[int, str, str]:
-    return len(arity), *_in_print(arity)
+    return len(arity), *in_print(arity)
 
 
-def _in_print(value: object) -> tuple[str, str]:
-    """A key for putting nodes in an order that does not depend on addresses."""
-    return str(value), repr(value)
-
-
-# --- constructors --------------------------------------------------------------------
-
-
-def rectype(
-    fields: Mapping[str, TypeNode] | None = None,
-    theory: Signature | None = None,
-    /,
-    **labels: TypeNode,
-) -> RecordType:
-    """The record type with these fields, as keywords or as one mapping.
-
-    Fields are put in the order (depth of dependency, label), so that the order of
-    writing never matters; fields on a cycle come last. Raises `IllFormed` for a path
-    that leads nowhere in this record type, or to an object of a wrong type; what fits
-    by an axiom fits where the theory is given.
-
-    >>> dog = Pred("dog", Ind)
-    >>> print(rectype(c=dog(this.x), x=Ind))
-    [x : Ind, c : dog(x)]
-    >>> rectype(c=dog(this.y), x=Ind)
-    Traceback (most recent call last):
-    ttr.errors.IllFormed: the path y leads nowhere: [c : dog(.y), x : Ind] has no y
-    """
-    from ttr.formation import checked
-
-    given = labelled("rectype", fields, labels)
-    for label, T in given.items():
-        check_label(label)
-        if not isinstance(T, TypeNode):
-            raise IllFormed(f"the field {label} needs a type, found {_kind(T)}")
-    return checked(RecordType(ordered(given)), theory)
-
-
-def ordered(fields: Mapping[str, TypeNode]) -> tuple[tuple[str, TypeNode], ...]:
-    """The fields by (depth of dependency, label); those on or behind a cycle last."""
-    waits: dict[str, int] = {}
-    needed_by: dict[str, list[str]] = {}
-    for label, T in fields.items():
-        needs = {path.labels[0] for path in escaping(T) if path.up == 0}
-        needs &= fields.keys()
-        waits[label] = len(needs)
-        for need in needs:
-            needed_by.setdefault(need, []).append(label)
-    ready = [(0, label) for label, count in waits.items() if count == 0]
-    heapify(ready)
-    order: list[str] = []
-    while ready:
-        depth, label = heappop(ready)
-        order.append(label)
-        for waiting in needed_by.get(label, ()):
-            waits[waiting] -= 1
-            if waits[waiting] == 0:
-                heappush(ready, (depth + 1, waiting))
-    order += sorted(fields.keys() - order)
-    return tuple((label, fields[label]) for label in order)
+# --- meets and joins -----------------------------------------------------------------
 
 
 def meet(*parts: TypeNode) -> TypeNode:
@@ -348,68 +484,34 @@ def meet(*parts: TypeNode) -> TypeNode:
     >>> meet(B, A) is meet(A, meet(A, B)), meet(A, A) is A
     (True, True)
     """
-    flat = {
-        piece: None
-        for part in parts
-        for piece in (part.parts if isinstance(part, Meet) else (as_type(part),))
-    }
-    if len(flat) == 1:
-        return next(iter(flat))
+    flat = _flat(Meet, parts)
     if not flat:
         raise IllFormed("a meet needs at least one type")
-    return Meet(tuple(sorted(flat, key=_in_print)))
+    return flat[0] if len(flat) == 1 else Meet(flat)
 
 
-# --- paths in types ------------------------------------------------------------------
+def join(*parts: TypeNode) -> TypeNode:
+    """The join S ∨ T: flat, each part once, in one order whatever the order of writing.
 
-
-def escaping(value: Object) -> frozenset[Path]:
-    """The paths in a type or object that start outside it.
-
-    Paths are as seen from where the value stands: `up` 0 is the record around it.
-
-    >>> dog = Pred("dog", Ind)
-    >>> escaping(dog(this.x)), escaping(rectype(x=Ind, c=dog(this.x)))
-    (frozenset({this.x}), frozenset())
+    >>> A, B = Basic("A"), Basic("B")
+    >>> print(join(B, A, B))
+    A \\/ B
     """
-    if isinstance(value, TypeNode):
-        return _escaping_type(value)
-    match value:
-        case Path():
-            return frozenset((value,))
-        case tuple():
-            return _union(value)
-        case Record():
-            return _union(value._fields.values())
-    return frozenset()
+    flat = _flat(Join, parts)
+    if not flat:
+        raise IllFormed("a join needs at least one type")
+    return flat[0] if len(flat) == 1 else Join(flat)
 
 
-def _escaping_type(T: TypeNode) -> frozenset[Path]:
-    """The paths that escape from a type; remembered, as a type does not change."""
-    try:
-        return T._escaping
-    except AttributeError:
-        found = _found_escaping(T)
-    object.__setattr__(T, "_escaping", found)
-    return found
-
-
-def _found_escaping(T: TypeNode) -> frozenset[Path]:
-    match T:
-        case RecordType(fields):
-            inner = _union(field for _, field in fields)
-            return frozenset(Path(p.up - 1, p.labels) for p in inner if p.up > 0)
-        case PType(_, args) | Meet(args):
-            return _union(args)
-        case Singleton(base, value):
-            return escaping(base) | escaping(value)
-        case ListOf(item):
-            return escaping(item)
-    return frozenset()
-
-
-def _union(values: Iterable[Object]) -> frozenset[Path]:
-    return frozenset().union(*map(escaping, values))
+def _flat(
+    kind: type[Meet] | type[Join], parts: tuple[TypeNode, ...]
+) -> tuple[TypeNode, ...]:
+    """The parts without those of the same kind around them, each once, in order."""
+    once: dict[TypeNode, None] = {}
+    for part in map(as_type, parts):
+        inner = part.parts if isinstance(part, kind) else (part,)
+        once.update(dict.fromkeys(inner))
+    return tuple(once) if len(once) < 2 else tuple(sorted(once, key=in_print))
 
 
 Ind = Basic("Ind")

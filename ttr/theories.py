@@ -4,26 +4,15 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Protocol, overload
 
 from ttr.errors import IllFormed, NotationError, Span, TTRError, suggestion
-from ttr.syntax import (
-    Basic,
-    ListOf,
-    Meet,
-    Object,
-    Path,
-    Pred,
-    PType,
-    Record,
-    RecordType,
-    Singleton,
-    TypeNode,
-)
+from ttr.paths import occurring
+from ttr.syntax import Basic, Object, Path, Pred, PType, TypeNode
 
 if TYPE_CHECKING:
     from ttr.checking import Check
@@ -205,7 +194,7 @@ class Theory(Signature):
         basics: dict[str, Basic] = {}
         predicates: dict[str, Pred] = {}
         objects: set[str] = set()
-        for value in _occurring(values):
+        for value in occurring(values):
             match value:
                 case Basic(name):
                     basics[name] = value
@@ -246,40 +235,6 @@ class Theory(Signature):
 
     def __repr__(self) -> str:
         return f"<Theory {self.source}: {', '.join(sorted(self.names))}>"
-
-
-def _occurring(values: tuple[object, ...]) -> Iterator[object]:
-    """The values and everything in them, each once; without recursion."""
-    waiting, seen = list(values), set()
-    while waiting:
-        value = waiting.pop()
-        if isinstance(value, TypeNode | Pred):
-            if value in seen:
-                continue
-            seen.add(value)
-        yield value
-        waiting += _parts(value)
-
-
-def _parts(value: object) -> tuple[object, ...]:
-    match value:
-        case PType(pred, args):
-            return pred, *args
-        case Pred(_, arities):
-            return tuple(T for arity in arities for T in arity)
-        case Singleton(base, obj):
-            return base, obj
-        case Meet(parts):
-            return parts
-        case ListOf(item):
-            return (item,)
-        case RecordType(fields):
-            return tuple(T for _, T in fields)
-        case Record():
-            return tuple(value._fields.values())
-        case tuple():
-            return value
-    return ()
 
 
 def _same_predicate(known: Pred, found: Pred) -> None:

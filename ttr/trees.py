@@ -7,25 +7,34 @@ can be underlined.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 from ttr.errors import NotationError, Span
 
 __all__ = [
+    "Abstraction",
     "Application",
+    "Arity",
+    "Arrow",
     "AxiomClaim",
     "BasicNames",
     "Braces",
     "Claim",
     "Comparison",
+    "Concatenation",
     "Conjunction",
     "Definition",
     "Degree",
+    "Denial",
+    "Disjunction",
+    "Elements",
+    "Events",
     "Field",
     "Fields",
     "GivenFact",
     "Import",
     "Items",
+    "Judged",
     "Literal",
     "Name",
     "ObjectNames",
@@ -38,7 +47,6 @@ __all__ = [
     "Restriction",
     "Source",
     "Statement",
-    "Judged",
     "Term",
     "Word",
     "inside",
@@ -98,10 +106,28 @@ class Literal(Term):
 
 @dataclass(frozen=True, slots=True)
 class Application(Term):
-    """p(a₁, …, aₙ)."""
+    """p(a₁, …, aₙ), or f(a)."""
 
-    head: Word
+    head: Term
     args: tuple[Term, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Abstraction(Term):
+    """λx:S. body."""
+
+    variable: Word
+    domain: Term
+    body: Term
+
+
+@dataclass(frozen=True, slots=True)
+class Arrow(Term):
+    """(S → T), or ((x : S) → T) where there is a variable."""
+
+    variable: Word | None
+    domain: Term
+    result: Term
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +141,27 @@ class Restriction(Term):
 @dataclass(frozen=True, slots=True)
 class Conjunction(Term):
     """S ∧ T."""
+
+    parts: tuple[Term, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Disjunction(Term):
+    """S ∨ T."""
+
+    parts: tuple[Term, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Denial(Term):
+    """¬T."""
+
+    body: Term
+
+
+@dataclass(frozen=True, slots=True)
+class Concatenation(Term):
+    """a + b."""
 
     parts: tuple[Term, ...]
 
@@ -150,6 +197,20 @@ class Braces(Term):
 
 
 @dataclass(frozen=True, slots=True)
+class Elements(Term):
+    """{a, …}, or set{} where there are none."""
+
+    items: tuple[Term, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Events(Term):
+    """<a b>."""
+
+    items: tuple[Term, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Word(Part):
     """A single name, where one is declared or stands as a label."""
 
@@ -182,7 +243,15 @@ class BasicNames(Statement):
 class Predicates(Statement):
     """pred p(A), q(A, B)."""
 
-    arities: tuple[Application, ...]
+    arities: tuple[Arity, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Arity(Part):
+    """p(A₁, …, Aₙ) where a predicate is declared."""
+
+    name: Word
+    types: tuple[Term, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -267,7 +336,7 @@ class Comparison(Query):
 class Probability(Query):
     """P(a : T) = p, or in [lo, hi]; `head` is what stands before the bracket."""
 
-    head: Word
+    head: Term
     sit: Term
     type: Term
     degree: Degree
@@ -289,4 +358,6 @@ def inside(part: Part) -> Iterator[Part]:
                 waiting += reversed(parts)
             case Part() as here:
                 yield here
-                waiting += (getattr(here, f.name) for f in reversed(fields(here)))
+                waiting += (
+                    getattr(here, name) for name in reversed(here.__match_args__)
+                )

@@ -105,7 +105,8 @@ def rule(*, when: RecordType, on: TypeNode | None = None) -> Callable[[Effect], 
     with it. It gives None where it does not apply after all. Raises `UpdateError` where
     `when` is no record type, `on` no type, or the function's parameters are others.
 
-    >>> from ttr.syntax import Ind, record, rectype
+    >>> from ttr.constructors import rectype
+    >>> from ttr.syntax import Ind, record
     >>> from ttr.records import replace
     >>> @rule(when=rectype(spkr=Ind, addr=Ind))
     ... def take_turn(s):

@@ -1,30 +1,64 @@
-"""Small types, records and models over few names, so that clashes happen."""
+"""What the laws are tried on: types that have to do with one another, and their like.
+
+`types`, `objects` and `models` are the public strategies. `record_types` draws from a
+part of the theory about which more can be said: there subtyping is decided.
+"""
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
 from hypothesis import strategies as st
 
 from ttr import (
     Basic,
+    FunType,
     IllFormed,
     ListOf,
     Model,
+    Negation,
+    NonEmpty,
     Path,
+    Plus,
     Pred,
     PType,
     Record,
     RecordType,
-    RecType,
-    Type,
+    Refused,
+    SetOf,
+    Str,
     TypeNode,
+    Unsupported,
+    join,
     meet,
     merge,
     record,
     rectype,
 )
+from ttr.paths import occurring
+from ttr.strategies import models, objects, types
 from ttr.syntax import Object
+
+__all__ = [
+    "NAMES",
+    "A",
+    "B",
+    "chains",
+    "has_negations_or_function_types",
+    "made_up",
+    "models",
+    "names",
+    "objects",
+    "p",
+    "ptypes",
+    "record_types",
+    "records",
+    "related",
+    "relatives",
+    "samples",
+    "types",
+]
 
 Draw = Any
 """What hypothesis gives a composite strategy to draw with."""
@@ -93,35 +127,6 @@ def record_types(draw: Draw) -> RecordType:
     return rectype(fields)
 
 
-@st.composite
-def listing_types(draw: Draw) -> RecordType:
-    """Record types that also have fields for lists and for types."""
-    fields = dict(draw(record_types()).fields)
-    fields["l"] = ListOf(draw(st.one_of(basics, record_types())))
-    if draw(st.booleans()):
-        fields["m"] = RecType @ draw(record_types())
-    if draw(st.booleans()):
-        fields["k"] = ListOf(Type) @ draw(st.lists(ptypes(), max_size=2))
-    return rectype(fields)
-
-
-@st.composite
-def types(draw: Draw) -> TypeNode:
-    """Types of every constructor of this version."""
-    plain = st.one_of(basics, ptypes(), st.just(C), st.just(Type), st.just(RecType))
-    records = st.one_of(record_types(), listing_types())
-    match draw(st.sampled_from(["record", "plain", "singleton", "list", "meet"])):
-        case "plain":
-            return draw(plain)
-        case "singleton":
-            return draw(plain) @ draw(names)
-        case "list":
-            return ListOf(draw(st.one_of(plain, records)))
-        case "meet":
-            return meet(draw(st.one_of(plain, records)), draw(records))
-    return draw(records)
-
-
 def well_formed(fields: dict[str, TypeNode]) -> RecordType:
     """The fields as a record type, without the last ones if paths lead nowhere."""
     try:
@@ -146,15 +151,33 @@ def related(draw: Draw) -> tuple[RecordType, RecordType]:
     return S, draw(relatives(S))
 
 
+WITHIN = (
+    lambda T: T,
+    ListOf,
+    NonEmpty,
+    SetOf,
+    Plus,
+    lambda T: Str(T, C),
+    lambda T: rectype(x=T),
+    lambda T: rectype(n=rectype(x=T), y=A),
+    lambda T: T | C,
+    lambda T: T & C,
+    lambda T: A >> T,
+)
+"""Types with another one in them; one is below another if what is in it is."""
+
+
 @st.composite
 def chains(draw: Draw) -> list[TypeNode]:
-    """Three types, mostly each a meet or a merge of the one before with another."""
+    """Three types, mostly each below the one before, or much like it."""
     found = [draw(types())]
     for other in draw(st.lists(types(), min_size=2, max_size=2)):
         last = found[-1]
-        ways = [other, meet(last, other), merge(last, other), last & other @ "a"]
-        found.append(draw(st.sampled_from(ways)))
-    return found
+        below = [meet(last, other), merge(last, other), last & other @ "a"]
+        above = [join(last, other), other]
+        found.append(draw(st.sampled_from([*below, *above])))
+    within = draw(st.sampled_from(WITHIN))
+    return [within(T) for T in found]
 
 
 @st.composite
@@ -169,19 +192,22 @@ def records(draw: Draw) -> Record:
 
 
 @st.composite
-def models(draw: Draw) -> Model:
-    """Closed models of the names, with random facts."""
-    M = Model()
-    for name in NAMES:
-        for T in (A, B):
-            M = M.given(name, T, draw(st.sampled_from([1.0, 1.0, 1.0, 0.0])))
-    for sit, T in draw(st.lists(st.tuples(names, ptypes()), max_size=8)):
-        M = M.given(sit, T)
-    return M
+def samples(draw: Draw) -> Object:
+    """Objects of many forms."""
+    return draw(st.one_of(records(), objects(depth=2), st.just(()), names))
 
 
-@st.composite
-def inhabited(draw: Draw, T: TypeNode) -> tuple[Model, Object]:
-    """A model with random facts and a witness of T made up in it."""
-    witness, M = draw(models()).create(T)
-    return M, witness
+def made_up(T: TypeNode, M: Model) -> tuple[Object, Model] | None:
+    """A witness made up for T, and the model in which it is; None where there is none.
+
+    Where none is found beside the facts of the model, it is made up without them.
+    """
+    for model in (M, Model()):
+        with suppress(Refused, Unsupported):
+            return model.create(T)
+    return None
+
+
+def has_negations_or_function_types(*types: TypeNode) -> bool:
+    """Whether what the contract says of transitivity does not go so far."""
+    return any(isinstance(part, Negation | FunType) for part in occurring(types))

@@ -1,9 +1,242 @@
-"""The notation reads back as what was printed."""
+"""The notation reads back as what was printed, whatever things are called."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
 
 from generators import records, types
-from hypothesis import given
+from hypothesis import example, given
+from hypothesis import strategies as st
 
-from ttr import Theory
+from ttr import (
+    Application,
+    Basic,
+    EventString,
+    FiniteSet,
+    Ind,
+    ListOf,
+    Negation,
+    NonEmpty,
+    Path,
+    Pi,
+    Plus,
+    Pred,
+    Rec,
+    RecType,
+    SetOf,
+    Singleton,
+    Str,
+    Theory,
+    Type,
+    TypeNode,
+    Universe,
+    concat,
+    fst,
+    fun,
+    join,
+    meet,
+    outer,
+    record,
+    rectype,
+    rst,
+    this,
+)
+from ttr.syntax import BOUND, Object
+
+A, B = Basic("A"), Basic("B")
+dog, hug, rains = Pred("dog", Ind), Pred("hug", Ind, Ind), Pred("rains", ())
+PREDICATES = (dog, hug, rains, Pred("sees", (Ind,), (Ind, A)), Pred("p", A, B))
+
+LABELS = (
+    *("x", "y", "c", "fido", "P", "größe", "λ", "λx", "e1", "x1"),
+    *("list", "set", "str", "Type", "fst", "fun", "check", "not", "in", "dog"),
+)
+"""Labels and variables; some are words of the notation, names or predicates."""
+
+NAMES = st.one_of(
+    st.sampled_from((*LABELS, "Rec", "basic", "Type_1", "a b", "", "it's", "é", "_a")),
+    st.sampled_from(('say "hi"', "a\\b", "\n\t\u2028\x00\x7f", "\\u0041", "[x : A]")),
+    st.sampled_from(("#", "<a>", "x.y", "λx:A. x", "fun x:A. x", "set{}", "3")),
+    st.text(max_size=4),
+)
+NUMBERS = st.integers() | st.floats(allow_nan=False, allow_infinity=False)
+BASICS = st.sampled_from((Ind, A, B))
+PROPERTY = Ind >> Type
+LISTS = ListOf(Ind)
+
+
+@dataclass(frozen=True)
+class Place:
+    """What a path may lead to: how far out, its labels, its type."""
+
+    up: int
+    labels: tuple[str, ...]
+    type: TypeNode
+
+
+Around = tuple[Place, ...]
+
+
+def within(around: Around, *more: Place) -> Around:
+    """What is around, as seen one scope further in, and what the scope adds."""
+    return (*(replace(place, up=place.up + 1) for place in around), *more)
+
+
+def paths(around: Around, wanted: TypeNode) -> list[Path]:
+    return [Path(p.up, p.labels) for p in around if p.type is wanted]
+
+
+@st.composite
+def individuals(draw: st.DrawFn, wanted: TypeNode, around: Around) -> Object:
+    fitting = paths(around, wanted)
+    if fitting and draw(st.integers(0, 3)):
+        return draw(st.sampled_from(fitting))
+    return draw(NAMES)
+
+
+@st.composite
+def sequences(draw: st.DrawFn, around: Around, depth: int) -> Object:
+    """Lists, some of them computed from others."""
+    fitting = paths(around, LISTS)
+    items = st.lists(objects(around, depth - 1), min_size=1, max_size=2)
+    if not fitting or not draw(st.integers(0, 2)):
+        return tuple(draw(items))
+    path = draw(st.sampled_from(fitting))
+    more = [path, draw(items), path]
+    computed = (path, fst(path), rst(path), concat(*more), concat(rst(path), path))
+    return draw(st.sampled_from(computed))
+
+
+@st.composite
+def functions(draw: st.DrawFn, around: Around, depth: int) -> Object:
+    name = draw(st.sampled_from(LABELS))
+    domain = draw(st.one_of(st.just(Ind), st.just(PROPERTY), types_of(around, depth)))
+    inside = within(around, Place(0, (BOUND,), domain))
+    body = draw(objects(inside, depth - 1))
+    return fun({name: domain})(body)
+
+
+@st.composite
+def applications(draw: st.DrawFn, around: Around, depth: int) -> Application:
+    heads = [*paths(around, PROPERTY), "fido", "p q"]
+    head = draw(st.sampled_from(heads))
+    if draw(st.booleans()):
+        head = draw(functions(around, depth - 1))
+    if not draw(st.integers(0, 3)):
+        head = Application(head, draw(NAMES))
+    return Application(head, draw(objects(around, depth - 1)))
+
+
+@st.composite
+def objects(draw: st.DrawFn, around: Around, depth: int) -> Object:
+    some = st.lists(st.deferred(lambda: objects(around, depth - 1)), max_size=3)
+    match draw(st.integers(0, 10 if depth > 0 else 2)):
+        case 0:
+            return draw(NAMES)
+        case 1:
+            return draw(NUMBERS)
+        case 2 | 3:
+            return draw(individuals(draw(BASICS), around))
+        case 4:
+            return draw(sequences(around, depth))
+        case 5:
+            labels = st.sampled_from(LABELS)
+            inner = st.dictionaries(labels, objects(around, depth - 1), max_size=2)
+            return record(draw(inner))
+        case 6:
+            return FiniteSet(*draw(some))
+        case 7:
+            return EventString(*draw(some))
+        case 8:
+            return draw(functions(around, depth))
+        case 9:
+            return draw(applications(around, depth))
+    return draw(types_of(around, depth - 1))
+
+
+@st.composite
+def types_of(draw: st.DrawFn, around: Around = (), depth: int = 3) -> TypeNode:
+    """Types of every constructor, with paths to what is around."""
+    if depth <= 0:
+        universes = st.sampled_from((Type, RecType, Rec, Universe("Type", 1)))
+        return draw(st.one_of(BASICS, universes))
+    inner = types_of(around, depth - 1)
+    some = st.lists(inner, min_size=2, max_size=3)
+    match draw(st.integers(0, 11)):
+        case 0 | 1:
+            pred = draw(st.sampled_from(PREDICATES))
+            arity = draw(st.sampled_from(pred.arities))
+            return pred(*[draw(individuals(wanted, around)) for wanted in arity])
+        case 2:
+            of = draw(st.sampled_from((ListOf, NonEmpty, SetOf, Plus, Negation)))
+            return of(draw(inner))
+        case 3:
+            return Str(*draw(st.lists(inner, max_size=3)))
+        case 4:
+            return meet(*draw(some))
+        case 5:
+            return join(*draw(some))
+        case 6:
+            base = draw(inner)
+            if isinstance(base, Basic):
+                return Singleton(base, draw(individuals(base, around)))
+            return Singleton(base, draw(objects(around, depth - 1)))
+        case 7:
+            return draw(inner) >> draw(inner)
+        case 8:
+            domain = draw(BASICS)
+            variable = Place(0, (BOUND,), domain)
+            result = draw(types_of(within(around, variable), depth - 1))
+            return Pi({draw(st.sampled_from(LABELS)): domain})(result)
+        case 9:
+            return draw(applications(around, depth))
+    return draw(record_types(around, depth))
+
+
+@st.composite
+def record_types(draw: st.DrawFn, around: Around, depth: int) -> TypeNode:
+    some = st.lists(st.sampled_from(LABELS), min_size=1, max_size=4, unique=True)
+    labels = draw(some)
+    plain = labels[: draw(st.integers(1, len(labels)))]
+    kinds = st.one_of(BASICS, st.sampled_from((Ind, PROPERTY, LISTS)))
+    fields: dict[str, TypeNode] = {label: draw(kinds) for label in plain}
+    inside = within(around, *(Place(0, (k,), T) for k, T in fields.items()))
+    for label in labels[len(plain) :]:
+        fields[label] = draw(types_of(inside, depth - 1))
+    return rectype(fields)
+
+
+@given(types_of())
+@example(rectype(x=Ind, y=rectype(x=Ind, c=dog(outer.x))))
+@example(rectype(x=Ind, c=hug("x", this.x)))
+@example(rectype(x=Ind, t=Type @ rectype(c=dog(outer.x))))
+@example(Singleton(Singleton(Ind, "a"), "b"))
+@example(rectype(f=Ind @ "λx", λx=Ind))
+@example(Application(Application("x", Type), "Type"))
+@example(rectype(fun=Ind, s=Type @ EventString(this.fun, "x")))
+@example(rectype(set=Ind, s=Type @ EventString(this.set, record(x=1))))
+@example(rectype(set=Ind, s=Type @ EventString(this.set, FiniteSet())))
+def test_a_type_of_any_constructor_reads_back_as_itself(T):
+    assert Theory.of(T).parse(str(T)) is T
+
+
+@given(objects((), 3))
+@example(EventString("x", "in"))
+@example(fun({"λx": Ind})("x"))
+def test_an_object_reads_back_as_itself(a):
+    T = Type @ a
+    assert Theory.of(T).parse(str(T)) is T
+
+
+@given(types_of())
+def test_the_order_and_the_spaces_do_not_matter(T):
+    text = str(T)
+    if '"' in text or "λ" in text:
+        return
+    spread = text.replace(",", " \n , ").replace("[", "[ # so\n").replace("/\\", "∧")
+    spread = spread.replace("\\/", "∨").replace("->", "→").replace("~", "¬ ")
+    spread = spread.replace("\\", "λ ")
+    assert Theory.of(T).parse(spread) is T
 
 
 @given(types())

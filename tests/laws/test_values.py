@@ -1,15 +1,22 @@
 """Laws of types and records as values: one node for each structure, out and back."""
 
 import copy
+import json
+import os
 import pickle
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from generators import record_types, records, types
-from hypothesis import given
+from generators import models, objects, record_types, records, samples, types
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import ttr
-from ttr import meet, record, rectype
+from ttr import Function, FunType, Theory, join, meet, record, rectype, subtype
+from ttr.interning import identity
+from ttr.paths import rebuilt
 
 NAMES = {name: getattr(ttr, name) for name in ttr.__all__}
 
@@ -19,9 +26,15 @@ def test_repr_evaluates_back_to_the_same_type(T):
     assert eval(repr(T), dict(NAMES)) is T
 
 
-@given(records())
-def test_repr_evaluates_back_to_an_equal_record(r):
-    assert eval(repr(r), dict(NAMES)) == r
+@given(samples())
+def test_repr_evaluates_back_to_an_equal_object(a):
+    assert identity(eval(repr(a), dict(NAMES))) == identity(a)
+
+
+@given(objects())
+def test_printed_objects_read_back_as_themselves(a):
+    text = ttr.printing.notation(a)
+    assert identity(Theory.of(a).parse(text)) == identity(a)
 
 
 @given(types())
@@ -31,11 +44,105 @@ def test_pickle_and_copies_give_the_same_type(T):
     assert copy.deepcopy([T]) == [T]
 
 
+@given(objects())
+def test_pickle_and_copies_give_an_equal_object(a):
+    for other in (pickle.loads(pickle.dumps(a)), copy.copy(a), copy.deepcopy(a)):
+        assert identity(other) == identity(a)
+
+
 @given(records())
 def test_pickle_and_copies_give_an_equal_record(r):
     assert pickle.loads(pickle.dumps(r)) == r
     assert copy.deepcopy(r) == r
     assert hash(pickle.loads(pickle.dumps(r))) == hash(r)
+
+
+# --- what never matters --------------------------------------------------------------
+
+
+def renamed(value, name):
+    """The value with every bound variable called so."""
+    value = rebuilt(value, lambda part, deeper: renamed(part, name))
+    if isinstance(value, Function | FunType):
+        inside = value.body if isinstance(value, Function) else value.result
+        return type(value)(value.domain, inside, name)
+    return value
+
+
+@given(types(), st.sampled_from(["v", "x", "y", "p", "größe"]))
+def test_names_of_bound_variables_do_not_matter(T, name):
+    assert renamed(T, name) is T
+    assert Theory.of(T).parse(str(T)) is T
+
+
+@given(st.lists(types(), min_size=4, max_size=4))
+def test_threads_do_not_matter(found):
+    """Types that are built anew in several threads at once are the same nodes."""
+    texts = [repr(T) for T in found] * 4
+    asked = [str(subtype(S, T)) for S in found for T in found]
+    with ThreadPoolExecutor(4) as threads:
+        built = list(threads.map(lambda text: eval(text, dict(NAMES)), texts))
+        again = list(
+            threads.map(
+                lambda pair: str(subtype(*pair)), [(S, T) for S in found for T in found]
+            )
+        )
+    assert all(one is other for one, other in zip(built, found * 4, strict=True))
+    assert again == asked
+
+
+ANSWERS = """
+import json, sys
+import ttr
+from ttr import *
+names = {name: getattr(ttr, name) for name in ttr.__all__}
+types = [eval(text, dict(names)) for text in json.load(sys.stdin)]
+def said(ask):
+    try:
+        return str(ask())
+    except ttr.TTRError as error:
+        return f"{type(error).__name__}: {error}"
+told = [said(lambda: T) for T in types]
+for S, T in zip(types, types[1:]):
+    told += [said(lambda: subtype(S, T)), said(lambda: subtype(S, T).counter)]
+    told += [said(lambda: merge(S, T)), said(lambda: meet(S, T))]
+    told += [said(lambda: join(S, T)), said(lambda: Model().create(S)[0])]
+print(json.dumps(told))
+"""
+
+
+def test_the_hash_seed_does_not_matter():
+    found = []
+
+    @settings(
+        max_examples=100,
+        derandomize=True,
+        database=None,
+        suppress_health_check=list(HealthCheck),
+    )
+    @given(types())
+    def draw(T):
+        found.append(repr(T))
+
+    draw()
+    told = {
+        subprocess.run(
+            [sys.executable, "-c", ANSWERS],
+            input=json.dumps(found),
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for seed in ("0", "1", "2")
+    }
+    assert len(told) == 1
+
+
+@given(types(), types(), models(), samples())
+def test_the_order_of_writing_a_join_does_not_matter(S, T, M, a):
+    assert join(S, T) is join(T, S)
+    assert M.judge(a, S | T).p == M.judge(a, T | S).p
 
 
 @given(record_types(), st.randoms(use_true_random=False))
@@ -66,7 +173,7 @@ def test_fields_stand_behind_what_they_depend_on(T):
     seen = set()
     circular = False
     for label, field in T.fields:
-        needs = {path.labels[0] for path in ttr.syntax.escaping(field) if path.up == 0}
+        needs = {path.labels[0] for path in ttr.paths.escaping(field) if path.up == 0}
         circular = circular or not needs <= seen
         assert circular or needs <= seen
         seen.add(label)

@@ -1,23 +1,36 @@
-"""The shared cases that the constructors of this version reach, by their ids."""
+"""The shared cases, by their ids.
+
+Those of a later part of the theory stand at the end, as failures to be expected.
+"""
 
 import pytest
 
 from ttr import (
     Basic,
+    EventString,
     IllFormed,
     Ind,
     ListOf,
     Model,
+    Plus,
     Pred,
+    Rec,
     RecType,
     Refused,
+    SetOf,
+    Str,
+    Theory,
     TTRError,
     Type,
+    Universe,
     amerge,
+    check,
+    fun,
     merge,
     outer,
     record,
     rectype,
+    subtract,
     subtype,
     this,
 )
@@ -60,10 +73,11 @@ def test_J04_intensionality():
     assert M.judge("a", B).holds
 
 
-def test_J05_meet():
+def test_J05_meet_and_join():
     M = Model().given("a", A).given("a", B).given("b", A)
     assert M.judge("a", A & B).holds is True
     assert M.judge("b", A & B).holds is False
+    assert M.judge("b", A | B).holds is True
 
 
 def test_J07_singleton(M):
@@ -71,6 +85,12 @@ def test_J07_singleton(M):
     assert M.judge("k", Ind @ "j").holds is False
     assert M.judge("x", Ind @ "j").holds is False
     assert M.judge("x", Ind @ "x").holds is False
+
+
+def test_J08_function_types(M):
+    assert M.judge(fun(x=Ind)(run(this.x)), Ind >> Type).holds is True
+    assert M.judge(fun(x=Ind)(this.x), Ind >> Ind).holds is True
+    assert M.judge(fun(x=Ind)(this.x), Ind >> Type).holds is False
 
 
 def test_J10_dependent_field(M):
@@ -101,6 +121,15 @@ def test_J14_a_circle_is_checked_but_not_built(M):
         M.create(T)
 
 
+def test_J16_strings_of_events(M):
+    M = M.given("a", run("j")).given("b", run("k"))
+    once = Str(run("j"), run("k"))
+    assert M.judge(EventString("a", "b"), once).holds is True
+    assert M.judge(EventString("b", "a"), once).holds is False
+    assert M.judge(EventString("a", "b", "a", "b"), Plus(once)).holds is True
+    assert M.judge(EventString("a", "b", "a"), Plus(once)).holds is False
+
+
 def test_J17_converse_predicates():
     left, right = Pred("left", Ind, Ind), Pred("right", Ind, Ind)
     there = Axiom(right(this.b, this.a), left(this.a, this.b))
@@ -109,6 +138,13 @@ def test_J17_converse_predicates():
     assert M.judge("s1", left("j", "k")).holds is True
     assert M.judge("s1", left("k", "j")).holds is False
     assert M.judge("s9", left("j", "k")).holds is False
+
+
+def test_J19_a_list_that_is_a_concatenation(M):
+    L = ListOf(Ind)
+    T = rectype(x=L, y=L, z=L @ (this.x + this.y))
+    assert M.judge(record(x=["j"], y=["m"], z=["j", "m"]), T).holds is True
+    assert M.judge(record(x=["j"], y=["m"], z=["m", "j"]), T).holds is False
 
 
 def test_S01_width():
@@ -123,9 +159,26 @@ def test_S03_a_nested_field_tied_to_an_outer_one():
     assert subtype(free, tied).no
 
 
-def test_S04_meet():
+def test_S04_meet_and_join():
     assert A & B <= A
     assert subtype(A, A & B).no
+    assert A <= A | B
+    assert subtype(A | B, A).no
+    assert A & B <= A | B
+
+
+def test_S06_string_types_place_by_place():
+    narrow, wide = Str(rectype(x=Ind), rectype(y=Ind)), Str(Rec, Rec)
+    assert subtype(narrow, wide).yes
+    assert subtype(wide, narrow).no
+
+
+def test_S07_dependent_fields_with_other_paths():
+    common = {"x": Ind >> RecType, "y": Ind, "w": Ind}
+    of_y = rectype(common, z=RecType @ this.x(this.y))
+    of_w = rectype(common, z=RecType @ this.x(this.w))
+    assert subtype(of_y, of_w).no
+    assert subtype(of_y, rectype(z=RecType)).yes
 
 
 def test_M01_disjoint():
@@ -167,6 +220,11 @@ def test_A05_amerge_goes_into_nested_types():
     assert merged is rectype(a=rectype(x=Type, y=Ind))
 
 
+def test_F02_an_argument_outside_the_domain(M):
+    with pytest.raises(Refused, match="takes objects of Ind, which zz is not"):
+        M.apply(fun(x=Ind)(run(this.x)), "zz")
+
+
 def test_V01_well_formed():
     with pytest.raises(IllFormed, match="the path x leads nowhere"):
         rectype(x=Ind, c=rectype(c=man(this.x)))
@@ -200,6 +258,16 @@ def test_X01_lists_are_covariant():
     assert subtype(ListOf(Dog), ListOf(Ind)).no
 
 
+def test_X03_domains_are_compared_by_what_they_are(M):
+    assert M.judge(fun(r=rectype(x=Ind))(man("j")), rectype(x=Ind) >> Type).holds
+
+
+def test_X05_applying_a_function_changes_nothing(M):
+    f = fun(r=rectype(x=Ind))(man(this.r.x))
+    assert M.apply(f, record(x="j")) is man("j")
+    assert M.apply(f, record(x="k")) is man("k")
+
+
 def test_X07_a_singleton_of_an_unknown_object():
     assert subtype(Ind @ "zz", Ind).yes
 
@@ -215,9 +283,16 @@ def test_X11_the_order_of_fields():
     assert rectype({"x": Ind, "y": Ind}) is rectype({"y": Ind, "x": Ind})
 
 
-def test_X13_brackets_of_meets():
+def test_X13_distribution():
+    assert A & (B | C) <= (A & B) | (A & C)
     assert A & (B & C) is (A & B) & C
     assert A & (B & C) <= (A & B) & C
+
+
+def test_X15_plus_backtracks(M):
+    M = M.given("a", run("j")).given("b", run("k"))
+    pieces = Plus(Str(run("j")) | Str(run("j"), run("k")))
+    assert M.judge(EventString("a", "b"), pieces).holds is True
 
 
 def test_X17_a_name_is_not_identity():
@@ -256,6 +331,13 @@ def test_X27_amerge_forgets_a_more_specific_field():
     assert amerge(rectype(x=Ind @ "j"), rectype(x=Ind)) is rectype(x=Ind)
 
 
+def test_X33_negation_inside_other_types():
+    M = Model().given("a", A, 0.4)
+    assert M.judge("a", ~A).p == pytest.approx((0.6, 0.6))
+    assert M.judge("a", A & ~A).p == pytest.approx((0, 0))
+    assert M.judge("a", A | ~A).p == pytest.approx((1, 1))
+
+
 @pytest.mark.parametrize("p", [-1, 1.5, "0.5", None, (0.5, 0.2), float("nan"), 10**400])
 def test_X35_probabilities_out_of_range(p):
     with pytest.raises(TTRError, match=r"a : A: .* is a number in \[0, 1\]"):
@@ -263,20 +345,90 @@ def test_X35_probabilities_out_of_range(p):
 
 
 def test_T01_the_hierarchy_of_types(M):
+    assert M.judge(Type, Universe("Type", 1)).holds is True
+    assert M.judge(Universe("Type", 1), Universe("Type", 1)).holds is False
     assert M.judge(rectype(x=Ind), RecType).holds is True
     assert M.judge(rectype(x=RecType), RecType).holds is False
 
 
+def test_T13_path_subtraction():
+    T = rectype(x=Ind, y=Ind, e=hug(this.x, this.y))
+    assert subtract(T, "e") is rectype(x=Ind, y=Ind)
+
+
+def test_T15_merge_is_meet(M):
+    S, T = rectype(x=Ind, c=man(this.x)), rectype(x=Ind, y=Ind @ this.x)
+    for r in (record(x="j", c="e1", y="j"), record(x="j", c="e1", y="k"), record()):
+        both = M.judge(r, S).holds and M.judge(r, T).holds
+        assert M.judge(r, merge(S, T)).holds is both
+
+
+def test_T17_set_types(M):
+    assert M.judge({"j", "k"}, SetOf(Ind)).holds is True
+    assert M.judge({"j", "zz"}, SetOf(Ind)).holds is False
+    assert M.judge(set(), SetOf(Ind)).holds is True
+
+
+def test_I01_the_game_of_fetch_one_step(M):
+    throw, pick_up = Pred("throw", Ind, Ind), Pred("pick_up", Ind, Ind)
+    picked, thrown = rectype(e=pick_up("h", "s")), rectype(e=throw("h", "s"))
+
+    def agenda(*moves):
+        return rectype(agenda=ListOf(RecType) @ list(moves))
+
+    u1 = fun(r=agenda())(agenda(picked))
+    u2 = fun(r=agenda(picked))(fun(e=picked)(agenda(thrown)))
+    M = M.given("ev", pick_up("h", "s"))
+    assert M.apply(u1, record(agenda=[])) is agenda(picked)
+    waiting = M.apply(u2, record(agenda=[picked]))
+    assert M.apply(waiting, record(e="ev")) is agenda(thrown)
+    with pytest.raises(Refused, match="in the field agenda"):
+        M.apply(u2, record(agenda=[]))
+
+
 def test_D01_turn_change_then_greeting():
     greet = Pred("greet", Ind, Ind)
-    board = rectype(spkr=Ind @ "a", addr=Ind @ "b", moves=ListOf(Type) @ [])
+    pair = {"spkr": Ind, "addr": Ind}
+    none_yet = ListOf(Type) @ []
+    board = rectype(spkr=Ind @ "a", addr=Ind @ "b", moves=none_yet)
+    turn = fun(r=rectype(pair))(
+        rectype(spkr=Ind @ outer.r.addr, addr=Ind @ outer.r.spkr)
+    )
+    move = fun(r=rectype(pair, moves=none_yet))(
+        rectype(moves=ListOf(Type) @ [greet(outer.r.spkr, outer.r.addr)])
+    )
     r, M = Model().create(board)
-    turned = amerge(board, rectype(spkr=Ind @ r.addr, addr=Ind @ r.spkr))
-    assert turned is rectype(spkr=Ind @ "b", addr=Ind @ "a", moves=ListOf(Type) @ [])
+    turned = amerge(board, M.apply(turn, r))
+    assert turned is rectype(spkr=Ind @ "b", addr=Ind @ "a", moves=none_yet)
     r, M = M.create(turned)
-    greeted = amerge(turned, rectype(moves=ListOf(Type) @ [greet(r.spkr, r.addr)]))
+    greeted = amerge(turned, M.apply(move, r))
     assert str(greeted) == (
         "[addr = a : Ind, moves = [greet(b, a)] : list(Type), spkr = b : Ind]"
     )
     r, M = M.create(greeted)
     assert M.judge(r, greeted).holds
+
+
+# --- cases of later parts of the theory ----------------------------------------------
+
+GRADED = "basic T, S, L, R\nopen T, S, L, R\nobject a, b : Ind\n"
+LATER = {
+    "P03": ("P(a : T | b : S)", "conditional probabilities"),
+    "P05": ("P(a : R | a : L)", "conditional probabilities"),
+    "P11": ("P_V(a : A1 | a : A2)", "random variables"),
+    "P13": ("P(Ill | Flu)", "conditional probabilities"),
+    "X31": ("P_V(a : A)", "random variables"),
+    "T03": ("exist(dog, bark)", "quantifiers by witness sets"),
+    "T05": ("P(bark | dog)", "learning from judgements"),
+    "T07": ("right(o1)", "perceptual meanings"),
+    "T09": ("P(Apple | red, round)", "learning from judgements"),
+    "T11": ("purify(f)", "parametric content"),
+}
+"""Definitions 14, 15 and 17 to 23, which are not built yet."""
+
+
+@pytest.mark.parametrize("case", LATER)
+def test_a_case_of_a_later_part(case, request):
+    asked, part = LATER[case]
+    request.applymarker(pytest.mark.xfail(raises=TTRError, strict=True, reason=part))
+    check(Theory.parse(f"basic Ind\n{GRADED}check {asked} = 1"))

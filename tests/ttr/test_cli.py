@@ -112,10 +112,6 @@ def test_wrong_use_is_one_line_and_exits_with_2(
             ["show", "good.ttr", "Dgo"],
             "ttr: good.ttr: the theory has no Dgo: did you mean Dog?\n",
         ),
-        (
-            ["show", "good.ttr", "Dog", "--as", "latex"],
-            "ttr: --as latex is not part of this version: use text\n",
-        ),
     ):
         assert main(words) == 2
         printed = capsys.readouterr()
@@ -139,6 +135,40 @@ def test_show_prints_the_statement_that_declares_a_name(
     ):
         assert main(["show", "good.ttr", name, "--as", "text"]) == 0
         assert capsys.readouterr().out == said
+
+
+def test_show_draws_a_definition(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["show", "good.ttr", "Dog", "--as", "box"]) == 0
+    assert capsys.readouterr().out == "⎡x : Ind   ⎤\n⎣c : dog(x)⎦\n"
+    assert main(["show", "good.ttr", "Dog", "--as", "latex"]) == 0
+    assert capsys.readouterr().out.startswith("\\left[\\begin{array}")
+    assert main(["show", "good.ttr", "Dog", "--as", "html"]) == 0
+    printed = capsys.readouterr().out
+    assert printed.startswith("<!DOCTYPE html>")
+    assert "<title>Dog</title>" in printed
+
+
+def test_show_keeps_the_names_of_definitions_on_demand(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "pair.ttr").write_text(
+        GOOD + "Pair := [a : Dog, b : Dog]\nPairs := [p : Pair]\n"
+    )
+    for levels, said in (
+        ("0", "[p : Pair]"),
+        ("1", "[p : [a : Dog, b : Dog]]"),
+        ("2", "[p : [a : [x : Ind, c : dog(x)], b : [x : Ind, c : dog(x)]]]"),
+    ):
+        assert main(["show", "pair.ttr", "Pairs", "--unfold", levels]) == 0
+        assert capsys.readouterr().out == f"Pairs := {said}\n"
+    assert main(["show", "pair.ttr", "Pair", "--unfold", "0", "--as", "box"]) == 0
+    assert capsys.readouterr().out == "⎡a : Dog⎤\n⎣b : Dog⎦\n"
+    with pytest.raises(SystemExit) as caught:
+        main(["show", "pair.ttr", "Pair", "--unfold", "-1"])
+    assert caught.value.code == 2
+    assert "expected 0, 1, 2 or so, found -1" in capsys.readouterr().err
 
 
 def test_the_command_says_its_version_and_loads_no_parser_for_help() -> None:

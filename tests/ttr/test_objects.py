@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ttr import IllFormed, Ind, Record, TTRError, outer, record, this
+from ttr import FiniteSet, IllFormed, Ind, Record, TTRError, outer, record, this
 from ttr.objects import freeze
 from ttr.syntax import Path
 
@@ -27,7 +27,7 @@ def test_what_is_not_there():
         _ = r["bg.y"]
     with pytest.raises(KeyError):
         _ = r["x.y"]
-    assert not hasattr(r, "_repr_html_")
+    assert not hasattr(r, "_repr_png_")
     assert not hasattr(this, "_repr_html_")
 
 
@@ -56,7 +56,7 @@ def test_a_record_does_not_change():
 
 def test_freezing():
     assert freeze([1, {"x": [this.x]}]) == (1, Record({"x": (Path(0, ("x",)),)}))
-    assert freeze({1, 2}) == {1, 2}
+    assert freeze({1, 2}) is FiniteSet(2, 1)
 
 
 @pytest.mark.parametrize("label", ["_x", "", "a b", "a.b", 3, "1"])
@@ -90,9 +90,9 @@ def test_paths():
     [
         (lambda: Ind @ this, "a path needs a label, as in this.x"),
         (lambda: this(2), "only outer can be called"),
-        (lambda: outer.x(2), "only outer can be called"),
-        (lambda: outer(0), "outer takes how many record types out, found 0"),
-        (lambda: outer("x"), "outer takes how many record types out, found 'x'"),
+        (lambda: outer.x(), "a function is applied to an argument"),
+        (lambda: outer(0), "outer takes how many scopes out, found 0"),
+        (lambda: outer("x"), "outer takes how many scopes out, found 'x'"),
         (lambda: this["a..b"], "a label is an identifier"),
         (lambda: this[3], "a label is an identifier"),
     ],

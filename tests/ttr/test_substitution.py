@@ -3,7 +3,9 @@
 import pytest
 
 from ttr import Ind, Pred, outer, record, rectype, this
-from ttr.substitution import Unresolved, along, grounded, replace_paths
+from ttr.objects import Unresolved
+from ttr.paths import replace_paths
+from ttr.substitution import along, grounded
 from ttr.syntax import Path
 
 hug = Pred("hug", Ind, Ind)

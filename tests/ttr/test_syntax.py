@@ -23,7 +23,8 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.syntax import Path, escaping, identity
+from ttr.paths import escaping
+from ttr.syntax import Path, identity
 
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)
 

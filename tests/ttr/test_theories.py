@@ -9,10 +9,11 @@ import pytest
 
 import ttr
 from ttr.checking import check
+from ttr.constructors import rectype
 from ttr.errors import IllFormed, NotationError, TTRError
 from ttr.loading import Unreadable
 from ttr.subtyping import subtype
-from ttr.syntax import Basic, Ind, Pred, rectype, this
+from ttr.syntax import Basic, Ind, Pred, this
 from ttr.syntax import Path as LabelPath
 from ttr.theories import Axiom, Mistakes, Theory, load
 
@@ -130,11 +131,22 @@ def test_a_quoted_name_in_an_axiom_is_an_object() -> None:
         ("check P(Ind) = 0.5", (4, 7), "P(T) = p is not part of this version", ""),
         (
             "check P('a' : Ind | 'b' : Ind) = 1",
-            (4, 19),
+            (4, 25),
             "a conditional probability P(a : T | b : S) is not part",
             "",
         ),
         ('import "no such file.ttr"', (4, 1), "there is no file no such file.ttr", ""),
+        (
+            "F := \\x:Ind.dog(x)",
+            (4, 19),
+            "expected a dot and the body",
+            "a space after",
+        ),
+        ("f(x) := dog(x)", (4, 6), "expected <:, found :=", "f := \\x:T. body"),
+        ("F := \\x:Image. dog(x)", (4, 16), "needs Ind for it, but", ""),
+        ("F := \\x:Ind. dog(x)\nT := list(F)", (5, 11), "expected a type, found F", ""),
+        ("F := \\x:Ind. dog(x)\npred p(F)", (5, 8), "expected a type, found F", ""),
+        ("check P('a') = dog('b')", (4, 7), "P(T) = p is not part of this version", ""),
         ("Dog := [x : Ind", (4, 16), "expected a comma or ], found the end", ""),
     ],
 )
@@ -154,6 +166,16 @@ def test_an_ill_formed_definition_is_ill_formed() -> None:
     assert error.message == "hug takes 2 arguments (Ind, Ind), but has 1"
     assert error.span is not None
     assert (error.span.line, error.span.column, error.span.length) == (4, 22, 6)
+
+
+def test_reading_stops_after_a_hundred_mistakes() -> None:
+    error = mistake("X := Y\n" * 1000)
+    assert isinstance(error, Mistakes)
+    *first, last = error.errors
+    assert len(first) == 100
+    assert last.message == "reading stops after 100 mistakes"
+    assert last.span is not None
+    assert last.span.line == 104
 
 
 def test_every_mistake_is_told_and_each_only_once() -> None:
@@ -245,6 +267,9 @@ object fido, sam : Ind
 given s1 : puppy(fido)
 given s2 : hug(fido, sam) = 0.5
 given s3 : hug(sam, fido) in [0.2, 0.4]
+barks := \\x:Ind. dog(x)
+hugs := λx:Ind. λy:Ind. hug(x, y)
+of := fun P:(Ind -> Type). [x : Ind, c : P(x)]
 """
 
 
@@ -280,6 +305,29 @@ given s3 : hug(sam, fido) in [0.2, 0.4]
         "P(s3 : hug(sam, fido)) in [0, 0.5]",
         "not P(s3 : hug(sam, fido)) in [0.3, 0.5]",
         "P(fido : Ind) = 1",
+        "barks(fido) = dog(fido)",
+        "not barks(fido) = dog(sam)",
+        "dog(fido) = barks(fido)",
+        "hugs(fido, sam) = hug(fido, sam)",
+        "hugs(fido)(sam) = hug(fido, sam)",
+        "of(barks) = [x : Ind, c : barks(x)]",
+        "(\\x:Ind. x)(fido) = fido",
+        "error barks('nobody') = dog('nobody')",
+        "error fido(sam) = sam",
+        "s1 : barks(fido)",
+        "error s1 : barks('nobody')",
+        "not s1 : ~barks(fido)",
+        "of(barks) <= [x : Ind]",
+        "merge(hugs(fido, sam), dog(sam)) = hug(fido, sam) /\\ dog(sam)",
+        "create(of(barks))",
+        "barks : (Ind -> Type)",
+        "\\x:Ind. x : (Ind -> Ind)",
+        "[fido] + [sam] = [fido, sam]",
+        "fst([fido, sam]) = fido",
+        "{fido, sam} : set(Ind)",
+        "<s1 s1> : plus(dog(fido))",
+        "Image <= ~~Image",
+        "Ind <= Ind \\/ Image",
     ],
 )
 def test_a_true_claim_holds_and_its_opposite_fails(claim: str) -> None:

@@ -214,7 +214,7 @@ def test_a_field_left_without_a_value_is_created():
         (lambda s: rectype(n=Count @ this.log, log=Ind @ this.n), "no state can be"),
         (lambda s: replace(s, n=9), "is not of its type, at n: 9 : Count, by the"),
         (lambda s: replace(s, log=["a", "x"]), "at log: x : Ind, nothing says so"),
-        (lambda s: Record({}), "at log: {} : list.Ind., there is no log"),
+        (lambda s: Record({}), "at log: nothing : list.Ind., there is no log"),
     ],
 )
 def test_a_rule_that_fails(effect, message):
@@ -247,7 +247,7 @@ def test_an_interrupt_is_no_fault_of_a_rule():
             record(n=9, log=[]),
             "before the first rule the state is not of its type, at n",
         ),
-        (record(n=1), "at log: {n = 1} : list.Ind., there is no log"),
+        (record(n=1), "at log: nothing : list.Ind., there is no log"),
         (record(n=1, log=["a", "nobody"]), "at log: nobody : Ind, nothing says so"),
         ("a", "before the first rule the state is no record, but a"),
     ],

@@ -1,0 +1,64 @@
+"""Normal forms: meets of joins, joins of meets, negations inside."""
+
+import pytest
+
+from ttr import Basic, IllFormed, Negation, Unsupported, join, meet, rectype
+from ttr.normal_forms import join_normal_form, meet_normal_form
+
+A, B, C, D = map(Basic, "ABCD")
+
+
+def test_joins_are_spread_over_meets():
+    assert meet_normal_form((A & B) | C) is (A | C) & (B | C)
+    assert join_normal_form(A & (B | C)) is (A & B) | (A & C)
+    assert join_normal_form((A | B) & (C | D)) is join(A & C, A & D, B & C, B & D)
+
+
+def test_negations_go_inwards():
+    assert meet_normal_form(~~A) is join_normal_form(~~A) is A
+    assert meet_normal_form(~~~A) is ~A
+    assert meet_normal_form(~((A & ~B) | C)) is (~A | B) & ~C
+    assert join_normal_form(~((A & ~B) | C)) is (~A & ~C) | (B & ~C)
+
+
+def test_what_says_nothing_more_is_left_out():
+    assert meet_normal_form(A & (A | B)) is A
+    assert join_normal_form(A | (A & B)) is A
+    assert meet_normal_form((A & B) | (A & C)) is A & (B | C)
+
+
+def test_what_is_no_meet_or_join_stays_as_it_is():
+    T = rectype(x=A & (B | C))
+    assert meet_normal_form(T) is join_normal_form(T) is T
+    assert join_normal_form(~(T & A)) is ~T | ~A
+
+
+def test_one_form_leads_to_the_other_and_back():
+    T = join(*[Basic(f"L{i}") & Basic(f"R{i}") for i in range(6)])
+    assert len(meet_normal_form(T).parts) == 64
+    assert join_normal_form(meet_normal_form(T)) is T
+
+
+def test_there_is_a_limit_and_it_is_named():
+    pairs = [(Basic(f"L{i}"), Basic(f"R{i}")) for i in range(14)]
+    with pytest.raises(Unsupported, match="a normal form of more than 4,096 parts"):
+        meet_normal_form(join(*[L & R for L, R in pairs]))
+    with pytest.raises(Unsupported, match="a normal form of more than 4,096 parts"):
+        join_normal_form(meet(*[L | R for L, R in pairs]))
+    many = meet(*[Basic(f"L{i}") for i in range(4000)])
+    assert meet_normal_form(many) is many
+
+
+def test_deep_nesting_is_an_error_of_ours():
+    T = A
+    for _ in range(20_000):
+        T = Negation(T)
+    with pytest.raises(Unsupported, match="deeper than can be followed"):
+        meet_normal_form(T)
+
+
+def test_only_types_have_normal_forms():
+    with pytest.raises(IllFormed, match="expected a type"):
+        meet_normal_form("A")
+    with pytest.raises(IllFormed, match="expected a type"):
+        join_normal_form("A")

@@ -1,0 +1,236 @@
+"""What is typed into a session: a statement, a question or a term, and the reply."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from ttr import trees
+from ttr.checking import Check, IsBelow, IsOf, check
+from ttr.errors import NotationError, Span, TTRError, following_nesting
+from ttr.grammar import statement, vetted
+from ttr.judgements import Why
+from ttr.merging import amerge, merge
+from ttr.notation import Reader, read
+from ttr.printing import notation
+from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
+from ttr.questions import Asking
+from ttr.sessions import INPUT, Answered, Session, created, declared
+from ttr.subtyping import subtype
+from ttr.syntax import Object, TypeNode, as_type
+from ttr.trees import Application, Name, Source, Statement
+
+__all__ = ["ASKED", "Reply", "answered", "changes", "term"]
+
+_MERGES = {"merge": merge, "amerge": amerge}
+
+ASKED = (*_MERGES, "create", "wellformed", "witnesses")
+"""What is asked of types and written like an application."""
+
+_CHECK = "check "
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What is said, and the session after it."""
+
+    session: Session
+    text: str = ""
+
+
+@following_nesting
+def answered(session: Session, text: str) -> Reply:
+    """The reply to a statement, a question or a term; raises `TTRError`.
+
+    >>> kennel = answered(Session(), "basic A, B").session
+    >>> print(answered(kennel, "A <= B").text)
+    no: A is not below B
+    counter-example: a1
+    """
+    source = Source.of(text, INPUT)
+    vetted(source)
+    try:
+        tree = statement(source, 0, len(source.text))
+    except NotationError as mistake:
+        return _replied(session, source, mistake)
+    return _stated(session, tree, source)
+
+
+@following_nesting
+def term(session: Session, text: str) -> Object:
+    """The type or object a text stands for, with its applications worked out."""
+    return session.model.reduced(read(text, session.theory, INPUT))
+
+
+def changes(names: Iterable[str]) -> str:
+    """What is said where names mean something else from now on."""
+    listed = ", ".join(sorted(names))
+    return f"changed: {listed}" if listed else ""
+
+
+def _stated(session: Session, tree: Statement, source: Source) -> Reply:
+    """The session with the statement; a check that fails is not kept."""
+    after, changed = declared(session, tree, source)
+    if not isinstance(tree, trees.Question):
+        return Reply(replace(after, before=session), changes(changed))
+    report = check(replace(after.theory, checks=after.theory.checks[-1:]))
+    if not report.holds:
+        return Reply(session, str(report))
+    return Reply(replace(after, before=session), "it holds")
+
+
+# --- questions -----------------------------------------------------------------------
+
+
+def _replied(session: Session, source: Source, mistake: NotationError) -> Reply:
+    """The reply to what is no statement, for which the mistake says why.
+
+    The grammar knows questions as checks, so it is read as one.
+    """
+    asked = Source(_CHECK + source.text, source.name)
+    try:
+        tree = statement(asked, 0, len(asked.text))
+    except NotationError as error:
+        raise _further(mistake, _without_check(_in_place(error))) from None
+    try:
+        return _answer(session, tree, Reader(session.theory, asked))
+    except TTRError as error:
+        raise _in_place(error) from None
+
+
+def _in_place(error: TTRError) -> TTRError:
+    """The error where it is in the text without the word before it."""
+    span = error.span
+    if span is None or span.source != INPUT or span.line > 1:
+        return error
+    column = max(1, span.column - len(_CHECK))
+    moved = Span(INPUT, 1, column, span.length, span.text[len(_CHECK) :])
+    return type(error)(error.message, span=moved, hint=error.hint)
+
+
+def _without_check(error: TTRError) -> TTRError:
+    """The error without a hint at the word, which nobody wrote."""
+    hint = "" if _CHECK.strip() in error.hint else error.hint
+    return type(error)(error.message, span=error.span, hint=hint)
+
+
+def _further(statement: TTRError, question: TTRError) -> TTRError:
+    """Of two ways to read a text, the mistake of the one that came further."""
+    return max(question, statement, key=_place)
+
+
+def _place(error: TTRError) -> tuple[int, int]:
+    return (error.span.line, error.span.column) if error.span else (0, 0)
+
+
+def _answer(session: Session, tree: Statement, reader: Reader) -> Reply:
+    match tree:
+        case trees.Question(_, _, "yes", trees.Claim(_, _, claim)):
+            return _claimed(session, claim, reader)
+        case trees.Question(_, _, "yes"):
+            return _asked(session, Asking(reader).check(tree))
+    reader.refuse(
+        tree,
+        "a question is asked as it is: the answer says yes, no or unknown",
+        "to claim what the answer is, put the word check before it",
+    )
+
+
+def _asked(session: Session, question: Check) -> Reply:
+    query, model = question.query, session.model
+    match query:
+        case TTRError():
+            raise query
+        case IsOf(sit, T):
+            return _judged(session, model.reduced(sit), _type(session, T))
+        case IsBelow(lower, upper):
+            return _compared(session, _type(session, lower), _type(session, upper))
+    report = check(replace(session.theory, checks=(question,)))
+    if report.holds:
+        return Reply(session, "yes")
+    (failure,) = report.failures
+    if failure.found == "error":
+        raise TTRError(failure.why)
+    found = failure.why if failure.found == "no" else failure.found
+    return Reply(session, f"no: {found}")
+
+
+def _type(session: Session, T: TypeNode) -> TypeNode:
+    return as_type(session.model.reduced(T))
+
+
+def _judged(session: Session, sit: Object, T: TypeNode) -> Reply:
+    judgement = session.model.judge(sit, T)
+    text = f"{_verdict(judgement.p)}: {_ground(judgement.why)}"
+    return Reply(replace(session, last=judgement), text)
+
+
+def _verdict(p: Degree) -> str:
+    """The answer in a word, or the degree."""
+    words = {CERTAIN: "yes", REFUTED: "no", UNKNOWN: "unknown"}
+    return words.get(p, f"p = {p}")
+
+
+def _ground(why: Why) -> str:
+    """The step of a derivation that decides, on one line."""
+    step = why.failure() or why
+    said = "; ".join(filter(None, (step.rule, step.remedy())))
+    if step is why:
+        return said
+    path = why.path()
+    where = f"{path}: " if path else ""
+    return f"{where}{notation(step.sit)} : {step.type} ({said})"
+
+
+def _compared(session: Session, S: TypeNode, T: TypeNode) -> Reply:
+    answer = subtype(S, T, session.theory)
+    counter = answer.counter
+    lines = [str(answer)]
+    if counter is not None:
+        lines.append(f"counter-example: {notation(counter.sit)}")
+    return Reply(replace(session, last=answer), "\n".join(lines))
+
+
+# --- what is asked of types, and terms ------------------------------------------------
+
+
+def _claimed(session: Session, claim: trees.Term, reader: Reader) -> Reply:
+    match claim:
+        case Application(_, _, Name(_, _, (word,), None)) if (
+            word in ASKED and word not in session.theory.names
+        ):
+            return _asked_of_types(session, word, claim, reader)
+    return _shown(session, session.model.reduced(reader.object(claim, ())))
+
+
+def _shown(session: Session, value: Answered) -> Reply:
+    return Reply(replace(session, last=value), notation(value))
+
+
+def _asked_of_types(
+    session: Session, word: str, claim: Application, reader: Reader
+) -> Reply:
+    wanted = 2 if word in _MERGES else 1
+    if len(claim.args) != wanted:
+        needed = "one type" if wanted == 1 else "two types"
+        reader.refuse(claim, f"{word} takes {needed}, but has {len(claim.args)}")
+    if word == "wellformed":
+        place = claim.start, claim.end
+        question = trees.Question(*place, "yes", trees.Claim(*place, claim))
+        return _asked(session, Asking(reader).check(question))
+    types = [_type(session, reader.type(arg, ())) for arg in claim.args]
+    match word, types:
+        case "create", [T]:
+            return _created(session, T)
+        case "witnesses", [T]:
+            known = session.model.witnesses(T)
+            listed = "\n".join(map(notation, known)) or "none is known"
+            return Reply(replace(session, last=known), listed)
+    S, T = types
+    return _shown(session, _MERGES[word](S, T, session.theory))
+
+
+def _created(session: Session, T: TypeNode) -> Reply:
+    after, witness = created(session, T)
+    last = after.model.judge(witness, T)
+    return Reply(replace(after, last=last, before=session), notation(witness))

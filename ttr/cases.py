@@ -1,0 +1,137 @@
+"""Taking joins and negations apart: the cases of a type, and its clauses.
+
+A type is the join of its cases, which have no join where one can be taken out; and the
+meet of its clauses, each a join of types that are neither meets nor joins. In both,
+negations are pushed inwards: ¬(S ∧ T) is ¬S ∨ ¬T, and ¬¬T is T.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from functools import partial
+from itertools import chain, product
+from math import prod
+
+from ttr.constructors import ordered
+from ttr.syntax import (
+    Join,
+    Meet,
+    Negation,
+    RecordType,
+    Singleton,
+    Str,
+    TypeNode,
+    join,
+    meet,
+)
+
+__all__ = ["CASES", "Clause", "cases", "clauses", "splits"]
+
+CASES = 256
+"""How many cases or clauses a type may have before it is left whole."""
+
+Clause = tuple[TypeNode, ...]
+
+
+def splits(T: TypeNode) -> bool:
+    """Whether T has a join or a negation where cases can be told apart."""
+    match T:
+        case Join() | Negation():
+            return True
+        case Meet(parts) | Str(parts):
+            return any(map(splits, parts))
+        case RecordType(fields):
+            return any(splits(field) for _, field in fields)
+        case Singleton(base, _):
+            return splits(base)
+    return False
+
+
+def cases(T: TypeNode) -> tuple[TypeNode, ...] | None:
+    """The types of which T is the join, or None where they are too many.
+
+    A record type has a case for each choice of a case for its fields: what a field is
+    of is one of the cases, whatever the others are.
+
+    >>> from ttr.syntax import Basic
+    >>> A, B, C = map(Basic, "ABC")
+    >>> print(*cases(A & (B | ~~C)), sep="; ")
+    A /\\ B; A /\\ C
+    """
+    if not splits(T):
+        return (T,)
+    match T:
+        case Join(parts):
+            return _few(tuple(map(cases, parts)))
+        case Negation(body):
+            inner = _inwards(body)
+            return (T,) if inner is T else cases(inner)
+        case Singleton(base, value):
+            found = cases(base)
+            return found and tuple([Singleton(case, value) for case in found])
+        case Meet(parts) | Str(parts):
+            return _chosen(parts, meet if isinstance(T, Meet) else Str)
+        case RecordType(fields):
+            return _chosen([field for _, field in fields], partial(_fields, T.labels))
+    return (T,)
+
+
+def _fields(labels: Iterable[str], *types: TypeNode) -> RecordType:
+    return RecordType(ordered(dict(zip(labels, types, strict=True))))
+
+
+def _chosen(
+    parts: Iterable[TypeNode], whole: Callable[..., TypeNode]
+) -> tuple[TypeNode, ...] | None:
+    """A case of the whole for each choice of a case for each part."""
+    found = [cases(part) for part in parts]
+    if prod(len(choices or ()) for choices in found) > CASES or None in found:
+        return None
+    return tuple([whole(*choice) for choice in product(*filter(None, found))])
+
+
+def _few(found: tuple[tuple[TypeNode, ...] | None, ...]) -> tuple[TypeNode, ...] | None:
+    """All that were found, each once, unless they are too many."""
+    if None in found:
+        return None
+    once = tuple(dict.fromkeys(chain.from_iterable(filter(None, found))))
+    return once if len(once) <= CASES else None
+
+
+def clauses(T: TypeNode) -> tuple[Clause, ...] | None:
+    """The clauses of which T is the meet, or None where they are too many.
+
+    >>> from ttr.syntax import Basic
+    >>> A, B, C = map(Basic, "ABC")
+    >>> [" or ".join(map(str, clause)) for clause in clauses((A & B) | ~(A & C))]
+    ['A or ~A or ~C', 'B or ~A or ~C']
+    """
+    match T:
+        case Meet(parts):
+            found = [clauses(part) for part in parts]
+            if None in found:
+                return None
+            flat = tuple(chain.from_iterable(filter(None, found)))
+            return flat if len(flat) <= CASES else None
+        case Join(parts):
+            found = [clauses(part) for part in parts]
+            if prod(len(one or ()) for one in found) > CASES or None in found:
+                return None
+            choices = product(*filter(None, found))
+            return tuple([tuple(chain.from_iterable(choice)) for choice in choices])
+        case Negation(body):
+            inner = _inwards(body)
+            return ((T,),) if inner is T else clauses(inner)
+    return ((T,),)
+
+
+def _inwards(body: TypeNode) -> TypeNode:
+    """¬body with the negation one step further in, where it can go."""
+    match body:
+        case Negation(inner):
+            return inner
+        case Meet(parts):
+            return join(*map(Negation, parts))
+        case Join(parts):
+            return meet(*map(Negation, parts))
+    return Negation(body)

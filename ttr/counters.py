@@ -1,0 +1,105 @@
+"""Assignments that show something: a made-up witness, checked by judging it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import product
+
+from ttr.assignments import Assignment
+from ttr.circles import straightened
+from ttr.creating import created, told
+from ttr.errors import TTRError
+from ttr.hypothetical import ITSELF, Assumption, elements
+from ttr.judgements import Judgement, Why
+from ttr.models import Model
+from ttr.objects import Unresolved
+from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.substitution import along
+from ttr.subtyping import Refutation
+from ttr.syntax import Object, Path, TypeNode, meet
+from ttr.theories import Signature
+
+__all__ = ["counter", "witness"]
+
+SIZES = (1, 0, 2)
+"""How many elements lists and sets have in what is tried: one shows the most."""
+
+
+def counter(refutation: Refutation) -> Judgement | None:
+    """A judgement of a witness of S that is not of T; None where none was made up."""
+    T, theory = refutation.T, refutation.theory
+    for size, (S, assumed) in product(SIZES, _starts(refutation)):
+        found = witness(S, theory, assumed, size)
+        if found is None or _degree(found, refutation.S) != CERTAIN:
+            continue
+        if _degree(found, T) == REFUTED:
+            return found.model.judge(found.sit, T)
+    return None
+
+
+Start = tuple[TypeNode, tuple[Assumption, ...]]
+
+
+def _starts(refutation: Refutation) -> list[Start]:
+    """What to make a witness of, and what to tell of it then.
+
+    What was assumed of the whole witness says what form it has.
+    """
+    S, assumed = refutation.S, refutation.assumed
+    if not assumed:
+        return [(one, ()) for one in dict.fromkeys((S, straightened(S)))]
+    of_it = [T for term, T in assumed if term is ITSELF]
+    others = tuple([pair for pair in assumed if pair[0] is not ITSELF])
+    return [(meet(S, *of_it), others), (S, ())]
+
+
+def _degree(found: Judgement, T: TypeNode) -> Degree | None:
+    """How certainly the object is of T too; None if T has paths that lead out of it."""
+    try:
+        return found.model.judge(found.sit, T).p
+    except TTRError:
+        return None
+
+
+def witness(
+    S: TypeNode,
+    theory: Signature,
+    assumed: Iterable[Assumption] = (),
+    size: int = 1,
+) -> Judgement | None:
+    """A judgement of a made-up witness of S, of which also this is so, if there is one.
+
+    `size` is how many elements the lists and sets in it have, if they may.
+    """
+    facts = Assignment(Signature(axioms=theory.axioms))
+    try:
+        sit, facts = created(facts, S, size)
+        for term, T in assumed:
+            facts = _told(facts, sit, term, T)
+    except TTRError:
+        return None
+    made = Judgement(sit, S, CERTAIN, Why(sit, S, CERTAIN, "made up"), Model.of(facts))
+    return made if _degree(made, S) == CERTAIN else None
+
+
+def _told(facts: Assignment, sit: Object, term: Object, T: TypeNode) -> Assignment:
+    """The assignment in which also a part of the witness, or an object, is of T."""
+    if not isinstance(term, Path):
+        return told(facts, term, T)
+    if term.labels[0] != ITSELF.labels[0]:
+        return facts
+    return told(facts, _part(sit, term.labels[1:]), T)
+
+
+def _part(sit: Object, labels: tuple[str, ...]) -> Object:
+    """Where the labels lead, through elements of lists and sets too."""
+    for label in labels:
+        inside = elements(sit)
+        if inside is None:
+            sit = along(sit, (label,))
+            continue
+        number = int(label) if label.isdigit() else 0
+        if number >= len(inside):
+            raise Unresolved("there is no such element")
+        sit = inside[number]
+    return sit

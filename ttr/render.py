@@ -1,0 +1,138 @@
+"""Values as they are drawn in papers: in a terminal, with LaTeX, on a web page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from ttr.drawing import drawn, drawn_derivation
+from ttr.errors import IllFormed, following_nesting
+from ttr.folding import folding
+from ttr.judgements import Judgement, Why
+from ttr.layout import Layout, Line, Sign, Step, Word, laid_out
+from ttr.markup import marked_up, marked_up_derivation
+from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.syntax import Object, freeze
+from ttr.typesetting import typeset, typeset_derivation
+
+if TYPE_CHECKING:
+    from ttr.theories import Signature
+
+__all__ = ["box", "html", "latex"]
+
+
+@following_nesting
+def box(
+    value: object,
+    *,
+    unfold: int | None = None,
+    theory: Signature | None = None,
+    width: int = 80,
+) -> str:
+    """The value as text on several lines, in `width` columns where it can be done.
+
+    Takes a type, an object, a judgement or its `why`. With `unfold=0` the names of the
+    theory stand for what they are defined as, with `unfold=1` one level of definitions
+    is opened, and so on. Raises `IllFormed` for a wrong number, `Unsupported` for what
+    nests too deep.
+
+    >>> from ttr import Ind, Pred, rectype, this
+    >>> print(box(rectype(x=Ind, c=Pred("dog", Ind)(this.x))))
+    ⎡x : Ind   ⎤
+    ⎣c : dog(x)⎦
+    """
+    if type(width) is not int or width < 1:
+        raise IllFormed(f"a width is a number of columns, 1 or more, found {width!r}")
+    shown = _showing(theory, unfold)
+    if isinstance(value, Why):
+        return drawn_derivation(_step(value, shown), width)
+    return drawn(_shown(value, shown), width)
+
+
+@following_nesting
+def latex(
+    value: object, *, unfold: int | None = None, theory: Signature | None = None
+) -> str:
+    r"""The value as LaTeX for mathematics, without the dollars around it.
+
+    It needs amsmath, and neither other packages nor macros of its own; MathJax 2 and 3
+    and KaTeX read it too. For values, `unfold` and errors see `box`.
+
+    >>> from ttr import Ind, Pred
+    >>> print(latex(Pred("dog", Ind)("fido")))
+    \mathrm{dog}(\mathrm{fido})
+    """
+    shown = _showing(theory, unfold)
+    if isinstance(value, Why):
+        return typeset_derivation(_step(value, shown))
+    return typeset(_shown(value, shown))
+
+
+@following_nesting
+def html(
+    value: object, *, unfold: int | None = None, theory: Signature | None = None
+) -> str:
+    """The value as a piece of a web page: tables, with their style and no script.
+
+    It takes the colours of the page. Copied as text, it is notation. For values,
+    `unfold` and errors see `box`.
+    """
+    shown = _showing(theory, unfold)
+    if isinstance(value, Why):
+        return marked_up_derivation(_step(value, shown))
+    return marked_up(_shown(value, shown))
+
+
+_Shown = Callable[[Object], Layout]
+
+
+def _showing(theory: Signature | None, unfold: int | None) -> _Shown:
+    fold = folding(theory, unfold)
+    return lambda value: laid_out(fold(value))
+
+
+def _shown(value: object, shown: _Shown) -> Layout:
+    if not isinstance(value, Judgement):
+        return shown(freeze(value))
+    degree = (Word("p", "variable"), Sign(" = "), Word(str(value.p), "text"))
+    claim = _claim(value, shown)
+    return Line((*claim.parts, Sign("   "), *degree))
+
+
+def _claim(value: Judgement | Why, shown: _Shown) -> Line:
+    return Line((shown(value.sit), Sign(" : "), shown(value.type)))
+
+
+# --- derivations ---------------------------------------------------------------------
+
+
+def _step(why: Why, shown: _Shown) -> Step:
+    return _follow(why, shown, why.failure())
+
+
+def _follow(why: Why, shown: _Shown, failing: Why | None) -> Step:
+    """The step with those below it; `failing` is the one that fails, if it is here."""
+    guilty = _guilty(why, failing)
+    parts = [_follow(p, shown, failing if p is guilty else None) for p in why.parts]
+    because = "; ".join(filter(None, (why.rule, why.remedy())))
+    return Step(
+        _mark(why.p),
+        why.where,
+        _claim(why, shown),
+        because,
+        tuple(parts),
+        fails=failing is not None,
+    )
+
+
+def _guilty(why: Why, failing: Why | None) -> Why | None:
+    """The part with the step that fails, if there is one."""
+    if failing is None or why is failing:
+        return None
+    return next(part for part in why.parts if part.failure() is failing)
+
+
+def _mark(p: Degree) -> str:
+    if p == CERTAIN:
+        return "✓"
+    return "✗" if p == REFUTED else f"p = {p}"

@@ -1,0 +1,191 @@
+"""Texts before the grammar reads them: how deep they nest, where statements stand.
+
+What is looked for here is found in one pass, in time linear in the length of the text.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import NoReturn
+
+from ttr.errors import NotationError, Span
+from ttr.misreadings import KEYWORDS
+from ttr.trees import Source
+
+__all__ = ["DEPTH", "blocks", "too_deep", "vetted", "with_backslashes"]
+
+DEPTH = 100
+"""How deep brackets, functions, arrows and negations may nest."""
+
+_LETTER = r"^0-9\s\x00-/:-@\[-^`{-\x7f∧∨¬→⊑"
+_WORD = r"^\s\x00-/:-@\[-^`{-\x7f∧∨¬→⊑"
+"""What a name in the grammar is made of, as the inside of [ ]; what it begins with."""
+
+_QUOTED = r"""(?P<quoted> "[^"\\\n]*(?:\\.[^"\\\n]*)*"?
+                     | '[^'\\\n]*(?:\\.[^'\\\n]*)*'? | \#[^\n]* )"""
+
+_WORDS = re.compile(
+    rf""" {_QUOTED} | (?P<opening> [\[({{] ) | (?P<closing> [\])}}] ) """, re.VERBOSE
+)
+
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f]")
+"""What is never meant in a text: control characters but for tabs and line ends."""
+
+
+def vetted(source: Source) -> None:
+    """Refuses control characters."""
+    stray = _CONTROL.search(source.text)
+    if stray:
+        _refuse_control(source, stray)
+
+
+def _refuse_control(source: Source, stray: re.Match[str]) -> NoReturn:
+    # Where a terminal acts on the character, what is underlined would be shifted.
+    shown = _CONTROL.sub(" ", source.text)
+    raise NotationError(
+        f"the control character {stray[0]!r} is no notation",
+        span=Span.of(source.name, shown, *stray.span()),
+        hint=r"in a plain string Python reads \ as the start of an escape: write r'…'",
+    )
+
+
+_NESTING = re.compile(
+    rf""" {_QUOTED}
+        | (?P<sign> /\\ | \\/ | [&|∧∨+@:=.] | <[:=] )
+        | (?P<deeper> \\ | \bfun\s | -> | → )
+        | (?P<denial> [~¬] )
+        | (?P<opening> [\[({{<] )
+        | (?P<again> \)(?=\s*\() )
+        | (?P<closing> [\])}}>] )
+        | (?P<comma> , ) """,
+    re.VERBOSE,
+)
+
+
+def too_deep(text: str) -> tuple[int, int] | None:
+    """Where a text first nests deeper than `DEPTH`, by brackets or without them.
+
+    `start` is the depth of what the innermost bracket holds, `part` that of what stands
+    behind its functions and arrows, `depth` that behind negations and arguments too.
+    """
+    around: list[tuple[int, int, int]] = []
+    start = part = depth = 0
+    for found in _NESTING.finditer(text):
+        match found.lastgroup:
+            case "opening":
+                around.append((start, part, depth))
+                start = part = depth = depth + 1
+            case "again" if around:
+                start, part, depth = around.pop()
+                depth += 1
+            case "closing" if around:
+                start, part, _ = around.pop()
+                depth = part
+            case "deeper":
+                part = depth = part + 1
+            case "denial":
+                depth += 1
+            case "sign":
+                depth = part
+            case "comma":
+                part = depth = start
+        if depth > DEPTH:
+            return found.span()
+    return None
+
+
+_BINDING = re.compile(
+    rf""" {_QUOTED}
+        | (?P<opening> [\[({{<] )
+        | (?P<closing> [\])}}>] )
+        | (?P<comma> , )
+        | (?P<sign> -> | \\/ | /\\ )
+        | (?P<function> \\ \s* λ?
+            | (?<![{_WORD}])(?: fun\s++ λ? | λ )(?= \s*+ [{_WORD}]*+ \s*+ :(?!=) ) )
+        | (?P<dot> \.(?![{_LETTER}]) ) """,
+    re.VERBOSE,
+)
+
+
+def with_backslashes(text: str) -> str:
+    r"""The text with \ for every λ that begins a function.
+
+    A name may begin with λ as well: λx: begins a function if its dot follows, between
+    the same brackets.
+
+    >>> print(with_backslashes("[λx : A, f = λx:A. x : (A -> A)]"))
+    [λx : A, f = \x:A. x : (A -> A)]
+    """
+    if "λ" not in text:
+        return text
+    signs = list(text)
+    around: list[list[int]] = [[]]
+    for found in _BINDING.finditer(text):
+        match found.lastgroup:
+            case "opening":
+                around.append([])
+            case "closing" if len(around) > 1:
+                around.pop()
+            case "comma":
+                around[-1].clear()
+            case "function":
+                around[-1].append(found.start())
+            case "dot" if around[-1]:
+                at = around[-1].pop()
+                signs[at] = "\\" if signs[at] == "λ" else signs[at]
+    return "".join(signs)
+
+
+_STARTS = re.compile(
+    rf"""[ \t]* (?: (?:{"|".join(KEYWORDS)}) [ \t]+ [^\s:=,.)\]}}]
+                  | \w+ [ \t]* :=
+                  | \w+ (?:\([^()]*\))? [ \t]* <: )""",
+    re.VERBOSE,
+)
+
+
+def blocks(text: str) -> Iterator[tuple[int, int]]:
+    """Where the statements of a theory stand: [start, end) of each.
+
+    A statement goes on over lines that are indented further than the first statement,
+    and inside brackets. A line that looks like a statement starts one all the same, so
+    that a forgotten bracket spoils one statement and not the rest of the text.
+
+    >>> list(blocks("basic A\\nX :=\\n  [x : A]\\n"))
+    [(0, 7), (8, 22)]
+    """
+    start, end, depth, margin = -1, -1, 0, None
+    at = 0
+    for line in text.split("\n"):
+        words = _WORDS.sub(_bracket, line)
+        written = words.strip()
+        if written:
+            indent = len(line) - len(line.lstrip())
+            margin = indent if margin is None else margin
+            if start >= 0 and (_STARTS.match(line) or (not depth and indent <= margin)):
+                yield start, end
+                start = -1
+            if start < 0:
+                start, depth = at + indent, 0
+            end = at + _code_end(line)
+        depth = max(
+            0, depth + sum(map(words.count, "[({")) - sum(map(words.count, "])}"))
+        )
+        at += len(line) + 1
+    if start >= 0:
+        yield start, end
+
+
+def _bracket(found: re.Match[str]) -> str:
+    """Brackets as they are; a quoted name as a dot; a comment as nothing."""
+    if found.lastgroup != "quoted":
+        return found[0]
+    return "" if found[0].startswith("#") else "."
+
+
+def _code_end(line: str) -> int:
+    for found in _WORDS.finditer(line):
+        if found[0].startswith("#"):
+            line = line[: found.start()]
+    return len(line.rstrip())

@@ -1,0 +1,383 @@
+"""A session: a theory that grows statement by statement, and the model of its facts.
+
+A session is a value. What is entered gives another session, and a mistake gives none.
+Unlike in a file, a name may be declared again: what rests on it then follows it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import reduce
+from pathlib import Path
+from typing import TypeAlias
+
+from ttr import trees
+from ttr.errors import NotationError, TTRError, Unsupported, following_nesting
+from ttr.grammar import blocks, statement
+from ttr.judgements import Judgement, Why
+from ttr.loading import theory_of_file, theory_of_text
+from ttr.models import Model
+from ttr.notation import Reader
+from ttr.printing import notation
+from ttr.probability import CERTAIN
+from ttr.statements import Declaring, mentioned
+from ttr.subtyping import Answer
+from ttr.syntax import Basic, Object, PType, TypeNode
+from ttr.theories import Given, Mistakes, Theory
+from ttr.trees import Source, Statement
+
+__all__ = ["Answered", "Entry", "Session", "created", "declared", "loaded", "saved"]
+
+INPUT = "<input>"
+"""What a line that was typed is called where a mistake in it is shown."""
+
+Answered: TypeAlias = Object | Judgement | Answer | None
+"""What was answered last: a value, a judgement or an answer about types."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A statement of a session: the names that it declares, and those it rests on."""
+
+    text: str
+    declares: frozenset[str]
+    rests_on: frozenset[str]
+
+
+@dataclass(frozen=True, eq=False)
+class Session:
+    """What was entered so far: `theory` and `model` are what the entries come to.
+
+    `last` is what was answered last, `before` the session before the last change, and
+    `over` says that nothing more is to be asked.
+    """
+
+    entries: tuple[Entry, ...] = ()
+    theory: Theory = field(default_factory=Theory)
+    model: Model = field(default_factory=Model, repr=False)
+    last: Answered = None
+    before: Session | None = field(default=None, repr=False)
+    over: bool = False
+
+
+# --- entering statements -------------------------------------------------------------
+
+
+@following_nesting
+def declared(
+    session: Session, tree: Statement, source: Source
+) -> tuple[Session, frozenset[str]]:
+    """The session with a statement more, and the names that changed with it.
+
+    Raises `TTRError` for a mistake in it, a fact that contradicts others, or where what
+    rests on a name has no use for its new meaning.
+
+    >>> kennel, _ = declared(Session(), *_read("basic Ind"))
+    >>> kennel, _ = declared(kennel, *_read("Pair := [a : Ind, b : Ind]"))
+    >>> kennel, changed = declared(kennel, *_read("Ind := list(Type)"))
+    >>> sorted(changed), str(kennel.theory.Pair)
+    (['Ind', 'Pair'], '[a : list(Type), b : list(Type)]')
+    """
+    entry = _entry(tree, source, Path())
+    if isinstance(tree, trees.Import):
+        entries = (*session.entries, entry)
+        return _afresh(session, entries, _theory_of(entries)), frozenset()
+    again = _declared_again(session.theory, tree)
+    if again:
+        return _redeclared(session, entry, tree, source)
+    theory = _after(session.theory, session.entries, tree, source)
+    return _with(session, (*session.entries, entry), theory), frozenset()
+
+
+def _after(
+    theory: Theory, entries: Iterable[Entry], tree: Statement, source: Source
+) -> Theory:
+    """The theory of the entries with a statement more."""
+    settled = _union(one.rests_on for one in entries)
+    return Declaring(Reader(theory, source), settled).declared(tree)
+
+
+def _entry(tree: Statement, source: Source, folder: Path) -> Entry:
+    """The statement as an entry; an import in it is relative to the folder."""
+    if isinstance(tree, trees.Import):
+        path = (folder / tree.path).resolve()
+        try:
+            names = theory_of_file(path).names
+        except TTRError as error:
+            raise error.at(source.span(tree)) from None
+        return Entry(f"import {json.dumps(str(path))}", names, frozenset())
+    return Entry(_indented(_written(source, tree)), _announced(tree), mentioned(tree))
+
+
+def _indented(text: str) -> str:
+    """The text with its further lines set in, as they are in a file."""
+    first, *rest = text.split("\n")
+    inner = (line if line[:1].isspace() else f"    {line}" for line in rest)
+    return "\n".join((first, *inner))
+
+
+def _announced(tree: Statement) -> frozenset[str]:
+    """The names that a statement declares, or may declare as it goes."""
+    match tree:
+        case trees.BasicNames(_, _, words) | trees.ObjectNames(_, _, words):
+            return frozenset(word.text for word in words)
+        case trees.Predicates(_, _, arities):
+            return frozenset(arity.name.text for arity in arities)
+        case trees.Definition(_, _, word):
+            return frozenset((word.text,))
+        case trees.GivenFact(_, _, trees.Name(_, _, (name,), None)):
+            return frozenset((name,))
+    return frozenset()
+
+
+def _with(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Session:
+    """The session in which these entries have come to this theory."""
+    old = session.theory
+    if (theory.axioms, theory.opened) != (old.axioms, old.opened):
+        return _afresh(session, entries, theory)
+    new = theory.givens[len(old.givens) :]
+    model = reduce(_told, new, session.model)
+    return replace(session, entries=entries, theory=theory, model=model)
+
+
+def _afresh(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Session:
+    model = reduce(_told, theory.givens, Model(replace(theory, givens=())))
+    return replace(session, entries=entries, theory=theory, model=model)
+
+
+def _told(model: Model, given: Given) -> Model:
+    try:
+        return model.given(given.sit, given.type, given.p)
+    except TTRError as error:
+        raise error.at(given.span) if given.span else error from None
+
+
+def _theory_of(entries: Iterable[Entry]) -> Theory:
+    text = "\n".join(entry.text for entry in entries)
+    return theory_of_text(text, "<session>")
+
+
+def _union(names: Iterable[frozenset[str]]) -> frozenset[str]:
+    return frozenset().union(*names)
+
+
+# --- names that are declared again ---------------------------------------------------
+
+
+def _declared_again(theory: Theory, tree: Statement) -> frozenset[str]:
+    """The names that a statement gives another meaning.
+
+    A fact does not, nor does what makes a basic type of one, or an object of one.
+    """
+    known = theory.names & _announced(tree)
+    match tree:
+        case trees.BasicNames():
+            return known - frozenset(theory.basics)
+        case trees.ObjectNames():
+            return known - theory.objects
+        case trees.GivenFact():
+            return frozenset()
+    return known
+
+
+def _redeclared(
+    session: Session, entry: Entry, tree: Statement, source: Source
+) -> tuple[Session, frozenset[str]]:
+    """The session with the entry for those that declared its names before."""
+    names = entry.declares
+    ahead, behind = _parted(session.entries, names)
+    try:
+        _after(_theory_of(ahead), ahead, tree, source)
+    except TTRError:
+        _refuse_circle(names, entry.rests_on, _names_of(behind))
+        raise
+    return _replaced(session, ahead, (entry,), behind)
+
+
+def _refuse_circle(
+    names: frozenset[str], rests_on: frozenset[str], followers: frozenset[str]
+) -> None:
+    new, hint = _listing(names), "give the new one another name"
+    if rests_on & names:
+        raise NotationError(f"{new} would rest on itself", hint=hint)
+    if rests_on & followers:
+        between = _listing(rests_on & followers)
+        raise NotationError(
+            f"{new} would rest on {between}, which rests on {new}", hint=hint
+        )
+
+
+def _replaced(
+    session: Session,
+    ahead: Sequence[Entry],
+    new: Sequence[Entry],
+    behind: Sequence[Entry],
+) -> tuple[Session, frozenset[str]]:
+    """The session of these entries, and the names that changed with the new ones.
+
+    Raises `TTRError` where one of those behind does not fit with the new ones.
+    """
+    names = session.theory.names & _names_of(new)
+    entries = (*ahead, *new, *behind)
+    try:
+        after = _afresh(session, entries, _theory_of(entries))
+    except TTRError as error:
+        first = error.errors[0] if isinstance(error, Mistakes) else error
+        raise type(first)(
+            f"{_listing(names)} cannot change so, for then {first.message}",
+            span=first.span,
+            hint=first.hint,
+        ) from None
+    return after, (names | _names_of(behind)) - after.theory.objects
+
+
+def _names_of(entries: Iterable[Entry]) -> frozenset[str]:
+    return _union(one.declares for one in entries)
+
+
+def _parted(
+    entries: Iterable[Entry], names: frozenset[str]
+) -> tuple[list[Entry], list[Entry]]:
+    """The entries but for those that declare the names, in two parts.
+
+    First those that do not rest on the names, then those that do, each in their order.
+    """
+    ahead: list[Entry] = []
+    behind: list[Entry] = []
+    changed = names
+    for entry in entries:
+        follows = bool(entry.rests_on & changed)
+        left = _without(entry, names)
+        (behind if follows else ahead).extend(left)
+        if follows:
+            changed |= _names_of(left)
+    return ahead, behind
+
+
+def _without(entry: Entry, names: frozenset[str]) -> tuple[Entry, ...]:
+    """The entry without its declarations of the names: none if nothing is left."""
+    if not entry.declares & names:
+        return (entry,)
+    tree, source = _read(entry.text)
+    match tree:
+        case trees.Import(_, _, path):
+            raise NotationError(
+                f"{_listing(entry.declares & names)} is declared in {path}, "
+                "which the session imports",
+                hint="give the new one another name",
+            )
+        case trees.GivenFact():
+            text = entry.text
+        case trees.BasicNames(_, _, words):
+            text = _shorter("basic", [w for w in words if w.text not in names], source)
+        case trees.ObjectNames(_, _, words, kind):
+            text = _shorter("object", [w for w in words if w.text not in names], source)
+            text += f" : {_written(source, kind)}" * bool(text)
+        case trees.Predicates(_, _, arities):
+            left = [one for one in arities if one.name.text not in names]
+            text = _shorter("pred", left, source)
+        case _:
+            text = ""
+    return (replace(entry, text=text, declares=entry.declares - names),) * bool(text)
+
+
+def _shorter(keyword: str, left: Sequence[trees.Part], source: Source) -> str:
+    """The declaration of the parts that are left, or nothing if none is."""
+    written = ", ".join(_written(source, part) for part in left)
+    return f"{keyword} {written}" if written else ""
+
+
+def _written(source: Source, part: trees.Part) -> str:
+    return source.text[part.start : part.end]
+
+
+def _listing(names: Iterable[str]) -> str:
+    return ", ".join(sorted(names))
+
+
+def _read(text: str) -> tuple[Statement, Source]:
+    source = Source.of(text, INPUT)
+    return statement(source, 0, len(source.text)), source
+
+
+# --- witnesses -----------------------------------------------------------------------
+
+
+@following_nesting
+def created(session: Session, T: TypeNode) -> tuple[Session, Object]:
+    """The session with the facts of a fresh witness of T, and the witness.
+
+    Raises `Refused` where there can be none.
+    """
+    witness, model = session.model.create(T)
+    for sit, kind in _atoms(model.judge(witness, T).why):
+        if session.model.judge(sit, kind).p == CERTAIN:
+            continue
+        session, _ = declared(session, *_read(_fact(session.theory, sit, kind)))
+    return session, witness
+
+
+def _atoms(why: Why) -> Iterable[tuple[Object, TypeNode]]:
+    """The judgements of basic types and ptypes that a derivation rests on."""
+    if why.p != CERTAIN:
+        return
+    if not why.parts and isinstance(why.type, Basic | PType):
+        yield why.sit, why.type
+    for part in why.parts:
+        yield from _atoms(part)
+
+
+def _fact(theory: Theory, sit: Object, T: TypeNode) -> str:
+    """A statement of the fact; names of objects that mean something else are quoted."""
+    scope = (theory.names - theory.objects,)
+    return f"given {notation(sit, scope)} : {notation(T, scope)}"
+
+
+# --- files ---------------------------------------------------------------------------
+
+
+def loaded(session: Session, path: Path) -> tuple[Session, frozenset[str]]:
+    """The session with the statements of a file, and the names that changed.
+
+    Raises `TTRError` for a file that cannot be read and for the mistakes in it.
+    """
+    theory = theory_of_file(path)
+    known = {entry.text for entry in session.entries}
+    new = tuple(entry for entry in _entries(path) if entry.text not in known)
+    if not session.entries:
+        return _afresh(session, new, theory), frozenset()
+    ahead, behind = _parted(session.entries, _names_of(new))
+    return _replaced(session, ahead, new, behind)
+
+
+def _entries(path: Path) -> Iterator[Entry]:
+    source = Source.of(path.read_text(encoding="utf-8-sig"), str(path))
+    for start, end in blocks(source.text):
+        yield _entry(statement(source, start, end), source, path.parent)
+
+
+def saved(session: Session, path: Path) -> None:
+    """Writes the statements into a file that loads again, imports too.
+
+    Raises `Unsupported` where the file cannot be written.
+    """
+    folder = path.resolve().parent
+    text = "".join(f"{_relative(entry.text, folder)}\n" for entry in session.entries)
+    try:
+        path.write_text(text, encoding="utf-8")
+    except (OSError, ValueError) as error:
+        why = (getattr(error, "strerror", "") or "it is no path of a file").lower()
+        raise Unsupported(f"{path} cannot be written: {why}") from None
+
+
+def _relative(text: str, folder: Path) -> str:
+    """The statement, an import as one that is relative to the folder."""
+    if not text.startswith("import"):
+        return text
+    tree, _ = _read(text)
+    if not isinstance(tree, trees.Import):
+        return text
+    return f"import {json.dumps(os.path.relpath(tree.path, folder))}"

@@ -1,0 +1,134 @@
+"""A session at a terminal or through a pipe: reading lines, printing the replies."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from io import TextIOWrapper
+from itertools import islice
+from pathlib import Path
+
+from ttr.completing import completions
+from ttr.repl import is_complete, respond
+from ttr.sessions import Session
+
+__all__ = ["talk"]
+
+PROMPT, FURTHER = "ttr> ", "...> "
+
+LINES = 2000
+"""How many lines the history keeps."""
+
+_BREAKS = " \t\n()[]{}<>,;:=@&|+~\\/\"'.→∧∨¬⊑λ^"
+"""What a word to be completed does not hold."""
+
+
+def talk(session: Session) -> None:
+    """Answers what is typed until it is enough: prompts only where someone types."""
+    if sys.stdin.isatty() and sys.stdout.isatty():
+        _at_terminal(session)
+    else:
+        _through_pipe(session)
+
+
+def _through_pipe(session: Session) -> None:
+    if isinstance(sys.stdin, TextIOWrapper):  # not where a program has replaced it
+        sys.stdin.reconfigure(errors="backslashreplace")
+    waiting = ""
+    for line in sys.stdin:
+        waiting, session = _went_on(session, waiting, line.rstrip("\n"))
+        if session.over:
+            return
+    _went_on(session, waiting, "")
+
+
+def _went_on(session: Session, waiting: str, line: str) -> tuple[str, Session]:
+    """What waits for more lines after this one, and the session.
+
+    An empty line ends an input that is not whole.
+    """
+    text = f"{waiting}\n{line}" if waiting else line
+    if line.strip() and not is_complete(text):
+        return text, session
+    reply = respond(session, text)
+    if reply.text:
+        sys.stdout.write(f"{reply.text}\n")
+        sys.stdout.flush()
+    return "", reply.session
+
+
+# --- at a terminal -------------------------------------------------------------------
+
+
+def _at_terminal(session: Session) -> None:
+    sys.stdout.write("Type Theory with Records; :help lists what can be typed\n")
+    desk = _Desk(session)
+    with _line_editing(desk):
+        while not desk.session.over:
+            try:
+                desk.take(input(FURTHER if desk.waiting else PROMPT))
+            except KeyboardInterrupt:
+                desk.waiting = ""
+                sys.stdout.write("\n")
+            except EOFError:
+                sys.stdout.write("\n")
+                return
+
+
+class _Desk:
+    """What is on the desk: the session, and the lines of an input not yet whole."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.waiting = ""
+
+    def take(self, typed: str) -> None:
+        """Goes on with what was typed; what was pasted may have several lines."""
+        for line in typed.split("\n"):
+            if not self.session.over:
+                self.waiting, self.session = _went_on(self.session, self.waiting, line)
+
+    def completions(self, line: str) -> list[str]:
+        """The ways to go on with the word at the end of the line."""
+        text = f"{self.waiting}\n{line}" if self.waiting else line
+        return completions(self.session, text)
+
+
+@contextmanager
+def _line_editing(desk: _Desk) -> Iterator[None]:
+    """History and completion, where Python has readline: some systems leave it out."""
+    try:
+        import readline
+    except ImportError:
+        yield
+        return
+
+    def complete(_: str, number: int) -> str | None:
+        before = readline.get_line_buffer()[: readline.get_endidx()]
+        return next(islice(desk.completions(before), number, None), None)
+
+    readline.set_completer(complete)
+    readline.set_completer_delims(_BREAKS)
+    editline = "libedit" in (readline.__doc__ or "")
+    readline.parse_and_bind("bind ^I rl_complete" if editline else "tab: complete")
+    file = _history()
+    with suppress(OSError):
+        readline.read_history_file(file)
+    readline.set_history_length(LINES)
+    try:
+        yield
+    finally:
+        # A history that cannot be kept is no reason to complain.
+        with suppress(OSError):
+            file.parent.mkdir(parents=True, exist_ok=True)
+            readline.write_history_file(file)
+
+
+def _history() -> Path:
+    """The file of the lines typed, where desktops keep such things."""
+    state = os.environ.get("XDG_STATE_HOME", "")
+    home = Path(os.environ.get("HOME", ""))
+    folder = Path(state) if os.path.isabs(state) else home / ".local" / "state"
+    return folder / "ttr" / "history"

@@ -1,0 +1,250 @@
+r"""Layouts as LaTeX: amsmath is all it needs, and MathJax 2, 3 and KaTeX read it too.
+
+These four differ in what they take inside \text, so names are set letter by letter as
+mathematics, where an escaped underscore is the same for all. What MathJax and KaTeX
+define as macros by other macros, such as \quad or \boxed, is not used: in long formulas
+they count it as endless expansion.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from ttr.layout import (
+    Chain,
+    Layout,
+    Line,
+    Listed,
+    Matrix,
+    Raised,
+    Restricted,
+    Role,
+    Row,
+    Sign,
+    Step,
+    Word,
+    filled,
+)
+
+__all__ = ["typeset", "typeset_derivation"]
+
+_ROOM = 90
+"""So many letters go beside one another before a meet or a list is broken."""
+
+
+def typeset(layout: Layout) -> str:
+    """The layout as mathematics, without the dollars around it."""
+    return _guarded(_typeset(layout))
+
+
+_SHORT = 5_000
+"""So many letters MathJax 2 takes as they are."""
+
+
+def _guarded(text: str) -> str:
+    """The text with its letters as arguments where it is long.
+
+    To MathJax 2 the fonts are macros, which it expands only where at most 5,120 letters
+    follow; inside an argument none do.
+    """
+    if len(text) <= _SHORT:
+        return text
+    return re.sub(r"\\(?:mathrm|mathit|textit)\{[^{}]*\}", r"\\mathord{\g<0>}", text)
+
+
+def _typeset(layout: Layout) -> str:
+    match layout:
+        case Word(text, role):
+            return _word(text, role)
+        case Sign(text):
+            return _sign(text)
+        case Raised(base, exponent):
+            return f"{_typeset(base)}^{{{_typeset(exponent)}}}"
+        case Restricted(base, value):
+            return f"{{{_typeset(base)}}}_{{{_typeset(value)}}}"
+        case Line(parts):
+            return "".join(map(_typeset, parts))
+        case Chain():
+            return _chain(layout)
+        case Listed():
+            return _listed(layout)
+        case Matrix():
+            return _matrix(layout)
+
+
+def typeset_derivation(step: Step) -> str:
+    r"""The derivation as an array: √ and × for what holds and fails, then the reason.
+
+    Grounds stand below what they are grounds for, further in; the step that fails first
+    is underlined.
+    """
+    return _guarded(_array("ll", _steps(step, 0)))
+
+
+def _steps(step: Step, depth: int) -> Iterator[str]:
+    mark = _MARKS.get(step.mark) or _word(step.mark, "text")
+    where = f"{_word(step.where, 'label')}{{:}}\\text{{ }}" if step.where else ""
+    claim = where + _spaced(step.claim)
+    if step.fails and not any(part.fails for part in step.parts):
+        claim = f"\\underline{{{claim}}}"
+    indent = f"\\kern{depth}em " if depth else ""
+    yield f"{mark} & {indent}{claim}\\kern1em {_prose(f'({step.because})')}"
+    for part in step.parts:
+        yield from _steps(part, depth + 1)
+
+
+_MARKS = {"✓": "\\surd", "✗": "\\times"}
+
+
+# --- matrices, chains and lists ------------------------------------------------------
+
+
+def _array(format_of_columns: str, rows: Iterable[str]) -> str:
+    """Rows with a little space between; so LaTeX looks for none in a list there."""
+    lines = " \\\\[2pt]\n".join(rows)
+    return f"\\begin{{array}}{{{format_of_columns}}}\n{lines}\n\\end{{array}}"
+
+
+def _matrix(matrix: Matrix) -> str:
+    sign = matrix.sign.text.strip()
+    rows = [f"{_name(row)} & {sign} & {_spaced(row.has)}" for row in matrix.rows]
+    return _enclosed("[", _array("lcl", rows), "]")
+
+
+def _name(row: Row) -> str:
+    """What stands before the sign of the matrix."""
+    if row.manifest is None:
+        return _typeset(row.label)
+    return f"{_typeset(row.label)} = {_spaced(row.manifest)}"
+
+
+def _spaced(layout: Layout) -> str:
+    """What stands in a row; a tall one would touch the next, but for unseen indices."""
+    if not layout.tall:
+        return _typeset(layout)
+    return f"{{{_typeset(layout)}}}^{{\\vphantom{{(}}}}_{{\\vphantom{{(}}}}"
+
+
+def _chain(chain: Chain) -> str:
+    sign = _sign(chain.sign.text)
+    if chain.width <= _ROOM:
+        return sign.join(map(_typeset, chain.parts))
+    first, *others = map(_spaced, chain.parts)
+    if not chain.sign.text.strip():
+        return _array("l", [first, *[f"\\kern1em {part}" for part in others]])
+    lead = f"{{}}{sign}{{}}"
+    return _array(
+        "l", [f"\\phantom{{{lead}}}{first}", *[f"{lead}{part}" for part in others]]
+    )
+
+
+def _listed(listed: Listed) -> str:
+    between = _sign(listed.between.text)
+    lines = [
+        between.join(map(_typeset, line))
+        for line in filled(listed.parts, listed.between, _ROOM)
+    ]
+    if len(lines) > 1:
+        inside = _array("l", [*[line + between for line in lines[:-1]], lines[-1]])
+        return _enclosed(listed.opening, inside, listed.closing)
+    if listed.tall:
+        return _enclosed(listed.opening, "".join(lines), listed.closing)
+    opening, closing = _BRACKETS[listed.opening], _BRACKETS[listed.closing]
+    return f"{opening}{''.join(lines)}{closing}"
+
+
+def _enclosed(opening: str, inside: str, closing: str) -> str:
+    return f"\\left{_BRACKETS[opening]}{inside}\\right{_BRACKETS[closing]}"
+
+
+_BRACKETS = {
+    "(": "(",
+    ")": ")",
+    "[": "[",
+    "]": "]",
+    "{": "\\{",
+    "}": "\\}",
+    "<": "\\langle ",
+    ">": "\\rangle ",
+}
+
+
+# --- words and signs -----------------------------------------------------------------
+
+
+_SIGNS = {
+    " ∧ ": " \\wedge ",
+    " ∨ ": " \\vee ",
+    " → ": " \\to ",
+    " + ": " + ",
+    " = ": " = ",
+    " : ": " : ",
+    "¬": "\\neg ",
+    "λ": "\\lambda ",
+    ":": "{:}",
+    ".": "{.}",
+    ", ": ", ",
+    " ": "\\text{ }",
+    "   ": "\\kern1em ",
+}
+
+
+def _sign(text: str) -> str:
+    return _SIGNS[text]
+
+
+def _word(text: str, role: Role) -> str:
+    """A name in the letters of its role: types slanted, all others upright."""
+    font, in_text = ("mathit", "textit") if role == "type" else ("mathrm", "text")
+    return "".join(_runs(text, font, in_text))
+
+
+def _runs(text: str, font: str, in_text: str) -> Iterator[str]:
+    for match in re.finditer(r"[A-Za-z0-9]+|[^\W_]+|.", text, flags=re.DOTALL):
+        run = match.group()
+        if not run.isalnum():
+            yield _ESCAPED.get(run) or (run if run.isascii() else f"\\text{{{run}}}")
+        elif run.isdigit() and run.isascii():
+            yield run if font == "mathrm" else f"\\{font}{{{run}}}"
+        elif run.isascii():
+            yield f"\\{font}{{{run}}}"
+        else:
+            yield f"\\{in_text}{{{run}}}"
+
+
+_ESCAPED = {
+    "_": "\\_",
+    "%": "\\%",
+    "&": "\\& ",
+    "#": "\\#",
+    "$": "\\$",
+    "{": "\\{",
+    "}": "\\}",
+    "~": "{\\sim}",
+    "^": "{}^{\\wedge}",
+    "\\": "\\backslash ",
+    "`": "\\text{`}",
+    "'": "\\text{'}",
+    '"': '\\text{"}',
+    " ": "\\text{ }",
+    ".": "{.}",
+    "<": "{< }",
+    ">": "{>}",
+    "-": "{-}",
+    "+": "{+}",
+    "*": "{*}",
+    "=": "{=}",
+    ":": "{:}",
+    ",": "{,}",
+    ";": "{;}",
+    "•": "\\bullet ",
+    "[": "{[}",
+    "]": "{]}",
+}
+
+
+def _prose(text: str) -> str:
+    """A remark, with its words as text and what LaTeX reads otherwise as signs."""
+    pieces = re.findall(r"[^_%&#${}~^\\\\`<>]+|.", text, flags=re.DOTALL)
+    return "".join(_ESCAPED.get(it) or f"\\text{{{it}}}" for it in pieces)
