@@ -20,21 +20,21 @@ from ttr.errors import (
     Unsupported,
     UpdateError,
 )
-from ttr.flattening import flatten, unflatten
 from ttr.formation import wellformed
-from ttr.functions import fix, restrict
 from ttr.judgements import Judgement, Why
 from ttr.merging import amerge, merge
 from ttr.models import Model
-from ttr.normal_forms import join_normal_form, meet_normal_form
 from ttr.objects import concat, fst, rst
 from ttr.probability import Degree
 from ttr.propositions import proposition
 from ttr.records import replace
-from ttr.relabelling import relabel
-from ttr.subtraction import subtract
+from ttr.reshaping.flattening import flatten, unflatten
+from ttr.reshaping.functions import fix, restrict
+from ttr.reshaping.normal_forms import join_normal_form, meet_normal_form
+from ttr.reshaping.relabelling import relabel
+from ttr.reshaping.subtraction import subtract
+from ttr.reshaping.supertypes import common_supertype
 from ttr.subtyping import Answer, consistent, subtype
-from ttr.supertypes import common_supertype
 from ttr.syntax import (
     Application,
     Basic,
@@ -72,7 +72,7 @@ from ttr.syntax import (
 
 if TYPE_CHECKING:
     from ttr.checking import check
-    from ttr.notation import parse
+    from ttr.notation.reader import parse
     from ttr.render import box, html, latex
     from ttr.theories import Theory, load
 
@@ -160,7 +160,7 @@ _LATER = {
     "html": "ttr.render",
     "latex": "ttr.render",
     "load": "ttr.theories",
-    "parse": "ttr.notation",
+    "parse": "ttr.notation.reader",
 }
 
 

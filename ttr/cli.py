@@ -155,7 +155,7 @@ def _check(options: argparse.Namespace) -> int:
 
 def _outcome(file: str) -> _Outcome:
     from ttr.checking import check
-    from ttr.loading import Unreadable
+    from ttr.notation.loading import Unreadable
     from ttr.theories import Mistakes, load
 
     try:
@@ -224,7 +224,7 @@ def _place(span: Any) -> dict[str, Any]:
 
 
 def _show(options: argparse.Namespace) -> int:
-    from ttr.loading import Unreadable
+    from ttr.notation.loading import Unreadable
     from ttr.theories import load
 
     try:
@@ -248,8 +248,8 @@ def _show(options: argparse.Namespace) -> int:
 
 def _shown(theory: Theory, options: argparse.Namespace) -> str:
     """What the name stands for, as asked; raises `KeyError` for a name nobody knows."""
-    from ttr.folding import folding
-    from ttr.markup import page
+    from ttr.display.folding import folding
+    from ttr.display.markup import page
     from ttr.render import box, html, latex
 
     # What was asked for is opened itself, whatever else is not.
@@ -282,9 +282,9 @@ def _declaration(theory: Theory, name: str, value: Object) -> str:
 
 
 def _repl(options: argparse.Namespace) -> int:
-    from ttr.loading import Unreadable
-    from ttr.sessions import Session, loaded
-    from ttr.terminal import talk
+    from ttr.interactive.sessions import Session, loaded
+    from ttr.interactive.terminal import talk
+    from ttr.notation.loading import Unreadable
 
     session = Session()
     try:

@@ -12,7 +12,7 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any, dataclass_transform
 from weakref import ref
 
-from ttr.notebooks import Drawn
+from ttr.display.notebooks import Drawn
 
 __all__ = ["Node", "identity", "node"]
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from itertools import islice
 from typing import TYPE_CHECKING, Literal, TypeAlias, assert_never
 
+from ttr.display.notebooks import Drawn
 from ttr.errors import Undecided
-from ttr.notebooks import Drawn
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, All, AnyOf, Atomic, Degree, Event, Not
 from ttr.syntax import Basic, Object, PType, TypeNode, identity

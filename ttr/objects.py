@@ -12,9 +12,9 @@ from collections.abc import Iterator, Mapping
 from itertools import chain, groupby
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
+from ttr.display.notebooks import Drawn
 from ttr.errors import IllFormed, TTRError
 from ttr.interning import Node, identity, node
-from ttr.notebooks import Drawn
 
 __all__ = [
     "BOUND",

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from ttr.drawing import drawn, drawn_derivation
+from ttr.display.drawing import drawn, drawn_derivation
+from ttr.display.folding import folding
+from ttr.display.layout import Layout, Line, Sign, Step, Word, laid_out
+from ttr.display.markup import marked_up, marked_up_derivation
+from ttr.display.typesetting import typeset, typeset_derivation
 from ttr.errors import IllFormed, following_nesting
-from ttr.folding import folding
 from ttr.judgements import Judgement, Why
-from ttr.layout import Layout, Line, Sign, Step, Word, laid_out
-from ttr.markup import marked_up, marked_up_derivation
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.syntax import Object, freeze
-from ttr.typesetting import typeset, typeset_derivation
 
 if TYPE_CHECKING:
     from ttr.theories import Signature

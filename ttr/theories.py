@@ -128,14 +128,14 @@ def _parse_theory(text: str, source: str = "<text>") -> Theory:
 
     An `import` in it is relative to the working directory.
     """
-    from ttr.loading import theory_of_text
+    from ttr.notation.loading import theory_of_text
 
     return theory_of_text(text, source)
 
 
 def _parse_term(theory: Theory, text: str) -> Object:
     """The type or object that a text stands for in the theory."""
-    from ttr.notation import read
+    from ttr.notation.reader import read
 
     return read(text, theory)
 
@@ -145,7 +145,7 @@ def load(path: str | os.PathLike[str]) -> Theory:
 
     An `import` in it is relative to the file.
     """
-    from ttr.loading import theory_of_file
+    from ttr.notation.loading import theory_of_file
 
     return theory_of_file(FilePath(path))
 

@@ -15,13 +15,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import IllFormed, Record, merge, subtype
-from ttr.flattening import flatten, unflatten
-from ttr.normal_forms import join_normal_form, meet_normal_form
-from ttr.relabelling import relabel
+from ttr.reshaping.flattening import flatten, unflatten
+from ttr.reshaping.normal_forms import join_normal_form, meet_normal_form
+from ttr.reshaping.relabelling import relabel
+from ttr.reshaping.subtraction import subtract
+from ttr.reshaping.supertypes import common_supertype
 from ttr.strategies import record_types as any_record_types
 from ttr.strategies import records as any_records
-from ttr.subtraction import subtract
-from ttr.supertypes import common_supertype
 
 LABELS = ["x", "y", "z", "n", "c", "d", "l", "other"]
 

@@ -19,7 +19,7 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.layout import columns
+from ttr.display.layout import columns
 
 KENNEL = ttr.Theory.parse(
     r"""

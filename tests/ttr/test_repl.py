@@ -18,9 +18,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ttr
-from ttr.completing import completions
-from ttr.repl import COMMANDS, is_complete, respond
-from ttr.sessions import Session
+from ttr.interactive.completing import completions
+from ttr.interactive.repl import COMMANDS, is_complete, respond
+from ttr.interactive.sessions import Session
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 PAGE = ROOT / "docs" / "how-to" / "try-things-out.md"

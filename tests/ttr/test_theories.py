@@ -11,7 +11,7 @@ import ttr
 from ttr.checking import check
 from ttr.constructors import rectype
 from ttr.errors import IllFormed, NotationError, TTRError
-from ttr.loading import Unreadable
+from ttr.notation.loading import Unreadable
 from ttr.subtyping import subtype
 from ttr.syntax import Basic, Ind, Pred, this
 from ttr.syntax import Path as LabelPath

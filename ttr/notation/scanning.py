@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from typing import NoReturn
 
 from ttr.errors import NotationError, Span
-from ttr.misreadings import KEYWORDS
-from ttr.trees import Source
+from ttr.notation.misreadings import KEYWORDS
+from ttr.notation.trees import Source
 
 __all__ = ["DEPTH", "blocks", "too_deep", "vetted", "with_backslashes"]
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ttr import trees
 from ttr.checking import (
     Check,
     Creates,
@@ -17,9 +16,10 @@ from ttr.checking import (
     Query,
 )
 from ttr.errors import IllFormed, TTRError
-from ttr.notation import Reader
+from ttr.notation import trees
+from ttr.notation.reader import Reader
+from ttr.notation.trees import Application, Name, Term
 from ttr.syntax import Object, TypeNode
-from ttr.trees import Application, Name, Term
 
 __all__ = ["Asking"]
 

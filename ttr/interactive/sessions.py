@@ -14,20 +14,20 @@ from functools import reduce
 from pathlib import Path
 from typing import TypeAlias
 
-from ttr import trees
 from ttr.errors import NotationError, TTRError, Unsupported, following_nesting
-from ttr.grammar import blocks, statement
 from ttr.judgements import Judgement, Why
-from ttr.loading import theory_of_file, theory_of_text
 from ttr.models import Model
-from ttr.notation import Reader
+from ttr.notation import trees
+from ttr.notation.grammar import blocks, statement
+from ttr.notation.loading import theory_of_file, theory_of_text
+from ttr.notation.reader import Reader
+from ttr.notation.statements import Declaring, mentioned
+from ttr.notation.trees import Source, Statement
 from ttr.printing import notation
 from ttr.probability import CERTAIN
-from ttr.statements import Declaring, mentioned
 from ttr.subtyping import Answer
 from ttr.syntax import Basic, Object, PType, TypeNode
 from ttr.theories import Given, Mistakes, Theory
-from ttr.trees import Source, Statement
 
 __all__ = ["Answered", "Entry", "Session", "created", "declared", "loaded", "saved"]
 

@@ -20,9 +20,31 @@ from dataclasses import dataclass, field
 from typing import Any, NoReturn, TypeVar
 
 from ttr.constructors import Pi, fun, function_type, rectype
-from ttr.culprits import culprit, misfit, refused
 from ttr.errors import IllFormed, NotationError, TTRError, suggestion
-from ttr.misreadings import shown
+from ttr.notation.culprits import culprit, misfit, refused
+from ttr.notation.misreadings import shown
+from ttr.notation.trees import (
+    Abstraction,
+    Arrow,
+    Braces,
+    Concatenation,
+    Conjunction,
+    Degree,
+    Denial,
+    Disjunction,
+    Elements,
+    Events,
+    Fields,
+    Items,
+    Literal,
+    Name,
+    Part,
+    Restriction,
+    Source,
+    Term,
+    Word,
+)
+from ttr.notation.trees import Application as Call
 from ttr.objects import Unresolved, check_label, concat, fst, rst
 from ttr.printing import RESERVED, Scope
 from ttr.probability import degree
@@ -57,28 +79,6 @@ from ttr.syntax import (
     meet,
 )
 from ttr.theories import Interval, Theory
-from ttr.trees import (
-    Abstraction,
-    Arrow,
-    Braces,
-    Concatenation,
-    Conjunction,
-    Degree,
-    Denial,
-    Disjunction,
-    Elements,
-    Events,
-    Fields,
-    Items,
-    Literal,
-    Name,
-    Part,
-    Restriction,
-    Source,
-    Term,
-    Word,
-)
-from ttr.trees import Application as Call
 
 __all__ = ["LOGICAL", "Reader", "parse", "read"]
 
@@ -119,7 +119,7 @@ def parse(text: str, using: Iterable[object] = ()) -> Object:
 
 def read(text: str, theory: Theory, source: str = "<text>") -> Object:
     """The type or object that a text stands for in a theory."""
-    from ttr import grammar
+    from ttr.notation import grammar
 
     place = Source.of(text, source)
     try:

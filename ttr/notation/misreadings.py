@@ -7,7 +7,7 @@ import re
 from lark.exceptions import UnexpectedInput
 
 from ttr.errors import NotationError, Span, suggestion
-from ttr.trees import Source
+from ttr.notation.trees import Source
 
 __all__ = ["KEYWORDS", "explained", "shown", "stopped"]
 

@@ -12,7 +12,6 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from ttr.addresses import nearest
 from ttr.axioms import above
 from ttr.constructors import function_type, ordered, rectype
 from ttr.errors import IllFormed, following_nesting
@@ -20,6 +19,7 @@ from ttr.hypothetical import ITSELF, Hypothetical, step
 from ttr.merging import merge
 from ttr.objects import in_print
 from ttr.paths import escaping, moved, parts, rebuilt, replace_paths
+from ttr.reshaping.addresses import nearest
 from ttr.subtyping import subtype
 from ttr.syntax import (
     Basic,

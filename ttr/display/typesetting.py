@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from ttr.layout import (
+from ttr.display.layout import (
     Chain,
     Layout,
     Line,

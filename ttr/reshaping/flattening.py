@@ -6,11 +6,11 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Any, TypeVar
 
-from ttr.addresses import Address, absolute, nearest, written
 from ttr.constructors import ordered
 from ttr.errors import IllFormed, following_nesting
 from ttr.objects import check_label
 from ttr.paths import replace_paths
+from ttr.reshaping.addresses import Address, absolute, nearest, written
 from ttr.syntax import Object, Path, Record, RecordType, TypeNode, kind_of
 
 __all__ = ["flatten", "unflatten"]

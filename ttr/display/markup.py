@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from html import escape
 
-from ttr.layout import (
+from ttr.display.layout import (
     Chain,
     Layout,
     Line,

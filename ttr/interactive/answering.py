@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from ttr import trees
 from ttr.checking import Check, IsBelow, IsOf, check
 from ttr.errors import NotationError, Span, TTRError, following_nesting
-from ttr.grammar import statement, vetted
+from ttr.interactive.sessions import INPUT, Answered, Session, created, declared
 from ttr.judgements import Why
 from ttr.merging import amerge, merge
-from ttr.notation import Reader, read
+from ttr.notation import trees
+from ttr.notation.grammar import statement, vetted
+from ttr.notation.questions import Asking
+from ttr.notation.reader import Reader, read
+from ttr.notation.trees import Application, Name, Source, Statement
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
-from ttr.questions import Asking
-from ttr.sessions import INPUT, Answered, Session, created, declared
 from ttr.subtyping import subtype
 from ttr.syntax import Object, TypeNode, as_type
-from ttr.trees import Application, Name, Source, Statement
 
 __all__ = ["ASKED", "Reply", "answered", "changes", "term"]
 

@@ -7,10 +7,10 @@ from typing import TypeAlias
 
 from ttr.constructors import fun
 from ttr.errors import IllFormed
+from ttr.notation.trees import Field, Fields, Part, Term
 from ttr.paths import replace_paths
 from ttr.syntax import Object, Path, RecordType, TypeNode
 from ttr.theories import Theory
-from ttr.trees import Field, Fields, Part, Term
 
 __all__ = ["culprit", "misfit", "refused"]
 

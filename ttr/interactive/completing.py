@@ -6,12 +6,12 @@ import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from ttr.answering import ASKED
-from ttr.misreadings import KEYWORDS
+from ttr.interactive.answering import ASKED
+from ttr.interactive.repl import COMMANDS
+from ttr.interactive.sessions import Session
+from ttr.notation.misreadings import KEYWORDS
 from ttr.paths import occurring
 from ttr.printing import RESERVED
-from ttr.repl import COMMANDS
-from ttr.sessions import Session
 from ttr.syntax import Record, RecordType
 
 __all__ = ["completions"]

@@ -10,9 +10,9 @@ from io import TextIOWrapper
 from itertools import islice
 from pathlib import Path
 
-from ttr.completing import completions
-from ttr.repl import is_complete, respond
-from ttr.sessions import Session
+from ttr.interactive.completing import completions
+from ttr.interactive.repl import is_complete, respond
+from ttr.interactive.sessions import Session
 
 __all__ = ["talk"]
 

@@ -1,7 +1,7 @@
 """`ttr repl`: what is typed, and what is said to it.
 
 `respond` is a function from a session and an input to a reply; the loop that reads
-lines and prints is in `ttr.terminal`.
+lines and prints is in `ttr.interactive.terminal`.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ttr.answering import Reply, answered, changes, term
 from ttr.errors import TTRError, following_nesting, suggestion
+from ttr.interactive.answering import Reply, answered, changes, term
+from ttr.interactive.sessions import Session, loaded, saved
 from ttr.judgements import Judgement
 from ttr.render import box, latex
-from ttr.sessions import Session, loaded, saved
 from ttr.subtyping import Answer
 from ttr.syntax import Pred
 from ttr.theories import Theory

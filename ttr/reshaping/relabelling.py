@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import overload
 
-from ttr.addresses import Address, address, written
 from ttr.constructors import ordered
 from ttr.errors import IllFormed, following_nesting, suggestion
 from ttr.objects import check_label, labelled
 from ttr.paths import replace_paths
+from ttr.reshaping.addresses import Address, address, written
 from ttr.syntax import (
     Join,
     Meet,

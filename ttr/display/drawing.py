@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from ttr.layout import (
+from ttr.display.layout import (
     Chain,
     Layout,
     Line,

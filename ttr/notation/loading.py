@@ -12,14 +12,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ttr import trees
 from ttr.errors import NotationError, Span, TTRError
-from ttr.grammar import blocks, statement, vetted
 from ttr.interning import identity
-from ttr.notation import Reader
-from ttr.statements import Declaring, mentioned
+from ttr.notation import trees
+from ttr.notation.grammar import blocks, statement, vetted
+from ttr.notation.reader import Reader
+from ttr.notation.statements import Declaring, mentioned
+from ttr.notation.trees import Part, Source, Statement
 from ttr.theories import Mistakes, Theory
-from ttr.trees import Part, Source, Statement
 
 __all__ = ["Unreadable", "theory_of_file", "theory_of_text"]
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TypeVar
 
-from ttr.addresses import Address, address, written
 from ttr.constructors import ordered
 from ttr.errors import IllFormed, following_nesting, suggestion
 from ttr.formation import checked
 from ttr.paths import occurring
+from ttr.reshaping.addresses import Address, address, written
 from ttr.syntax import Meet, Object, Record, RecordType, TypeNode, kind_of, meet
 from ttr.theories import Signature
 

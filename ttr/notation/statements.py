@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 
-from ttr import trees
 from ttr.errors import suggestion
-from ttr.notation import LOGICAL, Reader
+from ttr.notation import trees
+from ttr.notation.questions import Asking
+from ttr.notation.reader import LOGICAL, Reader
+from ttr.notation.trees import Application, Arity, Name, Statement, Term, Word, inside
 from ttr.paths import escaping
 from ttr.printing import RESERVED
-from ttr.questions import Asking
 from ttr.syntax import Basic, Path, Pred, PType
 from ttr.theories import Axiom, Given, Theory
-from ttr.trees import Application, Arity, Name, Statement, Term, Word, inside
 
 __all__ = ["Declaring", "mentioned"]
 

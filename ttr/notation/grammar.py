@@ -19,11 +19,11 @@ from lark.exceptions import UnexpectedInput, UnexpectedToken, VisitError
 from lark.tree import Meta
 from lark.visitors import Transformer_NonRecursive, v_args
 
-from ttr import trees
 from ttr.errors import NotationError, Span
-from ttr.misreadings import explained, shown, stopped
-from ttr.scanning import DEPTH, blocks, too_deep, vetted, with_backslashes
-from ttr.trees import Source, Statement, Term
+from ttr.notation import trees
+from ttr.notation.misreadings import explained, shown, stopped
+from ttr.notation.scanning import DEPTH, blocks, too_deep, vetted, with_backslashes
+from ttr.notation.trees import Source, Statement, Term
 
 __all__ = ["blocks", "statement", "term", "vetted"]
 
@@ -77,7 +77,9 @@ def _wanted(rule: str, text: str, error: UnexpectedInput) -> frozenset[str]:
 
 @cache
 def _parser() -> Lark:
-    grammar = files("ttr").joinpath("notation.lark").read_text(encoding="utf-8")
+    grammar = (
+        files("ttr.notation").joinpath("notation.lark").read_text(encoding="utf-8")
+    )
     return Lark(
         grammar,
         parser="lalr",

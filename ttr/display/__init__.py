@@ -1,0 +1,1 @@
+"""How values are shown: as matrices for a terminal, as LaTeX, as HTML."""

@@ -1,0 +1,1 @@
+"""The command `ttr repl`: a session with a theory, line by line."""

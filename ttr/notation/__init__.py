@@ -1,0 +1,1 @@
+"""The notation of the papers: its grammar, its reader, theories in texts and files."""

@@ -1,0 +1,1 @@
+"""Other types and records made of given ones: relabelled, flattened, generalised."""
