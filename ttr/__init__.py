@@ -24,13 +24,13 @@ from ttr.formation import wellformed
 from ttr.judgements import Judgement, Why
 from ttr.merging import amerge, merge
 from ttr.models import Model
+from ttr.normal_forms import join_normal_form, meet_normal_form
 from ttr.objects import concat, fst, rst
 from ttr.probability import Degree
 from ttr.propositions import proposition
 from ttr.records import replace
 from ttr.reshaping.flattening import flatten, unflatten
 from ttr.reshaping.functions import fix, restrict
-from ttr.reshaping.normal_forms import join_normal_form, meet_normal_form
 from ttr.reshaping.relabelling import relabel
 from ttr.reshaping.subtraction import subtract
 from ttr.reshaping.supertypes import common_supertype

@@ -13,6 +13,8 @@ from itertools import chain, product
 from math import prod
 
 from ttr.constructors import ordered
+from ttr.errors import Unsupported
+from ttr.normal_forms import inwards, meet_normal_form
 from ttr.syntax import (
     Join,
     Meet,
@@ -21,7 +23,6 @@ from ttr.syntax import (
     Singleton,
     Str,
     TypeNode,
-    join,
     meet,
 )
 
@@ -63,8 +64,8 @@ def cases(T: TypeNode) -> tuple[TypeNode, ...] | None:
     match T:
         case Join(parts):
             return _few(tuple(map(cases, parts)))
-        case Negation(body):
-            inner = _inwards(body)
+        case Negation():
+            inner = inwards(T)
             return (T,) if inner is T else cases(inner)
         case Singleton(base, value):
             found = cases(base)
@@ -106,32 +107,9 @@ def clauses(T: TypeNode) -> tuple[Clause, ...] | None:
     >>> [" or ".join(map(str, clause)) for clause in clauses((A & B) | ~(A & C))]
     ['A or ~A or ~C', 'B or ~A or ~C']
     """
-    match T:
-        case Meet(parts):
-            found = [clauses(part) for part in parts]
-            if None in found:
-                return None
-            flat = tuple(chain.from_iterable(filter(None, found)))
-            return flat if len(flat) <= CASES else None
-        case Join(parts):
-            found = [clauses(part) for part in parts]
-            if prod(len(one or ()) for one in found) > CASES or None in found:
-                return None
-            choices = product(*filter(None, found))
-            return tuple([tuple(chain.from_iterable(choice)) for choice in choices])
-        case Negation(body):
-            inner = _inwards(body)
-            return ((T,),) if inner is T else clauses(inner)
-    return ((T,),)
-
-
-def _inwards(body: TypeNode) -> TypeNode:
-    """¬body with the negation one step further in, where it can go."""
-    match body:
-        case Negation(inner):
-            return inner
-        case Meet(parts):
-            return join(*map(Negation, parts))
-        case Join(parts):
-            return meet(*map(Negation, parts))
-    return Negation(body)
+    try:
+        T = meet_normal_form(T, CASES)
+    except Unsupported:
+        return None
+    whole = T.parts if isinstance(T, Meet) else (T,)
+    return tuple([one.parts if isinstance(one, Join) else (one,) for one in whole])

@@ -3,7 +3,7 @@
 import pytest
 
 from ttr import Basic, IllFormed, Negation, Unsupported, join, meet, rectype
-from ttr.reshaping.normal_forms import join_normal_form, meet_normal_form
+from ttr.normal_forms import join_normal_form, meet_normal_form
 
 A, B, C, D = map(Basic, "ABCD")
 

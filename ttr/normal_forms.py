@@ -13,7 +13,7 @@ from typing import TypeAlias
 from ttr.errors import Unsupported, following_nesting
 from ttr.syntax import Join, Meet, Negation, TypeNode, as_type, join, meet
 
-__all__ = ["join_normal_form", "meet_normal_form"]
+__all__ = ["inwards", "join_normal_form", "meet_normal_form"]
 
 LIMIT = 4096
 """How many parts a normal form may have; there can be exponentially many."""
@@ -23,11 +23,11 @@ _Part: TypeAlias = frozenset[TypeNode]
 
 
 @following_nesting
-def meet_normal_form(T: TypeNode, /) -> TypeNode:
+def meet_normal_form(T: TypeNode, /, limit: int = LIMIT) -> TypeNode:
     r"""The type as a meet of joins: (A ∧ B) ∨ C becomes (A ∨ C) ∧ (B ∨ C).
 
     A join that another one is part of is left out, as it says nothing more. Raises
-    `Unsupported` where there are more than 4,096 parts.
+    `Unsupported` where there are more parts than the limit.
     Law: a is of it iff a : T, under every assignment.
 
     >>> from ttr.syntax import Basic
@@ -37,16 +37,16 @@ def meet_normal_form(T: TypeNode, /) -> TypeNode:
     >>> print(meet_normal_form(~(A | B & C)))
     ~A /\ (~B \/ ~C)
     """
-    found = _parts(_inwards(as_type(T)), Meet)
+    found = _parts(inwards(as_type(T)), Meet, limit)
     return meet(*[join(*part) for part in found])
 
 
 @following_nesting
-def join_normal_form(T: TypeNode, /) -> TypeNode:
+def join_normal_form(T: TypeNode, /, limit: int = LIMIT) -> TypeNode:
     r"""The type as a join of meets: A ∧ (B ∨ C) becomes (A ∧ B) ∨ (A ∧ C).
 
     A meet that another one is part of is left out, as nothing more is of it. Raises
-    `Unsupported` where there are more than 4,096 parts.
+    `Unsupported` where there are more parts than the limit.
     Law: a is of it iff a : T, under every assignment.
 
     >>> from ttr.syntax import Basic
@@ -54,47 +54,48 @@ def join_normal_form(T: TypeNode, /) -> TypeNode:
     >>> print(join_normal_form(A & (B | ~~C)))
     (A /\ B) \/ (A /\ C)
     """
-    found = _parts(_inwards(as_type(T)), Join)
+    found = _parts(inwards(as_type(T)), Join, limit)
     return join(*[meet(*part) for part in found])
 
 
-def _inwards(T: TypeNode) -> TypeNode:
+def inwards(T: TypeNode) -> TypeNode:
     """The type with negations only before what is no meet, join or negation."""
     match T:
         case Meet(parts):
-            return meet(*map(_inwards, parts))
+            return meet(*map(inwards, parts))
         case Join(parts):
-            return join(*map(_inwards, parts))
+            return join(*map(inwards, parts))
         case Negation(Negation(body)):
-            return _inwards(body)
+            return inwards(body)
         case Negation(Meet(parts)):
-            return join(*[_inwards(Negation(part)) for part in parts])
+            return join(*[inwards(Negation(part)) for part in parts])
         case Negation(Join(parts)):
-            return meet(*[_inwards(Negation(part)) for part in parts])
+            return meet(*[inwards(Negation(part)) for part in parts])
     return T
 
 
-def _parts(T: TypeNode, outer: type[Meet] | type[Join]) -> list[_Part]:
+def _parts(T: TypeNode, outer: type[Meet] | type[Join], limit: int) -> list[_Part]:
     """The parts of T as a meet of joins, or as a join of meets: `outer` is outside."""
     if not isinstance(T, Meet | Join):
         return [frozenset((T,))]
-    inner = [_parts(part, outer) for part in T.parts]
+    inner = [_parts(part, outer, limit) for part in T.parts]
     if isinstance(T, outer):
-        return _needed(part for parts in inner for part in parts)
+        return _needed((part for parts in inner for part in parts), limit)
     spread: list[_Part] = [frozenset()]
     for parts in inner:
-        spread = _needed(one | other for one in spread for other in parts)
+        both = (one | other for one in spread for other in parts)
+        spread = _needed(both, limit)
     return spread
 
 
-def _needed(parts: Iterable[_Part]) -> list[_Part]:
+def _needed(parts: Iterable[_Part], limit: int) -> list[_Part]:
     """The parts that no other one is in; a limited number of them."""
     once: dict[_Part, None] = {}
     for part in parts:
         once[part] = None
-        if len(once) > LIMIT:
+        if len(once) > limit:
             raise Unsupported(
-                f"this has a normal form of more than {LIMIT:,} parts",
+                f"this has a normal form of more than {limit:,} parts",
                 hint="take apart a smaller type",
             )
     kept: list[_Part] = []
