@@ -25,6 +25,7 @@ __all__ = [
     "IsOf",
     "IsBelow",
     "IsSame",
+    "IsTrue",
     "IsWellFormed",
     "Merges",
     "Query",
@@ -97,7 +98,17 @@ class HasDegree:
     interval: Interval
 
 
-Query: TypeAlias = IsOf | IsBelow | IsSame | Merges | Creates | IsWellFormed | HasDegree
+@dataclass(frozen=True)
+class IsTrue:
+    """P(T) = [lo, hi]: so certainly something is of T."""
+
+    type: TypeNode
+    interval: Interval
+
+
+Query: TypeAlias = (
+    IsOf | IsBelow | IsSame | Merges | Creates | IsWellFormed | HasDegree | IsTrue
+)
 
 
 @dataclass(frozen=True)
@@ -243,6 +254,12 @@ def _asked(query: Query, theory: Theory, model: Model) -> _Answer:
             return _is_well_formed(T)
         case HasDegree():
             return _has_degree(query, model)
+        case IsTrue(T, interval):
+            p = model.true(T)
+            why = (
+                f"a witness of {T} is known" if p.lo else f"no witness of {T} is known"
+            )
+            return _Answer("yes" if _same(p, interval) else "no", _interval(p), why)
     assert_never(query)
 
 
@@ -282,11 +299,17 @@ def _has_degree(query: HasDegree, model: Model) -> _Answer:
     lo, hi = judgement.p
     least, most = query.interval
     if query.relation == "=":
-        holds = abs(lo - least) <= TOLERANCE and abs(hi - most) <= TOLERANCE
+        holds = _same(judgement.p, query.interval)
     else:
         holds = least - TOLERANCE <= lo and hi <= most + TOLERANCE
     found = _interval(judgement.p)
     return _Answer("yes" if holds else "no", found, str(judgement.why))
+
+
+def _same(p: Interval, wanted: Interval) -> bool:
+    """Whether both ends are the same, but for rounding."""
+    ends = zip(p, wanted, strict=True)
+    return all(abs(end - other) <= TOLERANCE for end, other in ends)
 
 
 def _interval(p: Interval) -> str:

@@ -6,7 +6,7 @@ A scope is here a record type; that of a binder has one field, for its variable.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from ttr.circles import circle
 from ttr.errors import IllFormed, following_nesting, suggestion
@@ -71,7 +71,7 @@ def checked(T: RecordType, theory: Signature | None = None) -> RecordType:
     Paths that lead out of T are left to the record type that will be built around it.
     """
     for label, field in T.fields:
-        _check(field, T, (label,), theory)
+        _check(field, _scope(T), (label,), theory)
     return T
 
 
@@ -85,20 +85,27 @@ def checked_binder(binder: _BINDER, theory: Signature | None = None) -> _BINDER:
     return binder
 
 
-def _scope(value: RecordType | Function | FunType) -> RecordType:
-    """A record type as it is; for a binder, one that has its variable."""
+class _Scope(NamedTuple):
+    """The fields that paths may start from, and what they are called in print."""
+
+    fields: RecordType
+    names: frozenset[str] | str
+
+
+def _scope(value: RecordType | Function | FunType) -> _Scope:
+    """A record type with its labels; for a binder, one field for its variable."""
     if isinstance(value, RecordType):
-        return value
-    return RecordType(((BOUND, value.domain),))
+        return _Scope(value, frozenset(value))
+    return _Scope(RecordType(((BOUND, value.domain),)), value.hint)
 
 
 def _check(
-    inside: Object, scope: RecordType, where: Where, theory: Signature | None
+    inside: Object, scope: _Scope, where: Where, theory: Signature | None
 ) -> None:
     """What stands in a scope leads somewhere in it, and to what fits."""
     paths = [path for path in escaping(inside) if path.up == 0]
     for path in sorted(paths, key=lambda p: p.labels):
-        target(path, scope)
+        target(path, scope.fields)
     if paths:
         _check_domains(inside, (scope,), where, theory)
 
@@ -161,7 +168,7 @@ def _labels(T: TypeNode) -> Iterator[str]:
 
 def _check_domains(
     value: Object,
-    around: tuple[RecordType, ...],
+    around: tuple[_Scope, ...],
     where: Where,
     theory: Signature | None,
 ) -> None:
@@ -177,7 +184,7 @@ def _check_domains(
             arities = [a for a in pred.arities if len(a) == len(args)]
             _check_arguments(value, args, arities, around, where, theory)
         case Application(Path() as function, argument) if function.up == outermost:
-            domain = _domain(target(function, around[outermost]))
+            domain = _domain(target(function, around[outermost].fields))
             if domain is not None:
                 _check_arguments(value, (argument,), [(domain,)], around, where, theory)
     same, inner = parts(value)
@@ -202,19 +209,20 @@ def _check_arguments(
     value: PType | Application,
     args: tuple[Object, ...],
     arities: list[tuple[TypeNode, ...]],
-    around: tuple[RecordType, ...],
+    around: tuple[_Scope, ...],
     where: Where,
     theory: Signature | None,
 ) -> None:
     """Refuses arguments that fit none of the arities, as far as their types tell."""
     misfits = [
-        _misfit(args, arity, around[-1], len(around) - 1, theory) for arity in arities
+        _misfit(args, arity, around[-1].fields, len(around) - 1, theory)
+        for arity in arities
     ]
     first = misfits[0]
     if first is None or None in misfits:
         return
     arg, wanted, found = first
-    scope = tuple("it" if BOUND in R else frozenset(R.labels) for R in around)
+    scope = tuple(one.names for one in around)
     raise IllFormed(
         f"{_in_field(where)}{notation(value, scope)} needs {wanted} for "
         f"{notation(arg, scope)}, but that is of {found}"

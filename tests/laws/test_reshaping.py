@@ -15,8 +15,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import IllFormed, Record, merge, subtype
-from ttr.reshaping.flattening import flatten, unflatten
 from ttr.normal_forms import join_normal_form, meet_normal_form
+from ttr.reshaping.flattening import flatten, unflatten
 from ttr.reshaping.relabelling import relabel
 from ttr.reshaping.subtraction import subtract
 from ttr.reshaping.supertypes import common_supertype

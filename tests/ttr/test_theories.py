@@ -128,7 +128,7 @@ def test_a_quoted_name_in_an_axiom_is_an_object() -> None:
         ("fido : Ind", (4, 6), "expected := or <:, found :", "write given a : T"),
         ("rule greet", (4, 6), "a rule statement is not part of this version", ""),
         ("check dog('a')", (4, 7), "this is nothing that can be checked", "a : T"),
-        ("check P(Ind) = 0.5", (4, 7), "P(T) = p is not part of this version", ""),
+        ("check P(Ind) = [0.5]", (4, 16), "a number in [0, 1]", ""),
         (
             "check P('a' : Ind | 'b' : Ind) = 1",
             (4, 25),
@@ -143,10 +143,10 @@ def test_a_quoted_name_in_an_axiom_is_an_object() -> None:
             "a space after",
         ),
         ("f(x) := dog(x)", (4, 6), "expected <:, found :=", "f := \\x:T. body"),
-        ("F := \\x:Image. dog(x)", (4, 16), "needs Ind for it, but", ""),
+        ("F := \\x:Image. dog(x)", (4, 16), "needs Ind for x, but", ""),
         ("F := \\x:Ind. dog(x)\nT := list(F)", (5, 11), "expected a type, found F", ""),
         ("F := \\x:Ind. dog(x)\npred p(F)", (5, 8), "expected a type, found F", ""),
-        ("check P('a') = dog('b')", (4, 7), "P(T) = p is not part of this version", ""),
+        ("check P('a') = 0.5", (4, 9), "expected a type, found the object 'a'", ""),
         ("Dog := [x : Ind", (4, 16), "expected a comma or ], found the end", ""),
     ],
 )

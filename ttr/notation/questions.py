@@ -11,6 +11,7 @@ from ttr.checking import (
     IsBelow,
     IsOf,
     IsSame,
+    IsTrue,
     IsWellFormed,
     Merges,
     Query,
@@ -66,7 +67,7 @@ class Asking:
             tree,
             "this is nothing that can be checked",
             "ask a : T, S <= T, S = T, f(a) = b, merge(S, T) = U, amerge(S, T) = U, "
-            "create(T), wellformed(T), P(a : T) = p or P(a : T) in [lo, hi]",
+            "create(T), wellformed(T), P(a : T) = p, P(a : T) in [lo, hi] or P(T) = p",
         )
 
     def _equation(self, left: Term, right: Term) -> Query:
@@ -76,10 +77,11 @@ class Asking:
             ):
                 result = self._type(right)
                 return Merges(operation, self._type(S), self._type(T), result)
-            case Application(_, _, Name(_, _, ("P",))) if (
+            case Application(_, _, Name(_, _, ("P",)), (T,)) if (
                 "P" not in self.reader.theory.names
             ):
-                self.reader.refuse(left, "P(T) = p is not part of this version")
+                degree = trees.Degree(right.start, right.end, "=", right)
+                return IsTrue(self._type(T), self.reader.degree(degree))
         return IsSame(self._object(left), self._object(right))
 
     def _built(self, term: Term) -> TypeNode | TTRError:
