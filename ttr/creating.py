@@ -251,7 +251,7 @@ class _Making:
     # --- functions ---
 
     def _function(self, facts: Assignment, T: FunType) -> Made:
-        """The first function that is one of T, one that is no constant if it can be."""
+        """The first function that is one of T."""
         for body, known in self._bodies(facts, T):
             made = Function(T.domain, body, T.hint)
             if derivation(known, made, T).p == CERTAIN:
@@ -259,11 +259,11 @@ class _Making:
         raise Refused(f"a function of {T} cannot be made up, only be given")
 
     def _bodies(self, facts: Assignment, T: FunType) -> Iterator[Made]:
-        """What it might give: where it shall be typical, first what is no constant."""
+        """What it might give; where one element is enough, constants come last."""
         constants = partial(self._constants, facts, T)
         x = Path(0, (BOUND,))
         of_x = RecordType((("i", Singleton(moved(T.domain, 2), Path(1, x.labels))),))
-        if self._size == 0:
+        if self._size != 1:
             yield from constants()
         yield from ((x, facts), (of_x, facts))
         yield from constants()

@@ -178,7 +178,7 @@ class Question:
         self, term: Object, base: TypeNode, value: Object, where: Where
     ) -> Finding:
         wanted = self._worked_out(self.witness.normal(value))
-        if identity(term) == identity(wanted):
+        if self.witness.same(term, wanted):
             return self.ask(term, base, where)
         one = ".".join(where) or f"a witness of {self.S}"
         return _no(where, f"{one} need not be {self._shown(wanted)}")

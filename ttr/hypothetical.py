@@ -146,6 +146,7 @@ class Hypothetical:
 
     def __init__(self, S: TypeNode, assumed: Iterable[Assumption] = ()) -> None:
         self._equal: dict[tuple[str, ...], Object] = {}
+        self._unbound: list[tuple[Object, Object]] = []
         self._around_bound: set[tuple[str, ...]] = set()
         self._absent: set[Path | None] = set()
         self._followed = True
@@ -168,6 +169,14 @@ class Hypothetical:
     def normal(self, value: Object) -> Object:
         """The value with every place in it replaced by the one chosen for its class."""
         return replace_paths(value, self._chosen) if self._equal else value
+
+    def same(self, term: Object, other: Object) -> bool:
+        """Whether two normal terms surely are equal."""
+        wanted = {identity(term), identity(other)}
+        return len(wanted) == 1 or any(
+            wanted == {identity(self.normal(left)), identity(self.normal(right))}
+            for left, right in self._unbound
+        )
 
     def types_of(self, term: Object, given: Collection[Path] = ()) -> list[TypeNode]:
         """The types claimed of a normal term, none of them a singleton or a meet.
@@ -247,8 +256,7 @@ class Hypothetical:
                 for part in parts:
                     self._spread(term, part, condition)
             case Singleton(base, value):
-                if identity(self.normal(value)) != identity(term):
-                    self._followed = False
+                self._compare(term, self.normal(value), condition)
                 self._spread(term, base, condition)
             case RecordType(fields) if isinstance(term, Record):
                 self._classify(term, T, condition)
@@ -260,6 +268,15 @@ class Hypothetical:
                 self._classify(term, T, condition)
             case _:
                 self._classify(term, T, condition)
+
+    def _compare(self, term: Object, value: Object, condition: Path | None) -> None:
+        """Notes what follows where an object that is written has to be a value."""
+        if identity(term) == identity(value):
+            return
+        if _is_open(term) or _is_open(value):
+            self._leave(term, value)
+        else:
+            self._absent.add(condition)
 
     def _condition(self, place: Path) -> Path | None:
         """The innermost element of a list that a place is, or is in."""
@@ -293,7 +310,12 @@ class Hypothetical:
             for mine, theirs in zip(_contents(left), _contents(right), strict=True):
                 self._equate(mine, theirs, at)
         else:
-            self._followed = False
+            self._leave(left, right)
+
+    def _leave(self, left: Object, right: Object) -> None:
+        """Notes that two terms are equal, of which neither is chosen for the other."""
+        self._unbound.append((left, right))
+        self._followed = False
 
     def _may_bind(self, place: Path, at: Path) -> bool:
         """Whether what holds at a place may say what another one is equal to."""
@@ -313,7 +335,7 @@ class Hypothetical:
         for path in escaping(value):
             size = min(len(path.labels), len(labels))
             if path.up == 0 and path.labels[:size] == labels[:size]:
-                self._followed = False
+                self._leave(place, value)
                 return
         self._equal[labels] = value
         self._around_bound.update(labels[:size] for size in range(1, len(labels)))

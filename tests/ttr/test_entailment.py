@@ -1,0 +1,179 @@
+"""Subtyping of joins, negations, functions, collections and strings."""
+
+import pytest
+
+from ttr import (
+    Application,
+    Basic,
+    EventString,
+    ListOf,
+    Model,
+    NonEmpty,
+    Pi,
+    Plus,
+    Pred,
+    Rec,
+    RecType,
+    SetOf,
+    Str,
+    Type,
+    Universe,
+    consistent,
+    fst,
+    fun,
+    rectype,
+    rst,
+    subtype,
+    this,
+)
+
+A, B, C = Basic("A"), Basic("B"), Basic("C")
+p = Pred("p", A)
+self_equal = rectype(y=A, z=A | B, x=ListOf(A) @ rst(this.x))
+
+YES = {
+    "a part of a join": (A, A | B),
+    "every part of a join": (A | B, B | C | A),
+    "distribution": (A & (B | C), (A & B) | (A & C)),
+    "distribution back": ((A & B) | (A & C), A & (B | C)),
+    "a join in a field": (rectype(x=A | B), rectype(x=A) | rectype(x=B)),
+    "a join of record types": (rectype(x=A) | rectype(x=B), rectype(x=A | B)),
+    "an equation in a circle": (self_equal, self_equal | A),
+    "excluded middle": (A, B | ~B),
+    "a contradiction": (A & ~A, B),
+    "double negation": (~~A, A),
+    "double negation back": (A, ~~A),
+    "contraposition": (~A, ~(A & B)),
+    "De Morgan": (~(A | B), ~A & ~B),
+    "De Morgan back": (~A & ~B, ~(A | B)),
+    "other singletons": (A @ "a", ~(A @ "b")),
+    "other forms": (Rec, ~ListOf(A)),
+    "a disjunctive syllogism": ((A | B) & ~A, B),
+    "a negation in a field": (rectype(x=A & ~B), rectype(x=~B)),
+    "elements of lists": (ListOf(A & B), ListOf(A)),
+    "elements that are a join": (ListOf(A | B), ListOf(B | C | A)),
+    "lists that must be empty": (ListOf(A & ~A), ListOf(B)),
+    "lists that are not empty": (NonEmpty(A), ListOf(A | B)),
+    "elements of sets": (SetOf(A), SetOf(A | B)),
+    "a written set": (SetOf(A) @ {"a", "b"}, SetOf(A | B)),
+    "event by event": (Str(A, B), Str(A | C, B)),
+    "a join in a string": (Str(A | B), Str(A) | Str(B)),
+    "a string of one piece or more": (Str(A, A), Plus(A)),
+    "pieces of two events": (Str(A, B, A, B), Plus(Str(A, B))),
+    "pieces taken apart": (Plus(Str(A, B)), Plus(A | B)),
+    "repeated repetitions": (Plus(Plus(A)), Plus(A)),
+    "a smaller result": (A >> (B & C), A >> B),
+    "a larger domain": ((A | B) >> C, A >> C),
+    "a dependent result": (Pi(x=A)(A @ this.x), A >> A),
+    "a dependent result on less": (Pi(x=A)(p(this.x)), Pi(x=A & B)(p(this.x))),
+    "a function as a field": (
+        rectype(f=(A >> Type) @ fun(x=A)(p(this.x)), a=A, c=this.f(this.a)),
+        rectype(a=A, c=p(this.a)),
+    ),
+    "what a function gives": (
+        rectype(f=A >> B, a=A, b=B @ this.f(this.a)),
+        rectype(b=B),
+    ),
+    "the same application": (
+        rectype(f=A >> Type, a=A, b=A @ this.a, c=this.f(this.a)),
+        rectype(f=A >> Type, b=A, c=this.f(this.b)),
+    ),
+    "a concatenation of lists": (
+        rectype(l=ListOf(A), m=NonEmpty(A), n=ListOf(A) @ (this.l + this.m)),
+        rectype(n=NonEmpty(A)),
+    ),
+    "the rest and the first": (
+        rectype(l=NonEmpty(A), f=A @ fst(this.l), r=ListOf(A) @ rst(this.l)),
+        rectype(f=A, r=ListOf(A | B)),
+    ),
+    "levels": (RecType, Type | A),
+    "lower levels": (Type, Universe("Type", 2)),
+}
+
+NO = {
+    "a join in its part": (A | B, A),
+    "a type in a negation": (A, ~B),
+    "a negation": (~A, A),
+    "contraposition the wrong way": (~(A & B), ~A),
+    "a join of lists": (ListOf(A | B), ListOf(A) | ListOf(B)),
+    "a list that may be empty": (ListOf(A), NonEmpty(A)),
+    "sets": (SetOf(A), SetOf(B)),
+    "longer strings": (Str(A, A), Str(A)),
+    "how often": (Plus(A), Str(A)),
+    "another piece": (Str(A, B, A), Plus(Str(A, B))),
+    "a smaller domain": ((A & B) >> A, A >> A),
+    "a larger result": (A >> Type, A >> RecType),
+    "other arguments": (
+        rectype(f=A >> RecType, x=A, y=A, z=RecType @ this.f(this.x)),
+        rectype(f=A >> RecType, x=A, y=A, z=RecType @ this.f(this.y)),
+    ),
+    "a record that is empty": (Rec, Rec @ {}),
+    "levels back": (Universe("Type", 1), Type),
+}
+
+
+@pytest.mark.parametrize("name", YES)
+def test_yes(name):
+    S, T = YES[name]
+    assert str(subtype(S, T)).startswith("yes: ")
+    assert subtype(S, T).counter is None
+
+
+@pytest.mark.parametrize("name", NO)
+def test_no_with_a_counter_assignment(name):
+    S, T = NO[name]
+    answer = subtype(S, T)
+    assert answer.no
+    against = answer.counter
+    assert against.model.judge(against.sit, S).holds
+    assert against.model.judge(against.sit, T).holds is False
+
+
+def test_what_is_not_derivable_is_unknown():
+    answer = subtype(A >> B, Pi(x=A)(Application(fun(y=A)(B), this.x)))
+    assert answer.yes or answer.unknown
+    assert subtype(rectype(x=A @ this.y, y=ListOf(A) @ this.x), rectype(z=A)).unknown
+
+
+def test_many_cases_are_left_together():
+    many = rectype({f"x{i}": A | B for i in range(20)})
+    assert subtype(many, rectype(x0=A | B)).yes
+    assert not subtype(many, rectype(x0=A)).yes
+
+
+@pytest.mark.parametrize(
+    ("types", "verdict"),
+    [
+        ((A, B), "yes"),
+        ((A | B, ~A), "yes"),
+        ((A, ~A), "no"),
+        ((A @ "a", A @ "b"), "no"),
+        ((ListOf(A), rectype(x=A)), "no"),
+        ((rectype(x=A), rectype(x=~A, y=B)), "no"),
+        ((NonEmpty(A), NonEmpty(A & B)), "yes"),
+        ((NonEmpty(A & ~A),), "unknown"),
+    ],
+)
+def test_consistency(types, verdict):
+    assert consistent(*types).verdict == verdict
+
+
+def test_known_witnesses():
+    M = Model().given("a", A).given("b", A).given("b", B).given("s", p("a"))
+    assert M.witnesses(A) == ("a", "b")
+    assert M.witnesses(A & B) == ("b",)
+    assert M.witnesses(A | B) == ("a", "b")
+    assert M.witnesses(A & ~B) == ("a",)
+    assert M.witnesses(A @ "a") == ("a",)
+    assert M.witnesses(A @ "c") == ()
+    assert [str(r) for r in M.witnesses(rectype(x=A, c=p(this.x)))] == [
+        "{c = s, x = a}"
+    ]
+    assert M.witnesses(Str(A, B)) == (EventString("a", "b"), EventString("b", "b"))
+
+
+def test_truth_of_types_and_propositions():
+    M = Model().given("a", A)
+    assert M.true(A) == M.true(ListOf(B)) == (1, 1)
+    assert M.true(B) == M.true(rectype(x=A, y=B)) == (0, 0)
+    assert M.given("b", B, 0.5).true(B) == (0, 1)
