@@ -98,17 +98,17 @@ class _Derivation:
     ) -> Why:
         """A claim of a type that has to be worked out first."""
         try:
-            ground = reduced(self._facts, grounded(T, around))
+            ground = grounded(T, around)
+            if isinstance(ground, FunType):
+                return self._function(sit, ground, where)
+            if isinstance(ground, PType):
+                return self._atom(sit, reduced(self._facts, ground), where)
+            value = _worked_out(self._facts, ground)
         except (Unresolved, Refused) as wrong:
             return Why(sit, T, REFUTED, wrong.message, where=where)
-        match ground:
-            case FunType():
-                return self._function(sit, ground, where)
-            case PType():
-                return self._atom(sit, ground, where)
-            case TypeNode() if not isinstance(ground, Application):
-                return self.of(sit, ground, (), where)
-        return Why(sit, T, REFUTED, f"{notation(ground)} is no type", where=where)
+        if isinstance(value, TypeNode):
+            return self.of(sit, value, (), where)
+        return Why(sit, T, REFUTED, f"{notation(value)} is no type", where=where)
 
     def _atom(self, sit: Object, T: Atom, where: str) -> Why:
         p, rule = self._facts.degree_of(sit, T)
@@ -314,9 +314,28 @@ def reduced(facts: Assignment, value: Object) -> Object:
     value = rebuilt(value, lambda part, _: reduced(facts, part))
     if not isinstance(value, Application) or escaping(value):
         return value
-    function, argument = value.function, value.argument
+    return reduced(facts, _applied(facts, value.function, value.argument))
+
+
+def _worked_out(facts: Assignment, T: Application) -> Object:
+    """What an application gives; applications inside that are left as they are.
+
+    So a join holds where one part does, whatever becomes of the others.
+    """
+    value: Object = T
+    while isinstance(value, Application):
+        function, argument = value.function, reduced(facts, value.argument)
+        if isinstance(function, Application):
+            function = _worked_out(facts, function)
+        value = _applied(facts, function, argument)
+    return value
+
+
+def _applied(facts: Assignment, function: Object, argument: Object) -> Object:
+    """The body of a function for an argument of its domain; else `Refused`."""
     if not isinstance(function, Function):
-        raise Refused(f"{notation(function)} is no function, so {value} is nothing")
+        whole = Application(function, argument)
+        raise Refused(f"{notation(function)} is no function, so {whole} is nothing")
     inside = derivation(facts, argument, function.domain)
     if inside.p != CERTAIN:
         raise Refused(
@@ -324,7 +343,7 @@ def reduced(facts: Assignment, value: Object) -> Object:
             f"{notation(argument)} is not{_where(inside)}: "
             f"{(inside.failure() or inside).rule}"
         )
-    return reduced(facts, grounded(function.body, ({BOUND: argument},)))
+    return grounded(function.body, ({BOUND: argument},))
 
 
 def _where(why: Why) -> str:
