@@ -11,7 +11,7 @@ from ttr.errors import Span, TTRError, Undecided
 from ttr.merging import amerge, merge
 from ttr.printing import notation
 from ttr.subtyping import subtype
-from ttr.syntax import Object, TypeNode, identity
+from ttr.syntax import Object, TypeNode, identity, kind_of
 from ttr.theories import Interval, Theory
 
 if TYPE_CHECKING:
@@ -191,6 +191,8 @@ def check(theory: Theory) -> Report:
     >>> print(check(theory))
     2 checks hold
     """
+    if not isinstance(theory, Theory):
+        raise TTRError(f"check takes a theory, found {kind_of(theory)}")
     model = _model(theory)
     failures = []
     for one in theory.checks:

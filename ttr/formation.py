@@ -30,7 +30,7 @@ from ttr.syntax import (
     join,
     meet,
 )
-from ttr.theories import Signature
+from ttr.theories import Signature, signature_of
 
 __all__ = ["checked", "checked_binder", "target", "wellformed"]
 
@@ -70,6 +70,7 @@ def checked(T: RecordType, theory: Signature | None = None) -> RecordType:
 
     Paths that lead out of T are left to the record type that will be built around it.
     """
+    theory = signature_of(theory)
     for label, field in T.fields:
         _check(field, _scope(T), (label,), theory)
     return T
@@ -81,7 +82,7 @@ _BINDER = TypeVar("_BINDER", Function, FunType)
 def checked_binder(binder: _BINDER, theory: Signature | None = None) -> _BINDER:
     """The function or function type itself, if its paths resolve and fit."""
     inside = binder.body if isinstance(binder, Function) else binder.result
-    _check(inside, _scope(binder), (), theory)
+    _check(inside, _scope(binder), (), signature_of(theory))
     return binder
 
 

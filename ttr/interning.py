@@ -6,6 +6,7 @@ So `is` is structural identity, a hash is an address, and a node can be a key.
 
 from __future__ import annotations
 
+import inspect
 import struct
 from dataclasses import dataclass, field
 from threading import RLock
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING, Any, dataclass_transform
 from weakref import ref
 
 from ttr.display.notebooks import Drawn
+from ttr.errors import IllFormed
 
 __all__ = ["Node", "identity", "node"]
 
@@ -27,6 +29,13 @@ class _Entry(ref):  # type: ignore[type-arg]
 
 _pool: dict[tuple[object, ...], _Entry] = {}
 _lock = RLock()
+
+
+def _misfit(cls: type) -> IllFormed:
+    """That the arguments of a node are too few, too many or of other names."""
+    wanted = inspect.signature(cls._normal)  # type: ignore[attr-defined]
+    names = [name for name in wanted.parameters if name != "args"]
+    return IllFormed(f"{cls.__name__} takes {', '.join(names) or 'other arguments'}")
 
 
 def _forget(entry: _Entry, pool: Any = _pool, lock: Any = _lock) -> None:
@@ -45,7 +54,12 @@ class _Interning(type):
     if not TYPE_CHECKING:
 
         def __call__(cls, *args, **kwargs):
-            values = cls._normal(*args, **kwargs)
+            try:
+                values = cls._normal(*args, **kwargs)
+            except TypeError as error:
+                if error.__traceback__.tb_next is not None:
+                    raise
+                raise _misfit(cls) from None
             key = (cls, *cls._key(*values))
             entry = _pool.get(key)
             found = None if entry is None else entry()

@@ -10,14 +10,24 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, assert_never
 from ttr.display.notebooks import Drawn
 from ttr.errors import Undecided
 from ttr.printing import notation
-from ttr.probability import CERTAIN, REFUTED, All, AnyOf, Atomic, Degree, Event, Not
+from ttr.probability import (
+    CERTAIN,
+    REFUTED,
+    All,
+    AnyOf,
+    Atomic,
+    Degree,
+    Event,
+    Not,
+    degree,
+)
 from ttr.syntax import Basic, Object, PType, TypeNode, identity
 
 if TYPE_CHECKING:
     from ttr.assignments import Assignment
     from ttr.models import Model
 
-__all__ = ["Claim", "How", "Judgement", "Why", "together"]
+__all__ = ["Claim", "How", "Judgement", "Why", "mark", "together"]
 
 Claim: TypeAlias = tuple[object, TypeNode]
 """A judgement that rests on no other: the identity of an object, and a type."""
@@ -112,7 +122,7 @@ class Why(Drawn):
         where = f"{self.where}: " if self.where else ""
         claim = f"{notation(self.sit)} : {self.type}"
         grounds = "; ".join(filter(None, (self.rule, self.remedy())))
-        yield f"{indent}{_mark(self.p)} {where}{claim}   ({grounds})"
+        yield f"{indent}{mark(self.p)} {where}{claim}   ({grounds})"
         for part in self.parts:
             yield from part._lines(indent + "  ")
 
@@ -144,7 +154,12 @@ def _would_do(facts: Assignment, T: TypeNode) -> str:
     return f"{names} would do" if some else ""
 
 
-def _mark(p: Degree) -> str:
+def mark(p: Degree) -> str:
+    """The sign before a step of a derivation: ✓, ✗ or the degree.
+
+    >>> mark(CERTAIN), mark(Degree(0.5, 0.5))
+    ('✓', 'p = 0.5')
+    """
     if p == CERTAIN:
         return "✓"
     return "✗" if p == REFUTED else f"p = {p}"
@@ -175,8 +190,15 @@ class Judgement(Drawn):
         )
 
     def at_least(self, q: float) -> bool:
-        """Whether the probability is surely q or more."""
-        return self.p.lo >= q
+        """Whether the probability is surely q or more.
+
+        >>> from ttr.models import Model
+        >>> from ttr.syntax import Ind
+        >>> j = Model().given("a", Ind, (0.2, 0.4)).judge("a", Ind)
+        >>> j.at_least(0.2), j.at_least(0.3)
+        (True, False)
+        """
+        return self.p.lo >= degree(q, "what a judgement is asked for").hi
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Judgement):

@@ -6,7 +6,7 @@ from ttr.constructors import rectype
 from ttr.errors import TTRError, following_nesting
 from ttr.subtyping import subtype
 from ttr.syntax import Record, RecordType, Singleton, TypeNode, as_type, identity, meet
-from ttr.theories import Signature
+from ttr.theories import Signature, signature_of
 
 __all__ = ["amerge", "merge", "singleton_type"]
 
@@ -27,7 +27,7 @@ def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeN
     >>> print(merge(rectype(x=Ind, e=run(this.x)), rectype(x=Ind @ "j")))
     [x = j : Ind, e : run(x)]
     """
-    S, T = as_type(S), as_type(T)
+    S, T, theory = as_type(S), as_type(T), signature_of(theory)
     if S is T:
         return S
     simplest = [one for one, other in ((S, T), (T, S)) if _says_all(one, other, theory)]
@@ -74,7 +74,7 @@ def amerge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Type
     >>> print(amerge(rectype(x=Ind @ "j", y=Ind), rectype(x=Ind)))
     [x : Ind, y : Ind]
     """
-    S, T = as_type(S), as_type(T)
+    S, T, theory = as_type(S), as_type(T), signature_of(theory)
     if not isinstance(S, RecordType) or not isinstance(T, RecordType):
         return T
     fields = dict(S.fields)

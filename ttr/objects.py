@@ -126,7 +126,9 @@ class PathTo:
         if self._up == 0 or len(args) != 1:
             raise IllFormed("only outer can be called, as in outer(2).x")
         if type(args[0]) is not int or args[0] < 1:
-            raise IllFormed(f"outer takes how many scopes out, found {args[0]!r}")
+            raise IllFormed(
+                f"outer takes how many scopes out, 1 or more, found {args[0]!r}"
+            )
         return PathTo(args[0])
 
     def __add__(self, other: object) -> Object:
@@ -285,7 +287,9 @@ def fst(value: object) -> Object:
     'a'
     """
     value = freeze(value)
-    return Operation("fst", (value,)) if _stays(value) else _elements(value)[0]
+    if _stays(value):
+        return Operation("fst", (value,))
+    return _elements(value, "first element")[0]
 
 
 def rst(value: object) -> Object:
@@ -295,14 +299,14 @@ def rst(value: object) -> Object:
     ('b',)
     """
     value = freeze(value)
-    return Operation("rst", (value,)) if _stays(value) else _elements(value)[1:]
+    return Operation("rst", (value,)) if _stays(value) else _elements(value, "rest")[1:]
 
 
-def _elements(value: Object) -> tuple[Object, ...]:
+def _elements(value: Object, wanted: str) -> tuple[Object, ...]:
     if isinstance(value, tuple) and value:
         return value
-    kind = "an empty list" if value == () else "no list"
-    raise Unresolved(f"there is no first element: it is {kind}")
+    kind = "an empty list" if isinstance(value, tuple) else "no list"
+    raise Unresolved(f"there is no {wanted}: it is {kind}")
 
 
 def _is_operation(value: Object, name: str) -> bool:
@@ -352,7 +356,7 @@ class Record(Drawn):
 
     def __getitem__(self, path: str) -> Object:
         value: Object = self
-        for label in path.split("."):
+        for label in path.split(".") if isinstance(path, str) else (path,):
             if not isinstance(value, Record) or label not in value._fields:
                 raise KeyError(path)
             value = value._fields[label]

@@ -11,8 +11,7 @@ from ttr.display.layout import Layout, Line, Sign, Step, Word, laid_out
 from ttr.display.markup import marked_up, marked_up_derivation
 from ttr.display.typesetting import typeset, typeset_derivation
 from ttr.errors import IllFormed, following_nesting
-from ttr.judgements import Judgement, Why
-from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.judgements import Judgement, Why, mark
 from ttr.syntax import Object, freeze
 
 if TYPE_CHECKING:
@@ -116,7 +115,7 @@ def _follow(why: Why, shown: _Shown, failing: Why | None) -> Step:
     parts = [_follow(p, shown, failing if p is guilty else None) for p in why.parts]
     because = "; ".join(filter(None, (why.rule, why.remedy())))
     return Step(
-        _mark(why.p),
+        mark(why.p),
         why.where,
         _claim(why, shown),
         because,
@@ -130,9 +129,3 @@ def _guilty(why: Why, failing: Why | None) -> Why | None:
     if failing is None or why is failing:
         return None
     return next(part for part in why.parts if part.failure() is failing)
-
-
-def _mark(p: Degree) -> str:
-    if p == CERTAIN:
-        return "✓"
-    return "✗" if p == REFUTED else f"p = {p}"

@@ -33,7 +33,7 @@ from ttr.syntax import (
     as_type,
     meet,
 )
-from ttr.theories import Signature
+from ttr.theories import Signature, signature_of
 
 if TYPE_CHECKING:
     from ttr.judgements import Judgement
@@ -121,10 +121,9 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     >>> print(subtype(rectype(x=Ind), rectype(x=Ind, c=dog(this.x))))
     no: [x : Ind] has no field c
     """
-    S, T = as_type(S), as_type(T)
+    S, T, theory = as_type(S), as_type(T), signature_of(theory)
     if S is T:
         return Answer("yes", f"{S} is below itself")
-    theory = theory or Signature()
     found = cases(S)
     answers = [_in_case(case, T, theory) for case in found or (S,)]
     refuted = next((answer for answer in answers if answer.no), None)
@@ -191,7 +190,7 @@ def consistent(*types: TypeNode, theory: Signature | None = None) -> Answer:
     from ttr.counters import witness
 
     T = meet(*types)
-    signature = theory or Signature()
+    signature = signature_of(theory)
     open_cases = [
         case
         for case in cases(T) or (T,)

@@ -124,10 +124,8 @@ def kind_of(value: object) -> str:
     """What a value is, in a word or two, for an error."""
     match value:
         case Pred():
-            example = ", ".join(map(str, value.arities[0]))
-            return (
-                f"the predicate {value.name}: apply it, as in {value.name}({example})"
-            )
+            domain = ", ".join(map(str, value.arities[0]))
+            return f"the predicate {value.name}: apply it to objects of ({domain})"
         case Record():
             return f"the record {value}"
         case Function():
@@ -136,6 +134,12 @@ def kind_of(value: object) -> str:
             return f"the object {value}"
         case str():
             return f"the object {value!r}"
+        case TypeNode():
+            return f"the type {value}"
+        case type():
+            return f"the class {value.__name__}"
+        case None:
+            return "None"
     return f"{type(value).__name__} {value!r}"
 
 
@@ -403,7 +407,13 @@ class RecordType(TypeNode):
     _types: Mapping[str, TypeNode] = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "_types", dict(self.fields))
+        try:
+            types = dict(self.fields if isinstance(self.fields, tuple) else (None,))
+        except (TypeError, ValueError):
+            raise IllFormed(
+                "RecordType holds pairs of a label and a type: build it with rectype"
+            ) from None
+        object.__setattr__(self, "_types", types)
 
     def __getitem__(self, label: str) -> TypeNode:
         """The type of the field with this label; raises `KeyError` if there is none.

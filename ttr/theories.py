@@ -12,12 +12,21 @@ from typing import TYPE_CHECKING, Protocol, overload
 
 from ttr.errors import IllFormed, NotationError, Span, TTRError, suggestion
 from ttr.paths import occurring
-from ttr.syntax import Basic, Object, Path, Pred, PType, TypeNode
+from ttr.syntax import Basic, Object, Path, Pred, PType, TypeNode, kind_of
 
 if TYPE_CHECKING:
     from ttr.checking import Check
 
-__all__ = ["Axiom", "Given", "Interval", "Mistakes", "Signature", "Theory", "load"]
+__all__ = [
+    "Axiom",
+    "Given",
+    "Interval",
+    "Mistakes",
+    "Signature",
+    "Theory",
+    "load",
+    "signature_of",
+]
 
 Interval = tuple[float, float]
 """An interval of probability [lo, hi] with 0 <= lo <= hi <= 1."""
@@ -78,6 +87,15 @@ class Signature:
     opened: frozenset[Basic | Pred] = frozenset()
     givens: tuple[Given, ...] = ()
     definitions: Mapping[str, Object] = field(default_factory=_nothing)
+
+
+def signature_of(theory: object) -> Signature:
+    """The theory, or the empty one for None; raises `IllFormed` for what is none."""
+    if theory is None:
+        return Signature()
+    if not isinstance(theory, Signature):
+        raise IllFormed(f"expected a theory, found {kind_of(theory)}")
+    return theory
 
 
 class Mistakes(NotationError):
@@ -147,6 +165,8 @@ def load(path: str | os.PathLike[str]) -> Theory:
     """
     from ttr.notation.loading import theory_of_file
 
+    if not isinstance(path, str | os.PathLike):
+        raise TTRError(f"load takes the path of a file, found {kind_of(path)}")
     return theory_of_file(FilePath(path))
 
 

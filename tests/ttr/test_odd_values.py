@@ -41,6 +41,8 @@ ODD = [
 TACIT = rule(when=Rec)(lambda s: s)
 HEARD = rule(when=Rec, on=Ind)(lambda s, e: s)
 
+P, Q = ttr.Pred("p", Ind), ttr.Pred("q", Ind)
+
 ENTRIES = {
     "rectype": lambda a, b: rectype({"x": a, "y": b}),
     "rectype of one": lambda a, b: rectype(a, b),
@@ -60,6 +62,33 @@ ENTRIES = {
     "amerge": ttr.amerge,
     "subtype": ttr.subtype,
     "wellformed": lambda a, b: ttr.wellformed(a),
+    "under a theory": lambda a, b: ttr.subtype(P("a"), Q("a"), a),
+    "merge under a theory": lambda a, b: ttr.merge(P("a"), Q("a"), a),
+    "amerge under a theory": lambda a, b: ttr.amerge(P("a"), Q("a"), a),
+    "consistent": lambda a, b: ttr.consistent(P("a"), theory=a),
+    "common_supertype": lambda a, b: ttr.common_supertype(a, b),
+    "a theory to put above": lambda a, b: ttr.common_supertype(P("a"), Q("a"), a),
+    "rectype under a theory": lambda a, b: rectype({"x": Ind}, a, c=P(this.x)),
+    "relabel": lambda a, b: ttr.relabel(a, b),
+    "flatten": lambda a, b: (ttr.flatten(a), ttr.unflatten(b)),
+    "subtract": lambda a, b: ttr.subtract(a, b),
+    "restrict": lambda a, b: ttr.restrict(a, b),
+    "fix": lambda a, b: ttr.fix(a, b),
+    "parse": lambda a, b: ttr.parse(a, using=b),
+    "parse something": lambda a, b: ttr.parse("Ind", using=b),
+    "load": lambda a, b: ttr.load(a),
+    "check": lambda a, b: ttr.check(a),
+    "at_least": lambda a, b: Model().judge("a", Ind).at_least(a),
+    "fst": lambda a, b: (ttr.fst(a), ttr.rst(b), ttr.concat(a, b)),
+    "fun": lambda a, b: ttr.fun(x=a)(b),
+    "Pi": lambda a, b: ttr.Pi(x=a)(b),
+    "apply": lambda a, b: Model().apply(a, b),
+    "witnesses": lambda a, b: Model().witnesses(a),
+    "box": lambda a, b: (ttr.box(a, width=b), ttr.latex(a), ttr.html(a)),
+    "unfold": lambda a, b: ttr.box(Ind, unfold=a, theory=b),
+    "no arguments": lambda a, b: ttr.ListOf(),
+    "too many arguments": lambda a, b: ttr.ListOf(Ind, Ind),
+    "data of a record type": lambda a, b: ttr.RecordType(a),
     "Model": lambda a, b: Model(a),
     "given": lambda a, b: Model().given(a, b),
     "given p": lambda a, b: Model().given("a", Ind, a),

@@ -247,6 +247,21 @@ def test_what_is_created_is_still_there_after_saving(
     assert respond(again, f"{reply.text} : {T}").text.startswith("yes")
 
 
+def test_what_is_created_by_what_it_is_not_is_kept_too(kennel: Session) -> None:
+    reply = respond(kennel, "create(~Ind)")
+    assert respond(reply.session, f"{reply.text} : ~Ind").text.startswith("yes")
+    assert respond(reply.session, "create(Ind)").text != reply.text
+
+
+def test_a_word_that_begins_no_statement_gets_a_suggestion(kennel: Session) -> None:
+    assert "did you mean basic?" in respond(kennel, "bsic A").text
+
+
+def test_what_is_underlined_is_what_was_typed(kennel: Session) -> None:
+    _, _, line, carets, _ = respond(kennel, "not Ind <= Ind").text.splitlines()
+    assert len(carets) == len(line)
+
+
 def test_a_created_name_that_means_something_else_is_quoted() -> None:
     session = after("basic Ind\na1 := Ind\ncreate(Ind)")
     assert respond(session, "witnesses(Ind)").text == "a1"

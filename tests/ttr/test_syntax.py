@@ -166,7 +166,9 @@ def test_escaping_paths():
 
 
 WRONG = {
-    "a type, found the predicate dog: apply it, as in dog(Ind)": lambda: ListOf(dog),
+    "a type, found the predicate dog: apply it to objects of (Ind)": lambda: ListOf(
+        dog
+    ),
     "expected a type, found the object 'Ind'": lambda: Ind & "Ind",
     "expected a type, found the object 'man'": lambda: Pred("p", "man"),
     "the field x needs a type, found the object 'a'": lambda: rectype(x="a"),

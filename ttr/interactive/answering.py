@@ -103,8 +103,10 @@ def _in_place(error: TTRError) -> TTRError:
     span = error.span
     if span is None or span.source != INPUT or span.line > 1:
         return error
-    column = max(1, span.column - len(_CHECK))
-    moved = Span(INPUT, 1, column, span.length, span.text[len(_CHECK) :])
+    before = len(_CHECK)
+    column = max(1, span.column - before)
+    length = min(span.column - 1 + span.length - before, span.length)
+    moved = Span(INPUT, 1, column, max(1, length), span.text[before:])
     return type(error)(error.message, span=moved, hint=error.hint)
 
 
@@ -115,8 +117,11 @@ def _without_check(error: TTRError) -> TTRError:
 
 
 def _further(statement: TTRError, question: TTRError) -> TTRError:
-    """Of two ways to read a text, the mistake of the one that came further."""
-    return max(question, statement, key=_place)
+    """Of two ways to read a text, the mistake of the one that came further.
+
+    Where both came as far it is the one that knows a way out.
+    """
+    return max(question, statement, key=lambda one: (_place(one), bool(one.hint)))
 
 
 def _place(error: TTRError) -> tuple[int, int]:

@@ -24,7 +24,7 @@ from ttr.notation.reader import Reader
 from ttr.notation.statements import Declaring, mentioned
 from ttr.notation.trees import Source, Statement
 from ttr.printing import notation
-from ttr.probability import CERTAIN
+from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.subtyping import Answer
 from ttr.syntax import Basic, Object, PType, TypeNode
 from ttr.theories import Given, Mistakes, Theory
@@ -313,27 +313,33 @@ def created(session: Session, T: TypeNode) -> tuple[Session, Object]:
     Raises `Refused` where there can be none.
     """
     witness, model = session.model.create(T)
-    for sit, kind in _atoms(model.judge(witness, T).why):
-        if session.model.judge(sit, kind).p == CERTAIN:
-            continue
-        session, _ = declared(session, *_read(_fact(session.theory, sit, kind)))
+    for sit, kind, p in _atoms(model.judge(witness, T).why, CERTAIN):
+        is_new = isinstance(sit, str) and sit not in session.theory.names
+        if is_new or session.model.judge(sit, kind).p != p:
+            fact = _fact(session.theory, sit, kind, p)
+            session, _ = declared(session, *_read(fact))
     return session, witness
 
 
-def _atoms(why: Why) -> Iterable[tuple[Object, TypeNode]]:
-    """The judgements of basic types and ptypes that a derivation rests on."""
-    if why.p != CERTAIN:
+def _atoms(why: Why, p: Degree) -> Iterable[tuple[Object, TypeNode, Degree]]:
+    """The judgements of basic types and ptypes that a derivation of degree p rests on.
+
+    Under a negation they are those that are refuted.
+    """
+    if why.p != p:
         return
     if not why.parts and isinstance(why.type, Basic | PType):
-        yield why.sit, why.type
+        yield why.sit, why.type, p
+    other = REFUTED if p == CERTAIN else CERTAIN
     for part in why.parts:
-        yield from _atoms(part)
+        yield from _atoms(part, other if why.how == "none" else p)
 
 
-def _fact(theory: Theory, sit: Object, T: TypeNode) -> str:
+def _fact(theory: Theory, sit: Object, T: TypeNode, p: Degree) -> str:
     """A statement of the fact; names of objects that mean something else are quoted."""
     scope = (theory.names - theory.objects,)
-    return f"given {notation(sit, scope)} : {notation(T, scope)}"
+    degree = " = 0" * (p == REFUTED)
+    return f"given {notation(sit, scope)} : {notation(T, scope)}{degree}"
 
 
 # --- files ---------------------------------------------------------------------------

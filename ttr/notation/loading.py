@@ -97,9 +97,11 @@ class _Files:
             return replace(reading, mistakes=(error,))
         places = list(blocks(source.text))
         later: dict[str, int] = {}
+        line, at = 1, 0
         for start, _ in places:
+            line, at = line + source.text.count("\n", at, start), start
             for name in _announced(source.text, start):
-                later.setdefault(name, source.text.count("\n", 0, start) + 1)
+                later.setdefault(name, line)
         file = _File(source, folder, chain, self, later)
         for start, end in places:
             if len(reading.mistakes) >= MISTAKES:

@@ -192,6 +192,10 @@ _HINTS = (
     (r"=[^:]*$", r"[,\]]", "a manifest field has a type as well: [x = a : T]"),
     (r"\{[^\[\]{}]*$", r":", "a record is written {x = a}, a record type [x : T]"),
     (r"^\w+\s*$", r"=", "a definition is written Name := T"),
+    (r"^import\s+$", r"\w", 'a file is named in quotes: import "kennel.ttr"'),
+    (r"^check\b.*\s$", r"<", "subtyping is written S <= T"),
+    (r"^check\b.*=$", r">", "subtyping is written S <= T"),
+    (r"^check\b.*=$", r"=", "that two are the same is written S = T"),
     (
         r"^[^\[({\\λ]*$",
         r":(?!=)",

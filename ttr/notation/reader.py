@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, NoReturn, TypeVar
 
@@ -76,6 +77,7 @@ from ttr.syntax import (
     Universe,
     applied,
     join,
+    kind_of,
     meet,
 )
 from ttr.theories import Interval, Theory
@@ -114,7 +116,18 @@ def parse(text: str, using: Iterable[object] = ()) -> Object:
     >>> parse("list(Ind)", using=[Ind]) is ListOf(Ind)
     True
     """
-    return read(text, Theory.of(*using))
+    return read(text, Theory.of(*_listed(using)))
+
+
+def _listed(using: Iterable[object]) -> tuple[object, ...]:
+    """What a text may mention; a single type or name is no list of them."""
+    with suppress(TypeError):
+        if not isinstance(using, str | TypeNode):
+            return tuple(using)
+    raise NotationError(
+        f"using is a list of what the text may mention, found {kind_of(using)}",
+        hint="write brackets, as in using=[Ind, dog]",
+    )
 
 
 def read(text: str, theory: Theory, source: str = "<text>") -> Object:

@@ -107,7 +107,7 @@ class Declaring:
         kind = self.reader.type(tree.type, ())
         theory = self.theory
         match tree.sit:
-            case Name(start, end, (name,), None) if name not in theory.names:
+            case Name(start, end, (name,), None) if not _is_declared(theory, name):
                 self._claim(Word(start, end, name), "an object", ())
                 theory = replace(theory, objects=theory.objects | {name})
         sit = replace(self.reader, theory=theory).object(tree.sit, ())
@@ -166,7 +166,7 @@ class Declaring:
         """Refuses a name that means something else already."""
         if word.text in RESERVED:
             self.reader.refuse(word, f"{word.text} is a word of the notation itself")
-        if word.text in self.theory.names and word.text not in mine:
+        if word.text not in mine and _is_declared(self.theory, word.text):
             self.reader.refuse(word, f"{word.text} is already {self._kind(word.text)}")
 
     def _kind(self, name: str) -> str:
@@ -176,6 +176,12 @@ class Declaring:
             "a predicate": self.theory.predicates,
         }
         return next((k for k, names in kinds.items() if name in names), "an object")
+
+
+def _is_declared(theory: Theory, name: str) -> bool:
+    """Whether a name is among those of a theory, without listing them all."""
+    kinds = (theory.objects, theory.definitions, theory.basics, theory.predicates)
+    return any(name in kind for kind in kinds)
 
 
 def mentioned(tree: Statement) -> frozenset[str]:
