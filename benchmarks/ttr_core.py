@@ -172,7 +172,14 @@ def parsing(n: int) -> Task:
     return lambda: theory.parse(text)
 
 
-# --- models, lists and strings of n --------------------------------------------------
+def reading(n: int) -> Task:
+    statements = [f"T{i} := [x : Ind, c : p(x)]" for i in range(n)]
+    text = "\n".join(("basic Ind", "pred p(Ind)", *statements))
+    assert len(Theory.parse(text).definitions) == n
+    return lambda: Theory.parse(text)
+
+
+# --- models, lists, strings and theories of n ----------------------------------------
 
 
 def individuals(n: int) -> tuple[list[str], Model]:
@@ -256,7 +263,8 @@ MEASURES: Mapping[str, Mapping[str, Measure]] = {
         "print": Measure(printing, limits={320: 5}),
         "parse": Measure(parsing, limits={320: 60}),
     },
-    "models, lists and strings of n": {
+    "models, lists, strings and theories of n": {
+        "read a theory": Measure(reading, COUNTS[:4], {1_000: 1200}, (1_000, 10_000)),
         "one fact more": Measure(one_fact_more, COUNTS, {100_000: 0.05}),
         "is a known witness": Measure(one_of_many, COUNTS, {100_000: 0.01}),
         "judge a list": Measure(long_list, COUNTS),

@@ -48,6 +48,7 @@ def rectype(
     >>> rectype(c=dog(this.y), x=Ind)
     Traceback (most recent call last):
     ttr.errors.IllFormed: the path y leads nowhere: [c : dog(.y), x : Ind] has no y
+    help: outer.y, written ^.y, is the y one record further out
     """
     from ttr.formation import checked
 

@@ -9,10 +9,11 @@ from ttr.assignments import Assignment
 from ttr.circles import straightened
 from ttr.creating import created, told
 from ttr.errors import TTRError
-from ttr.hypothetical import ITSELF, Assumption, elements
+from ttr.hypothetical import Assumption
 from ttr.judgements import Judgement, Why
 from ttr.models import Model
 from ttr.objects import Unresolved
+from ttr.places import ITSELF, elements
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.substitution import along
 from ttr.subtyping import Refutation

@@ -9,12 +9,14 @@ from typing import assert_never
 
 from ttr.assignments import Assignment
 from ttr.cases import cases, splits
+from ttr.circles import circle
 from ttr.errors import Refused, TTRError
-from ttr.hypothetical import ITSELF, Hypothetical, step
+from ttr.hypothetical import Hypothetical
 from ttr.judging import derivation, reduced
 from ttr.merging import merge
 from ttr.objects import Unresolved, concat
 from ttr.paths import escaping, moved, occurring, replace_paths
+from ttr.places import ITSELF, step
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED
 from ttr.substitution import grounded
@@ -239,8 +241,10 @@ class _Making:
             try:
                 ground = grounded(field, (fields,))
             except Unresolved as unresolved:
+                around = circle(T)
+                why = f"its fields go in a circle: {around}" * bool(around)
                 raise Refused(
-                    f"the field {label} cannot be created: {unresolved.message}",
+                    f"the field {label} cannot be created: {why or unresolved.message}",
                     hint="fields on a cycle can be judged, but not created",
                 ) from unresolved
             fields[label], facts = self.one(facts, ground)

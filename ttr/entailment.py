@@ -13,21 +13,12 @@ from typing import assert_never
 
 from ttr.axioms import above
 from ttr.cases import Clause, cases, clauses
-from ttr.hypothetical import (
-    ITSELF,
-    Assumption,
-    Hypothetical,
-    element,
-    elements,
-    event,
-    instantiated,
-    step,
-    unpacked,
-)
+from ttr.hypothetical import Assumption, Hypothetical
 from ttr.levels import why_outside
 from ttr.paths import replace_paths
+from ttr.places import ITSELF, element, elements, event, instantiated, step, unpacked
 from ttr.printing import notation
-from ttr.strings import is_of_strings
+from ttr.strings import covers, is_of_strings
 from ttr.syntax import (
     Application,
     Basic,
@@ -285,8 +276,8 @@ class Question:
             return self._repeated(term, T, where)
         if events is None:
             return self._not_below(term, T, where)
-        reached = _reached(T, len(events), lambda i, U: self.ask(events[i], U).yes)
-        return _YES if reached else self._not_below(term, T, where)
+        covered = covers(T, len(events), lambda i, U: self.ask(events[i], U).yes)
+        return _YES if covered else self._not_below(term, T, where)
 
     def _events(self, term: Object) -> Sequence[Object] | None:
         """The events of a string, or None where it is not known how many they are."""
@@ -447,37 +438,6 @@ def _written(term: Object, T: ListOf | NonEmpty | SetOf) -> tuple[Object, ...] |
     kind = FiniteSet if isinstance(T, SetOf) else tuple
     inside = elements(term) if isinstance(term, kind) else None
     return None if isinstance(T, NonEmpty) and not inside else inside
-
-
-def _reached(T: TypeNode, length: int, asked: Callable[[int, TypeNode], bool]) -> bool:
-    """Whether a string of so many events surely is of a type of strings."""
-
-    def ends(start: int, U: TypeNode) -> set[int]:
-        match U:
-            case Join(parts):
-                return set().union(*[ends(start, part) for part in parts])
-            case Str(items):
-                stop = start + len(items)
-                fits = stop <= length and all(
-                    asked(start + i, item) for i, item in enumerate(items)
-                )
-                return {stop} if fits else set()
-            case Plus(item):
-                return repeated(start, item)
-        if is_of_strings(U):
-            return set()
-        return {start + 1} if start < length and asked(start, U) else set()
-
-    def repeated(start: int, U: TypeNode) -> set[int]:
-        found: set[int] = set()
-        waiting = [start]
-        while waiting:
-            new = ends(waiting.pop(), U) - found
-            found |= new
-            waiting += new
-        return found
-
-    return length in ends(0, T)
 
 
 def _asks(term: Object, T: TypeNode) -> Callable[[Question], Finding]:

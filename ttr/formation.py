@@ -71,8 +71,9 @@ def checked(T: RecordType, theory: Signature | None = None) -> RecordType:
     Paths that lead out of T are left to the record type that will be built around it.
     """
     theory = signature_of(theory)
+    scope = _scope(T)
     for label, field in T.fields:
-        _check(field, _scope(T), (label,), theory)
+        _check(field, scope, (label,), theory)
     return T
 
 
@@ -122,10 +123,18 @@ def target(path: Path, T: RecordType) -> TypeNode:
             lacks = f"has no {label}" if is_record else "is no record type"
             raise IllFormed(
                 f"the path {_written(path)} leads nowhere: {_shown(here)} {lacks}",
-                hint=suggestion(label, labels),
+                hint=suggestion(label, labels) or _further_out(path, here),
             )
         here = field
     return here
+
+
+def _further_out(path: Path, T: TypeNode) -> str:
+    """What to write for a label that another record type around T has."""
+    if len(path.labels) > 1 or not isinstance(T, RecordType):
+        return ""
+    label = path.labels[0]
+    return f"outer.{label}, written ^.{label}, is the {label} one record further out"
 
 
 def _written(path: Path) -> str:

@@ -14,6 +14,17 @@ from collections.abc import Collection, Iterable
 
 from ttr.levels import why_outside
 from ttr.paths import escaping, occurring, replace_paths
+from ttr.places import (
+    EACH,
+    ITSELF,
+    element,
+    elements,
+    event,
+    instantiated,
+    step,
+    unpacked,
+    within,
+)
 from ttr.syntax import (
     Application,
     Basic,
@@ -40,96 +51,10 @@ from ttr.syntax import (
     identity,
 )
 
-__all__ = [
-    "ITSELF",
-    "Assumption",
-    "Hypothetical",
-    "element",
-    "elements",
-    "event",
-    "instantiated",
-    "step",
-    "unpacked",
-]
-
-ITSELF = Path(0, ("·",))
-"""The place of the witness itself; its name is no label."""
+__all__ = ["Assumption", "Hypothetical"]
 
 Assumption = tuple[Object, TypeNode]
 """That a place or an object is of a type."""
-
-_EACH = "*"
-"""The step from a list or set to an arbitrary element of it; it is no label."""
-
-
-def step(place: Path, label: str) -> Path:
-    """The place one label further in."""
-    return Path(place.up, (*place.labels, label))
-
-
-def element(place: Path) -> Path:
-    """The place of an arbitrary element of the list or set at a place."""
-    return step(place, _EACH)
-
-
-def event(place: Path, number: int) -> Path:
-    """The place of an event of the string at a place; they are counted from 0."""
-    return step(place, str(number))
-
-
-def elements(term: Object) -> tuple[Object, ...] | None:
-    """What is in a list, a set or a string that is written out; else None."""
-    if isinstance(term, FiniteSet | EventString):
-        return term.items
-    return term if isinstance(term, tuple) else None
-
-
-def unpacked(field: TypeNode, whole: Path | Record) -> TypeNode:
-    """The type of a field of a record as seen from outside the record.
-
-    `whole` is the record, or the place where it stands.
-    """
-
-    def outside(path: Path) -> Object:
-        if path.up > 0:
-            return Path(path.up - 1, path.labels)
-        return _inside(whole, path.labels)
-
-    found: TypeNode = replace_paths(field, outside)
-    return found
-
-
-def instantiated(inside: Object, term: Object) -> Object:
-    """The inside of a binder, as seen from outside, with a term for its variable."""
-
-    def outside(path: Path) -> Object:
-        if path.up > 0:
-            return Path(path.up - 1, path.labels)
-        return _inside(term, path.labels[1:])
-
-    return replace_paths(inside, outside)
-
-
-def _inside(value: Object, labels: tuple[str, ...]) -> Object:
-    """Where the labels lead in an object or from a place.
-
-    A path that leads nowhere becomes one that starts nowhere: it equals nothing else.
-    """
-    for done, label in enumerate(labels):
-        if isinstance(value, Path):
-            return Path(value.up, value.labels + labels[done:])
-        if isinstance(value, EventString) and _is_event(value, label):
-            value = value.items[int(label)]
-            continue
-        if not isinstance(value, Record) or label not in value:
-            return Path(0, ("", *labels))
-        value = value[label]
-    return value
-
-
-def _is_event(string: EventString, label: str) -> bool:
-    """Whether a label, which may be a number, is that of an event of the string."""
-    return label.isdigit() and int(label) < len(string)
 
 
 class Hypothetical:
@@ -261,7 +186,7 @@ class Hypothetical:
             case RecordType(fields) if isinstance(term, Record):
                 self._classify(term, T, condition)
                 for label, field in fields:
-                    inner = _inside(term, (label,))
+                    inner = within(term, (label,))
                     self._spread(inner, unpacked(field, term), condition)
             case RecordType():
                 self._followed = False
@@ -280,7 +205,7 @@ class Hypothetical:
 
     def _condition(self, place: Path) -> Path | None:
         """The innermost element of a list that a place is, or is in."""
-        if _EACH not in place.labels:
+        if EACH not in place.labels:
             return None
         labels = _to_element(place)
         found = self.normal(Path(0, labels[:-1]))
@@ -351,7 +276,7 @@ class Hypothetical:
             labels = chosen.labels
             if length == len(labels):
                 passed.append(labels)
-            chosen = _inside(self._equal[labels[:length]], labels[length:])
+            chosen = within(self._equal[labels[:length]], labels[length:])
         self._equal.update(dict.fromkeys(passed, chosen))
         return chosen if isinstance(chosen, Path) else self.normal(chosen)
 
@@ -489,4 +414,4 @@ def _to_element(place: Path) -> tuple[str, ...]:
     """The labels to the innermost element of a list that the place is in, or none."""
     labels = place.labels
     lengths = range(len(labels), 0, -1)
-    return next((labels[:n] for n in lengths if labels[n - 1] == _EACH), ())
+    return next((labels[:n] for n in lengths if labels[n - 1] == EACH), ())

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, dataclass_transform
 from weakref import ref
 
 from ttr.display.notebooks import Drawn
-from ttr.errors import IllFormed
+from ttr.errors import IllFormed, TTRError
 
 __all__ = ["Node", "identity", "node"]
 
@@ -78,7 +78,17 @@ class _Interning(type):
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
 def node(cls: type[Node]) -> Any:
     """Makes an interned, immutable node class of annotated fields."""
-    return dataclass(frozen=True, eq=False, repr=False, slots=True)(cls)
+    made: Any = dataclass(frozen=True, eq=False, repr=False, slots=True)(cls)
+    made.__setattr__, made.__delattr__ = _kept_from_setting, _kept_from_deleting
+    return made
+
+
+def _kept_from_setting(_: Node, name: str, value: object) -> None:
+    raise TTRError(f"types and predicates do not change, so {name} cannot be set")
+
+
+def _kept_from_deleting(_: Node, name: str) -> None:
+    raise TTRError(f"types and predicates do not change, so {name} cannot be deleted")
 
 
 class Node(Drawn, metaclass=_Interning):

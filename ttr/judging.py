@@ -160,7 +160,7 @@ class _Derivation:
         if not sit.items and is_of_strings(T.item):
             grounds = [self.of(sit, T.item, around, "")]
             return self._whole(sit, T, "piece by piece", grounds, where)
-        judge = _Pieces(self, sit, around)
+        judge = _EventJudge(self, sit, around)
         sure = divided(len(sit), T.item, judge, lambda why: why.p == CERTAIN)
         found = sure
         if not sure.ways:
@@ -267,7 +267,7 @@ class _Derivation:
         }
 
 
-class _Pieces:
+class _EventJudge:
     """Judges the parts of a string, each event once for every type."""
 
     def __init__(self, derives: _Derivation, sit: EventString, around: Around) -> None:

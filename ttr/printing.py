@@ -12,8 +12,16 @@ import keyword
 import math
 from collections.abc import Iterable
 
+from ttr.brackets import (
+    WORDS,
+    begins_with_bracket,
+    binds,
+    holds_as_head,
+    is_loose,
+    is_loose_beside,
+)
 from ttr.objects import Missing
-from ttr.paths import escaping, occurring, replace_paths
+from ttr.paths import occurring, replace_paths
 from ttr.paths import parts as contents
 from ttr.syntax import (
     BOUND,
@@ -43,7 +51,7 @@ from ttr.syntax import (
     Universe,
 )
 
-__all__ = ["Scope", "notation", "python", "variable"]
+__all__ = ["Scope", "as_object", "head", "notation", "python", "variable"]
 
 Scope = tuple[frozenset[str] | str, ...]
 """The scopes around, innermost first: the labels of a record type, or a variable."""
@@ -65,14 +73,14 @@ def notation(value: Object, scope: Scope = ()) -> str:
         case Universe(name, level):
             return f"{name}^{level}"
         case PType(pred, args):
-            return f"{pred.name}({_listed(args, scope)})"
+            return f"{pred.name}({_objects(args, scope)})"
         case RecordType(()):
             return "Rec"
         case RecordType(fields):
             inner = (frozenset(value.labels), *scope)
             return f"[{', '.join(_field(k, f, inner) for k, f in fields)}]"
         case Singleton(base, obj):
-            return f"{_tight(base, scope)}@{_tight(obj, scope)}"
+            return f"{_tight(base, scope)}@{_tight_object(obj, scope)}"
         case Meet(parts):
             return " /\\ ".join(_operand(part, scope) for part in parts)
         case Join(parts):
@@ -82,59 +90,76 @@ def notation(value: Object, scope: Scope = ()) -> str:
         case FunType() | Function():
             return _binder(value, scope)
         case Application(function, argument):
-            return f"{_head(function, scope)}({notation(argument, scope)})"
+            return f"{head(function, scope)}({_objects((argument,), scope)})"
         case Operation("+", args):
-            return " + ".join(_tight(arg, scope) for arg in args)
+            return " + ".join([_tight_object(arg, scope) for arg in args])
+        case Operation(name, args):
+            return f"{name}({_objects(args, scope)})"
         case Path():
             return _path(value, scope)
-    call = _CALLS.get(type(value))
-    if call is not None:
-        return f"{call}({_listed(_arguments(value), scope)})"
-    if isinstance(value, Operation):
-        return f"{value.name}({_listed(value.args, scope)})"
+    if type(value) in WORDS:
+        types, _ = contents(value)
+        inside = ", ".join([notation(T, scope) for T in types])
+        return f"{WORDS[type(value)]}({inside})"
     return _object(value, scope)
-
-
-_CALLS: dict[type, str] = {
-    ListOf: "list",
-    NonEmpty: "nelist",
-    SetOf: "set",
-    Plus: "plus",
-    Str: "str",
-}
-"""Types that are written as a word with arguments."""
-
-
-def _arguments(T: Object) -> tuple[TypeNode, ...]:
-    return T.items if isinstance(T, Str) else (T.item,)
 
 
 def _field(label: str, field: TypeNode, scope: Scope) -> str:
     match field:
         case Singleton(base, obj):
-            return f"{label} = {notation(obj, scope)} : {notation(base, scope)}"
+            given = notation(as_object(obj, scope), scope)
+            return f"{label} = {given} : {notation(base, scope)}"
     return f"{label} : {notation(field, scope)}"
 
 
 def _operand(value: Object, scope: Scope) -> str:
     """A part of a meet, join or negation: in brackets unless it binds closer."""
     text = notation(value, scope)
-    loose = isinstance(value, Meet | Join | Singleton | Function)
-    return f"({text})" if loose else text
+    return f"({text})" if is_loose(value) else text
 
 
 def _tight(value: Object, scope: Scope) -> str:
     """A part beside @, + or an arrow: in brackets unless it holds together."""
-    loose = isinstance(value, Negation) or _is_sum(value)
-    return f"({notation(value, scope)})" if loose else _operand(value, scope)
+    text = notation(value, scope)
+    return f"({text})" if is_loose_beside(value) else text
 
 
-def _is_sum(value: Object) -> bool:
-    return isinstance(value, Operation) and value.name == "+"
+# --- where an object stands ----------------------------------------------------------
 
 
-def _listed(values: Iterable[Object], scope: Scope) -> str:
-    return ", ".join([notation(v, scope) for v in values])
+def as_object(value: Object, scope: Scope) -> Object:
+    """What to write for it where an object stands, as an argument or after `=` or `@`.
+
+    There a label or variable of the name of a type hides the type. T ∧ T is T, and in
+    a meet names are types.
+
+    >>> from ttr.syntax import Ind
+    >>> near, far = frozenset({"x"}), frozenset({"Ind"})
+    >>> print(as_object(Ind, (near,)))
+    Ind
+    >>> print(as_object(Ind, (near, far)))
+    Ind /\\ Ind
+    """
+    if not isinstance(value, TypeNode):
+        return value
+    match value:
+        case Basic(name) | Universe(name, 0) if _hides(scope, name):
+            return Meet((value, value))
+        case RecordType(()) if _hides(scope, "Rec"):
+            return Meet((value, value))
+    return value
+
+
+def _hides(scope: Scope, name: str) -> bool:
+    return any(name == names or name in _labels(names) for names in scope)
+
+
+def _objects(values: Iterable[Object], scope: Scope) -> str:
+    return ", ".join([notation(as_object(v, scope), scope) for v in values])
+
+
+def _tight_object(value: Object, scope: Scope) -> str:
+    return _tight(as_object(value, scope), scope)
 
 
 # --- functions and their variables ---------------------------------------------------
@@ -144,33 +169,23 @@ def _binder(value: FunType | Function, scope: Scope) -> str:
     match value:
         case Function(domain, body):
             name = variable(value, scope)
-            inner = notation(body, (name, *scope))
+            inside = (name, *scope)
+            inner = notation(as_object(body, inside), inside)
             return f"\\{name}:{_tight(domain, scope)}. {inner}"
         case FunType(domain, result):
-            if not _binds(result):
-                inner = _result(result, ("", *scope))
+            if not binds(result):
+                inner = _operand(result, ("", *scope))
                 return f"({_tight(domain, scope)} -> {inner})"
             name = variable(value, scope)
-            inner = _result(result, (name, *scope))
+            inner = _operand(result, (name, *scope))
             return f"(({name} : {notation(domain, scope)}) -> {inner})"
-
-
-def _result(T: TypeNode, scope: Scope) -> str:
-    """What stands after an arrow."""
-    text = notation(T, scope)
-    return f"({text})" if isinstance(T, Meet | Join | Singleton) else text
-
-
-def _binds(inside: Object) -> bool:
-    """Whether the inside of a binder mentions its variable."""
-    return any(path.up == 0 for path in escaping(inside))
 
 
 def variable(value: FunType | Function, scope: Scope) -> str:
     """The name to write for the variable: its hint, unless that would be misread.
 
-    It is another than the variables around, the labels in the body and the predicates
-    applied in it.
+    It is another than the variables around, and than the labels, predicates and basic
+    types in the body.
     """
     inside = value.body if isinstance(value, Function) else value.result
     taken = {name for name in scope if isinstance(name, str)} | RESERVED
@@ -178,7 +193,7 @@ def variable(value: FunType | Function, scope: Scope) -> str:
         match part:
             case RecordType():
                 taken.update(part)
-            case Pred(name):
+            case Pred(name) | Basic(name):
                 taken.add(name)
     name, number = value.hint, 1
     while name in taken:
@@ -186,16 +201,21 @@ def variable(value: FunType | Function, scope: Scope) -> str:
     return name
 
 
-def _head(function: Object, scope: Scope) -> str:
-    """What is applied: a path with its dot, so that it is not read as a predicate."""
+def head(function: Object, scope: Scope) -> str:
+    """What is applied, as it stands before its argument.
+
+    A path has a dot and a name has quotes, so that neither is read as a predicate.
+
+    >>> print(head(Path(0, ("f",)), (frozenset({"f"}),)), head("f", ()), head(3, ()))
+    .f "f" (3)
+    """
     match function:
         case Path(up, labels) if labels[0] != BOUND:
             return _dotted(up, labels, scope)
-        case Path() | Application():
-            return notation(function, scope)
         case str():
             return json.dumps(function, ensure_ascii=False)
-    return f"({notation(function, scope)})"
+    text = notation(function, scope)
+    return text if holds_as_head(function) else f"({text})"
 
 
 def _path(path: Path, scope: Scope) -> str:
@@ -234,40 +254,38 @@ def _object(value: Object, scope: Scope) -> str:
     if kind is str:
         return _name(value, scope)
     if kind is tuple:
-        return f"[{_listed(value, scope)}]"
+        return f"[{_objects(value, scope)}]"
     if kind is int or (kind is float and math.isfinite(value)):
         return repr(value)
     match value:
         case Record():
             items = sorted(value._fields.items())
-            inside = ", ".join(f"{label} = {notation(v, scope)}" for label, v in items)
-            return f"{{{inside}}}"
+            inside = [f"{k} = {notation(as_object(v, scope), scope)}" for k, v in items]
+            return f"{{{', '.join(inside)}}}"
         case Missing():
             return "nothing"
         case FiniteSet(items):
-            return f"{'' if items else 'set'}{{{_listed(items, scope)}}}"
+            return f"{'' if items else 'set'}{{{_objects(items, scope)}}}"
         case EventString(items):
-            return _string([_tight(item, scope) for item in items])
+            return _string([as_object(item, scope) for item in items], scope)
     return f"<{kind.__name__} {_size(value)}>"
 
 
-def _string(items: list[str]) -> str:
+def _string(events: list[Object], scope: Scope) -> str:
     """<a b>, with commas where an event could be read as an argument of the last."""
-    between = ", " if any(item.startswith("(") for item in items) else " "
-    return f"<{between.join(items)}>"
+    between = ", " if any(map(begins_with_bracket, events)) else " "
+    return f"<{between.join([_tight(event, scope) for event in events])}>"
 
 
 def _name(name: str, scope: Scope) -> str:
     """A name, quoted where it would be read as a label or as something else."""
     bare = name.isidentifier() and name not in RESERVED
-    if bare and not any(name == names or name in _labels(names) for names in scope):
+    if bare and not _hides(scope, name):
         return name
     return json.dumps(name, ensure_ascii=False)
 
 
-_TYPES = ("Type", "RecType", "Rec", "list", "nelist", "set", "str", "plus")
-
-RESERVED = frozenset((*_TYPES, "fst", "rst", "fun"))
+RESERVED = frozenset((*WORDS.values(), "Type", "RecType", "Rec", "fst", "rst", "fun"))
 """The words of the notation, which name nothing else."""
 
 
@@ -334,7 +352,7 @@ def _python_binder(value: FunType | Function) -> str:
     match value:
         case Function(domain, body, hint):
             call, inside = "fun", body
-        case FunType(domain, result) if not _binds(result):
+        case FunType(domain, result) if not binds(result):
             outside = replace_paths(result, lambda p: Path(p.up - 1, p.labels))
             return f"({python(domain)} >> {python(outside)})"
         case FunType(domain, inside, hint):

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import BuiltinFunctionType, FunctionType, ModuleType, NoneType
 from typing import TYPE_CHECKING
 
 from ttr.display.drawing import drawn, drawn_derivation
 from ttr.display.folding import folding
 from ttr.display.layout import Layout, Line, Sign, Step, Word, laid_out
 from ttr.display.markup import marked_up, marked_up_derivation
+from ttr.display.notebooks import Drawn
 from ttr.display.typesetting import typeset, typeset_derivation
 from ttr.errors import IllFormed, following_nesting
 from ttr.judgements import Judgement, Why, mark
@@ -32,8 +34,8 @@ def box(
 
     Takes a type, an object, a judgement or its `why`. With `unfold=0` the names of the
     theory stand for what they are defined as, with `unfold=1` one level of definitions
-    is opened, and so on. Raises `IllFormed` for a wrong number, `Unsupported` for what
-    nests too deep.
+    is opened, and so on. Raises `IllFormed` for a wrong number and for what is none of
+    these, as a theory; `Unsupported` for what nests too deep.
 
     >>> from ttr import Ind, Pred, rectype, this
     >>> print(box(rectype(x=Ind, c=Pred("dog", Ind)(this.x))))
@@ -92,10 +94,27 @@ def _showing(theory: Signature | None, unfold: int | None) -> _Shown:
 
 def _shown(value: object, shown: _Shown) -> Layout:
     if not isinstance(value, Judgement):
-        return shown(freeze(value))
+        return shown(_drawable(value))
     degree = (Word("p", "variable"), Sign(" = "), Word(str(value.p), "text"))
     claim = _claim(value, shown)
     return Line((*claim.parts, Sign("   "), *degree))
+
+
+_OF_PYTHON = (NoneType, type, FunctionType, BuiltinFunctionType, ModuleType)
+"""What is a slip where an object is to be drawn."""
+
+
+def _drawable(value: object) -> Object:
+    """The value as an object; raises `IllFormed` for theories, models, answers, …"""
+    found = freeze(value)
+    kind: type = type(found)
+    is_ours = kind.__module__.startswith("ttr.")
+    if isinstance(found, _OF_PYTHON) or (is_ours and not isinstance(found, Drawn)):
+        raise IllFormed(
+            "types, objects, judgements and derivations are drawn, "
+            f"found {kind.__name__}"
+        )
+    return found
 
 
 def _claim(value: Judgement | Why, shown: _Shown) -> Line:

@@ -8,7 +8,7 @@ from typing import Any, Generic, Protocol, TypeVar
 
 from ttr.syntax import Join, Meet, Plus, Singleton, Str, TypeNode
 
-__all__ = ["Division", "Judge", "Piece", "divided", "is_of_strings"]
+__all__ = ["Division", "Judge", "Piece", "covers", "divided", "is_of_strings"]
 
 Ground = TypeVar("Ground")
 Ground_co = TypeVar("Ground_co", covariant=True)
@@ -194,3 +194,43 @@ class _Pieces(Generic[Ground]):
                 return
             grounds.append(ground)
         yield Piece(start, start + len(items), tuple(grounds))
+
+
+def covers(T: TypeNode, length: int, asked: Callable[[int, TypeNode], bool]) -> bool:
+    """Whether a string of so many events surely is of a type of strings.
+
+    `asked` says whether an event, by its number, surely is of a type of events.
+
+    >>> from ttr.syntax import Ind
+    >>> covers(Plus(Str(Ind, Ind)), 4, lambda number, T: True)
+    True
+    >>> covers(Plus(Str(Ind, Ind)), 3, lambda number, T: True)
+    False
+    """
+
+    def ends(start: int, U: TypeNode) -> set[int]:
+        match U:
+            case Join(parts):
+                return set().union(*[ends(start, part) for part in parts])
+            case Str(items):
+                stop = start + len(items)
+                fits = stop <= length and all(
+                    asked(start + i, item) for i, item in enumerate(items)
+                )
+                return {stop} if fits else set()
+            case Plus(item):
+                return repeated(start, item)
+        if is_of_strings(U):
+            return set()
+        return {start + 1} if start < length and asked(start, U) else set()
+
+    def repeated(start: int, U: TypeNode) -> set[int]:
+        found: set[int] = set()
+        waiting = [start]
+        while waiting:
+            new = ends(waiting.pop(), U) - found
+            found |= new
+            waiting += new
+        return found
+
+    return length in ends(0, T)

@@ -14,9 +14,10 @@ from ttr.cases import cases
 from ttr.circles import in_order
 from ttr.entailment import Finding, Question
 from ttr.errors import following_nesting
-from ttr.hypothetical import ITSELF, Assumption
+from ttr.hypothetical import Assumption
 from ttr.interning import Node
 from ttr.paths import occurring
+from ttr.places import ITSELF
 from ttr.syntax import (
     Basic,
     EventString,

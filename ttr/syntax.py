@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from ttr.errors import IllFormed
 from ttr.interning import Node, identity, node
@@ -117,7 +117,11 @@ def as_type(value: object) -> TypeNode:
     """The value, if it is a type; else `IllFormed` says what it is."""
     if isinstance(value, TypeNode):
         return value
-    raise IllFormed(f"expected a type, found {kind_of(value)}")
+    raise _no_type(value)
+
+
+def _no_type(found: object) -> IllFormed:
+    return IllFormed(f"expected a type, found {kind_of(found)}")
 
 
 def kind_of(value: object) -> str:
@@ -475,6 +479,13 @@ class Pred(Node):
     def __call__(self, *args: object) -> PType:
         """The ptype of situations in which the predicate holds of these objects."""
         return PType(self, args)
+
+    def _refuse(self, *_: object) -> NoReturn:
+        """Says that the signs for types take no predicate."""
+        raise _no_type(self)
+
+    __and__ = __or__ = __invert__ = __rshift__ = __matmul__ = _refuse
+    __le__ = __ge__ = _refuse
 
     def __reduce__(self) -> tuple[object, ...]:
         return Pred, (self.name, *self.arities)

@@ -88,6 +88,13 @@ class Signature:
     givens: tuple[Given, ...] = ()
     definitions: Mapping[str, Object] = field(default_factory=_nothing)
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.axioms, tuple):
+            raise IllFormed(
+                f"a theory is made of a tuple of axioms, found {kind_of(self.axioms)}",
+                hint="to read a text, write Theory.parse(text)",
+            )
+
 
 def signature_of(theory: object) -> Signature:
     """The theory, or the empty one for None; raises `IllFormed` for what is none."""
@@ -235,10 +242,17 @@ class Theory(Signature):
         return self.objects.union(self.definitions, self.basics, self.predicates)
 
     def __getitem__(self, name: str) -> Object:
+        if not isinstance(name, str):
+            raise IllFormed(f"a theory is asked for a name, found {kind_of(name)}")
         for declared in (self.definitions, self.basics, self.predicates):
             if name in declared:
                 return declared[name]
         raise KeyError(self._missing(name))
+
+    def __contains__(self, name: object) -> bool:
+        """Whether a definition, basic type or predicate has the name."""
+        known = (self.definitions, self.basics, self.predicates)
+        return any(name in declared for declared in known)
 
     def __getattr__(self, name: str) -> Object:
         if name.startswith("_"):

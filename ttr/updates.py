@@ -20,7 +20,7 @@ from ttr.models import Model
 from ttr.printing import notation
 from ttr.probability import CERTAIN
 from ttr.records import differences
-from ttr.syntax import Object, Record, RecordType, TypeNode, freeze
+from ttr.syntax import Object, Record, RecordType, TypeNode, freeze, kind_of
 
 __all__ = [
     "Algorithm",
@@ -226,6 +226,10 @@ def run(
     _algorithms("run", (algorithm,))
     if isinstance(events, str):
         raise UpdateError(f"events are a list of objects, found the one {events!r}")
+    if not isinstance(events, Iterable):
+        raise UpdateError(f"events are a list of objects, found {kind_of(events)}")
+    if not isinstance(model, Model):
+        raise UpdateError(f"a run is in a model, found {kind_of(model)}")
     state, events = freeze(state), tuple(map(freeze, events))
     _check(state, type, model, "before the first rule")
     trace: list[Step] = []

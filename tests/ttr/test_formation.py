@@ -96,3 +96,16 @@ def test_the_question_has_an_answer_with_a_reason():
     assert wellformed(misfit, Signature(axioms=(Axiom(Dog, Ind),))).yes
     with pytest.raises(IllFormed, match="expected a type, found the predicate dog"):
         wellformed(dog)
+
+
+def test_a_label_of_the_record_around_is_reached_by_outer():
+    with pytest.raises(IllFormed, match="the path x leads nowhere") as caught:
+        rectype(x=Ind, y=rectype(c=dog(this.x)))
+    assert caught.value.hint == "outer.x, written ^.x, is the x one record further out"
+    rectype(x=Ind, y=rectype(c=dog(outer.x)))
+
+
+def test_the_label_that_was_meant_comes_before_those_further_out():
+    with pytest.raises(IllFormed) as caught:
+        rectype(xy=Ind, c=dog(this.x))
+    assert caught.value.hint == "did you mean xy?"

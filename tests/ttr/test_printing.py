@@ -7,13 +7,18 @@ import pytest
 
 import ttr
 from ttr import (
+    Application,
     Basic,
+    EventString,
     Ind,
     ListOf,
+    Pi,
     Pred,
     Rec,
     RecType,
     Type,
+    Universe,
+    fun,
     outer,
     record,
     rectype,
@@ -21,7 +26,8 @@ from ttr import (
 )
 from ttr.printing import notation
 
-dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)
+dog, hug, asks = Pred("dog", Ind), Pred("hug", Ind, Ind), Pred("asks", Type)
+A, Type1 = Basic("A"), Universe("Type", 1)
 
 WRITTEN = {
     "[x : Ind, c : dog(x)]": rectype(c=dog(this.x), x=Ind),
@@ -53,6 +59,29 @@ WRITTEN = {
     'dog("")': dog(""),
     "dog(été)": dog("été"),
     "dog(RecType)": dog(RecType),
+    '"f"(a)(b)': Application("f", "a")("b"),
+    "[P : (Ind -> Type), x : Ind, c : .P(x), d : P(x)]": rectype(
+        P=Ind >> Type, x=Ind, c=this.P(this.x), d=Pred("P", Ind)(this.x)
+    ),
+    "[A : Type, c : asks(A)]": rectype(A=Type, c=asks(this.A)),
+    "[A : Ind, c : asks(A /\\ A)]": rectype(A=Ind, c=asks(A)),
+    "[A : Ind, c : asks(list(A)), d : asks([y : A])]": rectype(
+        A=Ind, c=asks(ListOf(A)), d=asks(rectype(y=A))
+    ),
+    "[A : Ind, Rec : Ind, T = Type /\\ Type : Type^1, Type : Ind, x = "
+    "{l = [A /\\ A, Rec /\\ Rec]} : Rec]": rectype(
+        A=Ind, Rec=Ind, Type=Ind, T=Type1 @ Type, x=Rec @ record(l=[A, Rec])
+    ),
+    "[A : Ind, c : (Type@(A /\\ A)) \\/ asks(<(A /\\ A), a>)]": rectype(
+        A=Ind, c=(Type @ A) | asks(EventString(A, "a"))
+    ),
+    "[A : Ind, f = \\x:A. A /\\ A : (A -> Type)]": rectype(
+        A=Ind, f=(A >> Type) @ fun(x=A)(A)
+    ),
+    "\\A1:Ind. asks(A)": fun(A=Ind)(asks(A)),
+    "((A1 : Ind) -> [c : asks(A), d : dog(A1)])": Pi(A=Ind)(
+        rectype(c=asks(A), d=dog(outer.A))
+    ),
     "dog(<bool True>)": dog(True),
     "dog(<NoneType None>)": dog(None),
     "dog(<float nan>)": dog(float("nan")),
@@ -65,6 +94,12 @@ WRITTEN = {
 @pytest.mark.parametrize("text", WRITTEN)
 def test_notation(text):
     assert str(WRITTEN[text]) == text
+
+
+@pytest.mark.parametrize("text", [text for text in WRITTEN if "dog(<" not in text])
+def test_notation_reads_back(text):
+    names = ttr.Theory.of(WRITTEN[text])
+    assert names.parse(text) is WRITTEN[text]
 
 
 @pytest.mark.parametrize(

@@ -9,10 +9,12 @@ import pytest
 
 import ttr
 from ttr import (
+    Application,
     IllFormed,
     Ind,
     Model,
     Pred,
+    Type,
     Unsupported,
     outer,
     record,
@@ -71,6 +73,16 @@ Type^1
 believe(fido, [y : Ind, c : dog(y)])
 p([x : Ind, c : dog(x)] /\ [y : Ind])
 [e : hug(a, b) \/ (dog(a) /\ hug(b, a)) \/ cup(a, "somewhere_far_away_from_anywhere")]
+[dog : (Ind -> Type), x : Ind, c : .dog(x), d : dog(x)]
+[dog : (Ind -> Type), r : [x : Ind, c : ^.dog(x), d : dog(x)]]
+\f:(Ind -> Type). [x : Ind, c : f(x)]
+"fido"(a)(b)
+[l : list((Ind -> Type)), c : (fst(l))(b)]
+<a, (\x:Ind. dog(x))(b)>
+<a, (\x:Ind. \y:Ind. dog(x))(a)(b)>
+<a, (Ind@b)>
+[Ind : Loc_1, Rec : Ind, c : q(Ind /\ Ind), d = [Rec /\ Rec, Loc_1] : list(RecType)]
+[Ind : Loc_1, s = <(Ind /\ Ind), a> : plus(Type), t = {Ind /\ Ind} : set(Type)]
 """
 SAMPLES = {text: KENNEL.parse(text) for text in NOTATIONS.strip().splitlines()}
 
@@ -78,6 +90,9 @@ SAM = record(x="sam", c="s1")
 MODEL = Model(KENNEL).given("fido", Ind).given("s1", KENNEL.dog("fido"))
 FIVE = KENNEL.parse("[x : Ind, y : Ind, c : dog(x), d : dog(y), e : hug(x, y)]")
 OF_FIVE = record(x="fido", y="fido", c="s1", d="s1", e="s2")
+
+TYPED = {"∧": "/\\", "∨": "\\/", "¬": "~", "→": "->", "λ": "\\", "⟨": "<", "⟩": ">"}
+"""The signs that are drawn, as they are typed."""
 
 every_sample = pytest.mark.parametrize("T", SAMPLES.values(), ids=SAMPLES.keys())
 
@@ -141,6 +156,15 @@ every_sample = pytest.mark.parametrize("T", SAMPLES.values(), ids=SAMPLES.keys()
 )
 def test_a_box_is_the_matrix_of_the_papers(text: str, drawn: str) -> None:
     assert ttr.box(KENNEL.parse(text)) == drawn.strip("\n")
+
+
+def test_what_is_applied_is_drawn_as_it_is_printed() -> None:
+    P = Pred("P", Ind)
+    T = rectype(P=Ind >> Type, x=Ind, c=this.P(this.x), d=P(this.x))
+    assert [ttr.box(part) for part in (T["c"], T["d"])] == [".P(.x)", "P(.x)"]
+    assert ".P(x)" in ttr.box(T)
+    assert r"\mathrm{c} & : & {.}\mathrm{P}(\mathrm{x})" in ttr.latex(T)
+    assert ttr.box(Application("f", "a")) == '"f"(a)'
 
 
 def test_what_is_too_wide_stands_on_several_lines() -> None:
@@ -305,6 +329,19 @@ def test_what_is_copied_from_html_reads_back(T: object) -> None:
     copied = "".join(parsed(ttr.html(T)).itertext())
     names = ttr.Theory.of(T)
     assert names.parse(copied) is T
+
+
+@every_sample
+def test_html_has_the_words_and_signs_of_what_is_printed(T: object) -> None:
+    copied = "".join(parsed(ttr.html(T)).itertext())
+    assert closed_up(copied) == closed_up(str(T))
+
+
+def closed_up(text: str) -> str:
+    """The text without spaces, with the signs of the keyboard."""
+    for drawn, typed in TYPED.items():
+        text = text.replace(drawn, typed)
+    return "".join(text.split())
 
 
 @every_sample
@@ -505,3 +542,23 @@ def test_values_draw_themselves_in_a_notebook() -> None:
     for value in (KENNEL.Dog, SAM, ttr.FiniteSet("a"), j, j.why):
         assert value._repr_html_() == ttr.html(value)
         assert value._repr_latex_() == f"$\\displaystyle {ttr.latex(value)}$"
+
+
+@pytest.mark.parametrize("form", [ttr.box, ttr.latex, ttr.html])
+@pytest.mark.parametrize(
+    ("value", "kind"),
+    [
+        (Model(), "Model"),
+        (KENNEL, "Theory"),
+        (ttr.subtype(Ind, Type), "Answer"),
+        (rectype, "function"),
+        (None, "NoneType"),
+    ],
+)
+def test_what_is_only_about_objects_is_not_drawn(form, value, kind):
+    with pytest.raises(IllFormed, match=f"derivations are drawn, found {kind}$"):
+        form(value)
+
+
+def test_any_other_value_of_python_is_drawn_as_an_object():
+    assert ttr.box(3.5) == "3.5"

@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 
 import ttr
 from ttr.interactive.completing import completions
-from ttr.interactive.repl import COMMANDS, is_complete, respond
+from ttr.interactive.repl import COMMANDS, Pending, is_complete, respond
 from ttr.interactive.sessions import Session
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -128,6 +128,8 @@ MISTAKES = {
     'import "none.ttr"': ("there is no file", 1, ""),
     "Dog := [x : Idn]": ("nothing is called Idn here", 13, "did you mean Ind?"),
     "\x00": ("the control character '\\x00' is no notation", 1, ""),
+    "Cat = [x : Ind]": ("nothing is called Cat here", 1, "written Name := T"),
+    "Dgo = [x : Ind]": ("nothing is called Dgo here", 1, "mean Dog? a definition is"),
     "[" * 200: ("types and objects nest at most 100 deep", 101, ""),
 }
 
@@ -144,6 +146,21 @@ def test_a_mistake_is_underlined_and_changes_nothing(
     assert hint in reply.text.partition("help: ")[2] or not hint
 
 
+def test_what_rests_on_a_name_says_why_it_cannot_change(kennel: Session) -> None:
+    said = respond(kennel, "Ind := 3").text
+    assert said.startswith("error: Ind cannot change so: expected a type, found Ind")
+
+
+@pytest.mark.parametrize("name", ["exit", "help"])
+def test_a_name_that_is_declared_is_no_slip_for_a_command(name: str) -> None:
+    session = after(f"basic Ind\nobject {name} : Ind")
+    assert respond(session, name).text == name
+
+
+def test_a_hint_for_python_is_not_given_in_a_session(kennel: Session) -> None:
+    assert "help" not in respond(kennel, "\x07").text
+
+
 def test_a_mistake_in_a_later_line_is_underlined_there(kennel: Session) -> None:
     said = respond(kennel, "[x : Ind,\n  c : dgo(x)] <= Dog").text
     assert "<input>:2:7\n2 │   c : dgo(x)] <= Dog\n  │       ^^^" in said
@@ -155,7 +172,11 @@ def test_a_mistake_in_a_later_line_is_underlined_there(kennel: Session) -> None:
         (r"(\x:Ind. dog(x))('nobody')", "takes objects of Ind, which nobody is not"),
         ("create(Ind@fido /\\ Ind@sam)", "fido"),
         ("witnesses(list(Ind))", "cannot be listed"),
-        (":bx", "there is no command :bx\nhelp: did you mean box?"),
+        (":bx", "there is no command :bx\nhelp: did you mean :box?"),
+        (":wyh", "there is no command :wyh\nhelp: did you mean :why?"),
+        ("exit", "exit is no command here\nhelp: :help lists the commands, :quit ends"),
+        ("?", "? is no command here\nhelp: :help lists the commands, :quit ends"),
+        ("create([x = y : Ind, y = x : Ind])", "go in a circle: x → y → x"),
         (":", "there is no command :"),
         (":quit now", ":quit stands alone, found now"),
         (":load", ":load needs a file"),
@@ -291,7 +312,7 @@ def test_a_name_may_become_another_kind_of_name(kennel: Session) -> None:
     [
         ("Dog := [d : Dog]", "Dog would rest on itself"),
         ("Dog := [p : Pair]", "Dog would rest on Pair, which rests on Dog"),
-        ("pred dog(Ind, Ind)", "dog cannot change so, for then dog takes 2 arguments"),
+        ("pred dog(Ind, Ind)", "dog cannot change so: dog takes 2 arguments"),
         ("Ind := fido", "Ind would rest on fido, which rests on Ind"),
     ],
 )
@@ -624,3 +645,26 @@ def test_the_page_shows_what_happens(
             assert reply.text.splitlines() == shown, typed
             session, typed, shown = reply.session, "", []
         typed = f"{typed}\n{line[5:]}".strip()
+
+
+def test_each_line_of_a_long_input_is_looked_at_once() -> None:
+    def seconds(lines: int) -> float:
+        start = time.process_time()
+        pending = Pending()
+        for _ in range(lines):
+            pending = pending.after("[x : Ind,")
+        assert not pending.is_complete
+        return time.process_time() - start
+
+    seconds(100)
+    assert seconds(8000) < 20 * seconds(1000)
+
+
+@pytest.mark.parametrize(
+    "text", ["[x :\nInd]", "Dog :=\n\n# a comment\n[", ":load a.\n", "a\n:", "\\\nx"]
+)
+def test_an_input_is_whole_whether_looked_at_by_line_or_at_once(text: str) -> None:
+    pending = Pending()
+    for line in text.split("\n"):
+        pending = pending.after(line)
+    assert pending.is_complete == is_complete(text)

@@ -17,6 +17,7 @@ from ttr import (
     Rec,
     RecordType,
     Singleton,
+    TTRError,
     Universe,
     meet,
     outer,
@@ -124,10 +125,31 @@ def test_threads_get_the_same_node():
 
 
 def test_nodes_do_not_change():
-    with pytest.raises(AttributeError):
+    with pytest.raises(TTRError, match="do not change, so name cannot be set"):
         Ind.name = "Other"
-    with pytest.raises(AttributeError):
+    with pytest.raises(TTRError, match="do not change, so fields cannot be set"):
         rectype(x=Ind).fields = ()
+    with pytest.raises(TTRError, match="do not change, so x cannot be set"):
+        dog.x = 3
+    with pytest.raises(TTRError, match="do not change, so name cannot be deleted"):
+        del Ind.name
+
+
+@pytest.mark.parametrize(
+    "mistaken",
+    [
+        lambda: ~dog,
+        lambda: dog & dog,
+        lambda: dog | Ind,
+        lambda: dog >> Ind,
+        lambda: dog @ "a",
+        lambda: dog <= Ind,
+        lambda: Ind >> dog,
+    ],
+)
+def test_a_predicate_is_no_type(mistaken):
+    with pytest.raises(IllFormed, match="expected a type, found the predicate dog:"):
+        mistaken()
 
 
 def test_arities_are_a_set():

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pickle
+import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -10,8 +12,12 @@ import pytest
 import ttr
 from ttr.checking import check
 from ttr.constructors import rectype
-from ttr.errors import IllFormed, NotationError, TTRError
+from ttr.errors import IllFormed, NotationError, Span, TTRError
+from ttr.notation.drafts import Draft
+from ttr.notation.grammar import statement
 from ttr.notation.loading import Unreadable
+from ttr.notation.statements import Declaring
+from ttr.notation.trees import Part, Source
 from ttr.subtyping import subtype
 from ttr.syntax import Basic, Ind, Pred, this
 from ttr.syntax import Path as LabelPath
@@ -359,3 +365,103 @@ def test_the_package_offers_theories() -> None:
     assert ttr.Theory is Theory
     assert ttr.load is load
     assert str(ttr.check(theory("check Ind <= Ind"))) == "1 check holds"
+
+
+# --- how long it takes ---------------------------------------------------------------
+
+STATEMENTS = {
+    "definitions": "T{} := [x : Ind, c : dog(x)]",
+    "objects": "object a{} : Ind",
+    "facts": "given s{} : dog('rex')",
+    "checks": "check unknown 'rex{}' : Image",
+    "axioms": "hug(x, 'a{}') <: dog(x)",
+    "names nobody declared": "T{} := [x : Spoilt]",
+}
+
+
+@pytest.mark.parametrize("kind", STATEMENTS)
+def test_a_text_is_read_in_linear_time(kind: str) -> None:
+    line = STATEMENTS[kind]
+    spoilt = "Spoilt := Nobody\n" * (kind == "names nobody declared")
+
+    def seconds(count: int) -> float:
+        text = spoilt + "\n".join(line.format(i) for i in range(count))
+        start = time.process_time()
+        with suppress(NotationError):
+            theory(text)
+        return time.process_time() - start
+
+    seconds(50)
+    assert seconds(2000) < 8 * seconds(500)
+
+
+def test_a_mistake_in_a_statement_adds_nothing_of_it() -> None:
+    draft = Draft.of(theory(""))
+    for text in (
+        "basic A, dog",
+        "pred p(Ind), q(Idn)",
+        "object a, dog : Ind",
+        "given a : Ind = 3",
+        "open Ind, Nobody",
+        "X := [x : Idn]",
+        "puppy(x) <: dog(y)",
+        "check dog",
+    ):
+        source = Source(text)
+        with pytest.raises(TTRError):
+            Declaring(draft, source).declare(statement(source, 0, len(text)))
+    left, before = draft.finished(), theory("")
+    assert left.names == before.names
+    assert (left.givens, left.axioms, left.opened, left.checks) == ((), (), set(), ())
+
+
+def test_a_finished_theory_does_not_follow_its_draft() -> None:
+    draft = Draft.of(theory("Dog := [x : Ind, c : dog(x)]"))
+    kennel = draft.finished()
+    source = Source("Cat := [y : Ind]")
+    Declaring(draft, source).declare(statement(source, 0, len(source.text)))
+    assert "Cat" in draft.finished().names - kennel.names
+
+
+# --- slips ---------------------------------------------------------------------------
+
+
+def test_a_text_is_no_theory_by_itself() -> None:
+    with pytest.raises(IllFormed, match="found the object 'basic Ind'") as caught:
+        Theory("basic Ind")  # type: ignore[arg-type]
+    assert "Theory.parse(text)" in caught.value.hint
+
+
+def test_items_are_asked_for_by_name() -> None:
+    with pytest.raises(IllFormed, match="a theory is asked for a name, found int 3"):
+        theory("")[3]  # type: ignore[index]
+
+
+def test_a_type_nobody_declared_is_not_to_be_quoted() -> None:
+    assert mistake("X := [x : fido]").hint == "declare it first"
+    assert "or quote it" in mistake("X := Ind@fido").hint
+
+
+def test_only_a_text_in_python_has_escapes_of_python(tmp_path: Path) -> None:
+    assert "write r'…'" in mistake("X := \x07").hint
+    file = tmp_path / "a.ttr"
+    file.write_text("X := \x07", encoding="utf-8")
+    with pytest.raises(NotationError, match="control character") as caught:
+        load(file)
+    assert caught.value.hint == ""
+
+
+@pytest.mark.parametrize("at", [0, 5, 6, 7, 12, 13, 14, 99])
+@pytest.mark.parametrize("text", ["basic A\nX := B", "\n\nab\n", "", "one"])
+def test_a_place_is_the_same_with_lines_counted_once(text: str, at: int) -> None:
+    for length in (0, 1, 4, 20):
+        found = Source(text, "a").span(Part(min(at, len(text)), at + length))
+        assert found == Span.of("a", text, min(at, len(text)), at + length)
+
+
+def test_a_name_is_in_a_theory_or_not():
+    theory = Theory.parse("basic Ind\npred dog(Ind)\nobject fido : Ind")
+    assert "Ind" in theory
+    assert "dog" in theory
+    assert "Dog" not in theory
+    assert 3 not in theory

@@ -357,3 +357,15 @@ def test_the_example_of_the_contract():
     assert str(trace[0]).startswith(
         "accept_naming: What was named becomes common ground."
     )
+
+
+@pytest.mark.parametrize(
+    ("slip", "told"),
+    [
+        ({"model": "x"}, "a run is in a model, found the object 'x'"),
+        ({"events": 3}, "events are a list of objects, found int 3"),
+    ],
+)
+def test_what_a_run_cannot_be_given(slip, told):
+    with pytest.raises(UpdateError, match=told):
+        run(up, START, **{"type": Counter, "model": M, **slip})

@@ -12,8 +12,16 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, TypeAlias
 
-from ttr.paths import escaping
-from ttr.printing import Scope, notation, variable
+from ttr.brackets import (
+    WORDS,
+    begins_with_bracket,
+    binds,
+    holds_as_head,
+    is_loose,
+    is_loose_beside,
+)
+from ttr.paths import parts as contents
+from ttr.printing import Scope, as_object, head, notation, variable
 from ttr.syntax import (
     BOUND,
     Application,
@@ -303,7 +311,7 @@ def laid_out(value: Object, scope: Scope = ()) -> Layout:
         case Pred(name):
             return Word(name, "predicate")
         case PType(pred, args):
-            return _call(Word(pred.name, "predicate"), args, scope)
+            return _call(Word(pred.name, "predicate"), _objects(args, scope))
         case RecordType(()):
             return Word("Rec", "type")
         case RecordType(fields):
@@ -311,7 +319,7 @@ def laid_out(value: Object, scope: Scope = ()) -> Layout:
             rows = tuple([_row(k, T, inner) for k, T in fields])
             return Matrix("[", _COLON, rows, "]")
         case Singleton(base, obj):
-            return Restricted(_tight(base, scope), _tight(obj, scope))
+            return Restricted(_tight(base, scope), _tight_object(obj, scope))
         case Meet(parts):
             return Chain(Sign(" ∧ "), _operands(parts, scope))
         case Join(parts):
@@ -323,68 +331,66 @@ def laid_out(value: Object, scope: Scope = ()) -> Layout:
         case Function():
             return _function(value, scope)
         case Application(function, argument):
-            return _call(_head(function, scope), (argument,), scope)
+            return _call(_head(function, scope), _objects((argument,), scope))
         case Operation("+", args):
-            return Chain(Sign(" + "), tuple([_tight(arg, scope) for arg in args]))
+            summands = [_tight_object(arg, scope) for arg in args]
+            return Chain(Sign(" + "), tuple(summands))
         case Operation(name, args):
-            return _call(Word(name, "text"), args, scope)
-        case ListOf(item) | NonEmpty(item) | SetOf(item) | Plus(item):
-            return _call(Word(_WORDS[type(value)], "text"), (item,), scope)
-        case Str(items):
-            return _call(Word("str", "text"), items, scope)
+            return _call(Word(name, "text"), _objects(args, scope))
+        case ListOf() | NonEmpty() | SetOf() | Plus() | Str():
+            types, _ = contents(value)
+            word = Word(WORDS[type(value)], "text")
+            return _call(word, tuple([laid_out(T, scope) for T in types]))
     return _object(value, scope)
-
-
-_WORDS: dict[type, str] = {
-    ListOf: "list",
-    NonEmpty: "nelist",
-    SetOf: "set",
-    Plus: "plus",
-}
 
 
 def _object(value: Object, scope: Scope) -> Layout:
     match value:
         case Record() if len(value):
             fields = sorted(value._fields.items())
-            rows = [Row(Word(k, "label"), None, laid_out(v, scope)) for k, v in fields]
+            labels = [Word(label, "label") for label, _ in fields]
+            values = _objects([v for _, v in fields], scope)
+            rows = [Row(k, None, v) for k, v in zip(labels, values, strict=True)]
             return Matrix("{", Sign(" = "), tuple(rows), "}")
         case FiniteSet(items) if items:
-            return _listed("{", items, "}", scope)
+            return Listed("{", _objects(items, scope), "}", _COMMA)
         case EventString(items):
             return _string(items, scope)
-        case Path(_, labels):
-            role: Role = "variable" if labels[0] == BOUND else "label"
-            return Word(notation(value, scope), role)
     if type(value) is tuple:
-        return _listed("[", value, "]", scope)
-    role = "object" if isinstance(value, str) else "text"
-    return Word(_printable(notation(value, scope)), role)
+        return Listed("[", _objects(value, scope), "]", _COMMA)
+    return Word(_printable(notation(value, scope)), _role(value))
+
+
+def _role(value: Object) -> Role:
+    match value:
+        case Path(_, labels):
+            return "variable" if labels[0] == BOUND else "label"
+        case str():
+            return "object"
+    return "text"
 
 
 def _row(label: str, field: TypeNode, scope: Scope) -> Row:
     match field:
         case Singleton(base, obj):
-            value, T = laid_out(obj, scope), laid_out(base, scope)
-            return Row(Word(label, "label"), value, T)
+            (given,) = _objects((obj,), scope)
+            return Row(Word(label, "label"), given, laid_out(base, scope))
     return Row(Word(label, "label"), None, laid_out(field, scope))
 
 
-def _listed(
-    opening: str, values: Iterable[Object], closing: str, scope: Scope
-) -> Listed:
-    return Listed(opening, tuple([laid_out(v, scope) for v in values]), closing, _COMMA)
+def _objects(values: Iterable[Object], scope: Scope) -> tuple[Layout, ...]:
+    return tuple([laid_out(as_object(v, scope), scope) for v in values])
 
 
-def _call(head: Layout, args: Iterable[Object], scope: Scope) -> Line:
-    return Line((head, _listed("(", args, ")", scope)))
+def _call(applied: Layout, args: tuple[Layout, ...]) -> Line:
+    return Line((applied, Listed("(", args, ")", _COMMA)))
 
 
 def _string(items: Sequence[Object], scope: Scope) -> Listed:
     """<a b>, with commas where an event could be read as an argument of the last."""
-    events = tuple([_tight(item, scope) for item in items])
-    apart = any(isinstance(event, Listed) and event.opening == "(" for event in events)
-    return Listed("<", events, ">", _COMMA if apart else Sign(" "))
+    events = [as_object(item, scope) for item in items]
+    between = _COMMA if any(map(begins_with_bracket, events)) else Sign(" ")
+    return Listed("<", tuple([_tight(it, scope) for it in events]), ">", between)
 
 
 def _printable(text: str) -> str:
@@ -404,8 +410,7 @@ def _bracketed(layout: Layout) -> Layout:
 def _operand(value: Object, scope: Scope) -> Layout:
     """A part of a meet, join or negation: in brackets unless it binds closer."""
     layout = laid_out(value, scope)
-    loose = isinstance(value, Meet | Join | Singleton | Function)
-    return _bracketed(layout) if loose else layout
+    return _bracketed(layout) if is_loose(value) else layout
 
 
 def _operands(values: Iterable[Object], scope: Scope) -> tuple[Layout, ...]:
@@ -414,35 +419,36 @@ def _operands(values: Iterable[Object], scope: Scope) -> tuple[Layout, ...]:
 
 def _tight(value: Object, scope: Scope) -> Layout:
     """A part beside @, + or an arrow: in brackets unless it holds together."""
-    match value:
-        case Negation() | Operation("+", _):
-            return _bracketed(laid_out(value, scope))
-    return _operand(value, scope)
+    layout = laid_out(value, scope)
+    return _bracketed(layout) if is_loose_beside(value) else layout
+
+
+def _tight_object(value: Object, scope: Scope) -> Layout:
+    return _tight(as_object(value, scope), scope)
 
 
 def _function(value: Function, scope: Scope) -> Chain:
     name = variable(value, scope)
     domain = _tight(value.domain, scope)
-    head = Line((Sign("λ"), Word(name, "variable"), Sign(":"), domain, Sign(".")))
-    return Chain(Sign(" "), (head, laid_out(value.body, (name, *scope))))
+    binder = Line((Sign("λ"), Word(name, "variable"), Sign(":"), domain, Sign(".")))
+    return Chain(Sign(" "), (binder, *_objects((value.body,), (name, *scope))))
 
 
 def _function_type(value: FunType, scope: Scope) -> Layout:
     domain: Layout
-    if any(path.up == 0 for path in escaping(value.result)):
+    if binds(value.result):
         name = variable(value, scope)
         of = laid_out(value.domain, scope)
         domain = _bracketed(Line((Word(name, "variable"), _COLON, of)))
     else:
         name, domain = "", _tight(value.domain, scope)
-    result = laid_out(value.result, (name, *scope))
-    if isinstance(value.result, Meet | Join | Singleton):
-        result = _bracketed(result)
+    result = _operand(value.result, (name, *scope))
     return _bracketed(Chain(Sign(" → "), (domain, result)))
 
 
 def _head(function: Object, scope: Scope) -> Layout:
-    """What is applied: in brackets unless it is a word or an application."""
+    """What is applied: as it is printed, in brackets unless it holds together."""
+    if isinstance(function, Path | str):
+        return Word(_printable(head(function, scope)), _role(function))
     layout = laid_out(function, scope)
-    holds = isinstance(layout, Word) or isinstance(function, Application)
-    return layout if holds else _bracketed(layout)
+    return layout if holds_as_head(function) else _bracketed(layout)

@@ -95,7 +95,24 @@ def _replied(session: Session, source: Source, mistake: NotationError) -> Reply:
     try:
         return _answer(session, tree, Reader(session.theory, asked))
     except TTRError as error:
-        raise _in_place(error) from None
+        raise _in_place(_of_definition(error, tree, asked, mistake)) from None
+
+
+def _of_definition(
+    error: TTRError, tree: Statement, source: Source, mistake: NotationError
+) -> TTRError:
+    """The error; of an unknown name before = the hint is how names are defined.
+
+    `mistake` says why what was typed is no definition.
+    """
+    match tree:
+        case trees.Question(
+            _, _, _, trees.Comparison(_, _, "=", Name(_, _, (_,), None) as name)
+        ) if error.span == source.span(name):
+            near = error.hint if error.hint.startswith("did you mean") else ""
+            hint = " ".join(filter(None, (near, mistake.hint)))
+            return type(error)(error.message, span=error.span, hint=hint)
+    return error
 
 
 def _in_place(error: TTRError) -> TTRError:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import reduce
 from pathlib import Path
 
 from ttr.errors import TTRError, following_nesting, suggestion
@@ -20,7 +21,7 @@ from ttr.subtyping import Answer
 from ttr.syntax import Pred
 from ttr.theories import Theory
 
-__all__ = ["COMMANDS", "is_complete", "respond"]
+__all__ = ["COMMANDS", "Pending", "is_complete", "respond"]
 
 
 def respond(session: Session, text: str) -> Reply:
@@ -40,9 +41,17 @@ def respond(session: Session, text: str) -> Reply:
     try:
         if text.startswith(":"):
             return _commanded(session, text)
+        if text in _WITHOUT_COLON and text not in session.theory.names:
+            raise TTRError(f"{text} is no command here", hint=_COMMANDS_ARE)
         return answered(session, text) if _says_something(text) else Reply(session)
     except TTRError as error:
         return Reply(session, f"error: {error}")
+
+
+_WITHOUT_COLON = ("exit", "quit", "help", "?")
+"""What other programs take for a command."""
+
+_COMMANDS_ARE = ":help lists the commands, :quit ends"
 
 
 def _says_something(text: str) -> bool:
@@ -64,19 +73,41 @@ _SIGNS = re.compile(
 )
 
 
+@dataclass(frozen=True)
+class Pending:
+    """How an input stands after some of its lines, so that each is looked at once.
+
+    `depth` is how many brackets are open, `last` the kind of the last sign.
+    """
+
+    depth: int = 0
+    last: str = ""
+    is_command: bool = False
+
+    def after(self, line: str) -> Pending:
+        """How it stands after a line more."""
+        depth, last = self.depth, self.last
+        for found in _SIGNS.finditer(line):
+            kind = found.lastgroup
+            depth += (kind == "opening") - (kind == "closing")
+            last = kind or last
+        begins_here = not self.last and line.lstrip().startswith(":")
+        return Pending(depth, last, self.is_command or begins_here)
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether the input ends here."""
+        waits = self.last == "operator" and not self.is_command
+        return self.depth <= 0 and not waits
+
+
 def is_complete(text: str) -> bool:
     r"""Whether an input ends here: no bracket is open, and no operator stands last.
 
     >>> [is_complete(t) for t in ("Ind", "[x : Ind,", "Dog :=", r"\x:Ind.", ")")]
     [True, False, False, False, True]
     """
-    depth, last = 0, ""
-    for found in _SIGNS.finditer(text):
-        kind = found.lastgroup
-        depth += (kind == "opening") - (kind == "closing")
-        last = kind or last
-    waits = last == "operator" and not text.lstrip().startswith(":")
-    return depth <= 0 and not waits
+    return reduce(Pending.after, text.split("\n"), Pending()).is_complete
 
 
 # --- commands ------------------------------------------------------------------------
@@ -89,7 +120,7 @@ def _commanded(session: Session, text: str) -> Reply:
     if command is None:
         raise TTRError(
             f"there is no command :{word}",
-            hint=suggestion(word, COMMANDS) or ":help lists the commands",
+            hint=suggestion(f":{word}", map(":{}".format, COMMANDS)) or _COMMANDS_ARE,
         )
     if command.takes == "" and argument.strip():
         raise TTRError(f":{word} stands alone, found {argument.strip()}")

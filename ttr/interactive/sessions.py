@@ -18,9 +18,9 @@ from ttr.errors import NotationError, TTRError, Unsupported, following_nesting
 from ttr.judgements import Judgement, Why
 from ttr.models import Model
 from ttr.notation import trees
+from ttr.notation.drafts import Draft
 from ttr.notation.grammar import blocks, statement
 from ttr.notation.loading import theory_of_file, theory_of_text
-from ttr.notation.reader import Reader
 from ttr.notation.statements import Declaring, mentioned
 from ttr.notation.trees import Source, Statement
 from ttr.printing import notation
@@ -96,8 +96,10 @@ def _after(
     theory: Theory, entries: Iterable[Entry], tree: Statement, source: Source
 ) -> Theory:
     """The theory of the entries with a statement more."""
-    settled = _union(one.rests_on for one in entries)
-    return Declaring(Reader(theory, source), settled).declared(tree)
+    draft = Draft.of(theory)
+    draft.settled.update(*(one.rests_on for one in entries))
+    Declaring(draft, source).declare(tree)
+    return draft.finished()
 
 
 def _entry(tree: Statement, source: Source, folder: Path) -> Entry:
@@ -227,7 +229,7 @@ def _replaced(
     except TTRError as error:
         first = error.errors[0] if isinstance(error, Mistakes) else error
         raise type(first)(
-            f"{_listing(names)} cannot change so, for then {first.message}",
+            f"{_listing(names)} cannot change so: {first.message}",
             span=first.span,
             hint=first.hint,
         ) from None

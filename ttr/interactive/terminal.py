@@ -11,7 +11,7 @@ from itertools import islice
 from pathlib import Path
 
 from ttr.interactive.completing import completions
-from ttr.interactive.repl import is_complete, respond
+from ttr.interactive.repl import Pending, respond
 from ttr.interactive.sessions import Session
 
 __all__ = ["talk"]
@@ -36,27 +36,49 @@ def talk(session: Session) -> None:
 def _through_pipe(session: Session) -> None:
     if isinstance(sys.stdin, TextIOWrapper):  # not where a program has replaced it
         sys.stdin.reconfigure(errors="backslashreplace")
-    waiting = ""
+    desk = _Desk(session)
     for line in sys.stdin:
-        waiting, session = _went_on(session, waiting, line.rstrip("\n"))
-        if session.over:
+        desk.take(line.rstrip("\n"))
+        if desk.session.over:
             return
-    _went_on(session, waiting, "")
+    desk.take("")
 
 
-def _went_on(session: Session, waiting: str, line: str) -> tuple[str, Session]:
-    """What waits for more lines after this one, and the session.
+class _Desk:
+    """What is on the desk: the session, and the lines of an input not yet whole."""
 
-    An empty line ends an input that is not whole.
-    """
-    text = f"{waiting}\n{line}" if waiting else line
-    if line.strip() and not is_complete(text):
-        return text, session
-    reply = respond(session, text)
-    if reply.text:
-        sys.stdout.write(f"{reply.text}\n")
-        sys.stdout.flush()
-    return "", reply.session
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.clear()
+
+    def clear(self) -> None:
+        """Takes the lines away that wait for more."""
+        self.waiting: list[str] = []
+        self._pending = Pending()
+
+    def take(self, typed: str) -> None:
+        """Goes on with what was typed; what was pasted may have several lines."""
+        for line in typed.split("\n"):
+            if not self.session.over:
+                self._take_line(line)
+
+    def _take_line(self, line: str) -> None:
+        """Goes on with a line; an empty one ends an input that is not whole."""
+        self.waiting.append(line)
+        self._pending = self._pending.after(line)
+        if line.strip() and not self._pending.is_complete:
+            return
+        text = "\n".join(self.waiting)
+        self.clear()
+        reply = respond(self.session, text)
+        self.session = reply.session
+        if reply.text:
+            sys.stdout.write(f"{reply.text}\n")
+            sys.stdout.flush()
+
+    def completions(self, line: str) -> list[str]:
+        """The ways to go on with the word at the end of the line."""
+        return completions(self.session, "\n".join((*self.waiting, line)))
 
 
 # --- at a terminal -------------------------------------------------------------------
@@ -70,30 +92,11 @@ def _at_terminal(session: Session) -> None:
             try:
                 desk.take(input(FURTHER if desk.waiting else PROMPT))
             except KeyboardInterrupt:
-                desk.waiting = ""
+                desk.clear()
                 sys.stdout.write("\n")
             except EOFError:
                 sys.stdout.write("\n")
                 return
-
-
-class _Desk:
-    """What is on the desk: the session, and the lines of an input not yet whole."""
-
-    def __init__(self, session: Session) -> None:
-        self.session = session
-        self.waiting = ""
-
-    def take(self, typed: str) -> None:
-        """Goes on with what was typed; what was pasted may have several lines."""
-        for line in typed.split("\n"):
-            if not self.session.over:
-                self.waiting, self.session = _went_on(self.session, self.waiting, line)
-
-    def completions(self, line: str) -> list[str]:
-        """The ways to go on with the word at the end of the line."""
-        text = f"{self.waiting}\n{line}" if self.waiting else line
-        return completions(self.session, text)
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from ttr.errors import IllFormed
 from ttr.notation.trees import Field, Fields, Part, Term
 from ttr.paths import replace_paths
 from ttr.syntax import Object, Path, RecordType, TypeNode
-from ttr.theories import Theory
+from ttr.theories import Signature
 
 __all__ = ["culprit", "misfit", "refused"]
 
@@ -18,7 +18,7 @@ IsWrong: TypeAlias = Callable[[Object], bool]
 """Whether what stands around a place is ill-formed with this value there."""
 
 
-def misfit(term: Fields, types: Mapping[str, TypeNode], theory: Theory) -> Part:
+def misfit(term: Fields, types: Mapping[str, TypeNode], theory: Signature) -> Part:
     """The first part of a record type whose paths lead nowhere, or to a misfit.
 
     `types` are the types of its fields.
@@ -59,7 +59,7 @@ def _alone(label: str, is_wrong: IsWrong) -> IsWrong:
     return lambda field: is_wrong(RecordType(((label, field),)))
 
 
-def _misfits(field: Object, around: RecordType, theory: Theory) -> bool:
+def _misfits(field: Object, around: RecordType, theory: Signature) -> bool:
     """Whether a path in a field leads nowhere in the record type, or to a misfit.
 
     A record type is a scope like that of a function from its records.

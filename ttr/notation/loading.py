@@ -7,18 +7,17 @@ a spoilt statement should have declared is passed over, so each mistake is told 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from ttr.errors import NotationError, Span, TTRError
 from ttr.interning import identity
 from ttr.notation import trees
+from ttr.notation.drafts import Draft, Names, is_declared, meaning
 from ttr.notation.grammar import blocks, statement, vetted
-from ttr.notation.reader import Reader
 from ttr.notation.statements import Declaring, mentioned
-from ttr.notation.trees import Part, Source, Statement
+from ttr.notation.trees import Part, Source
 from ttr.theories import Mistakes, Theory
 
 __all__ = ["Unreadable", "theory_of_file", "theory_of_text"]
@@ -49,14 +48,12 @@ def theory_of_file(path: Path) -> Theory:
 
 @dataclass(frozen=True)
 class _Reading:
-    """What has been read: the theory, and the mistakes so far.
+    """What has been read: the theory, and the mistakes in it.
 
-    `mentioned` are the names that what was read rests on: a predicate among them has
-    its final arities. `spoilt` are the names that should have been declared.
+    `spoilt` are the names that should have been declared.
     """
 
     theory: Theory
-    mentioned: frozenset[str] = frozenset()
     spoilt: frozenset[str] = frozenset()
     mistakes: tuple[TTRError, ...] = ()
 
@@ -90,24 +87,23 @@ class _Files:
 
     def read(self, source: Source, folder: Path, chain: tuple[Path, ...]) -> _Reading:
         """What a text declares; `folder` is where its imports are."""
-        reading = _Reading(Theory(source=source.name))
         try:
             vetted(source)
         except NotationError as error:
-            return replace(reading, mistakes=(error,))
+            return _Reading(Theory(source=source.name), mistakes=(error,))
         places = list(blocks(source.text))
         later: dict[str, int] = {}
-        line, at = 1, 0
         for start, _ in places:
-            line, at = line + source.text.count("\n", at, start), start
             for name in _announced(source.text, start):
-                later.setdefault(name, line)
-        file = _File(source, folder, chain, self, later)
+                later.setdefault(name, source.line(start))
+        draft = Draft(source.name)
+        file = _File(Declaring(draft, source, later), folder, chain, self)
         for start, end in places:
-            if len(reading.mistakes) >= MISTAKES:
-                return file.given_up(reading, start, end)
-            reading = file.after(reading, start, end)
-        return reading
+            if len(file.mistakes) >= MISTAKES:
+                file.give_up(start, end)
+                break
+            file.go_on(start, end)
+        return _Reading(draft.finished(), frozenset(file.spoilt), tuple(file.mistakes))
 
 
 def _contents(path: Path) -> tuple[Path, str]:
@@ -149,70 +145,69 @@ def _listed(text: str) -> Iterator[str]:
             yield sign
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class _File:
-    """One text that is being read: where it is, and where its names are declared."""
+    """One text that is being read: where it is, and the mistakes so far.
 
-    source: Source
+    `spoilt` are the names that should have been declared.
+    """
+
+    declaring: Declaring
     folder: Path
     chain: tuple[Path, ...]
     files: _Files
-    later: Mapping[str, int]
+    spoilt: set[str] = field(default_factory=set)
+    mistakes: list[TTRError] = field(default_factory=list)
 
-    def after(self, reading: _Reading, start: int, end: int) -> _Reading:
-        """What has been read after the statement text[start:end]."""
+    @property
+    def source(self) -> Source:
+        """The text."""
+        return self.declaring.source
+
+    def go_on(self, start: int, end: int) -> None:
+        """Reads the statement text[start:end]."""
         try:
             tree = statement(self.source, start, end)
-            names = mentioned(tree)
-            if names & reading.spoilt:
-                return self._spoilt(reading, start)
-            found = self._read(reading, tree)
+            if not mentioned(tree).isdisjoint(self.spoilt):
+                self._spoil(start)
+            elif isinstance(tree, trees.Import):
+                self._import(tree)
+            else:
+                self.declaring.declare(tree)
         except TTRError as error:
-            return self._spoilt(reading, start, error)
+            self.mistakes.append(error)
+            self._spoil(start)
         except RecursionError:
             span = self.source.span(Part(start, end))
             deep = NotationError("this nests too deep to be read here", span=span)
-            return self._spoilt(reading, start, deep)
-        return replace(found, mentioned=found.mentioned | names)
+            self.mistakes.append(deep)
+            self._spoil(start)
 
-    def given_up(self, reading: _Reading, start: int, end: int) -> _Reading:
-        """What has been read, and that it goes no further than text[start:end]."""
+    def give_up(self, start: int, end: int) -> None:
+        """Says that reading goes no further than text[start:end]."""
         span = self.source.span(Part(start, end))
         last = NotationError(f"reading stops after {MISTAKES} mistakes", span=span)
-        return replace(reading, mistakes=(*reading.mistakes, last))
+        self.mistakes.append(last)
 
-    def _spoilt(self, reading: _Reading, start: int, *mistakes: TTRError) -> _Reading:
-        names = frozenset(_announced(self.source.text, start)) - reading.theory.names
-        return replace(
-            reading,
-            spoilt=reading.spoilt | names,
-            mistakes=reading.mistakes + mistakes,
-        )
+    def _spoil(self, start: int) -> None:
+        """What the statement starting there should have declared is missing."""
+        names = _announced(self.source.text, start)
+        draft = self.declaring.draft
+        self.spoilt.update(name for name in names if not is_declared(draft, name))
 
-    def _read(self, reading: _Reading, tree: Statement) -> _Reading:
-        if isinstance(tree, trees.Import):
-            return self._import(reading, tree)
-        reader = Reader(reading.theory, self.source, self.later)
-        theory = Declaring(reader, reading.mentioned).declared(tree)
-        return replace(reading, theory=theory)
-
-    def _import(self, reading: _Reading, tree: trees.Import) -> _Reading:
+    def _import(self, tree: trees.Import) -> None:
         span = self.source.span(tree)
         try:
             found = self.files.file(self.folder / tree.path, self.chain)
         except TTRError as error:
             raise error.at(span) from None
-        mine = reading.mistakes
-        return _Reading(
-            _joined(reading.theory, found.theory, span),
-            reading.mentioned | frozenset(found.theory.predicates),
-            reading.spoilt | found.spoilt,
-            mine + tuple(one for one in found.mistakes if one not in mine),
-        )
+        _join(self.declaring.draft, found.theory, span)
+        self.spoilt |= found.spoilt
+        self.mistakes += [one for one in found.mistakes if one not in self.mistakes]
 
 
-def _joined(mine: Theory, other: Theory, span: Span) -> Theory:
-    """The theory with what another declares, but for its checks.
+def _join(mine: Draft, other: Theory, span: Span) -> None:
+    """Adds what another theory declares, but for its checks.
 
     Raises `NotationError` where a name means something else in the other.
     """
@@ -220,23 +215,17 @@ def _joined(mine: Theory, other: Theory, span: Span) -> Theory:
         if _meaning(mine, name) != _meaning(other, name):
             message = f"{name} is declared in another way in the import"
             raise NotationError(message, span=span)
-    return replace(
-        mine,
-        basics={**mine.basics, **other.basics},
-        predicates={**mine.predicates, **other.predicates},
-        definitions={**mine.definitions, **other.definitions},
-        objects=mine.objects | other.objects,
-        opened=mine.opened | other.opened,
-        axioms=_union(mine.axioms, other.axioms),
-        givens=_union(mine.givens, other.givens),
-    )
+    mine.basics.update(other.basics)
+    mine.predicates.update(other.predicates)
+    mine.definitions.update(other.definitions)
+    mine.objects |= other.objects
+    mine.opened |= other.opened
+    mine.axioms.update(dict.fromkeys(other.axioms))
+    known = set(mine.givens)  # a fact imported twice is one fact
+    mine.givens += [given for given in other.givens if given not in known]
+    mine.settled.update(other.predicates)
 
 
-def _meaning(theory: Theory, name: str) -> object:
+def _meaning(theory: Names, name: str) -> object:
     """What a name is declared as, in a form that can be compared."""
-    return name if name in theory.objects else (Theory, identity(theory[name]))
-
-
-def _union(mine: tuple[Any, ...], other: tuple[Any, ...]) -> tuple[Any, ...]:
-    """The one and then what is new in the other; a fact imported twice is one fact."""
-    return mine + tuple(one for one in other if one not in mine)
+    return name if name in theory.objects else (Theory, identity(meaning(theory, name)))

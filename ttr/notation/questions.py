@@ -18,6 +18,7 @@ from ttr.checking import (
 )
 from ttr.errors import IllFormed, TTRError
 from ttr.notation import trees
+from ttr.notation.drafts import is_declared
 from ttr.notation.reader import Reader
 from ttr.notation.trees import Application, Name, Term
 from ttr.syntax import Object, TypeNode
@@ -77,8 +78,8 @@ class Asking:
             ):
                 result = self._type(right)
                 return Merges(operation, self._type(S), self._type(T), result)
-            case Application(_, _, Name(_, _, ("P",)), (T,)) if (
-                "P" not in self.reader.theory.names
+            case Application(_, _, Name(_, _, ("P",)), (T,)) if not is_declared(
+                self.reader.theory, "P"
             ):
                 degree = trees.Degree(right.start, right.end, "=", right)
                 return IsTrue(self._type(T), self.reader.degree(degree))

@@ -23,6 +23,7 @@ from typing import Any, NoReturn, TypeVar
 from ttr.constructors import Pi, fun, function_type, rectype
 from ttr.errors import IllFormed, NotationError, TTRError, suggestion
 from ttr.notation.culprits import culprit, misfit, refused
+from ttr.notation.drafts import Names, is_declared, meaning
 from ttr.notation.misreadings import shown
 from ttr.notation.trees import (
     Abstraction,
@@ -149,7 +150,7 @@ class Reader:
     `later` says in which line a name is declared that the theory does not have yet.
     """
 
-    theory: Theory
+    theory: Names
     source: Source
     later: Mapping[str, int] = field(default_factory=dict)
 
@@ -199,16 +200,17 @@ class Reader:
 
     def _is_unknown(self, name: str, scope: Scope) -> bool:
         """Whether a name means nothing, and is not like one that does."""
-        known = {*self.theory.names, *_around(scope)}
-        if name in known or self._value(name) is not None:
+        if is_declared(self.theory, name) or _captured(name, scope):
             return False
-        return not suggestion(name, known)
+        if self._value(name) is not None:
+            return False
+        return not suggestion(name, {*self.theory.names, *_around(scope)})
 
     def _function(self, term: Abstraction, scope: Scope) -> Function:
         name = self._variable(term.variable)
         domain = self.type(term.domain, scope)
         body = self.object(term.body, (name, *scope))
-        build = fun({name: domain}, self.theory)
+        build = fun({name: domain}, self.theory.signature)
         return self._bound(build, term.body, body)
 
     def _computed(
@@ -235,7 +237,8 @@ class Reader:
         if is_object:
             self.refuse(name, f"{head} is an object without labels")
         if value is None:
-            self._unknown(name, head, scope)
+            quoted = f"quote it to name an object: '{shown(head)}'"
+            self._unknown(name, head, scope, f"declare it first, or {quoted}")
         try:
             return along(value, rest)
         except Unresolved as error:
@@ -348,7 +351,7 @@ class Reader:
         declared = value is not None or head in self.theory.objects
         if declared or name.up is not None or _captured(head, scope):
             self._no_type(name)
-        self._unknown(name, head, scope)
+        self._unknown(name, head, scope, "declare it first")
 
     def _function_type(self, term: Arrow, scope: Scope) -> FunType:
         domain = self.type(term.domain, scope)
@@ -356,7 +359,7 @@ class Reader:
             return function_type(domain, self.type(term.result, scope))
         name = self._variable(term.variable)
         result = self.type(term.result, (name, *scope))
-        build = Pi({name: domain}, self.theory)
+        build = Pi({name: domain}, self.theory.signature)
         return self._bound(build, term.result, result)
 
     def _bound(self, build: Callable[[Any], _B], term: Term, inside: Object) -> _B:
@@ -377,9 +380,9 @@ class Reader:
                 kind = Singleton(kind, self.object(part.value, scope))
             found[part.label.text] = kind
         try:
-            return rectype(found, self.theory)
+            return rectype(found, self.theory.signature)
         except IllFormed as error:
-            wrong = misfit(term, found, self.theory)
+            wrong = misfit(term, found, self.theory.signature)
             raise error.at(self.source.span(wrong)) from None
 
     # --- where a degree must stand ---
@@ -399,34 +402,33 @@ class Reader:
         """What a name is declared as, but for objects: a type, a definition, …"""
         if name in LOGICAL:
             return LOGICAL[name]
-        for known in (
-            self.theory.definitions,
-            self.theory.basics,
-            self.theory.predicates,
-        ):
-            if name in known:
-                return known[name]
+        found = meaning(self.theory, name)
+        if found is not None:
+            return found
         level = _LEVEL.fullmatch(name)
         return Universe(level[1], int(level[2])) if level else None
 
-    def _unknown(self, part: Part, name: str, scope: Scope) -> NoReturn:
+    def _unknown(self, part: Part, name: str, scope: Scope, way_out: str) -> NoReturn:
+        """Refuses a name; the way out is told where none like it is known."""
         if name in self.later:
-            self.refuse(
-                part,
-                f"{name} is used before its definition in line {self.later[name]}",
-                "move the definition up",
-            )
+            self._too_early(part, name)
         known = [*self.theory.names, *RESERVED, *_around(scope)]
-        hint = suggestion(name, known)
         self.refuse(
             part,
             f"nothing is called {shown(name)} here",
-            hint or f"declare it first, or quote it to name an object: '{shown(name)}'",
+            suggestion(name, known) or way_out,
+        )
+
+    def _too_early(self, part: Part, name: str) -> NoReturn:
+        self.refuse(
+            part,
+            f"{name} is used before its definition in line {self.later[name]}",
+            "move the definition up",
         )
 
     def _no_predicate(self, term: Call, name: str, scope: Scope) -> NoReturn:
         if name in self.later:
-            self._unknown(term.head, name, scope)
+            self._too_early(term.head, name)
         known = {*self.theory.names, *_WORDS, *_around(scope)} - {*self.theory.basics}
         arity = ", ".join(["…"] * len(term.args[:5]))
         self.refuse(

@@ -11,7 +11,7 @@ from typing import NoReturn
 
 from ttr.errors import NotationError, Span
 from ttr.notation.misreadings import KEYWORDS
-from ttr.notation.trees import Source
+from ttr.notation.trees import UNNAMED, Source
 
 __all__ = ["DEPTH", "blocks", "too_deep", "vetted", "with_backslashes"]
 
@@ -40,13 +40,16 @@ def vetted(source: Source) -> None:
         _refuse_control(source, stray)
 
 
+_IN_PYTHON = r"in a plain string Python reads \ as the start of an escape: write r'…'"
+
+
 def _refuse_control(source: Source, stray: re.Match[str]) -> NoReturn:
     # Where a terminal acts on the character, what is underlined would be shifted.
     shown = _CONTROL.sub(" ", source.text)
     raise NotationError(
         f"the control character {stray[0]!r} is no notation",
         span=Span.of(source.name, shown, *stray.span()),
-        hint=r"in a plain string Python reads \ as the start of an escape: write r'…'",
+        hint=_IN_PYTHON if source.name == UNNAMED else "",
     )
 
 

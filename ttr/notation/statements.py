@@ -1,127 +1,138 @@
-"""What each statement of a theory file adds to the theory before it."""
+"""What each statement of a theory file adds to what was read before it."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
 
 from ttr.errors import suggestion
 from ttr.notation import trees
+from ttr.notation.drafts import Draft, is_declared
 from ttr.notation.questions import Asking
 from ttr.notation.reader import LOGICAL, Reader
-from ttr.notation.trees import Application, Arity, Name, Statement, Term, Word, inside
+from ttr.notation.trees import (
+    Application,
+    Arity,
+    Name,
+    Source,
+    Statement,
+    Term,
+    Word,
+    inside,
+)
 from ttr.paths import escaping
 from ttr.printing import RESERVED
-from ttr.syntax import Basic, Path, Pred, PType
-from ttr.theories import Axiom, Given, Theory
+from ttr.syntax import Basic, Object, Path, Pred, PType
+from ttr.theories import Axiom, Given
 
 __all__ = ["Declaring", "mentioned"]
 
 
 @dataclass(frozen=True)
 class Declaring:
-    """Reads statements on top of the reader's theory.
+    """Reads the statements of one text into a draft.
 
-    `settled` are the names that earlier statements rest on: a predicate among them has
-    its final arities.
+    `later` says in which line a name is declared that the draft does not have yet.
     """
 
-    reader: Reader
-    settled: frozenset[str]
+    draft: Draft
+    source: Source
+    later: Mapping[str, int] = field(default_factory=dict)
 
-    @property
-    def theory(self) -> Theory:
-        """The theory before the statement."""
-        return self.reader.theory
+    @cached_property
+    def reader(self) -> Reader:
+        """Reads terms with the names that the draft has by then."""
+        return Reader(self.draft, self.source, self.later)
 
-    def declared(self, tree: Statement) -> Theory:
-        """The theory after the statement; raises `NotationError` or `IllFormed`."""
+    def declare(self, tree: Statement) -> None:
+        """Adds what a statement declares; raises `NotationError` or `IllFormed`.
+
+        A statement with a mistake adds nothing.
+        """
         match tree:
             case trees.BasicNames(_, _, names):
-                return self._basic(names)
+                self._basic(names)
             case trees.Predicates(_, _, arities):
-                return self._predicates(arities)
+                self._predicates(arities)
             case trees.OpenNames(_, _, names):
-                opened = frozenset(map(self._openable, names))
-                return replace(self.theory, opened=self.theory.opened | opened)
+                self.draft.opened.update([self._openable(word) for word in names])
             case trees.ObjectNames():
-                return self._objects(tree)
+                self._objects(tree)
             case trees.GivenFact():
-                return self._given(tree)
+                self._given(tree)
             case trees.Definition():
-                return self._definition(tree)
+                self._definition(tree)
             case trees.AxiomClaim():
-                return self._axiom(tree)
+                self._axiom(tree)
             case trees.Question():
-                return self._question(tree)
-        raise AssertionError(tree)
+                self.draft.checks.append(Asking(self.reader).check(tree))
+            case _:
+                raise AssertionError(tree)
+        self.draft.settled |= mentioned(tree)
 
-    def _basic(self, names: tuple[Word, ...]) -> Theory:
+    def _basic(self, names: tuple[Word, ...]) -> None:
         for word in names:
-            self._claim(word, "a basic type", self.theory.basics)
-        found = {word.text: Basic(word.text) for word in names}
-        return replace(self.theory, basics={**self.theory.basics, **found})
+            self._claim(word, "a basic type", self.draft.basics)
+        self.draft.basics.update({word.text: Basic(word.text) for word in names})
 
-    def _predicates(self, arities: tuple[Arity, ...]) -> Theory:
-        predicates = dict(self.theory.predicates)
+    def _predicates(self, arities: tuple[Arity, ...]) -> None:
+        found: dict[str, Pred] = {}
         for one in arities:
-            self._claim(one.name, "a predicate", predicates)
+            self._claim(one.name, "a predicate", self.draft.predicates)
             arity = tuple(self.reader.type(T, ()) for T in one.types)
             name = one.name.text
-            known = predicates[name].arities if name in predicates else ()
+            pred = found.get(name, self.draft.predicates.get(name))
+            known = pred.arities if pred is not None else ()
             if arity in known:
                 continue
-            if name in self.settled:
+            if name in self.draft.settled:
                 self.reader.refuse(
                     one,
                     f"{name} gets another arity after it has been used",
                     f"declare all arities of {name} before its first use",
                 )
-            predicates[name] = Pred(name, *known, arity)
-        return replace(self.theory, predicates=predicates)
+            found[name] = Pred(name, *known, arity)
+        self.draft.predicates.update(found)
 
     def _openable(self, word: Word) -> Basic | Pred:
-        for declared in (self.theory.basics, self.theory.predicates):
+        for declared in (self.draft.basics, self.draft.predicates):
             if word.text in declared:
                 return declared[word.text]
-        known = [*self.theory.basics, *self.theory.predicates]
+        known = [*self.draft.basics, *self.draft.predicates]
         self.reader.refuse(
             word,
             f"there is no basic type or predicate {word.text} to be open",
             suggestion(word.text, known),
         )
 
-    def _objects(self, tree: trees.ObjectNames) -> Theory:
+    def _objects(self, tree: trees.ObjectNames) -> None:
         kind = self.reader.type(tree.type, ())
         for word in tree.names:
-            self._claim(word, "an object", self.theory.objects)
-        span = self.reader.source.span(tree)
-        found = tuple(Given(word.text, kind, span=span) for word in tree.names)
-        return replace(
-            self.theory,
-            objects=self.theory.objects | {word.text for word in tree.names},
-            givens=self.theory.givens + found,
-        )
+            self._claim(word, "an object", self.draft.objects)
+        span = self.source.span(tree)
+        self.draft.objects.update([word.text for word in tree.names])
+        self.draft.givens += [Given(word.text, kind, span=span) for word in tree.names]
 
-    def _given(self, tree: trees.GivenFact) -> Theory:
+    def _given(self, tree: trees.GivenFact) -> None:
         kind = self.reader.type(tree.type, ())
-        theory = self.theory
+        declares: tuple[str, ...] = ()
+        sit: Object
         match tree.sit:
-            case Name(start, end, (name,), None) if not _is_declared(theory, name):
+            case Name(start, end, (name,), None) if not is_declared(self.draft, name):
                 self._claim(Word(start, end, name), "an object", ())
-                theory = replace(theory, objects=theory.objects | {name})
-        sit = replace(self.reader, theory=theory).object(tree.sit, ())
+                declares, sit = (name,), name
+            case term:
+                sit = self.reader.object(term, ())
         p = self.reader.degree(tree.degree) if tree.degree else (1.0, 1.0)
-        given = Given(sit, kind, p, self.reader.source.span(tree))
-        return replace(theory, givens=(*theory.givens, given))
+        self.draft.objects.update(declares)
+        self.draft.givens.append(Given(sit, kind, p, self.source.span(tree)))
 
-    def _definition(self, tree: trees.Definition) -> Theory:
+    def _definition(self, tree: trees.Definition) -> None:
         self._claim(tree.name, "defined", ())
-        value = self.reader.object(tree.value, ())
-        definitions = {**self.theory.definitions, tree.name.text: value}
-        return replace(self.theory, definitions=definitions)
+        self.draft.definitions[tree.name.text] = self.reader.object(tree.value, ())
 
-    def _axiom(self, tree: trees.AxiomClaim) -> Theory:
+    def _axiom(self, tree: trees.AxiomClaim) -> None:
         lower, upper = self._schema(tree.lower), self._schema(tree.upper)
         for path in sorted(escaping(upper) - escaping(lower), key=str):
             self.reader.refuse(
@@ -129,8 +140,7 @@ class Declaring:
                 f"the variable {path.labels[0]} stands on the right only",
                 f"quote it to name the object: '{path.labels[0]}'",
             )
-        axioms = (*self.theory.axioms, Axiom(lower, upper))
-        return replace(self.theory, axioms=tuple(dict.fromkeys(axioms)))
+        self.draft.axioms[Axiom(lower, upper)] = None
 
     def _schema(self, term: Term) -> Basic | PType:
         """A side of an axiom: the bare names in it that are no types are variables."""
@@ -142,8 +152,9 @@ class Declaring:
                 self.reader.refuse(
                     name, "in an axiom only names stand for objects, not paths"
                 )
-        variables = {name.labels[0] for name in names} - self._types()
-        found = self.reader.type(term, (frozenset(variables),))
+        heads = {name.labels[0] for name in names}
+        variables = frozenset(name for name in heads if not self._is_type(name))
+        found = self.reader.type(term, (variables,))
         args = found.args if isinstance(found, PType) else ()
         nested = any(not isinstance(arg, Path) and escaping(arg) for arg in args)
         if nested or not isinstance(found, Basic | PType):
@@ -154,34 +165,25 @@ class Declaring:
             )
         return found
 
-    def _types(self) -> set[str]:
-        theory = self.theory
-        return {*LOGICAL, *theory.basics, *theory.predicates, *theory.definitions}
-
-    def _question(self, tree: trees.Question) -> Theory:
-        check = Asking(self.reader).check(tree)
-        return replace(self.theory, checks=(*self.theory.checks, check))
+    def _is_type(self, name: str) -> bool:
+        draft = self.draft
+        kinds = (LOGICAL, draft.basics, draft.predicates, draft.definitions)
+        return any(name in kind for kind in kinds)
 
     def _claim(self, word: Word, kind: str, mine: Collection[str]) -> None:
         """Refuses a name that means something else already."""
         if word.text in RESERVED:
             self.reader.refuse(word, f"{word.text} is a word of the notation itself")
-        if word.text not in mine and _is_declared(self.theory, word.text):
+        if word.text not in mine and is_declared(self.draft, word.text):
             self.reader.refuse(word, f"{word.text} is already {self._kind(word.text)}")
 
     def _kind(self, name: str) -> str:
         kinds = {
-            "defined": self.theory.definitions,
-            "a basic type": self.theory.basics,
-            "a predicate": self.theory.predicates,
+            "defined": self.draft.definitions,
+            "a basic type": self.draft.basics,
+            "a predicate": self.draft.predicates,
         }
         return next((k for k, names in kinds.items() if name in names), "an object")
-
-
-def _is_declared(theory: Theory, name: str) -> bool:
-    """Whether a name is among those of a theory, without listing them all."""
-    kinds = (theory.objects, theory.definitions, theory.basics, theory.predicates)
-    return any(name in kind for kind in kinds)
 
 
 def mentioned(tree: Statement) -> frozenset[str]:

@@ -6,8 +6,11 @@ can be underlined.
 
 from __future__ import annotations
 
+import re
+from bisect import bisect_right
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 from ttr.errors import NotationError, Span
 
@@ -53,12 +56,16 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
+UNNAMED = "<text>"
+"""What a text is called that is given as a string in Python."""
+
+
+@dataclass(frozen=True)
 class Source:
     """A text and where it came from."""
 
     text: str
-    name: str = "<text>"
+    name: str = UNNAMED
 
     @classmethod
     def of(cls, text: object, name: str) -> Source:
@@ -68,9 +75,22 @@ class Source:
             raise NotationError(f"expected a text to read, found {found}")
         return cls(text.replace("\r\n", "\n"), name)
 
+    @cached_property
+    def _starts(self) -> list[int]:
+        """Where the lines start."""
+        return [0, *(found.end() for found in re.finditer("\n", self.text))]
+
+    def line(self, at: int) -> int:
+        """The number of the line, from 1, in which a place is."""
+        return bisect_right(self._starts, at)
+
     def span(self, part: Part) -> Span:
-        """The place of a part, to be shown."""
-        return Span.of(self.name, self.text, part.start, part.end)
+        """The place of a part, to be shown; the lines are counted once for all."""
+        line = self.line(part.start)
+        start, *end = self._starts[line - 1 : line + 1]
+        text = self.text[start : end[0] - 1 if end else None]
+        found = Span.of(self.name, text, part.start - start, part.end - start)
+        return replace(found, line=line)
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,10 +15,11 @@ from typing import TypeAlias
 from ttr.axioms import above
 from ttr.constructors import function_type, ordered, rectype
 from ttr.errors import IllFormed, following_nesting
-from ttr.hypothetical import ITSELF, Hypothetical, step
+from ttr.hypothetical import Hypothetical
 from ttr.merging import merge
 from ttr.objects import in_print
 from ttr.paths import escaping, moved, parts, rebuilt, replace_paths
+from ttr.places import ITSELF, step
 from ttr.reshaping.addresses import nearest
 from ttr.subtyping import subtype
 from ttr.syntax import (

@@ -1,0 +1,112 @@
+"""A theory while it is read: each statement adds to it, in time for that alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Set
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from ttr.checking import Check
+from ttr.syntax import Basic, Object, Pred
+from ttr.theories import Axiom, Given, Signature, Theory
+
+__all__ = ["Draft", "Names", "is_declared", "meaning"]
+
+
+class Names(Protocol):
+    """What a reader asks of a theory, finished or not."""
+
+    @property
+    def basics(self) -> Mapping[str, Basic]: ...  # noqa: D102
+
+    @property
+    def predicates(self) -> Mapping[str, Pred]: ...  # noqa: D102
+
+    @property
+    def definitions(self) -> Mapping[str, Object]: ...  # noqa: D102
+
+    @property
+    def objects(self) -> Set[str]: ...  # noqa: D102
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Every name, listed: to ask for one of them there is `is_declared`."""
+
+    @property
+    def signature(self) -> Signature:
+        """What subtyping needs, with the axioms."""
+
+
+def is_declared(theory: Names, name: str) -> bool:
+    """Whether a name is among those of a theory, without listing them all."""
+    kinds = (theory.objects, theory.definitions, theory.basics, theory.predicates)
+    return any(name in kind for kind in kinds)
+
+
+def meaning(theory: Names, name: str) -> Object | None:
+    """What a name is defined or declared as, if it is no object."""
+    for kind in (theory.definitions, theory.basics, theory.predicates):
+        if name in kind:
+            return kind[name]
+    return None
+
+
+@dataclass(eq=False)
+class Draft:
+    """What has been read of a theory: the fields are those of `Theory`, to be added to.
+
+    `settled` are the names that statements rest on: a predicate among them has its
+    final arities.
+    """
+
+    source: str = "<text>"
+    basics: dict[str, Basic] = field(default_factory=dict)
+    predicates: dict[str, Pred] = field(default_factory=dict)
+    definitions: dict[str, Object] = field(default_factory=dict)
+    objects: set[str] = field(default_factory=set)
+    opened: set[Basic | Pred] = field(default_factory=set)
+    axioms: dict[Axiom, None] = field(default_factory=dict)
+    givens: list[Given] = field(default_factory=list)
+    checks: list[Check] = field(default_factory=list)
+    settled: set[str] = field(default_factory=set)
+
+    @classmethod
+    def of(cls, theory: Theory) -> Draft:
+        """A draft that goes on from a theory."""
+        return cls(
+            source=theory.source,
+            basics=dict(theory.basics),
+            predicates=dict(theory.predicates),
+            definitions=dict(theory.definitions),
+            objects=set(theory.objects),
+            opened=set(theory.opened),
+            axioms=dict.fromkeys(theory.axioms),
+            givens=list(theory.givens),
+            checks=list(theory.checks),
+        )
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Every name declared so far."""
+        return frozenset().union(
+            self.objects, self.definitions, self.basics, self.predicates
+        )
+
+    @property
+    def signature(self) -> Signature:
+        """The axioms: nothing else says whether a type is well-formed."""
+        return Signature(tuple(self.axioms))
+
+    def finished(self) -> Theory:
+        """The theory that has been read; the draft may go on without changing it."""
+        return Theory(
+            axioms=tuple(self.axioms),
+            opened=frozenset(self.opened),
+            givens=tuple(self.givens),
+            definitions=dict(self.definitions),
+            basics=dict(self.basics),
+            predicates=dict(self.predicates),
+            objects=frozenset(self.objects),
+            checks=tuple(self.checks),
+            source=self.source,
+        )
