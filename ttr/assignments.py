@@ -80,9 +80,14 @@ class Assignment:
             return _within(told, least, most), rule
         if least > 0.0:
             return _within(Degree(least, 1.0), 0.0, most), lower
-        if perceptual or head(T) in self.opened:
+        if perceptual or self._is_open(T):
             return Degree(0.0, most), upper or "nothing is known of it"
         return REFUTED, "nothing says so"
+
+    def _is_open(self, T: Atom) -> bool:
+        """Whether more may be of T than what was told, by itself or by an axiom."""
+        heads = [head(T), *(head(one) for _, one in below(T, self.theory.axioms))]
+        return any(one in self.opened or one in self.functions for one in heads)
 
     def perceived(self, sit: Object, T: Atom) -> Degree | None:
         """What the witness function of T answers, or None where there is none.
@@ -189,7 +194,7 @@ class Assignment:
 
     def _refuses(self, sit: Object, T: Atom, p: Degree) -> bool:
         """Whether a witness function rules out what is told for certain."""
-        return p == CERTAIN and self.perceived(sit, T) == REFUTED
+        return p.lo > 0.0 and self.perceived(sit, T) == REFUTED
 
     # --- what axioms say -----------------------------------------------------------
 
@@ -197,6 +202,9 @@ class Assignment:
         """a : T is at least as probable as a : S, wherever S <: T; and by which."""
         best, why = 0.0, ""
         for axiom, lower in below(T, self.theory.axioms):
+            seen = self.perceived(sit, lower) if isinstance(lower, Basic) else None
+            if seen is not None and seen.lo > best and lower not in facts:
+                best, why = seen.lo, f"by {axiom} and the witness function of {lower}"
             for kind in _instances(lower, facts):
                 if facts[kind].lo > best:
                     best = facts[kind].lo

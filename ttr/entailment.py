@@ -15,7 +15,7 @@ from ttr.axioms import above
 from ttr.cases import Clause, cases, clauses
 from ttr.hypothetical import Assumption, Hypothetical
 from ttr.levels import why_outside
-from ttr.paths import replace_paths
+from ttr.paths import escaping, replace_paths
 from ttr.places import ITSELF, element, elements, event, instantiated, step, unpacked
 from ttr.printing import notation
 from ttr.strings import covers, is_of_strings
@@ -72,7 +72,8 @@ Where = tuple[str, ...]
 class Question:
     """What is sure of an arbitrary witness of S, under axioms and assumptions?
 
-    `given` are the elements of lists and sets that the question is about.
+    `given` are the elements of lists and sets that the question is about. `judged` says
+    of which types an object certainly is, where there is a model to ask.
     """
 
     S: TypeNode
@@ -80,6 +81,7 @@ class Question:
     witness: Hypothetical
     assumed: tuple[Assumption, ...] = ()
     given: frozenset[Path] = frozenset()
+    judged: Callable[[Object, TypeNode], bool] | None = None
 
     @classmethod
     def about(cls, S: TypeNode, theory: Signature) -> Question:
@@ -109,6 +111,8 @@ class Question:
         term = self.witness.normal(term)
         known = self._known(term)
         if any(one is T for one in known):
+            return _YES
+        if self.judged and _is_closed(term, T) and self.judged(term, T):
             return _YES
         found = self._by_form(term, T, where)
         if found.yes or self._in_each_case(term, T, known):
@@ -160,10 +164,13 @@ class Question:
     def _first(self, term: Operation, T: TypeNode, where: Where) -> Finding:
         """The first element of a list is of what all its elements are of."""
         (source,) = term.args
-        if not isinstance(source, Path):
+        if not isinstance(source, Path) or not self._has_first(source):
             return self._not_below(term, T, where)
         place = element(source)
         return replace(self, given=self.given | {place}).ask(place, T, where)
+
+    def _has_first(self, source: Object) -> bool:
+        return any(isinstance(known, NonEmpty) for known in self._known(source))
 
     def _singleton(
         self, term: Object, base: TypeNode, value: Object, where: Where
@@ -251,16 +258,34 @@ class Question:
             return _every(self.ask(one, item, where) for one in written)
         if not any(isinstance(known, _BELOW[type(T)]) for known in self._known(term)):
             return self._not_below(term, T, where)
+        if not isinstance(term, Path):
+            return self._elementwise(term, T, where)
         place = element(term)
         inside = replace(self, given=self.given | {place})
         if inside._misfit or (place not in self.given and inside.impossible):
             return _YES
         return inside.ask(place, item, where)
 
+    def _elementwise(
+        self, term: Object, T: ListOf | NonEmpty | SetOf, where: Where
+    ) -> Finding:
+        """Of what a function gives: is what its elements are of below T's?"""
+        one = self._fresh()
+        for known in self._known(term):
+            if not isinstance(known, ListOf | NonEmpty | SetOf):
+                continue
+            fits = isinstance(known, _BELOW[type(T)])
+            if fits and self._where(one, known.item, _asks(one, T.item)).yes:
+                return _YES
+        return self._not_below(term, T, where)
+
     def _computed_list(
         self, term: Operation, T: ListOf | NonEmpty | SetOf, where: Where
     ) -> Finding:
         if isinstance(T, SetOf) or term.name == "fst":
+            return self._not_below(term, T, where)
+        there = self._known(term) or self._has_first(term.args[0])
+        if term.name == "rst" and not there:
             return self._not_below(term, T, where)
         whole = ListOf(T.item)
         found = _every(self.ask(part, whole, where) for part in term.args)
@@ -442,6 +467,11 @@ def _written(term: Object, T: ListOf | NonEmpty | SetOf) -> tuple[Object, ...] |
 
 def _asks(term: Object, T: TypeNode) -> Callable[[Question], Finding]:
     return lambda question: question.ask(term, T)
+
+
+def _is_closed(term: Object, T: TypeNode) -> bool:
+    """Whether a model can be asked of the term; functions are asked of it here."""
+    return not (isinstance(T, FunType) or escaping(term) or escaping(T))
 
 
 def _cases(T: TypeNode) -> tuple[TypeNode, ...]:

@@ -25,6 +25,7 @@ from ttr.places import (
     unpacked,
     within,
 )
+from ttr.strings import is_of_strings
 from ttr.syntax import (
     Application,
     Basic,
@@ -367,8 +368,9 @@ def _has_form(term: Object, shape: TypeNode) -> bool:
             return isinstance(term, FiniteSet)
         case Str(items):
             return isinstance(term, EventString) and len(term) == len(items)
-        case Plus():
-            return isinstance(term, EventString) and len(term) > 0
+        case Plus(item):
+            some = isinstance(term, EventString) and len(term) > 0
+            return some or (isinstance(term, EventString) and is_of_strings(item))
         case FunType():
             return isinstance(term, Function)
         case Universe():

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
+from dataclasses import replace
+from itertools import islice, product
 from typing import assert_never
 
 from ttr.assignments import Assignment, Atom
 from ttr.axioms import above
+from ttr.cases import cases
+from ttr.entailment import Question
 from ttr.errors import Refused
 from ttr.judgements import How, Why, together
 from ttr.levels import why_outside
@@ -33,6 +37,7 @@ from ttr.syntax import (
     Object,
     Plus,
     PType,
+    Rec,
     Record,
     RecordType,
     SetOf,
@@ -44,6 +49,9 @@ from ttr.syntax import (
 )
 
 __all__ = ["derivation", "reduced"]
+
+TRIED = 100
+"""How many known objects a function is tried on."""
 
 
 def derivation(facts: Assignment, sit: Object, T: TypeNode) -> Why:
@@ -185,27 +193,45 @@ class _Derivation:
     def _function(self, sit: Object, T: FunType, where: str) -> Why:
         """Does the function take whatever is of the domain to what is of the result?
 
-        It is asked of a fresh object of which nothing else is known.
+        Certainly if that follows for an arbitrary object of the domain, from the rules
+        of subtyping and the facts about what the function mentions; not if it fails for
+        a known object or a made-up one.
         """
-        from ttr.creating import created
-
         if not isinstance(sit, Function):
             return Why(sit, T, REFUTED, "it is no function", where=where)
-        try:
-            x, facts = created(self._facts, T.domain, size=1)
-        except Refused as refused:
-            rule = f"nothing of {T.domain} can be made up: {refused.message}"
-            return Why(sit, T, UNKNOWN, rule, where=where)
-        inner = _Derivation(facts)
-        scope: Around = ({BOUND: x},)
-        inside = inner.of(x, sit.domain, (), "")
-        grounds = [inside]
-        if inside.p == CERTAIN:
-            grounds.append(inner._given(sit.body, T.result, scope))
-        whole = self._whole(sit, T, f"for a fresh {notation(x)}", grounds, where)
-        if whole.p in (CERTAIN, REFUTED):
-            return whole
-        return Why(sit, T, UNKNOWN, whole.rule, whole.parts, where)
+        theory = self._facts.theory
+        question = replace(Question.about(Rec, theory), judged=self._certain)
+        found = question.ask(sit, T)
+        if found.yes:
+            rule = "whatever it is applied to"
+            return Why(sit, T, CERTAIN, rule, where=where)
+        for x, facts in self._arguments(T.domain):
+            grounds = _Derivation(facts).applied(sit, T, x)
+            whole = self._whole(sit, T, f"applied to {notation(x)}", grounds, where)
+            if whole.p == REFUTED:
+                return whole
+        return Why(sit, T, UNKNOWN, f"it may be, but {found.why}", where=where)
+
+    def _certain(self, sit: Object, T: TypeNode) -> bool:
+        return self.of(sit, T, (), "").p == CERTAIN
+
+    def _arguments(self, domain: TypeNode) -> Iterator[tuple[Object, Assignment]]:
+        """Objects of a domain to try: some that are known, and made-up ones."""
+        from ttr.creating import created
+
+        if isinstance(domain, Basic | PType):
+            for x in islice(self._facts.witnesses(domain), TRIED):
+                yield x, self._facts
+        for case, size in product(cases(domain) or (domain,), (1, 0, 2)):
+            with suppress(Refused):
+                yield created(self._facts, case, size)
+
+    def applied(self, sit: Function, T: FunType, x: Object) -> list[Why]:
+        """Is the object of the function's domain, and what it gives of the result?"""
+        inside = self.of(x, sit.domain, (), "")
+        if inside.p != CERTAIN:
+            return [inside]
+        return [inside, self._given(sit.body, T.result, ({BOUND: x},))]
 
     def _given(self, body: Object, T: TypeNode, scope: Around) -> Why:
         """Is what a function gives of a type?"""

@@ -13,7 +13,7 @@ from immutables import Map
 
 from ttr.assignments import Assignment, WitnessFunction
 from ttr.creating import created, told
-from ttr.errors import IllFormed, TTRError, Unsupported, following_nesting
+from ttr.errors import IllFormed, Refused, TTRError, Unsupported, following_nesting
 from ttr.judgements import Judgement
 from ttr.judging import derivation, reduced
 from ttr.paths import escaping
@@ -24,7 +24,9 @@ from ttr.propositions import claim
 from ttr.syntax import (
     Application,
     Basic,
+    NonEmpty,
     Object,
+    Plus,
     Pred,
     PType,
     Record,
@@ -111,7 +113,13 @@ class Model:
             raise Unsupported(
                 f"only basic types and ptypes take a degree, but {T} was given {p}"
             )
-        return self._with(told(self._facts, sit, T))
+        facts = told(self._facts, sit, T)
+        why = derivation(facts, sit, T)
+        if why.p == REFUTED:
+            raise Refused(
+                f"{notation(sit)} : {T} cannot be given: it denies what it says"
+            )
+        return self._with(facts)
 
     def witnessed(self, head: Basic | Pred, /, *, by: WitnessFunction) -> Model:
         """The model in which a Python function says what is of a type.
@@ -232,18 +240,28 @@ class Model:
         """
         if not isinstance(proposition, TypeNode):
             return self.judge(*claim(freeze(proposition))).p
-        if self._has_witness(proposition):
-            return CERTAIN
-        return UNKNOWN if self._facts.leaves_open(proposition) else REFUTED
-
-    def _has_witness(self, T: TypeNode) -> bool:
-        """Whether something is known to be of T, be it only an empty list."""
-        _, T = _closed((), T)
+        _, T = _closed((), proposition)
         try:
-            return any(True for _ in witnesses(self._facts, T))
+            known = any(True for _ in witnesses(self._facts, T))
+            surely = known or not self._facts.leaves_open(T)
         except Unsupported:
+            known = surely = self._has_unlisted(T)
+        if known:
+            return CERTAIN
+        return REFUTED if surely else UNKNOWN
+
+    def _has_unlisted(self, T: TypeNode) -> bool:
+        """Whether something is of a type whose witnesses have no end, by what is known.
+
+        It may be an empty list, or made of known objects.
+        """
+        if isinstance(T, NonEmpty | Plus):
+            return self.true(T.item) == CERTAIN
+        try:
             sit, _ = created(self._facts, T)
-            return derivation(self._facts, sit, T).p == CERTAIN
+        except Refused:
+            return False
+        return derivation(self._facts, sit, T).p == CERTAIN
 
     def _with(self, facts: Assignment) -> Model:
         """The model of these facts: the same model where they are the same."""

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from ttr.assignments import Assignment
+from ttr.errors import Refused
+from ttr.judging import reduced
 from ttr.objects import Unresolved
 from ttr.substitution import grounded
 from ttr.syntax import Meet, Object, PType, Record, RecordType, TypeNode
@@ -32,8 +34,8 @@ def _filled_fields(
     fields = dict(sit._fields)
     for label, field in T.fields:
         try:
-            ground = grounded(field, (fields,))
-        except Unresolved:
+            ground = reduced(facts, grounded(field, (fields,)))
+        except (Unresolved, Refused):
             continue
         seen, facts = _seen(facts, fields.get(label), ground)
         if seen is not None:

@@ -12,6 +12,8 @@ from ttr import (
     Ind,
     ListOf,
     Model,
+    NonEmpty,
+    Plus,
     Pred,
     Rec,
     RecType,
@@ -20,6 +22,8 @@ from ttr import (
     Type,
     Undecided,
     Unsupported,
+    fst,
+    fun,
     outer,
     record,
     rectype,
@@ -28,6 +32,7 @@ from ttr import (
 from ttr.theories import Axiom, Given, Signature
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
+p = Pred("p", A)
 dog, puppy, hug = Pred("dog", Ind), Pred("puppy", Ind), Pred("hug", Ind, Ind)
 left, right = Pred("left", Ind, Ind), Pred("right", Ind, Ind)
 
@@ -156,7 +161,7 @@ def test_a_declared_subtype():
     j = M.judge("s", dog("rex"))
     assert j.p == (0.7, 1)
     assert j.why.rule == "by puppy(x) <: dog(x) and s : puppy(rex)"
-    assert M.judge("s", dog("fido")).p == (0, 0)
+    assert M.judge("s", puppy("fido")).p == M.judge("s", dog("fido")).p == (0, 1)
     assert M.judge("s", dog("rex") & puppy("rex")).p == (0.7, 0.7)
 
 
@@ -388,3 +393,53 @@ def test_what_nests_too_deep_is_said_so():
 
 def test_degrees_are_intervals():
     assert Model().given("a", A, [0.25, 0.5]).judge("a", A).p == Degree(0.25, 0.5)
+
+
+NOT_SURELY = {
+    "what is known speaks against it": (fun(x=A)(this.x), A >> ~B),
+    "one part of a join": (fun(x=A | B)(this.x), (A | B) >> A),
+    "the first of a list that may be empty": (
+        fun(x=ListOf(A))(fst(this.x)),
+        ListOf(A) >> A,
+    ),
+    "a list that may be empty": (fun(x=ListOf(A))(this.x), ListOf(A) >> NonEmpty(A)),
+    "a name that may be given to a fresh object": (fun(x=A)(this.x), A >> (A @ "a1")),
+    "an object that nobody knows": (fun(x=A)("nobody"), A >> B),
+}
+
+
+@pytest.mark.parametrize("name", NOT_SURELY)
+def test_a_function_that_is_not_surely_of_a_type(name):
+    M = Model().given("a", A).given("a", B)
+    f, T = NOT_SURELY[name]
+    assert M.judge(f, T).p.lo == 0
+
+
+def test_a_function_of_what_is_known():
+    M = Model().given("a", A).given("j", B)
+    assert M.judge(fun(x=A)("j"), A >> B).holds
+    assert M.judge(fun(x=A)([this.x, "a"]), A >> ListOf(A)).holds
+    assert M.judge(fun(x=Rec)(this.x), (Rec & Plus(A)) >> Rec).holds
+
+
+def test_what_cannot_be_is_not_given():
+    with pytest.raises(Refused, match="it denies what it says"):
+        Model().given("a", A & ~A)
+    seen = Model().witnessed(p, by=lambda x: 0)
+    with pytest.raises(Refused, match="refused by the witness function of p"):
+        seen.given("s", p("a"), 0.5)
+
+
+def test_a_witness_function_speaks_for_what_is_above():
+    theory = Signature(axioms=(Axiom(A, B),))
+    M = Model(theory).witnessed(A, by=lambda a: a == "x")
+    assert M.judge("x", B).holds
+    assert M.judge("y", B).p == (0, 1)
+    assert M.judge("x", A & ~B).holds is False
+
+
+def test_perceiving_through_a_function():
+    T = rectype(f=A >> Type, x=A, c=this.f(this.x))
+    M = Model().given("o", A).witnessed(p, by=lambda x: 0.8)
+    seen = M.perceive(record(f=fun(v=A)(p(this.v)), x="o"), T)
+    assert seen.p == (0.8, 0.8)

@@ -21,6 +21,7 @@ from ttr.notation import trees
 from ttr.notation.drafts import is_declared
 from ttr.notation.reader import Reader
 from ttr.notation.trees import Application, Name, Term
+from ttr.objects import Unresolved
 from ttr.syntax import Object, TypeNode
 
 __all__ = ["Asking"]
@@ -44,7 +45,7 @@ class Asking:
         """What is asked; a type that cannot be built is an answer, not a mistake."""
         try:
             return self._asked(tree)
-        except IllFormed as error:
+        except (IllFormed, Unresolved) as error:
             return error
 
     def _asked(self, tree: trees.Query) -> Query:
