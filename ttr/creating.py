@@ -19,6 +19,7 @@ from ttr.paths import escaping, moved, occurring, replace_paths
 from ttr.places import ITSELF, step
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED
+from ttr.strings import is_of_strings
 from ttr.substitution import grounded
 from ttr.syntax import (
     BOUND,
@@ -225,10 +226,9 @@ class _Making:
     def _string(self, facts: Assignment, T: Str | Plus) -> Made:
         if isinstance(T, Plus):
             pieces, facts = self._list(facts, T.item, max(1, self._size))
-            strings = [
-                p if isinstance(p, EventString) else EventString(p) for p in pieces
-            ]
-            return concat(*strings), facts
+            if not is_of_strings(T.item):
+                return EventString(*pieces), facts
+            return concat(*map(_as_string, pieces)), facts
         events: list[Object] = []
         for item in T.items:
             event, facts = self.one(facts, item)
@@ -332,6 +332,11 @@ def _type(T: Universe, size: int) -> TypeNode:
         return Ind
     lower = Universe(T.name, T.level - 1)
     return lower if T.name == "Type" else RecordType((("type", lower),))
+
+
+def _as_string(piece: Object) -> EventString:
+    """A piece of a string: a string, or one event."""
+    return piece if isinstance(piece, EventString) else EventString(piece)
 
 
 def _another(labels: Collection[str]) -> str:

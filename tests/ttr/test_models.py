@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ttr import (
+    Application,
     Basic,
     Degree,
     IllFormed,
@@ -18,6 +19,7 @@ from ttr import (
     Rec,
     RecType,
     Refused,
+    Str,
     TTRError,
     Type,
     Undecided,
@@ -443,3 +445,18 @@ def test_perceiving_through_a_function():
     M = Model().given("o", A).witnessed(p, by=lambda x: 0.8)
     seen = M.perceive(record(f=fun(v=A)(p(this.v)), x="o"), T)
     assert seen.p == (0.8, 0.8)
+
+
+PIECES = [
+    Plus(A),
+    Plus(Plus(A)),
+    Plus(A | Str(B)),
+    Plus(Str(A) & B),
+    Plus(Application(fun(x=Rec)(Str()), record())),
+]
+
+
+@pytest.mark.parametrize("T", PIECES, ids=str)
+def test_a_made_up_repetition(T):
+    witness, M = Model().create(T)
+    assert M.judge(witness, T).holds
