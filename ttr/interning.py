@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, dataclass_transform
 from weakref import ref
 
 from ttr.display.notebooks import Drawn
-from ttr.errors import IllFormed, TTRError
+from ttr.errors import IllFormed, TTRError, following_nesting
 
 __all__ = ["Node", "identity", "node"]
 
@@ -107,11 +107,13 @@ class Node(Drawn, metaclass=_Interning):
         """What makes two nodes of the class the same."""
         return tuple(map(identity, args))
 
+    @following_nesting
     def __str__(self) -> str:
         from ttr.printing import notation
 
         return notation(self)
 
+    @following_nesting
     def __repr__(self) -> str:
         from ttr.printing import python
 

@@ -13,7 +13,7 @@ from itertools import chain, groupby
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from ttr.display.notebooks import Drawn
-from ttr.errors import IllFormed, TTRError
+from ttr.errors import IllFormed, TTRError, following_nesting
 from ttr.interning import Node, identity, node
 
 __all__ = [
@@ -394,11 +394,13 @@ class Record(Drawn):
     def __delattr__(self, label: str) -> None:
         raise TTRError(f"a record does not change, so {label} cannot be deleted")
 
+    @following_nesting
     def __str__(self) -> str:
         from ttr.printing import notation
 
         return notation(self)
 
+    @following_nesting
     def __repr__(self) -> str:
         from ttr.printing import python
 

@@ -18,6 +18,7 @@ from ttr import (
     RecType,
     Type,
     Universe,
+    Unsupported,
     fun,
     outer,
     record,
@@ -127,3 +128,13 @@ def test_a_path_out_of_everything_keeps_its_dots():
     assert str(dog(this.x)) == "dog(.x)"
     assert str(rectype(c=dog(outer.x))) == "[c : dog(^.x)]"
     assert notation(dog(this.x), (frozenset({"x"}),)) == "dog(x)"
+
+
+@pytest.mark.parametrize("shown", [str, repr])
+def test_what_nests_too_deep_to_be_printed_is_said_so(shown):
+    T, r = rectype(x=Ind), record(x="a")
+    for _ in range(2000):
+        T, r = rectype(n=T), record(n=r)
+    for deep in (T, r):
+        with pytest.raises(Unsupported, match="nests deeper than can be followed"):
+            shown(deep)
