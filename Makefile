@@ -27,7 +27,7 @@ test: $(INSTALLED) ## format, lint, types, import directions, then all tests and
 	$(BIN)/pytest
 
 bench: $(INSTALLED) ## measure how fast things are, on one thread
-	@for script in benchmarks/*.py; do \
+	@for script in benchmarks/[!_]*.py; do \
 	    echo "== $$script"; OPENBLAS_NUM_THREADS=1 $(BIN)/python "$$script" || exit 1; \
 	done
 

@@ -10,16 +10,22 @@ time. `--cpu` counts what this process used instead of the clock, for busy machi
 
 from __future__ import annotations
 
-import argparse
-import gc
-import json
-import math
 import statistics
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+
+from _measuring import (
+    RUNS,
+    Measure,
+    Measures,
+    Result,
+    Task,
+    arguments,
+    clock_of,
+    report,
+    results,
+)
 
 from ttr import (
     EventString,
@@ -42,33 +48,9 @@ from ttr import (
 
 FIELDS = (5, 20, 80, 320, 1280, 5000)
 COUNTS = (10, 100, 1_000, 10_000, 100_000)
-RUNS = 7
-ROUND = 0.02
-"""A run lasts at least so many seconds: short tasks are repeated in it."""
-
-GROWTH = 1.15
-"""How much the time may grow between the sizes of `GROWS`."""
-
 GROWS = (320, 5000)
 
 p = Pred("p", Ind)
-Task = Callable[[], object]
-Clock = Callable[[], float]
-
-
-@dataclass(frozen=True)
-class Measure:
-    """What is measured: how to make the task for n, for which n, and what it may take.
-
-    `limits` are milliseconds for an n. `grows` says whether its growth has a limit.
-    """
-
-    make: Callable[[int], Task]
-    sizes: tuple[int, ...] = FIELDS
-    limits: Mapping[int, float] = field(default_factory=dict)
-    grows: tuple[int, int] | None = None
-
-
 # --- record types of n fields --------------------------------------------------------
 
 
@@ -248,20 +230,22 @@ def import_ttr(clock: str) -> float:
     return 1000 * statistics.median(times)
 
 
-MEASURES: Mapping[str, Mapping[str, Measure]] = {
+MEASURES: Measures = {
     "record types of n fields": {
-        "build": Measure(build),
-        "judge a record": Measure(judge, limits={320: 5}, grows=GROWS),
-        "judge with degrees": Measure(judge_degrees, grows=GROWS),
-        "judge against a meet": Measure(judge_meet, limits={320: 8}, grows=GROWS),
-        "subtype, yes": Measure(below, limits={320: 5}, grows=GROWS),
-        "subtype, no": Measure(not_below, limits={320: 5}, grows=GROWS),
-        "merge, half shared": Measure(merging, limits={320: 3}, grows=GROWS),
-        "create a witness": Measure(create, limits={320: 5}, grows=GROWS),
-        "give a record": Measure(given, grows=GROWS),
-        "apply, checked": Measure(apply, limits={320: 5}, grows=GROWS),
-        "print": Measure(printing, limits={320: 5}),
-        "parse": Measure(parsing, limits={320: 60}),
+        "build": Measure(build, FIELDS),
+        "judge a record": Measure(judge, FIELDS, limits={320: 5}, grows=GROWS),
+        "judge with degrees": Measure(judge_degrees, FIELDS, grows=GROWS),
+        "judge against a meet": Measure(
+            judge_meet, FIELDS, limits={320: 8}, grows=GROWS
+        ),
+        "subtype, yes": Measure(below, FIELDS, limits={320: 5}, grows=GROWS),
+        "subtype, no": Measure(not_below, FIELDS, limits={320: 5}, grows=GROWS),
+        "merge, half shared": Measure(merging, FIELDS, limits={320: 3}, grows=GROWS),
+        "create a witness": Measure(create, FIELDS, limits={320: 5}, grows=GROWS),
+        "give a record": Measure(given, FIELDS, grows=GROWS),
+        "apply, checked": Measure(apply, FIELDS, limits={320: 5}, grows=GROWS),
+        "print": Measure(printing, FIELDS, limits={320: 5}),
+        "parse": Measure(parsing, FIELDS, limits={320: 60}),
     },
     "models, lists, strings and theories of n": {
         "read a theory": Measure(reading, COUNTS[:4], {1_000: 1200}, (1_000, 10_000)),
@@ -282,108 +266,15 @@ MEASURES: Mapping[str, Mapping[str, Measure]] = {
 }
 
 
-# --- measuring -----------------------------------------------------------------------
-
-
-def milliseconds(task: Task, clock: Clock) -> float:
-    """The median time of one call."""
-    calls = 1
-    while seconds(task, calls, clock) < ROUND:
-        calls *= 2
-    times = [seconds(task, calls, clock) / calls for _ in range(RUNS)]
-    return 1000 * statistics.median(times)
-
-
-def seconds(task: Task, calls: int, clock: Clock) -> float:
-    gc.collect()
-    gc.disable()
-    start = clock()
-    for _ in range(calls):
-        task()
-    spent = clock() - start
-    gc.enable()
-    return spent
-
-
-@dataclass(frozen=True)
-class Result:
-    """The milliseconds for each n, and the limits with what was found."""
-
-    section: str
-    task: str
-    times: Mapping[int, float]
-    limits: tuple[tuple[str, float, float], ...]
-    """For each limit what it is of, the limit, and what was found."""
-
-    def facts(self) -> dict[str, object]:
-        return {
-            "section": self.section,
-            "task": self.task,
-            "milliseconds": {str(n): round(t, 5) for n, t in self.times.items()},
-            "limits": [
-                {"of": what, "limit": most, "found": found, "holds": found <= most}
-                for what, most, found in self.limits
-            ],
-        }
-
-
-def measured(section: str, task: str, it: Measure, clock: Clock) -> Result:
-    times = {n: milliseconds(it.make(n), clock) for n in it.sizes}
-    limits = [(f"n = {n:,}", most, times[n]) for n, most in it.limits.items()]
-    if it.grows:
-        least, most = it.grows
-        steps = math.log(most / least)
-        limits.append(("growth", GROWTH, math.log(times[most] / times[least]) / steps))
-    return Result(section, task, times, tuple(limits))
-
-
-def results(clock: str) -> Iterator[Result]:
-    for section, measures in MEASURES.items():
-        for task, it in measures.items():
-            yield measured(section, task, it, getattr(time, clock))
+def found(clock: str) -> Iterator[Result]:
+    yield from results(MEASURES, clock)
     once = import_ttr(clock)
     yield Result("one thing", "import ttr", {1: once}, (("n = 1", 150, once),))
 
 
-# --- telling -------------------------------------------------------------------------
-
-
-def told(found: Iterator[Result]) -> Iterator[str]:
-    """The results as a table, line by line."""
-    section = ""
-    for one in found:
-        if one.section != section:
-            section = one.section
-            sizes = "".join(f"{n:>9,}" if n > 1 else "" for n in one.times)
-            yield f"\n{section + ', ms':<34}{sizes}"
-        times = "".join(map(cell, one.times.values()))
-        limits = "; ".join(map(limit_told, one.limits))
-        yield f"  {one.task:<32}{times:<54}  {limits}".rstrip()
-
-
-def cell(time: float) -> str:
-    return f"{time:>9,.0f}" if time >= 1000 else f"{time:>9.3g}"
-
-
-def limit_told(limit: tuple[str, float, float]) -> str:
-    what, most, found = limit
-    verdict = "holds" if found <= most else "MISSED"
-    shown = f" is {found:.2f}" if what == "growth" else ""
-    return f"{what}{shown} <= {most:g} {verdict}"
-
-
 def main() -> None:
-    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
-    parser.add_argument("--json", action="store_true", help="print JSON, one object")
-    parser.add_argument("--cpu", action="store_true", help="count time of the process")
-    arguments = parser.parse_args()
-    clock = "process_time" if arguments.cpu else "perf_counter"
-    if arguments.json:
-        found = [one.facts() for one in results(clock)]
-        print(json.dumps({"clock": clock, "results": found}))
-        return
-    for line in told(results(clock)):
-        print(line, flush=True)
+    options = arguments(__doc__ or "").parse_args()
+    report(found(clock_of(options)), options)
 
 
 if __name__ == "__main__":
