@@ -28,6 +28,9 @@ import kille
 import ttr
 from kille import Agent, Memory
 from kille.sensors.sources import open_sensor
+from ttr.learning import Counts, LogOdds
+from ttr.possibilities import modal_system
+from ttr.variables import RandomVariable
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -240,12 +243,32 @@ def public(value: object) -> set[str]:
     return {name for name in dir(value) if not name.startswith("_")}
 
 
+def strings() -> dict[str, set[str]]:
+    """The public names of courses of strings of events."""
+    courses = importlib.import_module("ttr.courses")
+    begun = courses.begun(ttr.Plus(ttr.Ind), ttr.Model())
+    return {
+        "ttr.courses": set(courses.__all__),
+        "ttr.courses.Course": public(begun),
+    }
+
+
 def test_the_python_reference_names_what_is_public() -> None:
     described = tables(ROOT / "docs" / "reference" / "python.md")
+    perceptual = importlib.import_module("ttr.perceptual")
     with Agent(sensor="synthetic:empty") as robot, Memory.transient() as memory:
+        robot.do("show cup")
+        robot.hear("This is a cup.")
         expected = {
             "ttr": set(ttr.__all__),
             "ttr.updates": set(importlib.import_module("ttr.updates").__all__),
+            "ttr.perceptual": set(perceptual.__all__),
+            "ttr.perceptual.Meaning": public(robot.meaning("cup")),
+            "ttr.perceptual.Speaker": public(robot.words()),
+            **probability(),
+            **modality_and_learning(),
+            **quantification(),
+            **strings(),
             "kille": set(kille.__all__),
             "ttr.Model": public(ttr.Model()),
             "ttr.Judgement": public(ttr.Model().judge("a", ttr.Ind)),
@@ -256,6 +279,41 @@ def test_the_python_reference_names_what_is_public() -> None:
             "kille.Memory": public(memory),
         }
     assert described == expected
+
+
+def probability() -> dict[str, set[str]]:
+    """The public names of the modules on probability."""
+    named = ("ttr.probability", "ttr.variables")
+    found = {name: set(importlib.import_module(name).__all__) for name in named}
+    variable = RandomVariable("V", ttr.Ind, ttr.Rec)
+    return found | {"ttr.variables.RandomVariable": public(variable)}
+
+
+def quantification() -> dict[str, set[str]]:
+    """The public names of the modules on quantifiers and what is built on them."""
+    from ttr.quantifiers import every, settle
+
+    modules = ("quantifiers", "contents", "fragment")
+    named = [f"ttr.{module}" for module in modules]
+    found = {name: set(importlib.import_module(name).__all__) for name in named}
+    counted = settle(ttr.Model(), every(ttr.Ind, ttr.Ind))
+    return found | {"ttr.quantifiers.Quantification": public(counted)}
+
+
+def modality_and_learning() -> dict[str, set[str]]:
+    """The public names of the modules on possibilities, propositions and learning."""
+    modules = ("possibilities", "topoi", "stratifying", "propositions", "claims")
+    named = [f"ttr.{module}" for module in (*modules, "learning")]
+    found = {name: set(importlib.import_module(name).__all__) for name in named}
+    w = modal_system(w=ttr.Model())
+    necessary = w.restrictive.necessary(ttr.Ind)
+    return found | {
+        "ttr.possibilities.ModalSystem": public(w),
+        "ttr.possibilities.Notion": public(w.restrictive),
+        "ttr.possibilities.ModalAnswer": public(necessary),
+        "ttr.learning.Counts": public(Counts()),
+        "ttr.learning.LogOdds": public(LogOdds((ttr.Ind,))),
+    }
 
 
 def test_the_commands_reference_names_every_command_and_option() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -54,6 +55,59 @@ KEY_LINES = {
         "unknown:  s1 : dog(sam)   p = [0, 1]",
         "refused:  a : Real is refused by the witness function of Real",
     ],
+    "05_a_meaning_that_learns.py": [
+        "⎢params = ⎡t = 0.09       ⎤                                  ⎥",
+        "score:      0.721",
+        "type:       right(o1)",
+        "  ✓ c: e1 : right(o1)   (given)",
+        "now:        ~right(o1)",
+        "before:     right(o1)",
+        "params.t: 0.09 → 0.59",
+        "after  0 exchanges: 57% alike, κ 0.12, 0.42 apart",
+        "after 60 exchanges: 92% alike, κ 0.84, 0.07 apart",
+        "corrected:  9",
+        "red cup:    [redness : RealVector, roundness : RealVector, x : Ind, "
+        "c : cup(x) /\\ red(x)]",
+        "red cup:    0.598",
+    ],
+    "06_how_probable.py": [
+        "  p = [0.6, 0.8] e: s3 : hug(a, b)   (given)",
+        "not both:  0.1 0",
+        "  p = [0.54, 0.82] e: s3 : hug(a, b)   "
+        "(P(s3 : hug(a, b) | s1 : boy(a)) is [0.6, 0.8])",
+        "Kim, who has the flu, is ill:     [0.325, 0.45]",
+        "p = 0.8 o1 : Cup \\/ Mug   (one part; o1 : Cup excludes o1 : Mug)",
+        "p = [0.4, 0.8] o1 : Cup   "
+        "(as a value of What; 0.2 / (0.2 + 0.3), 0.4 / (0.4 + 0.1))",
+    ],
+    "07_most_dogs.py": [
+        "witness: {X = {fido, rex}, f = [{e = w1, x = fido}, {e = w2, x = rex}]}",
+        "too few: X has 1 of 3; it takes more than 1/2 of them",
+        "strict:  False",
+        "  ✗ nothing : bark(felix)   (nothing says so)",
+        "every dog barks, perhaps: p = 0.25",
+        "the same type: True",
+        "they, the boys: {kim, sam}",
+        "after few, the others too: {felix, fido, rex}",
+        "some owned donkey is beaten:  1",
+        "every owned donkey is beaten: 0",
+        "Most dogs bark. Most dogs are brown. / Some brown dog barks. -> yes",
+        "Every puppy barks. / Every dog barks. -> unknown",
+        "No dog barks. / At least two dogs bark loudly. -> no",
+    ],
+    "08_what_comes_next.py": [
+        "at first:   pick_up(h, s)",
+        "after e3:   run_after(d, s)",
+        "event 4, e9, is of run_after(h, s), but expected: run_after(d, s)",
+        "does it fit: 0",
+        "may it be over: 1",
+        "on course: 0.75",
+        "<e1 e2 e3 e4 e5 e6> is a game: 1",
+        "because it cannot be divided beyond its first 2 events; "
+        "event 3, e4, is of run_after(d, s), expected: throw(h, s)",
+        "a game is two by two: no",
+        "a round and then any: True",
+    ],
     "10_first_words.py": [
         "S> OK, I learned a cup.",
         "S> OK, I learned a book.",
@@ -89,3 +143,26 @@ def test_an_example_prints_what_it_is_about(example: str) -> None:
     lines = printed_by(example)
     found = [line for line in lines if line in KEY_LINES[example]]
     assert list(dict.fromkeys(found)) == KEY_LINES[example]
+
+
+@pytest.mark.parametrize(
+    "example", ["05_a_meaning_that_learns.py", "06_how_probable.py"]
+)
+def test_a_picture_is_drawn_or_it_says_what_it_needs(
+    example: str, tmp_path: Path
+) -> None:
+    picture = tmp_path / "picture.png"
+    run = subprocess.run(
+        [sys.executable, str(EXAMPLES / example), str(picture)],
+        capture_output=True,
+        env={**os.environ, "PYTHONUTF8": "1"},
+        encoding="utf-8",
+        timeout=60,
+        check=False,
+    )
+    if find_spec("matplotlib"):
+        assert (run.returncode, run.stderr) == (0, "")
+        assert picture.read_bytes().startswith(b"\x89PNG")
+    else:
+        needs = "no picture: it needs matplotlib, pip install 'kille[plots]'\n"
+        assert (run.returncode, run.stderr) == (1, needs)

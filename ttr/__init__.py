@@ -17,6 +17,7 @@ from ttr.errors import (
     Refused,
     TTRError,
     Undecided,
+    Unexpected,
     Unsupported,
     UpdateError,
 )
@@ -114,6 +115,7 @@ __all__ = [
     "Type",
     "TypeNode",
     "Undecided",
+    "Unexpected",
     "Universe",
     "Unsupported",
     "UpdateError",

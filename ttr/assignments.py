@@ -14,18 +14,23 @@ from typing import Any, TypeAlias
 
 from immutables import Map
 
-from ttr.axioms import above, below, match_schema
+from ttr.axioms import above, below, excluding, match_schema
 from ttr.errors import Refused, TTRError
+from ttr.links import Atom, Claim, Conditioned, Expectation, Links
 from ttr.paths import escaping, occurring
 from ttr.printing import notation
-from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
+from ttr.probability import (
+    CERTAIN,
+    REFUTED,
+    UNKNOWN,
+    Degree,
+    complement,
+    degree,
+)
 from ttr.syntax import Basic, Object, Pred, PType, TypeNode, identity
 from ttr.theories import Signature
 
 __all__ = ["Assignment", "Atom", "Head", "WitnessFunction", "head"]
-
-Atom: TypeAlias = Basic | PType
-"""The types that an assignment gives witnesses to."""
 
 Head: TypeAlias = Basic | Pred
 """What is open or has a witness function: a basic type, or a predicate's ptypes."""
@@ -38,6 +43,9 @@ Facts: TypeAlias = Map[Atom, Degree]
 
 
 _EMPTY: Map[Any, Any] = Map()
+
+NO_LINKS = Links()
+"""Nothing was said of how judgements depend."""
 
 
 def head(T: Atom) -> Head:
@@ -60,6 +68,7 @@ class Assignment:
     told: Map[Atom, Map[object, tuple[int, Object]]] = _EMPTY
     functions: Map[Head, WitnessFunction] = _EMPTY
     opened: Map[Head, bool] = _EMPTY
+    links: Links = NO_LINKS
     created: int = 0
     facts: int = 0
 
@@ -70,16 +79,18 @@ class Assignment:
         told = facts.get(T)
         if told in (CERTAIN, REFUTED):
             return told, "given"
-        if told is None and isinstance(T, Basic) and perceptual:
-            asked = self.perceived(sit, T) or UNKNOWN
-            return asked, f"by the witness function of {T}"
         least, lower = self._bound_below(facts, sit, T)
         most, upper = self._bound_above(facts, sit, T)
+        if told is None and isinstance(T, Basic) and perceptual:
+            told = self.perceived(sit, T) or UNKNOWN
+            rule = f"by the witness function of {T}"
+            return self._within(sit, T, told, (least, lower), (most, upper)), rule
         if told is not None:
             rule = f"seen as {head(T).name}" if perceptual else "given"
-            return _within(told, least, most), rule
+            return self._within(sit, T, told, (least, lower), (most, upper)), rule
         if least > 0.0:
-            return _within(Degree(least, 1.0), 0.0, most), lower
+            known = Degree(least, 1.0)
+            return self._within(sit, T, known, (least, lower), (most, upper)), lower
         if perceptual or self._is_open(T):
             return Degree(0.0, most), upper or "nothing is known of it"
         return REFUTED, "nothing says so"
@@ -106,18 +117,34 @@ class Assignment:
             fault = f"{type(error).__name__}: {error}"
             raise TTRError(f"{_call(T, args)} failed: {fault}") from error
 
+    def told_degree(self, sit: Object, T: Atom) -> Degree | None:
+        """With what probability sit was told to be of T; None if it was not."""
+        return self.known.get(identity(sit), _EMPTY).get(T)
+
     def types_of(self, sit: Object) -> list[Atom]:
         """What the object was told, and perhaps is, to be of; in no order."""
         facts = self.known.get(identity(sit), _EMPTY)
         return [T for T, p in facts.items() if p.hi > 0.0]
 
+    def objects(self) -> list[Object]:
+        """What was told to be of anything, in the order in which it was."""
+        told: dict[object, tuple[int, Object]] = {}
+        for entries in self.told.values():
+            for key, entry in entries.items():
+                told[key] = min(told.get(key, entry), entry, key=itemgetter(0))
+        return [sit for _, sit in sorted(told.values(), key=itemgetter(0))]
+
     def leaves_open(self, T: TypeNode) -> bool:
         """Whether a type mentions atoms that more may be of than what was told."""
-        heads = [head(part) for part in occurring([T]) if isinstance(part, Atom)]
-        return any(one in self.opened or one in self.functions for one in heads)
+        atoms = (part for part in occurring([T]) if isinstance(part, Atom))
+        return any(map(self._is_open, atoms))
 
     def witnesses(self, T: Atom) -> Iterator[Object]:
         """The objects that certainly are of T by what was told, in the order told."""
+        yield from self.told_of(T, lambda p: p == CERTAIN)
+
+    def told_of(self, T: Atom, enough: Callable[[Degree], bool]) -> Iterator[Object]:
+        """The objects that were told to be of T with a degree that is enough."""
         kinds = [T]
         for _, lower in below(T, self.theory.axioms):
             kinds += _instances(lower, self.told)
@@ -127,7 +154,7 @@ class Assignment:
             for key, entry in self.told.get(kind, _EMPTY).items()
         }
         for _, sit in sorted(told.values(), key=itemgetter(0)):
-            if self.degree_of(sit, T)[0] == CERTAIN:
+            if enough(self.degree_of(sit, T)[0]):
                 yield sit
 
     # --- new assignments -----------------------------------------------------------
@@ -138,15 +165,37 @@ class Assignment:
         Raises `Refused` where a witness function says no, or an axiom contradicts.
         """
         self._check(sit, T, p)
-        opened = self.opened
-        if p.hi > 0.0 and p.lo < 1.0 and head(T) not in opened:
-            opened = opened.set(head(T), True)
+        opened = self._opening(T, p)
         told = self._with(sit, T, p)
         return told if opened is self.opened else replace(told, opened=opened)
 
+    def with_conditioned(self, said: Conditioned) -> Assignment:
+        """The assignment in which a judgement depends on others so."""
+        known = self.known
+        for claim in (said.target, *[claim for claim, _ in said.condition]):
+            for name in (identity(claim.sit), *_names(claim.type)):
+                known = known if name in known else known.set(name, _EMPTY)
+        links = self.links.with_conditioned(said)
+        opened = self.opened.set(head(said.target.type), True)
+        return replace(self, known=known, links=links, opened=opened)
+
+    def with_expected(self, said: Expectation) -> Assignment:
+        """The assignment in which whatever is of some types so probably is of T."""
+        opened = self.opened.set(head(said.type), True)
+        return replace(self, links=self.links.with_expected(said), opened=opened)
+
+    def with_unknown(self, claims: tuple[Claim, ...]) -> Assignment:
+        """The assignment in which nothing is known of how these claims depend."""
+        return replace(self, links=self.links.with_unknown(claims))
+
     def with_perceived(self, sit: Object, T: PType) -> Assignment:
-        """The assignment in which sit is of T as far as T's witness function says."""
-        return self._with(sit, T, self.perceived(sit, T) or UNKNOWN)
+        """The assignment in which sit is of T as far as T's witness function says.
+
+        Raises `Refused` where an axiom and what was judged before contradict it.
+        """
+        seen = self._with(sit, T, self.perceived(sit, T) or UNKNOWN)
+        seen.degree_of(sit, T)
+        return seen
 
     def with_function(self, of: Head, function: WitnessFunction) -> Assignment:
         """The assignment in which a function says what is of a type."""
@@ -175,6 +224,12 @@ class Assignment:
         )
         return replace(self, known=known, told=told, facts=number)
 
+    def _opening(self, T: Atom, p: Degree) -> Map[Head, bool]:
+        """What is open once something is of T with a degree between."""
+        if p in (CERTAIN, REFUTED) or head(T) in self.opened:
+            return self.opened
+        return self.opened.set(head(T), True)
+
     def _check(self, sit: Object, T: Atom, p: Degree) -> None:
         facts = self.known.get(identity(sit), _EMPTY)
         kinds = (T, *(upper for _, upper in above(T, self.theory.axioms)))
@@ -184,13 +239,25 @@ class Assignment:
                     f"{notation(sit)} : {T} is refused by the witness function of "
                     f"{head(kind).name}"
                 )
-        least, why = self._bound_below(facts, sit, T)
-        most, why_not = self._bound_above(facts, sit, T)
-        if p.lo > most or p.hi < least:
+        lower = self._bound_below(facts, sit, T)
+        self._within(sit, T, p, lower, self._bound_above(facts, sit, T))
+
+    def _within(
+        self,
+        sit: Object,
+        T: Atom,
+        p: Degree,
+        lower: tuple[float, str],
+        upper: tuple[float, str],
+    ) -> Degree:
+        """The degree within the bounds that axioms set; `Refused` if it is outside."""
+        lo, hi = max(p.lo, lower[0]), min(p.hi, upper[0])
+        if lo > hi:
             raise Refused(
                 f"{notation(sit)} : {T} cannot have the probability {p}: "
-                f"{why_not if p.lo > most else why}"
+                f"{upper[1] if p.lo > upper[0] else lower[1]}"
             )
+        return Degree(lo, hi)
 
     def _refuses(self, sit: Object, T: Atom, p: Degree) -> bool:
         """Whether a witness function rules out what is told for certain."""
@@ -215,17 +282,32 @@ class Assignment:
         """a : T is at most as probable as a : U, wherever T <: U; and by which."""
         best, why = 1.0, ""
         for axiom, upper in above(T, self.theory.axioms):
+            seen = self.perceived(sit, upper) if isinstance(upper, Basic) else None
+            if seen is not None and seen.hi < best and upper not in facts:
+                best, why = seen.hi, f"by {axiom} and the witness function of {upper}"
             for kind in _instances(upper, facts):
                 if facts[kind].hi < best:
                     best = facts[kind].hi
                     why = f"by {axiom} and {notation(sit)} : {kind} with {facts[kind]}"
-        return best, why
+        apart, excluded = self._bound_by_exclusion(facts, sit, T)
+        return (apart, excluded) if apart < best else (best, why)
 
-
-def _within(told: Degree, least: float, most: float) -> Degree:
-    """The degree within the bounds; where what was seen breaks them, as it is."""
-    lo, hi = max(told.lo, least), min(told.hi, most)
-    return Degree(lo, hi) if lo <= hi else told
+    def _bound_by_exclusion(
+        self, facts: Facts, sit: Object, T: Atom
+    ) -> tuple[float, str]:
+        """a : T is as probable as what is left by a : S, wherever S <: ~T."""
+        if head(T) not in self.theory.related:
+            return 1.0, ""
+        itself = excluding(T, T, self.theory)
+        if itself:
+            return 0.0, f"by {itself}"
+        found = [(1.0, "")]
+        for kind, p in facts.items():
+            exclusion = excluding(T, kind, self.theory) if p.lo > 0.0 else None
+            if exclusion:
+                why = f"by {exclusion} and {notation(sit)} : {kind}"
+                found.append((complement(p.lo), why))
+        return min(found)
 
 
 def _instances(schema: Atom, facts: Map[Atom, Any]) -> list[Atom]:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import product
 
 from ttr.paths import replace_paths
 from ttr.syntax import Basic, Object, Path, PType, identity
-from ttr.theories import Axiom
+from ttr.theories import Axiom, Exclusion, Signature
 
-__all__ = ["above", "below", "match_schema"]
+__all__ = ["above", "below", "excluding", "match_schema"]
 
 Binding = Mapping[Path, Object]
+
+Atom = Basic | PType
 
 
 def above(
@@ -35,6 +38,40 @@ def below(
     A schematic variable that only the lower side has stays in it as a path.
     """
     yield from _reached(T, [(axiom, axiom.upper, axiom.lower) for axiom in axioms])
+
+
+def excluding(S: Atom, T: Atom, theory: Signature) -> Exclusion | None:
+    """The exclusion by which nothing is of both types, or of what is above them.
+
+    >>> from ttr.syntax import Ind, Pred, this
+    >>> dog, cat = Pred("dog", Ind), Pred("cat", Ind)
+    >>> theory = Signature(exclusions=(Exclusion(dog(this.x), cat(this.x)),))
+    >>> print(excluding(cat("felix"), dog("felix"), theory))
+    dog(x) <: ~cat(x)
+    >>> excluding(cat("felix"), dog("fido"), theory)
+    """
+    if not theory.exclusions:
+        return None
+    mine = [S, *(upper for _, upper in above(S, theory.axioms))]
+    theirs = [T, *(upper for _, upper in above(T, theory.axioms))]
+    for exclusion in theory.exclusions:
+        left, right = exclusion.left, exclusion.right
+        for one, other in product(mine, theirs):
+            if _match_both((left, right), (one, other)):
+                return exclusion
+            if _match_both((left, right), (other, one)):
+                return exclusion
+    return None
+
+
+def _match_both(schemas: tuple[Atom, Atom], types: tuple[Atom, Atom]) -> bool:
+    """Whether both types are what the schemas stand for, with the same variables."""
+    left, right = (match_schema(*pair) for pair in zip(schemas, types, strict=True))
+    if left is None or right is None:
+        return False
+    return all(
+        identity(left[path]) == identity(right[path]) for path in left if path in right
+    )
 
 
 def _reached(

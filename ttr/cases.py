@@ -15,6 +15,7 @@ from math import prod
 from ttr.constructors import ordered
 from ttr.errors import Unsupported
 from ttr.normal_forms import inwards, meet_normal_form
+from ttr.strings.forms import is_of_strings
 from ttr.syntax import (
     Join,
     Meet,
@@ -39,8 +40,10 @@ def splits(T: TypeNode) -> bool:
     match T:
         case Join() | Negation():
             return True
-        case Meet(parts) | Str(parts):
+        case Meet(parts):
             return any(map(splits, parts))
+        case Str(parts):
+            return any(splits(part) for part in parts if not is_of_strings(part))
         case RecordType(fields):
             return any(splits(field) for _, field in fields)
         case Singleton(base, _):
@@ -70,10 +73,15 @@ def cases(T: TypeNode) -> tuple[TypeNode, ...] | None:
         case Singleton(base, value):
             found = cases(base)
             return found and tuple([Singleton(case, value) for case in found])
-        case Meet(parts) | Str(parts):
-            return _chosen(parts, meet if isinstance(T, Meet) else Str)
+        case Meet(parts):
+            return _chosen(map(cases, parts), meet)
+        case Str(parts):
+            # A piece that may be a string of several events stays whole.
+            kept = [(p,) if is_of_strings(p) else cases(p) for p in parts]
+            return _chosen(kept, Str)
         case RecordType(fields):
-            return _chosen([field for _, field in fields], partial(_fields, T.labels))
+            kept = [cases(field) for _, field in fields]
+            return _chosen(kept, partial(_fields, T.labels))
     return (T,)
 
 
@@ -82,10 +90,10 @@ def _fields(labels: Iterable[str], *types: TypeNode) -> RecordType:
 
 
 def _chosen(
-    parts: Iterable[TypeNode], whole: Callable[..., TypeNode]
+    parts: Iterable[tuple[TypeNode, ...] | None], whole: Callable[..., TypeNode]
 ) -> tuple[TypeNode, ...] | None:
     """A case of the whole for each choice of a case for each part."""
-    found = [cases(part) for part in parts]
+    found = list(parts)
     if prod(len(choices or ()) for choices in found) > CASES or None in found:
         return None
     return tuple([whole(*choice) for choice in product(*filter(None, found))])

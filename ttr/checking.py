@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Check",
     "Creates",
+    "Expects",
     "Failure",
     "HasDegree",
     "IsOf",
@@ -90,10 +91,21 @@ class IsWellFormed:
 
 @dataclass(frozen=True)
 class HasDegree:
-    """P(a : T) = [lo, hi] (`relation` is "="), or within [lo, hi] (it is "in")."""
+    """P(a : T | b : S, …) = [lo, hi] (`relation` is "="), or within it (it is "in")."""
 
     sit: Object
     type: TypeNode
+    relation: str
+    interval: Interval
+    when: tuple[tuple[Object, TypeNode], ...] = ()
+
+
+@dataclass(frozen=True)
+class Expects:
+    """P(T || S, …) = [lo, hi], or within it: of any known object."""
+
+    type: TypeNode
+    when: tuple[TypeNode, ...]
     relation: str
     interval: Interval
 
@@ -107,7 +119,15 @@ class IsTrue:
 
 
 Query: TypeAlias = (
-    IsOf | IsBelow | IsSame | Merges | Creates | IsWellFormed | HasDegree | IsTrue
+    IsOf
+    | IsBelow
+    | IsSame
+    | Merges
+    | Creates
+    | IsWellFormed
+    | HasDegree
+    | Expects
+    | IsTrue
 )
 
 
@@ -209,7 +229,7 @@ def _model(theory: Theory) -> Model:
     model = Model(replace(theory, givens=()))
     for given in theory.givens:
         try:
-            model = model.given(given.sit, given.type, given.p)
+            model = model.stated(given)
         except TTRError as error:
             raise error.at(given.span) if given.span else error from None
     return model
@@ -255,12 +275,14 @@ def _asked(query: Query, theory: Theory, model: Model) -> _Answer:
         case IsWellFormed(T):
             return _is_well_formed(T)
         case HasDegree():
-            return _has_degree(query, model)
+            judgement = model.judge(query.sit, query.type, when=query.when)
+            return _has_degree(query, judgement.p, str(judgement.why))
+        case Expects(T, when):
+            found = model.chance(T, when=when)
+            return _has_degree(query, found.p, str(found))
         case IsTrue(T, interval):
             p = model.true(T)
-            why = (
-                f"a witness of {T} is known" if p.lo else f"no witness of {T} is known"
-            )
+            why = f"{'a' if p.lo == 1.0 else 'no'} certain witness of {T} is known"
             return _Answer("yes" if _same(p, interval) else "no", _interval(p), why)
     assert_never(query)
 
@@ -296,16 +318,13 @@ def _is_well_formed(T: TypeNode | TTRError) -> _Answer:
     return _yes_or_no(not circle(T), f"its paths go in a circle: {circle(T)}")
 
 
-def _has_degree(query: HasDegree, model: Model) -> _Answer:
-    judgement = model.judge(query.sit, query.type)
-    lo, hi = judgement.p
+def _has_degree(query: HasDegree | Expects, p: Interval, why: str) -> _Answer:
     least, most = query.interval
     if query.relation == "=":
-        holds = _same(judgement.p, query.interval)
+        holds = _same(p, query.interval)
     else:
-        holds = least - TOLERANCE <= lo and hi <= most + TOLERANCE
-    found = _interval(judgement.p)
-    return _Answer("yes" if holds else "no", found, str(judgement.why))
+        holds = least - TOLERANCE <= p[0] and p[1] <= most + TOLERANCE
+    return _Answer("yes" if holds else "no", _interval(p), why)
 
 
 def _same(p: Interval, wanted: Interval) -> bool:

@@ -6,6 +6,7 @@ import argparse
 import json
 import os
 import sys
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from io import TextIOWrapper
@@ -16,6 +17,7 @@ from ttr.errors import TTRError
 
 if TYPE_CHECKING:
     from ttr.checking import Failure
+    from ttr.fragment.fracas import Answered
     from ttr.objects import Object
     from ttr.theories import Theory
 
@@ -91,6 +93,18 @@ def _parser() -> argparse.ArgumentParser:
     )
     repl.add_argument("file", nargs="?", metavar="FILE", help="a theory to start from")
     repl.set_defaults(command=_repl)
+    fracas = commands.add_parser(
+        "fracas",
+        help="answer the FraCaS problems on quantifiers",
+        description="Answers section 1 of a FraCaS problem set; exits with 1 if one is "
+        "wrong.",
+    )
+    fracas.add_argument("file", metavar="FILE", help="the problem set (.xml)")
+    fracas.add_argument(
+        "--lexicon", metavar="FILE", help="a theory file (.ttr) with more words"
+    )
+    fracas.add_argument("--json", action="store_true", help="report for machines")
+    fracas.set_defaults(command=_fracas)
     return parser
 
 
@@ -297,6 +311,67 @@ def _repl(options: argparse.Namespace) -> int:
         return FAILED
     talk(session)
     return FINE
+
+
+# --- ttr fracas ----------------------------------------------------------------------
+
+
+def _fracas(options: argparse.Namespace) -> int:
+    from ttr.fragment.fracas import answered, problems
+    from ttr.fragment.lexicon import english
+
+    try:
+        words = english()
+        if options.lexicon is not None:
+            words = words.extended(options.lexicon)
+        some = problems(options.file)
+    except TTRError as error:
+        return _complain(error.message)
+    found = []
+    for one in answered(some, words):
+        found.append(one)
+        if not options.json:
+            _say(_answer(one))
+    totals = Counter[str](one.outcome for one in found)
+    if options.json:
+        _say(json.dumps(_answers(found, totals), ensure_ascii=False, indent=2))
+    else:
+        _say(
+            f"{len(found)} problems: {totals['right']} right, {totals['wrong']} wrong, "
+            f"{totals['outside']} outside the fragment, "
+            f"{totals['open']} without a plain answer"
+        )
+    return FAILED if totals["wrong"] else FINE
+
+
+def _answer(one: Answered) -> str:
+    """A line on one problem."""
+    number = f"{one.problem.number:03}"
+    match one.outcome:
+        case "outside":
+            return f"{number}  outside the fragment: {one.why}"
+        case "wrong":
+            return f"{number}  wrong: {one.found}, expected {one.problem.answer}"
+        case "open":
+            return f"{number}  without a plain answer: {one.found}"
+    return f"{number}  right: {one.found}"
+
+
+def _answers(found: list[Answered], totals: Counter[str]) -> dict[str, Any]:
+    outcomes = ("right", "wrong", "outside", "open")
+    return {
+        "problems": [
+            {
+                "id": one.problem.number,
+                "outcome": one.outcome,
+                "expected": one.problem.answer,
+                "found": one.found or None,
+                "why": one.why,
+            }
+            for one in found
+        ],
+        "totals": {outcome: totals[outcome] for outcome in outcomes},
+    }
 
 
 if __name__ == "__main__":

@@ -15,17 +15,20 @@ from ttr.syntax import (
     FunType,
     Object,
     Path,
+    Plus,
     RecordType,
+    Str,
     TypeNode,
     as_type,
     freeze,
+    join,
     kind_of,
 )
 
 if TYPE_CHECKING:
     from ttr.theories import Signature
 
-__all__ = ["Pi", "fun", "function_type", "ordered", "rectype"]
+__all__ = ["Pi", "fun", "function_type", "ordered", "rectype", "star"]
 
 
 def rectype(
@@ -82,6 +85,21 @@ def ordered(fields: Mapping[str, TypeNode]) -> tuple[tuple[str, TypeNode], ...]:
                 heappush(ready, (depth + 1, waiting))
     order += sorted(fields.keys() - order)
     return tuple((label, fields[label]) for label in order)
+
+
+# --- strings -------------------------------------------------------------------------
+
+
+def star(T: TypeNode, /) -> TypeNode:
+    """T*, the strings that are none or more strings or events of T in a row.
+
+    Source: Fernando 2007.
+
+    >>> from ttr.syntax import Ind
+    >>> print(star(Ind))
+    plus(Ind) \\/ str()
+    """
+    return join(Str(), Plus(T))
 
 
 # --- functions -----------------------------------------------------------------------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 from itertools import product
 
 from ttr.assignments import Assignment
@@ -13,11 +14,13 @@ from ttr.hypothetical import Assumption
 from ttr.judgements import Judgement, Why
 from ttr.models import Model
 from ttr.objects import Unresolved
+from ttr.paths import replace_paths
 from ttr.places import ITSELF, elements
 from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.strings.forms import is_of_strings
 from ttr.substitution import along
 from ttr.subtyping import Refutation
-from ttr.syntax import Object, Path, TypeNode, meet
+from ttr.syntax import Object, Path, RecordType, TypeNode, meet
 from ttr.theories import Signature
 
 __all__ = ["counter", "witness"]
@@ -44,14 +47,47 @@ Start = tuple[TypeNode, tuple[Assumption, ...]]
 def _starts(refutation: Refutation) -> list[Start]:
     """What to make a witness of, and what to tell of it then.
 
-    What was assumed of the whole witness says what form it has.
+    What was assumed of the whole witness says what form it has; and what was assumed of
+    a string in a field, how long that is.
     """
     S, assumed = refutation.S, refutation.assumed
     if not assumed:
         return [(one, ()) for one in dict.fromkeys((S, straightened(S)))]
     of_it = [T for term, T in assumed if term is ITSELF]
     others = tuple([pair for pair in assumed if pair[0] is not ITSELF])
-    return [(meet(S, *of_it), others), (S, ())]
+    narrower = [one for pair in others if (one := _with_string(S, *pair)) is not None]
+    return [*((one, ()) for one in narrower), (meet(S, *of_it), others), (S, ())]
+
+
+def _with_string(S: TypeNode, term: Object, T: TypeNode) -> TypeNode | None:
+    """S where a string in a field is of T instead; None where it is in no field."""
+    if not isinstance(term, Path) or not is_of_strings(T):
+        return None
+    first, *labels = term.labels
+    if first != ITSELF.labels[0]:
+        return None
+    inner = replace_paths(T, partial(_seen_from, len(labels) - 1))
+    return _with_field(S, labels, inner)
+
+
+def _with_field(S: TypeNode, labels: list[str], T: TypeNode) -> TypeNode | None:
+    """S with T for the type of a field; None where the labels lead to none."""
+    if not labels:
+        return T
+    first, *rest = labels
+    if not isinstance(S, RecordType) or first not in S:
+        return None
+    inner = _with_field(S[first], rest, T)
+    if inner is None:
+        return None
+    fields = [(label, inner if label == first else U) for label, U in S.fields]
+    return RecordType(tuple(fields))
+
+
+def _seen_from(depth: int, place: Path) -> Path:
+    """A place as a path from so many records inside the witness."""
+    inside = place.up == 0 and place.labels[0] == ITSELF.labels[0]
+    return Path(depth, place.labels[1:]) if inside else place
 
 
 def _degree(found: Judgement, T: TypeNode) -> Degree | None:
@@ -72,7 +108,7 @@ def witness(
 
     `size` is how many elements the lists and sets in it have, if they may.
     """
-    facts = Assignment(Signature(axioms=theory.axioms))
+    facts = Assignment(Signature(axioms=theory.axioms, exclusions=theory.exclusions))
     try:
         sit, facts = created(facts, S, size)
         for term, T in assumed:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from functools import partial, reduce
-from itertools import count, cycle
+from itertools import count, cycle, islice
 from typing import assert_never
 
 from ttr.assignments import Assignment
@@ -14,12 +14,14 @@ from ttr.errors import Refused, TTRError
 from ttr.hypothetical import Hypothetical
 from ttr.judging import derivation, reduced
 from ttr.merging import merge
-from ttr.objects import Unresolved, concat
+from ttr.objects import Unresolved
 from ttr.paths import escaping, moved, occurring, replace_paths
 from ttr.places import ITSELF, step
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED
-from ttr.strings import is_of_strings
+from ttr.strings.automata import automaton_above
+from ttr.strings.forms import alternatives, events_of, is_of_strings, string_of
+from ttr.strings.runs import shortest
 from ttr.substitution import grounded
 from ttr.syntax import (
     BOUND,
@@ -72,7 +74,7 @@ def told(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
             return _told_each(facts, sit, item)
         case SetOf(item) if isinstance(sit, FiniteSet):
             return _told_each(facts, sit, item)
-        case Str(items) if isinstance(sit, EventString) and len(sit) == len(items):
+        case Str(items) if _has_events(sit, T):
             for event, item in zip(sit, items, strict=True):
                 facts = told(facts, event, item)
             return facts
@@ -86,6 +88,14 @@ def told(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
     if why.p != CERTAIN:
         raise Refused(f"{notation(sit)} : {T} cannot be given: {why.rule}")
     return facts
+
+
+def _has_events(sit: Object, T: Str) -> bool:
+    """Whether it is plain which events of a string are to be of what."""
+    events = events_of(T)
+    return (
+        isinstance(sit, EventString) and events is not None and len(sit) == len(events)
+    )
 
 
 def _told_each(facts: Assignment, sit: Iterable[Object], T: TypeNode) -> Assignment:
@@ -202,7 +212,7 @@ class _Making:
                 items, facts = self._list(facts, item, self._size)
                 return FiniteSet(*items), facts
             case Str() | Plus():
-                return self._string(facts, T)
+                return self._string_or_another(facts, T)
             case FunType():
                 return self._function(facts, T)
             case RecordType():
@@ -223,17 +233,27 @@ class _Making:
             items.append(made)
         return tuple(items), facts
 
+    def _string_or_another(self, facts: Assignment, T: Str | Plus) -> Made:
+        """A string of the first alternatives; if there is none, of any."""
+        try:
+            return self._string(facts, T)
+        except Refused:
+            if isinstance(T, Str) and events_of(T) is not None:
+                raise
+            return self._by_events(facts, T)
+
     def _string(self, facts: Assignment, T: Str | Plus) -> Made:
-        if isinstance(T, Plus):
-            pieces, facts = self._list(facts, T.item, max(1, self._size))
-            if not is_of_strings(T.item):
-                return EventString(*pieces), facts
-            return concat(*map(_as_string, pieces)), facts
-        events: list[Object] = []
-        for item in T.items:
-            event, facts = self.one(facts, item)
-            events.append(event)
-        return EventString(*events), facts
+        items = T.items if isinstance(T, Str) else self._repeated(T)
+        pieces: list[Object] = []
+        for item in items:
+            piece, facts = self.one(facts, item)
+            pieces.append(piece)
+        return string_of(items, pieces), facts
+
+    def _repeated(self, T: Plus) -> list[TypeNode]:
+        """The types of so many pieces; those of a join take turns."""
+        kinds = [case for one in alternatives(T.item) for case in cases(one) or (one,)]
+        return list(islice(cycle(kinds), max(1, self._size)))
 
     def _record(self, facts: Assignment, T: RecordType) -> Made:
         fields: dict[str, Object] = {}
@@ -303,6 +323,8 @@ class _Making:
         if values:
             value = reduced(facts, values[0])
             return value, _surely(facts, value, T)
+        if any(map(is_of_strings, parts)):
+            return self._by_events(facts, T)
         shapes = [part for part in parts if not isinstance(part, _FORMLESS)]
         if not shapes:
             sit, facts = facts.with_new("a" if _individual(parts) else "s")
@@ -312,12 +334,27 @@ class _Making:
         sit, facts = self.one(facts, min(shapes, key=lambda U: type(U) in _VAGUE))
         return sit, _surely(facts, sit, T)
 
+    def _by_events(self, facts: Assignment, T: TypeNode) -> Made:
+        """A string as the types of its events say, told to be of what is left of T."""
+        refused = Refused(f"a witness of {T} cannot be made up, only be given")
+        found = automaton_above(T)
+        for labels in islice(shortest(found, self._size), TRIED):
+            try:
+                sit, known = self._string(facts, Str(*labels))
+                return sit, _surely(known, sit, T)
+            except TTRError as error:
+                refused = Refused(error.message, hint=error.hint)
+        raise refused
+
 
 _FORMLESS = (Basic, PType, Negation)
 """Types that do not say what form their witnesses have."""
 
-_VAGUE = (ListOf, Plus)
+_VAGUE = (ListOf,)
 """Types of collections that do not say how many elements there are."""
+
+TRIED = 16
+"""How many strings are tried, shortest first, where there have to be several types."""
 
 
 def _individual(parts: tuple[TypeNode, ...]) -> bool:
@@ -332,11 +369,6 @@ def _type(T: Universe, size: int) -> TypeNode:
         return Ind
     lower = Universe(T.name, T.level - 1)
     return lower if T.name == "Type" else RecordType((("type", lower),))
-
-
-def _as_string(piece: Object) -> EventString:
-    """A piece of a string: a string, or one event."""
-    return piece if isinstance(piece, EventString) else EventString(piece)
 
 
 def _another(labels: Collection[str]) -> str:

@@ -8,17 +8,23 @@ said what speaks against it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import combinations
 from typing import assert_never
 
-from ttr.axioms import above
+from ttr.axioms import above, excluding
 from ttr.cases import Clause, cases, clauses
+from ttr.errors import Unsupported
 from ttr.hypothetical import Assumption, Hypothetical
 from ttr.levels import why_outside
 from ttr.paths import escaping, replace_paths
 from ttr.places import ITSELF, element, elements, event, instantiated, step, unpacked
 from ttr.printing import notation
-from ttr.strings import covers, is_of_strings
+from ttr.strings.automata import automaton, automaton_above
+from ttr.strings.forms import events_of, is_of_strings, is_regular
+from ttr.strings.inclusion import Inclusion, included
+from ttr.strings.runs import covers
 from ttr.syntax import (
     Application,
     Basic,
@@ -44,6 +50,8 @@ from ttr.syntax import (
     TypeNode,
     Universe,
     identity,
+    join,
+    meet,
 )
 from ttr.theories import Signature
 
@@ -73,7 +81,8 @@ class Question:
     """What is sure of an arbitrary witness of S, under axioms and assumptions?
 
     `given` are the elements of lists and sets that the question is about. `judged` says
-    of which types an object certainly is, where there is a model to ask.
+    of which types an object certainly is, where there is a model to ask. `divided` are
+    the strings about whose events the question is.
     """
 
     S: TypeNode
@@ -82,6 +91,7 @@ class Question:
     assumed: tuple[Assumption, ...] = ()
     given: frozenset[Path] = frozenset()
     judged: Callable[[Object, TypeNode], bool] | None = None
+    divided: frozenset[object] = frozenset()
 
     @classmethod
     def about(cls, S: TypeNode, theory: Signature) -> Question:
@@ -96,15 +106,47 @@ class Question:
     @property
     def impossible(self) -> bool:
         """Whether there can be no such witness, as far as that is derivable."""
-        return self._misfit or any(
-            self.ask(term, T).yes for term, T in self.witness.negated(self.given)
-        )
+        return self._misfit or self._denies or self._lacks_string
+
+    @property
+    def _denies(self) -> bool:
+        """Whether something is surely of a type that is denied of it."""
+        negated = self.witness.negated(self.given)
+        return any(self.ask(term, T).yes for term, T in negated)
+
+    @property
+    def _lacks_string(self) -> bool:
+        """Whether no string is of all that is claimed of what this is last about."""
+        terms = [term for term, _ in self.assumed[-1:]] or self.witness.strings
+        return any(map(self._is_no_string, map(self.witness.normal, terms)))
+
+    def _is_no_string(self, term: Object) -> bool:
+        """Whether no string is of all the types known of a term, event by event."""
+        known = self._known_strings(term)
+        if known is None or identity(term) in self.divided:
+            return False
+        if isinstance(known, Str) and events_of(known) is not None:
+            return False
+        inside = self._dividing(term)
+        with suppress(Unsupported):
+            return included(automaton_above(known), None, inside._is_below).yes
+        return False
 
     @property
     def _misfit(self) -> bool:
         """Whether by their form there can be no such things as it is about."""
         absent = map(self.witness.is_absent, self.given)
-        return self.witness.impossible or any(absent)
+        return self.witness.impossible or any(absent) or self._excluded()
+
+    def _excluded(self) -> bool:
+        """Whether something would have to be of two types that exclude each other."""
+        if not self.theory.exclusions:
+            return False
+        return any(
+            excluding(one, other, self.theory)
+            for atoms in self.witness.atoms(self.given)
+            for one, other in combinations(atoms, 2)
+        )
 
     def ask(self, term: Object, T: TypeNode, where: Where = ()) -> Finding:
         """Is a term of T for sure? T's paths start where the whole witness stands."""
@@ -207,15 +249,25 @@ class Question:
         known = self._known(term)
         if any(self.witness.normal(part) in known for part in denied):
             return _YES
-        if any(self.ask(term, part, where).yes for part in plain):
+        found = self._one_of(term, plain, where)
+        if found.yes:
             return _YES
         further = self._further([(term, part.body) for part in denied])
-        if further is self:
-            return self._not_below(term, T, where)
-        if further.impossible or any(further.ask(term, part).yes for part in plain):
+        if further is not self:
+            if further.impossible:
+                return _YES
+            found = further._one_of(term, plain, ())
+        if found.yes:
             return _YES
         why_not = self._not_below(term, T, where)
-        return replace(why_not, assumed=further.assumed)
+        return replace(why_not, assumed=found.assumed or further.assumed)
+
+    def _one_of(self, term: Object, parts: list[TypeNode], where: Where) -> Finding:
+        """Is the term of one of the types, or a string of one or another of them?"""
+        if any(self.ask(term, part, where).yes for part in parts):
+            return _YES
+        strings = [part for part in parts if is_of_strings(part)]
+        return self._strings(term, join(*strings)) if strings else Finding(False)
 
     def _further(self, assumptions: Iterable[Assumption]) -> Question:
         """The question under what is not assumed yet; the same one if that is nothing.
@@ -297,37 +349,72 @@ class Question:
 
     def _string(self, term: Object, T: Str | Plus, where: Where) -> Finding:
         events = self._events(term)
-        if isinstance(T, Plus) and events is None:
-            return self._repeated(term, T, where)
-        if events is None:
-            return self._not_below(term, T, where)
-        covered = covers(T, len(events), lambda i, U: self.ask(events[i], U).yes)
-        return _YES if covered else self._not_below(term, T, where)
+        if events is not None:
+            found = automaton(T)
+            if covers(len(events), found, lambda i, U: self.ask(events[i], U).yes):
+                return _YES
+        included = self._strings(term, T)
+        if included.yes:
+            return included
+        return replace(self._not_below(term, T, where), assumed=included.assumed)
 
     def _events(self, term: Object) -> Sequence[Object] | None:
         """The events of a string, or None where it is not known how many they are."""
         if isinstance(term, EventString):
             return term.items
-        lengths = [len(T.items) for T in self._known(term) if isinstance(T, Str)]
+        strings = [T for T in self._known(term) if isinstance(T, Str)]
+        lengths = [len(items) for T in strings if (items := events_of(T)) is not None]
         if not lengths or not isinstance(term, Path):
             return None
         return [event(term, number) for number in range(lengths[0])]
 
-    def _repeated(self, term: Object, T: Plus, where: Where) -> Finding:
-        """plus(S) is below plus(T) if what is of S is of plus(T), or of T.
+    def _strings(self, term: Object, T: TypeNode) -> Finding:
+        """Is every string of what is known of a term one of T, event by event?
 
-        Of T only where both are of strings or both of events: an event that is itself a
-        string is no string of events.
+        What is asked of part of a string as a whole is taken as that first, and then as
+        what it is made of. If not, a string that may speak against it is assumed.
         """
-        one = self._fresh()
-        for known in self._known(term):
-            if not isinstance(known, Plus):
-                continue
-            alike = is_of_strings(known.item) == is_of_strings(T.item)
-            for upper in (T.item, T) if alike else (T,):
-                if self._where(one, known.item, _asks(one, upper)).yes:
+        known = self._known_strings(term)
+        if known is None or identity(term) in self.divided:
+            return Finding(False)
+        inside = self._dividing(term)
+        found = Inclusion(False)
+        with suppress(Unsupported):
+            above = automaton(T)
+            for one in (automaton, automaton_above):
+                found = included(one(known), above, inside._is_below)
+                if found.yes:
                     return _YES
-        return self._not_below(term, T, where)
+        if found.against is None:
+            return Finding(False)
+        return Finding(False, "", (*self.assumed, (term, Str(*found.against))))
+
+    def _dividing(self, term: Object) -> Question:
+        """The question about the events of a string; not about the string once more."""
+        return replace(self, divided=self.divided | {identity(term)})
+
+    def _known_strings(self, term: Object) -> TypeNode | None:
+        """What strings a term may be, as one type; None where it need not be one."""
+        known = self._known(term)
+        strings = [T for T in known if is_of_strings(T)]
+        if not strings:
+            return None
+        denied = [T for T in known if isinstance(T, Negation) and is_regular(T.body)]
+        return meet(*strings, *denied)
+
+    def _is_below(self, S: TypeNode, types: tuple[TypeNode, ...]) -> bool:
+        """Whether an event of a type surely is of one of some others.
+
+        Of none only if there can be no such event.
+        """
+        if len(self.assumed) >= ASSUMPTIONS:
+            return False
+        one = self._fresh()
+        further = [self.assuming((one, case)) for case in _cases(S)]
+        return all(
+            q._misfit or q._denies or (bool(types) and q.ask(one, join(*types)).yes)
+            for q in further
+        )
 
     # --- functions ---
 

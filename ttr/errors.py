@@ -19,6 +19,7 @@ __all__ = [
     "Span",
     "TTRError",
     "Undecided",
+    "Unexpected",
     "Unsupported",
     "UpdateError",
     "following_nesting",
@@ -117,6 +118,10 @@ class IllFormed(TTRError):
 
 class Refused(TTRError):
     """A judgement that a witness condition or a fact contradicts."""
+
+
+class Unexpected(Refused):
+    """An event that no type expects where it comes."""
 
 
 class Undecided(TTRError):

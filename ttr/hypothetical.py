@@ -10,7 +10,7 @@ so such a claim has a *condition*, the place of that element.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 
 from ttr.levels import why_outside
 from ttr.paths import escaping, occurring, replace_paths
@@ -25,7 +25,7 @@ from ttr.places import (
     unpacked,
     within,
 )
-from ttr.strings import is_of_strings
+from ttr.strings.forms import events_of, is_of_strings
 from ttr.syntax import (
     Application,
     Basic,
@@ -78,6 +78,7 @@ class Hypothetical:
         self._followed = True
         self._classes: dict[object, _Class] = {}
         self._claims: list[tuple[Path, TypeNode]] = []
+        self.strings: list[Object] = []
         self._claim(ITSELF, S)
         written = []
         for term, T in assumed:
@@ -135,6 +136,11 @@ class Hypothetical:
             if isinstance(T, Negation)
         ]
 
+    def atoms(self, given: Collection[Path]) -> Iterator[list[Basic | PType]]:
+        """The basic types and ptypes that each of the terms is surely of."""
+        for known in self._classes.values():
+            yield [T for T in known.types(given) if isinstance(T, Basic | PType)]
+
     # --- what is claimed, place by place ---
 
     def _claim(self, place: Path, T: TypeNode) -> None:
@@ -147,8 +153,8 @@ class Hypothetical:
                 self._claim(place, base)
             case ListOf(item) | NonEmpty(item) | SetOf(item):
                 self._claim(element(place), item)
-            case Str(items):
-                for number, item in enumerate(items):
+            case Str():
+                for number, item in enumerate(events_of(T) or ()):
                     self._claim(event(place, number), item)
             case RecordType(fields):
                 for label, field in fields:
@@ -171,9 +177,11 @@ class Hypothetical:
             case ListOf(item) | NonEmpty(item) | SetOf(item) if inside is not None:
                 for one in inside:
                     self._spread(one, item, condition)
-            case Str(items) if inside is not None and len(inside) == len(items):
-                for one, item in zip(inside, items, strict=True):
+            case Str() if inside is not None and len(inside) == _length(T):
+                for one, item in zip(inside, T.items, strict=True):
                     self._spread(one, item, condition)
+        if isinstance(T, Str | Plus):
+            self.strings.append(term)
 
     def _spread(self, term: Object, T: TypeNode, condition: Path | None) -> None:
         """Adds what a list's type claims of an element that is written in it."""
@@ -334,7 +342,7 @@ class _Class:
         """Whether the types can all be of the term, as far as their form says."""
         shapes = [T for T in types if isinstance(T, _Shape)]
         if isinstance(self.term, Path):
-            lengths = {len(T.items) for T in shapes if isinstance(T, Str)}
+            lengths = {_length(T) for T in shapes if isinstance(T, Str)} - {None}
             return len({_SHAPES[type(T)] for T in shapes}) <= 1 and len(lengths) <= 1
         if isinstance(self.term, Application | Operation):
             return True
@@ -366,8 +374,10 @@ def _has_form(term: Object, shape: TypeNode) -> bool:
             return isinstance(term, tuple) and len(term) > 0
         case SetOf():
             return isinstance(term, FiniteSet)
-        case Str(items):
-            return isinstance(term, EventString) and len(term) == len(items)
+        case Str():
+            length = _length(shape)
+            some = isinstance(term, EventString)
+            return some and (length is None or len(term) == length)
         case Plus(item):
             some = isinstance(term, EventString) and len(term) > 0
             return some or (isinstance(term, EventString) and is_of_strings(item))
@@ -376,6 +386,12 @@ def _has_form(term: Object, shape: TypeNode) -> bool:
         case Universe():
             return not why_outside(term, shape)
     return True
+
+
+def _length(T: Str) -> int | None:
+    """How many events the strings of a type have, if all have as many by its form."""
+    events = events_of(T)
+    return None if events is None else len(events)
 
 
 def _value(T: TypeNode) -> Object:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 from typing import TYPE_CHECKING, Literal, TypeAlias, assert_never
@@ -44,17 +44,21 @@ class Why(Drawn):
     """A step of a derivation: what is claimed, how probable, by which rule, from what.
 
     `where` is the path of the field this step is about, from the one above; `how` is
-    what it needs of its parts. `facts` is what a claim that fails was asked of.
+    what it needs of its parts. `facts` is what a claim that fails was asked of, and
+    `reckoned` says how its degree comes of theirs. `alone` is the degree of a judgement
+    before others that it depends on were taken into account.
     """
 
     sit: Object
     type: TypeNode
     p: Degree
     rule: str
-    parts: tuple[Why, ...] = ()
+    parts: Sequence[Why] = ()
     where: str = ""
     how: How = "all"
     facts: Assignment | None = field(default=None, repr=False)
+    reckoned: Callable[[], str] | None = field(default=None, repr=False)
+    alone: Degree | None = field(default=None, repr=False)
 
     def event(self) -> Event:
         """The claim as an event over the uncertain judgements that it rests on."""
@@ -74,6 +78,23 @@ class Why(Drawn):
             if not step.parts:
                 yield (identity(step.sit), step.type), step.p
             waiting.extend(reversed(step.parts))
+
+    def uncertain(self) -> Iterator[Why]:
+        """The uncertain judgements it rests on, in order, as often as they occur."""
+        waiting = [self]
+        while waiting:
+            step = waiting.pop()
+            if step.p in (CERTAIN, REFUTED):
+                continue
+            if not step.parts:
+                yield step
+            waiting.extend(reversed(step.parts))
+
+    @property
+    def because(self) -> str:
+        """The rule, the arithmetic and, where it fails, what would have done."""
+        reckoning = self.reckoned() if self.reckoned else ""
+        return "; ".join(filter(None, (self.rule, reckoning, self.remedy())))
 
     def failure(self) -> Why | None:
         """The step at the bottom that fails first, or None where all is certain.
@@ -121,13 +142,12 @@ class Why(Drawn):
     def _lines(self, indent: str) -> Iterator[str]:
         where = f"{self.where}: " if self.where else ""
         claim = f"{notation(self.sit)} : {self.type}"
-        grounds = "; ".join(filter(None, (self.rule, self.remedy())))
-        yield f"{indent}{mark(self.p)} {where}{claim}   ({grounds})"
+        yield f"{indent}{mark(self.p)} {where}{claim}   ({self.because})"
         for part in self.parts:
             yield from part._lines(indent + "  ")
 
 
-def together(how: How, parts: tuple[Why, ...]) -> Event:
+def together(how: How, parts: Sequence[Why]) -> Event:
     """What a claim needs of its grounds, as one event."""
     events = tuple([part.event() for part in parts])
     match how:

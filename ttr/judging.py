@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from itertools import islice, product
 from typing import assert_never
 
-from ttr.assignments import Assignment, Atom
-from ttr.axioms import above
+from ttr.assignments import Assignment
 from ttr.cases import cases
+from ttr.dependences import dependence
+from ttr.dividing import Dividing, stopped
 from ttr.entailment import Question
 from ttr.errors import Refused
 from ttr.judgements import How, Why, together
 from ttr.levels import why_outside
+from ttr.links import Atom, Claim
 from ttr.objects import Missing, Unresolved
 from ttr.paths import escaping, parts, rebuilt
 from ttr.printing import notation
-from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, chance
-from ttr.strings import divided, is_of_strings
+from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
+from ttr.reckoning import reckoned, reckoning
+from ttr.strings.automata import automaton
+from ttr.strings.forms import events_of
+from ttr.strings.runs import Stop
 from ttr.substitution import Around, grounded
 from ttr.syntax import (
     BOUND,
@@ -48,7 +54,7 @@ from ttr.syntax import (
     identity,
 )
 
-__all__ = ["derivation", "reduced"]
+__all__ = ["claims_of", "derivation", "reduced"]
 
 TRIED = 100
 """How many known objects a function is tried on."""
@@ -121,7 +127,19 @@ class _Derivation:
     def _atom(self, sit: Object, T: Atom, where: str) -> Why:
         p, rule = self._facts.degree_of(sit, T)
         asked = self._facts if p == REFUTED else None
-        return Why(sit, T, p, rule, where=where, facts=asked)
+        why = Why(sit, T, p, rule, where=where, facts=asked)
+        return why if p in (CERTAIN, REFUTED) else self._linked(why)
+
+    def _linked(self, why: Why) -> Why:
+        """An uncertain judgement in the light of those that it depends on."""
+        known = dependence(self._facts, claims_of([why]))
+        if not known.components:
+            return why
+        found = reckoned(why.event(), known)
+        if found.p == why.p:
+            return why
+        rule = reckoning("all", (why,), found)
+        return replace(why, p=found.p, rule=rule, alone=why.p)
 
     def _singleton(self, sit: Object, T: Singleton, around: Around, where: str) -> Why:
         try:
@@ -154,39 +172,41 @@ class _Derivation:
     def _string(self, sit: Object, T: Str | Plus, around: Around, where: str) -> Why:
         if not isinstance(sit, EventString):
             return Why(sit, T, REFUTED, "it is no string of events", where=where)
-        if isinstance(T, Plus):
-            return self._repeated(sit, T, around, where)
-        if len(sit) != len(T.items):
-            rule = f"it has {len(sit)} events, not {len(T.items)}"
+        items = None if isinstance(T, Plus) else events_of(T)
+        if items is None:
+            return self._divided(sit, T, around, where)
+        if len(sit) != len(items):
+            rule = f"it has {len(sit)} events, not {len(items)}"
             return Why(sit, T, REFUTED, rule, where=where)
-        pairs = zip(sit, T.items, strict=True)
+        pairs = zip(sit, items, strict=True)
         grounds = [self.of(event, item, around, "") for event, item in pairs]
         return self._whole(sit, T, "event by event", grounds, where)
 
-    def _repeated(self, sit: EventString, T: Plus, around: Around, where: str) -> Why:
-        """One or more strings or events of a type in a row."""
-        if not sit.items and is_of_strings(T.item):
-            grounds = [self.of(sit, T.item, around, "")]
-            return self._whole(sit, T, "piece by piece", grounds, where)
-        judge = _EventJudge(self, sit, around)
-        sure = divided(len(sit), T.item, judge, lambda why: why.p == CERTAIN)
-        found = sure
-        if not sure.ways:
-            found = divided(len(sit), T.item, judge, lambda why: why.p != REFUTED)
-        if not found.ways:
-            rule = f"it cannot be divided beyond its first {found.furthest} events"
+    def _divided(
+        self, sit: EventString, T: Str | Plus, around: Around, where: str
+    ) -> Why:
+        """Pieces in a row: in a way that is certain, or in one of those possible."""
+
+        def derives(part: Object, U: TypeNode) -> Why:
+            return self.of(part, U, around, "")
+
+        found = automaton(T)
+        dividing = Dividing(self._facts, sit, derives, around)
+        way = dividing.certain_way(found)
+        if way is not None:
+            return Why(sit, T, CERTAIN, "piece by piece", way, where)
+        division = dividing.possible_ways(found)
+        if isinstance(division, Stop):
+            rule = stopped(self._facts, sit, division)
             return Why(sit, T, REFUTED, rule, where=where)
-        ways = [
-            tuple([one for piece in way for one in piece.grounds]) for way in found.ways
-        ]
-        if sure.ways or len(ways) == 1:
+        if not division.all:
+            rule = f"one of more than {len(division.ways)} ways to divide it"
+            return Why(sit, T, dividing.chance(found), rule, where=where)
+        ways = list(map(dividing.grounds, division.ways))
+        if len(ways) == 1:
             return self._whole(sit, T, "piece by piece", ways[0], where)
         each = [self._whole(sit, T, "divided so", way, "") for way in ways]
-        whole = self._whole(sit, T, "one way to divide it", each, where, "any")
-        if found.all:
-            return whole
-        rule = f"at least one of {len(ways)} ways to divide it"
-        return Why(sit, T, Degree(whole.p.lo, 1.0), rule, where=where)
+        return self._whole(sit, T, "one way to divide it", each, where, "any")
 
     # --- functions and records ---
 
@@ -272,46 +292,23 @@ class _Derivation:
     ) -> Why:
         """A claim that holds where all its grounds do, or any, or none of them."""
         grounds = tuple(grounds)
-        return Why(sit, T, self._degree(how, grounds), rule, grounds, where, how)
-
-    def _degree(self, how: How, grounds: tuple[Why, ...]) -> Degree:
-        decided = _decided(how, [ground.p for ground in grounds])
-        if decided is not None:
-            return decided
-        return chance(together(how, grounds), self._entailed(grounds))
-
-    def _entailed(self, grounds: tuple[Why, ...]) -> Mapping[object, frozenset[object]]:
-        """What other judgements each of the judgements entails by the axioms."""
-        axioms = self._facts.theory.axioms
-        if not axioms:
-            return {}
-        atoms = {atom for ground in grounds for atom, _ in ground.atoms()}
-        return {
-            (sit, T): frozenset((sit, upper) for _, upper in above(T, axioms))
-            for sit, T in atoms
-            if isinstance(T, Basic | PType)
-        }
+        p = _decided(how, [ground.p for ground in grounds])
+        if p is not None:
+            return Why(sit, T, p, rule, grounds, where, how)
+        known = dependence(self._facts, claims_of(grounds))
+        found = reckoned(together(how, grounds), known)
+        said = partial(reckoning, how, grounds, found, known)
+        return Why(sit, T, found.p, rule, grounds, where, how, None, said)
 
 
-class _EventJudge:
-    """Judges the parts of a string, each event once for every type."""
-
-    def __init__(self, derives: _Derivation, sit: EventString, around: Around) -> None:
-        self._derives, self._sit, self._around = derives, sit, around
-        self._known: dict[tuple[object, TypeNode], Why] = {}
-
-    def event(self, number: int, T: TypeNode) -> Why:
-        event = self._sit.items[number]
-        key = (identity(event), T)
-        known = self._known.get(key)
-        if known is None:
-            known = self._derives.of(event, T, self._around, "")
-            self._known[key] = known
-        return known
-
-    def string(self, start: int, end: int, T: TypeNode) -> Why:
-        part = EventString(*self._sit.items[start:end])
-        return self._derives.of(part, T, self._around, "")
+def claims_of(grounds: Iterable[Why]) -> dict[Claim, Degree]:
+    """The uncertain judgements of atoms that grounds rest on, each with its degree."""
+    return {
+        Claim(step.sit, step.type): step.alone or step.p
+        for ground in grounds
+        for step in ground.uncertain()
+        if isinstance(step.type, Basic | PType)
+    }
 
 
 def _decided(how: How, degrees: list[Degree]) -> Degree | None:

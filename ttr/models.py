@@ -7,23 +7,35 @@ of them changes the model: what is new is in the model they give back.
 
 from __future__ import annotations
 
-from typing import Protocol
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Protocol, TypeAlias, cast
 
 from immutables import Map
 
 from ttr.assignments import Assignment, WitnessFunction
+from ttr.conditioning import (
+    conditional,
+    expected,
+    table_rows,
+    told_when,
+    undetermined,
+)
 from ttr.creating import created, told
+from ttr.dependences import check_together
 from ttr.errors import IllFormed, Refused, TTRError, Unsupported, following_nesting
 from ttr.judgements import Judgement
 from ttr.judging import derivation, reduced
+from ttr.nonspecific import Range, of_any, some
 from ttr.paths import escaping
 from ttr.perceiving import filled
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
-from ttr.propositions import claim
+from ttr.propositions import borne_out, claim, probabilistic_claim
 from ttr.syntax import (
     Application,
     Basic,
+    EventString,
+    FiniteSet,
     NonEmpty,
     Object,
     Plus,
@@ -34,10 +46,23 @@ from ttr.syntax import (
     as_type,
     freeze,
 )
-from ttr.theories import Signature
+from ttr.theories import Expected, Given, Signature
 from ttr.witnesses import witnesses
 
 __all__ = ["Model"]
+
+
+_EMPTY: tuple[Object, ...] = ((), FiniteSet(), EventString())
+"""What is of the types of lists, sets and strings, though nothing is known."""
+
+Conditions: TypeAlias = Iterable[tuple[object, TypeNode]]
+"""Judgements: an object and a type each."""
+
+Types: TypeAlias = TypeNode | Sequence[TypeNode]
+"""A type, or several."""
+
+Table: TypeAlias = Mapping[tuple[bool, ...], object]
+"""A probability for each case."""
 
 
 class _HasSignature(Protocol):
@@ -75,7 +100,7 @@ class Model:
         )
         start = self
         for given in signature.givens:
-            start = start.given(given.sit, given.type, given.p)
+            start = start.stated(given)
         self._facts = start._facts
 
     @classmethod
@@ -91,24 +116,31 @@ class Model:
         return self._facts.theory
 
     @following_nesting
-    def given(self, sit: object, T: TypeNode, /, p: object = 1.0) -> Model:
+    def given(
+        self, sit: object, T: TypeNode, /, p: object = 1.0, *, when: Conditions = ()
+    ) -> Model:
         """The model in which also sit : T, with a probability or an interval.
 
         Records, meets, singletons and lists are taken apart into their atoms, for which
-        the probability must be 1. Raises `Refused` where a witness function says no or
-        what is given cannot be, and `IllFormed` where a path leads nowhere.
+        the probability must be 1. With `when` it is p(sit : T | b : S, …), what it is
+        if these are so; the conditions are of basic types and ptypes or their
+        negations. Raises `Refused` where a witness function says no or what is given
+        cannot be, and `IllFormed` where a path leads nowhere.
 
-        >>> M = Model().given("a", Basic("A"), 0.8)
-        >>> print(M.judge("a", Basic("A")).p)
-        0.8
+        >>> A, B = Basic("A"), Basic("B")
+        >>> M = Model().given("a", A, 0.6).given("a", B, (0.7, 0.8), when=[("a", A)])
+        >>> print(M.judge("a", A).p, M.judge("a", A & B).p)
+        0.6 [0.42, 0.48]
         """
         sit, T = _closed(sit, T)
-        try:
-            p = degree(p)
-        except TTRError as error:
-            raise TTRError(f"{notation(sit)} : {T}: {error.message}") from None
+        p = _degree_of(f"{notation(sit)} : {T}", p)
+        if when:
+            return self._with(told_when(self._facts, sit, T, p, _pairs(when)))
         if isinstance(T, Basic | PType):
-            return self._with(self._facts.with_fact(sit, T, p))
+            facts = self._facts.with_fact(sit, T, p)
+            if facts.links or p not in (CERTAIN, REFUTED):
+                check_together(facts, sit, T)
+            return self._with(facts)
         if p != CERTAIN:
             raise Unsupported(
                 f"only basic types and ptypes take a degree, but {T} was given {p}"
@@ -120,6 +152,66 @@ class Model:
                 f"{notation(sit)} : {T} cannot be given: it denies what it says"
             )
         return self._with(facts)
+
+    def expects(self, T: TypeNode, /, p: object, *, when: Types) -> Model:
+        """The model in which whatever is of the conditions is of T so probably.
+
+        This is p(T || S, …): of the same object, whatever it is. What was given of a
+        particular object goes before it.
+
+        >>> Flu, Ill = Basic("Flu"), Basic("Ill")
+        >>> M = Model().expects(Ill, 0.6, when=Flu).given("kim", Flu)
+        >>> print(M.judge("kim", Ill).p)
+        0.6
+        """
+        types = when if isinstance(when, tuple | list) else (when,)
+        _, T = _closed((), T)
+        conditions = [_closed((), S)[1] for S in types]
+        degree = _degree_of(f"p({T} || {', '.join(map(str, conditions))})", p)
+        return self._with(expected(self._facts, T, degree, conditions))
+
+    def tabled(self, T: object, /, on: Sequence[object], rows: Table) -> Model:
+        """The model with a table of conditional probabilities for T.
+
+        `on` are what T depends on, and `rows` says, for each case of whether they are
+        so, how probable T is. They are types, and then the table is of whatever object,
+        or pairs of an object and a type. Raises `TTRError` where a row is missing.
+
+        >>> Rain, Wet = Basic("Rain"), Basic("Wet")
+        >>> M = Model().given("now", Rain, 0.2)
+        >>> M = M.tabled(Wet, on=[Rain], rows={(True,): 0.9, (False,): 0.1})
+        >>> print(M.judge("now", Wet).p, M.judge("now", Rain, when=[("now", Wet)]).p)
+        0.26 0.6923
+        """
+        model = self
+        for case, p in table_rows(on, rows):
+            literals = [_literal(one, so) for one, so in zip(on, case, strict=True)]
+            if isinstance(T, TypeNode):
+                model = model.expects(T, p, when=literals)
+            else:
+                sit, kind = _pairs([T])[0]
+                model = model.given(sit, kind, p, when=literals)
+        return model
+
+    def dependent(self, *claims: tuple[object, TypeNode]) -> Model:
+        """The model in which nothing is known of how these judgements depend.
+
+        What rests on several of them then has the bounds that hold in any case.
+
+        >>> A, B = Basic("A"), Basic("B")
+        >>> M = Model().given("a", A, 0.7).given("a", B, 0.8)
+        >>> print(M.judge("a", A & B).p)
+        0.56
+        >>> print(M.dependent(("a", A), ("a", B)).judge("a", A & B).p)
+        [0.5, 0.7]
+        """
+        return self._with(undetermined(self._facts, _pairs(claims)))
+
+    def stated(self, given: Given | Expected, /) -> Model:
+        """The model in which also what a theory starts from is so."""
+        if isinstance(given, Expected):
+            return self.expects(given.type, given.p, when=given.when)
+        return self.given(given.sit, given.type, given.p, when=given.when)
 
     def witnessed(self, head: Basic | Pred, /, *, by: WitnessFunction) -> Model:
         """The model in which a Python function says what is of a type.
@@ -143,13 +235,27 @@ class Model:
         return self._with(self._facts.with_function(head, by))
 
     @following_nesting
-    def judge(self, sit: object, T: TypeNode, /) -> Judgement:
+    def judge(self, sit: object, T: TypeNode, /, *, when: Conditions = ()) -> Judgement:
         """Is sit of T? What is there is checked; nothing is filled in.
 
-        Raises `IllFormed` where T is no type, or has a path that leads nowhere.
+        With `when` the probability is p(sit : T | b : S, …), given that these are so,
+        whatever types they are of. Raises `IllFormed` where T is no type, or has a path
+        that leads nowhere, and `Refused` where the conditions cannot be.
+
+        >>> A, B = Basic("A"), Basic("B")
+        >>> M = Model().given("a", A, 0.6).given("a", B, 0.5)
+        >>> print(M.judge("a", A, when=[("b", A)]).p)
+        0.6
+        >>> print(M.judge("a", A, when=[("a", A | B)]).p)
+        0.75
         """
         sit, T = _closed(sit, T)
-        why = derivation(self._facts, sit, T)
+        pairs = _pairs(when)
+        why = (
+            conditional(self._facts, sit, T, pairs)
+            if pairs
+            else derivation(self._facts, sit, T)
+        )
         return Judgement(sit, T, why.p, why, self)
 
     @following_nesting
@@ -226,29 +332,76 @@ class Model:
         _, T = _closed((), T)
         return tuple(witnesses(self._facts, T))
 
-    def true(self, proposition: object, /) -> Degree:
+    @following_nesting
+    def true(
+        self,
+        proposition: object,
+        /,
+        *,
+        when: TypeNode | None = None,
+        among: Iterable[object] | None = None,
+    ) -> Degree:
         """How certain it is that a proposition is true.
 
-        A type is true if something is of it: certainly if something is known to be, not
-        if nothing is and nobody could say otherwise. An Austinian proposition
-        {sit = s, sit_type = T} is true as far as s is of T.
+        A type is true if something is of it: as surely as that some known object is,
+        and surely not if none is and nobody could say otherwise. With `when` it is
+        p(T | S), given that something is of S; `among` names the objects that there
+        are. An Austinian proposition {sit = s, sit_type = T} is true as far as s is of
+        T; with a prob, if the probability is what it says.
 
         >>> from ttr.syntax import Ind
         >>> M = Model().given("s1", Pred("dog", Ind)("fido"))
         >>> print(M.true(Pred("dog", Ind)("fido")), M.true(Pred("dog", Ind)("sam")))
         1 0
+        >>> M = Model().given("a", Basic("A"), 0.3).given("b", Basic("A"), 0.4)
+        >>> print(M.true(Basic("A")), M.true(Basic("A"), among=["a", "b"]))
+        [0.58, 1] 0.58
         """
         if not isinstance(proposition, TypeNode):
-            return self.judge(*claim(freeze(proposition))).p
+            return self._borne_out(freeze(proposition))
         _, T = _closed((), proposition)
+        given = None if when is None else _closed((), when)[1]
+        objects = None if among is None else [freeze(one) for one in among]
         try:
-            known = any(True for _ in witnesses(self._facts, T))
-            surely = known or not self._facts.leaves_open(T)
+            return some(self._facts, T, given, objects)
         except Unsupported:
-            known = surely = self._has_unlisted(T)
-        if known:
-            return CERTAIN
-        return REFUTED if surely else UNKNOWN
+            return CERTAIN if self._has_unlisted(T) else UNKNOWN
+
+    @following_nesting
+    def chance(
+        self,
+        T: TypeNode,
+        /,
+        *,
+        when: Types,
+        among: Iterable[object] | None = None,
+    ) -> Range:
+        """p(T || S, …): how probable it is that any one object of S is of T.
+
+        An interval from the least to the most probable of the known objects that may be
+        of S, or of those named.
+
+        >>> Flu, Ill, Old = Basic("Flu"), Basic("Ill"), Basic("Old")
+        >>> M = Model().expects(Ill, 0.6, when=[Flu, Old])
+        >>> M = M.expects(Ill, 0.3, when=[Flu, ~Old])
+        >>> M = M.given("kim", Flu).given("kim", Old).given("sam", Flu)
+        >>> print(M.chance(Ill, when=Flu))
+        P(Ill || Flu) = [0.3, 0.6]   (2 objects)
+          0.3: sam
+          0.6: kim
+        """
+        types = when if isinstance(when, tuple | list) else (when,)
+        _, T = _closed((), T)
+        objects = None if among is None else [freeze(one) for one in among]
+        return of_any(self._facts, T, [_closed((), S)[1] for S in types], objects)
+
+    def _borne_out(self, proposition: Object) -> Degree:
+        """How certain it is that an Austinian proposition is true."""
+        sit, T = claim(proposition)
+        found = self.judge(sit, T).p
+        if "prob" not in cast(Record, proposition):
+            return found
+        return borne_out(probabilistic_claim(proposition)[2], found)
 
     def _has_unlisted(self, T: TypeNode) -> bool:
         """Whether something is of a type whose witnesses have no end, by what is known.
@@ -257,10 +410,15 @@ class Model:
         """
         if isinstance(T, NonEmpty | Plus):
             return self.true(T.item) == CERTAIN
+        if any(self._is_certain(sit, T) for sit in _EMPTY):
+            return True
         try:
             sit, _ = created(self._facts, T)
         except Refused:
             return False
+        return self._is_certain(sit, T)
+
+    def _is_certain(self, sit: Object, T: TypeNode) -> bool:
         return derivation(self._facts, sit, T).p == CERTAIN
 
     def _with(self, facts: Assignment) -> Model:
@@ -275,6 +433,31 @@ def _signature(theory: Signature | _HasSignature | None) -> Signature:
     if not isinstance(signature, Signature):
         raise TTRError(f"a model is of a theory, found {theory!r}")
     return signature
+
+
+def _degree_of(what: str, p: object) -> Degree:
+    try:
+        return degree(p)
+    except TTRError as error:
+        raise TTRError(f"{what}: {error.message}") from None
+
+
+def _pairs(when: Iterable[object]) -> list[tuple[Object, TypeNode]]:
+    """The conditions, each an object and its type."""
+    pairs = list(when) if isinstance(when, Iterable) else [when]
+    if not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
+        raise TTRError(
+            f"judgements are pairs of an object and a type, [(a, T), …], found {when!r}"
+        )
+    return [_closed(*pair) for pair in pairs]  # type: ignore[misc]
+
+
+def _literal(one: object, so: bool) -> Any:
+    """A type or a pair of object and type, denied where it is not so."""
+    if isinstance(one, TypeNode):
+        return one if so else ~one
+    ((sit, T),) = _pairs([one])
+    return sit, T if so else ~T
 
 
 def _closed(sit: object, T: object) -> tuple[Object, TypeNode]:

@@ -13,8 +13,9 @@ from ttr.display.markup import marked_up, marked_up_derivation
 from ttr.display.notebooks import Drawn
 from ttr.display.typesetting import typeset, typeset_derivation
 from ttr.errors import IllFormed, following_nesting
+from ttr.interning import Node
 from ttr.judgements import Judgement, Why, mark
-from ttr.syntax import Object, freeze
+from ttr.syntax import Object, Record, freeze
 
 if TYPE_CHECKING:
     from ttr.theories import Signature
@@ -105,8 +106,13 @@ _OF_PYTHON = (NoneType, type, FunctionType, BuiltinFunctionType, ModuleType)
 
 
 def _drawable(value: object) -> Object:
-    """The value as an object; raises `IllFormed` for theories, models, answers, …"""
-    found = freeze(value)
+    """The value as an object; raises `IllFormed` for theories, models, answers, …
+
+    What stands for a record, as a meaning does, is drawn as that record.
+    """
+    kept = isinstance(value, Node | Record)
+    behind = None if kept else getattr(value, "record", None)
+    found = behind if isinstance(behind, Record) else freeze(value)
     kind: type = type(found)
     is_ours = kind.__module__.startswith("ttr.")
     if isinstance(found, _OF_PYTHON) or (is_ours and not isinstance(found, Drawn)):
@@ -132,7 +138,7 @@ def _follow(why: Why, shown: _Shown, failing: Why | None) -> Step:
     """The step with those below it; `failing` is the one that fails, if it is here."""
     guilty = _guilty(why, failing)
     parts = [_follow(p, shown, failing if p is guilty else None) for p in why.parts]
-    because = "; ".join(filter(None, (why.rule, why.remedy())))
+    because = why.because
     return Step(
         mark(why.p),
         why.where,

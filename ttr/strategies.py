@@ -32,10 +32,10 @@ from ttr.arbitrary import Words
 from ttr.errors import IllFormed, Refused, TTRError
 from ttr.models import Model
 from ttr.objects import Unresolved
+from ttr.strings.forms import string_of
 from ttr.substitution import grounded
 from ttr.syntax import (
     Basic,
-    EventString,
     FiniteSet,
     FunType,
     Join,
@@ -241,9 +241,12 @@ def _shapes(draw: st.DrawFn, T: TypeNode, M: Model, names: tuple[str, ...]) -> O
         case Singleton(_, value):
             return value
         case Str(kinds):
-            return EventString(*[draw(_shapes(kind, M, names)) for kind in kinds])
-        case ListOf(item) | NonEmpty(item) | SetOf(item) | Plus(item):
-            least = int(isinstance(T, NonEmpty | Plus))
+            return string_of(kinds, [draw(_shapes(kind, M, names)) for kind in kinds])
+        case Plus(item):
+            found = draw(st.lists(_shapes(item, M, names), min_size=1, max_size=2))
+            return string_of([item] * len(found), found)
+        case ListOf(item) | NonEmpty(item) | SetOf(item):
+            least = int(isinstance(T, NonEmpty))
             found = draw(st.lists(_shapes(item, M, names), min_size=least, max_size=2))
             return _MADE_OF[type(T)](*found)
         case FunType() | Universe():
@@ -262,7 +265,6 @@ _MADE_OF: dict[type[TypeNode], Callable[..., Object]] = {
     ListOf: _tuple,
     NonEmpty: _tuple,
     SetOf: FiniteSet,
-    Plus: EventString,
 }
 """What makes an object of a type of collections."""
 

@@ -300,7 +300,16 @@ class Plus(_Of):
 
 @node
 class Str(TypeNode):
-    """str(T₁, …, Tₙ): the strings of n events, the first of T₁ and so on."""
+    """str(T₁, …, Tₙ): the strings of n pieces, the first of T₁ and so on.
+
+    A piece is an event of Tᵢ; where by its form Tᵢ is a type of strings, it is a string
+    of Tᵢ. So concatenation is associative, and written in one way only: str(str(R, S),
+    T) is str(R, S, T).
+
+    >>> A, B, C = Basic("A"), Basic("B"), Basic("C")
+    >>> Str(Str(A, B), C) is Str(A, Str(B, C)) is Str(A, B, Str(), C)
+    True
+    """
 
     items: tuple[TypeNode, ...]
 
@@ -310,7 +319,10 @@ class Str(TypeNode):
 
     @staticmethod
     def _normal(*items: object) -> tuple[object, ...]:
-        return (tuple(map(as_type, items)),)
+        pieces: list[TypeNode] = []
+        for item in map(as_type, items):
+            pieces += item.items if isinstance(item, Str) else (item,)
+        return (tuple(pieces),)
 
     def __reduce__(self) -> tuple[object, ...]:
         return Str, self.items

@@ -6,6 +6,7 @@ import json
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path as FilePath
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Protocol, overload
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Axiom",
+    "Exclusion",
+    "Expected",
     "Given",
     "Interval",
     "Mistakes",
@@ -47,6 +50,20 @@ class Axiom:
         return f"{_schema(self.lower)} <: {_schema(self.upper)}"
 
 
+@dataclass(frozen=True)
+class Exclusion:
+    """A declared S <: ~T: nothing is of both; paths in it are schematic variables.
+
+    `dog(x) <: ~cat(x)` says that no situation makes x a dog and a cat.
+    """
+
+    left: Basic | PType
+    right: Basic | PType
+
+    def __str__(self) -> str:
+        return f"{_schema(self.left)} <: ~{_schema(self.right)}"
+
+
 def _schema(T: Basic | PType) -> str:
     """The type with its variables bare and the names of objects quoted."""
     if isinstance(T, Basic):
@@ -67,11 +84,25 @@ def _schematic(arg: Object) -> str:
 
 @dataclass(frozen=True)
 class Given:
-    """A judgement a theory starts from: a : T with a probability."""
+    """A judgement a theory starts from: a : T with a probability.
+
+    Where `when` names other judgements, it is the probability if they hold.
+    """
 
     sit: Object
     type: TypeNode
     p: Interval = (1.0, 1.0)
+    span: Span | None = None
+    when: tuple[tuple[Object, TypeNode], ...] = ()
+
+
+@dataclass(frozen=True)
+class Expected:
+    """p(T || S₁, …): how probably whatever is of the conditions is of T, too."""
+
+    type: TypeNode
+    when: tuple[TypeNode, ...]
+    p: Interval
     span: Span | None = None
 
 
@@ -85,8 +116,17 @@ class Signature:
 
     axioms: tuple[Axiom, ...] = ()
     opened: frozenset[Basic | Pred] = frozenset()
-    givens: tuple[Given, ...] = ()
+    givens: tuple[Given | Expected, ...] = ()
     definitions: Mapping[str, Object] = field(default_factory=_nothing)
+    exclusions: tuple[Exclusion, ...] = ()
+
+    @cached_property
+    def related(self) -> frozenset[Basic | Pred]:
+        """The basic types and predicates that an axiom or an exclusion is about."""
+        axioms = [T for one in self.axioms for T in (one.lower, one.upper)]
+        exclusions = [T for one in self.exclusions for T in (one.left, one.right)]
+        types = (*axioms, *exclusions)
+        return frozenset(T if isinstance(T, Basic) else T.pred for T in types)
 
     def __post_init__(self) -> None:
         if not isinstance(self.axioms, tuple):
@@ -234,7 +274,9 @@ class Theory(Signature):
     @property
     def signature(self) -> Signature:
         """The theory without its names and checks."""
-        return Signature(self.axioms, self.opened, self.givens, self.definitions)
+        return Signature(
+            self.axioms, self.opened, self.givens, self.definitions, self.exclusions
+        )
 
     @property
     def names(self) -> frozenset[str]:

@@ -1,20 +1,24 @@
-"""The known witnesses of a type: who, by what was told, certainly is of it."""
+"""The known witnesses of a type: who, by what was told, is of it, or may be."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import reduce
 from itertools import product
+from typing import cast
 
 from ttr.assignments import Assignment
-from ttr.errors import Unsupported
+from ttr.errors import Refused, Unsupported
 from ttr.judging import derivation, reduced
+from ttr.merging import merge
 from ttr.objects import Unresolved
-from ttr.probability import CERTAIN
+from ttr.probability import Degree
+from ttr.strings.forms import string_of
 from ttr.substitution import grounded
 from ttr.syntax import (
     Application,
     Basic,
-    EventString,
     Join,
     Meet,
     Object,
@@ -27,7 +31,7 @@ from ttr.syntax import (
     identity,
 )
 
-__all__ = ["witnesses"]
+__all__ = ["candidates", "witnesses"]
 
 
 def witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:
@@ -36,67 +40,99 @@ def witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:
     T has no paths that escape it. Raises `Unsupported` where there may be others
     without end: lists, sets, functions, types, and what something is not of.
     """
-    match T:
-        case Basic() | PType():
-            yield from facts.witnesses(T)
-        case Singleton(_, value):
-            value = reduced(facts, value)
-            if _is_of(facts, value, T):
-                yield value
-        case Join(parts):
-            found = [sit for part in parts for sit in witnesses(facts, part)]
-            yield from {identity(sit): sit for sit in found}.values()
-        case Meet(parts):
-            source = next(filter(_is_listed, parts), parts[0])
-            known = witnesses(facts, source)
-            yield from (sit for sit in known if _is_of(facts, sit, T))
-        case Str(items):
-            choices = [tuple(witnesses(facts, item)) for item in items]
-            yield from (EventString(*events) for events in product(*choices))
-        case RecordType():
-            yield from map(Record, _filled(facts, T))
-        case Application():
-            value = reduced(facts, T)
-            if isinstance(value, TypeNode):
-                yield from witnesses(facts, value)
-        case _:
+    yield from _Listing(facts, 1.0).of(T)
+
+
+def candidates(facts: Assignment, T: TypeNode) -> Iterator[Object]:
+    """The known objects that were told to be of T, or perhaps to be, as `witnesses`."""
+    yield from _Listing(facts, 0.0).of(T)
+
+
+@dataclass(frozen=True)
+class _Listing:
+    """Lists what is of a type with at least some degree, more than 0."""
+
+    facts: Assignment
+    least: float
+
+    def of(self, T: TypeNode) -> Iterator[Object]:
+        facts = self.facts
+        match T:
+            case Basic() | PType():
+                yield from facts.told_of(T, self._enough)
+            case Singleton(_, value):
+                value = reduced(facts, value)
+                if self._is_of(value, T):
+                    yield value
+            case Join(parts):
+                found = [sit for part in parts for sit in self.of(part)]
+                yield from {identity(sit): sit for sit in found}.values()
+            case Meet(parts):
+                source = _listed_part(parts)
+                yield from (sit for sit in self.of(source) if self._is_of(sit, T))
+            case Str(items):
+                choices = [tuple(self.of(item)) for item in items]
+                found = [string_of(items, pieces) for pieces in product(*choices)]
+                yield from {identity(sit): sit for sit in found}.values()
+            case RecordType():
+                yield from map(Record, self._filled(T))
+            case Application():
+                yield from self._worked_out(T)
+            case _:
+                raise Unsupported(
+                    f"what is of {T} cannot be listed, as there may be no end of it",
+                    hint="judge an object, or create a witness",
+                )
+
+    def _worked_out(self, T: Application) -> Iterator[Object]:
+        """What is of the type that a function gives, if it gives one."""
+        try:
+            value = reduced(self.facts, T)
+        except Refused:
+            return
+        if isinstance(value, TypeNode):
+            yield from self.of(value)
+
+    def _is_of(self, sit: Object, T: TypeNode) -> bool:
+        return self._enough(derivation(self.facts, sit, T).p)
+
+    def _enough(self, p: Degree) -> bool:
+        return p.hi > 0.0 and p.lo >= self.least
+
+    def _filled(self, T: RecordType) -> Iterator[dict[str, Object]]:
+        """The ways to fill the fields, one after the other; without recursion."""
+        labels = T.labels
+        waiting: list[Iterator[dict[str, Object]]] = [iter(({},))]
+        while waiting:
+            fields = next(waiting[-1], None)
+            if fields is None:
+                waiting.pop()
+            elif len(fields) == len(labels):
+                yield fields
+            else:
+                waiting.append(self._next(T, labels[len(fields)], fields))
+
+    def _next(
+        self, T: RecordType, label: str, fields: dict[str, Object]
+    ) -> Iterator[dict[str, Object]]:
+        """The fields with each witness of the next one, given those before it."""
+        try:
+            field = grounded(T[label], (fields,))
+        except Unresolved as unresolved:
             raise Unsupported(
-                f"what is of {T} cannot be listed, as there may be no end of it",
-                hint="judge an object, or create a witness",
-            )
+                f"the records of {T} cannot be listed: {unresolved.message}",
+                hint="fields on a cycle can be judged, but not listed",
+            ) from None
+        yield from ({**fields, label: sit} for sit in self.of(field))
 
 
-def _is_of(facts: Assignment, sit: Object, T: TypeNode) -> bool:
-    return derivation(facts, sit, T).p == CERTAIN
+def _listed_part(parts: tuple[TypeNode, ...]) -> TypeNode:
+    """The part of a meet that is listed; its record types are merged into one."""
+    records = [part for part in parts if isinstance(part, RecordType)]
+    if records:
+        return reduce(merge, records[1:], cast(TypeNode, records[0]))
+    return next(filter(_is_listed, parts), parts[0])
 
 
 def _is_listed(T: TypeNode) -> bool:
     return isinstance(T, Basic | PType | Singleton | RecordType | Str)
-
-
-def _filled(facts: Assignment, T: RecordType) -> Iterator[dict[str, Object]]:
-    """The ways to fill the fields, one after the other; without recursion."""
-    labels = T.labels
-    waiting: list[Iterator[dict[str, Object]]] = [iter(({},))]
-    while waiting:
-        fields = next(waiting[-1], None)
-        if fields is None:
-            waiting.pop()
-        elif len(fields) == len(labels):
-            yield fields
-        else:
-            waiting.append(_next(facts, T, labels[len(fields)], fields))
-
-
-def _next(
-    facts: Assignment, T: RecordType, label: str, fields: dict[str, Object]
-) -> Iterator[dict[str, Object]]:
-    """The fields with each witness of the next one, given those before it."""
-    try:
-        field = grounded(T[label], (fields,))
-    except Unresolved as unresolved:
-        raise Unsupported(
-            f"the records of {T} cannot be listed: {unresolved.message}",
-            hint="fields on a cycle can be judged, but not listed",
-        ) from None
-    yield from ({**fields, label: sit} for sit in witnesses(facts, field))

@@ -158,6 +158,8 @@ WITHIN = (
     SetOf,
     Plus,
     lambda T: Str(T, C),
+    lambda T: Str(Plus(T), C),
+    lambda T: Str() | Plus(Str(C, T)),
     lambda T: rectype(x=T),
     lambda T: rectype(n=rectype(x=T), y=A),
     lambda T: T | C,

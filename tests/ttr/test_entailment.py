@@ -178,4 +178,4 @@ def test_truth_of_types_and_propositions():
     M = Model().given("a", A)
     assert M.true(A) == M.true(ListOf(B)) == (1, 1)
     assert M.true(B) == M.true(rectype(x=A, y=B)) == (0, 0)
-    assert M.given("b", B, 0.5).true(B) == (0, 1)
+    assert M.given("b", B, 0.5).true(B) == (0.5, 1)

@@ -31,6 +31,7 @@ from ttr import (
     rectype,
     this,
 )
+from ttr.constructors import star
 from ttr.theories import Axiom, Given, Signature
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
@@ -460,3 +461,20 @@ PIECES = [
 def test_a_made_up_repetition(T):
     witness, M = Model().create(T)
     assert M.judge(witness, T).holds
+
+
+def test_something_is_of_a_meet_of_record_types():
+    M = Model().given("a", A)
+    assert M.true(rectype(x=A) & rectype(y=A)) == (1, 1)
+    assert M.true(rectype(x=A) & rectype(x=B)) == (0, 0)
+
+
+def test_what_is_below_an_open_type_leaves_it_open():
+    theory = Signature(axioms=(Axiom(B, A),), opened=frozenset((B,)))
+    assert Model(theory).true(A) == (0, 1)
+    assert Model(theory).judge("x", A).p == (0, 1)
+
+
+def test_something_empty_is_of_star_and_list():
+    assert Model(Signature(opened=frozenset((A,)))).true(star(A)) == (1, 1)
+    assert Model().true(ListOf(A)) == (1, 1)

@@ -8,7 +8,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import Degree, TTRError
-from ttr.probability import All, AnyOf, Atomic, Not, chance, degree
+from ttr.probability import (
+    All,
+    AnyOf,
+    Atomic,
+    Conditional,
+    Contradiction,
+    Dependence,
+    Impossible,
+    Not,
+    chance,
+    degree,
+)
 
 
 @pytest.mark.parametrize(
@@ -40,10 +51,15 @@ def test_only_what_is_certain_prints_as_certain(p, text):
     assert str(p) == text
 
 
+def odds(event, known=None, given=None):
+    """How probable an event is, without how it was found."""
+    return chance(event, known or Dependence(), given or All(())).p
+
+
 def test_all_of_independent_events():
-    assert chance(All(()), {}) == (1, 1)
+    assert odds(All(())) == (1, 1)
     events = tuple(Atomic(i, Degree(0.5, 1)) for i in range(100_000))
-    assert chance(All(events), {}) == (0, 1)
+    assert odds(All(events)) == (0, 1)
 
 
 def number(name, p):
@@ -54,32 +70,102 @@ A, B = number("a", 0.4), number("b", 0.5)
 
 
 def test_the_same_atom_is_one_event():
-    assert chance(All((A, A)), {}) == pytest.approx((0.4, 0.4))
-    assert chance(All((A, Not(A))), {}) == pytest.approx((0, 0))
-    assert chance(AnyOf((A, Not(A))), {}) == pytest.approx((1, 1))
+    assert odds(All((A, A))) == pytest.approx((0.4, 0.4))
+    assert odds(All((A, Not(A)))) == pytest.approx((0, 0))
+    assert odds(AnyOf((A, Not(A)))) == pytest.approx((1, 1))
     both_ways = AnyOf((All((A, B)), All((Not(A), Not(B)))))
-    assert chance(both_ways, {}) == pytest.approx((0.5, 0.5))
+    assert odds(both_ways) == pytest.approx((0.5, 0.5))
 
 
 def test_an_unknown_atom_or_its_negation():
     unknown = Atomic("a", Degree(0, 1))
-    assert chance(AnyOf((unknown, Not(unknown))), {}) == (1, 1)
-    assert chance(All((unknown, B)), {}) == (0, 0.5)
+    assert odds(AnyOf((unknown, Not(unknown)))) == (1, 1)
+    assert odds(All((unknown, B))) == (0, 0.5)
 
 
 def test_an_atom_that_entails_another():
-    entailed = {"b": frozenset({"a"}), "a": frozenset()}
     low = number("b", 0.2)
-    assert chance(All((A, low)), entailed) == pytest.approx((0.2, 0.2))
-    assert chance(AnyOf((A, low)), entailed) == pytest.approx((0.4, 0.4))
-    mixed = chance(All((A, Not(low))), entailed)
-    assert mixed.lo - 1e-9 <= 0.2 <= mixed.hi
+    below = Dependence({"a": A.p, "b": low.p}, entailed=(("b", "a"),))
+    assert odds(All((A, low)), below) == pytest.approx((0.2, 0.2))
+    assert odds(AnyOf((A, low)), below) == pytest.approx((0.4, 0.4))
+    assert odds(All((A, Not(low))), below) == pytest.approx((0.2, 0.2))
+    assert odds(All((Not(A), low)), below) == (0, 0)
+    assert odds(low, below, given=A) == pytest.approx((0.5, 0.5))
+
+
+def test_two_atoms_below_a_third_are_not_independent():
+    above = number("c", 0.5)
+    known = Dependence(
+        {"a": A.p, "b": B.p, "c": above.p}, entailed=(("a", "c"), ("b", "c"))
+    )
+    assert odds(AnyOf((A, B)), known) == pytest.approx((0.5, 0.5))
+    assert odds(AnyOf((A, B, above)), known) == pytest.approx((0.5, 0.5))
+
+
+def test_atoms_that_exclude_each_other():
+    known = Dependence({"a": A.p, "b": B.p}, exclusive=(("a", "b"),))
+    assert odds(All((A, B)), known) == (0, 0)
+    assert odds(AnyOf((A, B)), known) == pytest.approx((0.9, 0.9))
+
+
+def test_degrees_that_contradict_each_other():
+    known = Dependence({"a": A.p, "b": Degree(0.7, 0.7)}, exclusive=(("a", "b"),))
+    with pytest.raises(Contradiction):
+        odds(A, known)
+
+
+def test_what_cannot_be_is_no_condition():
+    with pytest.raises(Impossible):
+        odds(A, given=All((B, Not(B))))
+    with pytest.raises(Impossible):
+        odds(A, given=number("c", 0.0))
+
+
+def test_nothing_is_known_of_how_atoms_depend():
+    known = Dependence({"a": A.p, "b": B.p}, unknown=(("a", "b"),))
+    assert odds(All((A, B)), known) == pytest.approx((0, 0.4))
+    assert odds(AnyOf((A, B)), known) == pytest.approx((0.5, 0.9))
+
+
+def test_a_network_of_conditionals():
+    """Rain and the sprinkler make the grass wet (as in Pearl 1988)."""
+    rain, off, wet = "rain", "off", "wet"
+    unknown = Degree(0, 1)
+    table = {
+        (True, True): 0.9,
+        (True, False): 0.99,
+        (False, True): 0.0,
+        (False, False): 0.8,
+    }
+    conditionals = [
+        Conditional(wet, ((rain, r), (off, o)), Degree(p, p))
+        for (r, o), p in table.items()
+    ]
+    conditionals += [
+        Conditional(off, ((rain, r),), Degree(p, p))
+        for r, p in ((True, 0.99), (False, 0.6))
+    ]
+    known = Dependence({rain: Degree(0.2, 0.2)}, conditionals=tuple(conditionals))
+    weights = {
+        (r, o, w): (0.2 if r else 0.8)
+        * (x if o else 1 - x)
+        * (table[r, o] if w else 1 - table[r, o])
+        for r, x in ((True, 0.99), (False, 0.6))
+        for o in (True, False)
+        for w in (True, False)
+    }
+    Wet, Rain = Atomic(wet, unknown), Atomic(rain, Degree(0.2, 0.2))
+    is_wet = sum(p for (_, _, w), p in weights.items() if w)
+    both = sum(p for (r, _, w), p in weights.items() if w and r)
+    assert odds(Wet, known) == pytest.approx((is_wet,) * 2)
+    assert odds(Rain, known, given=Wet) == pytest.approx((both / is_wet,) * 2)
+    assert chance(Rain, known, given=Wet).exact
 
 
 def test_too_many_shared_atoms_give_bounds():
     atoms = [number(i, 0.5) for i in range(40)]
     pairs = [All((a, b)) for a, b in pairwise(atoms)]
-    lo, hi = chance(AnyOf(tuple(pairs)), {})
+    lo, hi = odds(AnyOf(tuple(pairs)))
     assert 0 <= lo < hi == 1
 
 
@@ -103,7 +189,7 @@ def test_what_is_computed_is_what_the_cases_add_up_to(data):
         for truth in product((True, False), repeat=len(degrees))
         if happens(event, truth)
     )
-    assert chance(event, {}) == pytest.approx((expected, expected))
+    assert odds(event) == pytest.approx((expected, expected))
 
 
 def happens(event, truth):

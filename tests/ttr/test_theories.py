@@ -136,10 +136,10 @@ def test_a_quoted_name_in_an_axiom_is_an_object() -> None:
         ("check dog('a')", (4, 7), "this is nothing that can be checked", "a : T"),
         ("check P(Ind) = [0.5]", (4, 16), "a number in [0, 1]", ""),
         (
-            "check P('a' : Ind | 'b' : Ind) = 1",
-            (4, 25),
-            "a conditional probability P(a : T | b : S) is not part",
-            "",
+            "check P('a' : Ind /\\ 'b' : Ind) = 1",
+            (4, 15),
+            "a condition is written after |, as in P(a : T | b : S)",
+            "a function type stands in brackets",
         ),
         ('import "no such file.ttr"', (4, 1), "there is no file no such file.ttr", ""),
         (
@@ -465,3 +465,11 @@ def test_a_name_is_in_a_theory_or_not():
     assert "dog" in theory
     assert "Dog" not in theory
     assert 3 not in theory
+
+
+def test_star_is_a_word_unless_something_is_called_so():
+    theory = Theory.parse("basic A\ncheck star(A) = str() \\/ plus(A)")
+    assert check(theory).holds
+    heavenly = Theory.parse("basic Ind\npred star(Ind)\nobject venus : Ind")
+    assert str(heavenly.parse("star(venus)")) == "star(venus)"
+    assert "star" in str(heavenly.parse(r"[star : Ind, y = star : Ind]"))

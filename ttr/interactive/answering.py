@@ -24,7 +24,7 @@ __all__ = ["ASKED", "Reply", "answered", "changes", "term"]
 
 _MERGES = {"merge": merge, "amerge": amerge}
 
-ASKED = (*_MERGES, "create", "wellformed", "witnesses")
+ASKED = (*_MERGES, "create", "wellformed", "witnesses", "P")
 """What is asked of types and written like an application."""
 
 _CHECK = "check "
@@ -149,6 +149,10 @@ def _answer(session: Session, tree: Statement, reader: Reader) -> Reply:
     match tree:
         case trees.Question(_, _, "yes", trees.Claim(_, _, claim)):
             return _claimed(session, claim, reader)
+        case trees.Question(_, _, "yes", trees.Probability(degree=None) as asked):
+            return _probable(session, asked, reader)
+        case trees.Question(_, _, "yes", trees.Expectation(degree=None) as asked):
+            return _expected(session, asked, reader)
         case trees.Question(_, _, "yes"):
             return _asked(session, Asking(reader).check(tree))
     reader.refuse(
@@ -187,6 +191,25 @@ def _judged(session: Session, sit: Object, T: TypeNode) -> Reply:
     return Reply(replace(session, last=judgement), text)
 
 
+def _probable(session: Session, asked: trees.Probability, reader: Reader) -> Reply:
+    """p(a : T | b : S), with what it is reckoned from."""
+    model = session.model
+    sit, T = reader.object(asked.sit, ()), reader.type(asked.type, ())
+    when = [(reader.object(one, ()), reader.type(S, ())) for one, S in asked.when]
+    conditions = [(model.reduced(one), _type(session, S)) for one, S in when]
+    judgement = model.judge(model.reduced(sit), _type(session, T), when=conditions)
+    text = f"{judgement.p}: {judgement.why.because}"
+    return Reply(replace(session, last=judgement), text)
+
+
+def _expected(session: Session, asked: trees.Expectation, reader: Reader) -> Reply:
+    """p(T || S), over the known objects."""
+    T, *types = [
+        _type(session, reader.type(one, ())) for one in (asked.type, *asked.when)
+    ]
+    return Reply(session, str(session.model.chance(T, when=types)))
+
+
 def _verdict(p: Degree) -> str:
     """The answer in a word, or the degree."""
     words = {CERTAIN: "yes", REFUTED: "no", UNKNOWN: "unknown"}
@@ -196,7 +219,7 @@ def _verdict(p: Degree) -> str:
 def _ground(why: Why) -> str:
     """The step of a derivation that decides, on one line."""
     step = why.failure() or why
-    said = "; ".join(filter(None, (step.rule, step.remedy())))
+    said = step.because
     if step is why:
         return said
     path = why.path()
@@ -244,6 +267,8 @@ def _asked_of_types(
     match word, types:
         case "create", [T]:
             return _created(session, T)
+        case "P", [T]:
+            return Reply(session, str(session.model.true(T)))
         case "witnesses", [T]:
             known = session.model.witnesses(T)
             listed = "\n".join(map(notation, known)) or "none is known"

@@ -27,7 +27,7 @@ from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.subtyping import Answer
 from ttr.syntax import Basic, Object, PType, TypeNode
-from ttr.theories import Given, Mistakes, Theory
+from ttr.theories import Expected, Given, Mistakes, Theory
 
 __all__ = ["Answered", "Entry", "Session", "created", "declared", "loaded", "saved"]
 
@@ -138,11 +138,16 @@ def _announced(tree: Statement) -> frozenset[str]:
 def _with(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Session:
     """The session in which these entries have come to this theory."""
     old = session.theory
-    if (theory.axioms, theory.opened) != (old.axioms, old.opened):
+    if _rules(theory) != _rules(old):
         return _afresh(session, entries, theory)
     new = theory.givens[len(old.givens) :]
     model = reduce(_told, new, session.model)
     return replace(session, entries=entries, theory=theory, model=model)
+
+
+def _rules(theory: Theory) -> tuple[object, ...]:
+    """What judgements that were told before may have to be looked at again for."""
+    return theory.axioms, theory.exclusions, theory.opened
 
 
 def _afresh(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Session:
@@ -150,9 +155,9 @@ def _afresh(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Ses
     return replace(session, entries=entries, theory=theory, model=model)
 
 
-def _told(model: Model, given: Given) -> Model:
+def _told(model: Model, given: Given | Expected) -> Model:
     try:
-        return model.given(given.sit, given.type, given.p)
+        return model.stated(given)
     except TTRError as error:
         raise error.at(given.span) if given.span else error from None
 

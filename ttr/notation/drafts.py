@@ -8,7 +8,7 @@ from typing import Protocol
 
 from ttr.checking import Check
 from ttr.syntax import Basic, Object, Pred
-from ttr.theories import Axiom, Given, Signature, Theory
+from ttr.theories import Axiom, Exclusion, Expected, Given, Signature, Theory
 
 __all__ = ["Draft", "Names", "is_declared", "meaning"]
 
@@ -66,7 +66,8 @@ class Draft:
     objects: set[str] = field(default_factory=set)
     opened: set[Basic | Pred] = field(default_factory=set)
     axioms: dict[Axiom, None] = field(default_factory=dict)
-    givens: list[Given] = field(default_factory=list)
+    exclusions: dict[Exclusion, None] = field(default_factory=dict)
+    givens: list[Given | Expected] = field(default_factory=list)
     checks: list[Check] = field(default_factory=list)
     settled: set[str] = field(default_factory=set)
 
@@ -81,6 +82,7 @@ class Draft:
             objects=set(theory.objects),
             opened=set(theory.opened),
             axioms=dict.fromkeys(theory.axioms),
+            exclusions=dict.fromkeys(theory.exclusions),
             givens=list(theory.givens),
             checks=list(theory.checks),
         )
@@ -95,12 +97,13 @@ class Draft:
     @property
     def signature(self) -> Signature:
         """The axioms: nothing else says whether a type is well-formed."""
-        return Signature(tuple(self.axioms))
+        return Signature(tuple(self.axioms), exclusions=tuple(self.exclusions))
 
     def finished(self) -> Theory:
         """The theory that has been read; the draft may go on without changing it."""
         return Theory(
             axioms=tuple(self.axioms),
+            exclusions=tuple(self.exclusions),
             opened=frozenset(self.opened),
             givens=tuple(self.givens),
             definitions=dict(self.definitions),

@@ -263,7 +263,7 @@ class _Trees(Transformer_NonRecursive[Token, Any]):
         *expected, query = children
         return self._at(trees.Question, meta, expected[0] if expected else "yes", query)
 
-    def expectation(self, meta: Meta, children: list[Token]) -> str:
+    def expected(self, meta: Meta, children: list[Token]) -> str:
         return "no" if children[0] == "not" else str(children[0])
 
     def exactly(self, meta: Meta, children: list[Term]) -> trees.Degree:
@@ -283,10 +283,47 @@ class _Trees(Transformer_NonRecursive[Token, Any]):
         return self._at(trees.Comparison, meta, "=", *children)
 
     def probability(self, meta: Meta, children: list[Any]) -> trees.Probability:
-        return self._at(trees.Probability, meta, *children)
+        children, degree = _with_degree(children)
+        head, sit, kind, *rest = children
+        if not rest:
+            return self._at(trees.Probability, meta, head, sit, kind, degree)
+        kind, first = self._divided(kind)
+        terms = [first, *rest]
+        when = tuple(zip(terms[::2], terms[1::2], strict=True))
+        return self._at(trees.Probability, meta, head, sit, kind, degree, when)
+
+    def _divided(self, found: Term) -> tuple[Term, Term]:
+        """T | b, read as a join, as the type T and the object b of a condition."""
+        match found:
+            case trees.Disjunction(start, _, (*parts, last)):
+                kept = parts[-1]
+                between = self._source.text[kept.end : last.start]
+                if between.strip(" \t\n()") == "|":
+                    whole = trees.Disjunction(start, kept.end, tuple(parts))
+                    return (kept if len(parts) == 1 else whole), last
+        raise NotationError(
+            "a condition is written after |, as in P(a : T | b : S)",
+            span=self._source.span(found),
+            hint="a function type stands in brackets: P(f : (S -> T) | b : S)",
+        )
+
+    def expectation(self, meta: Meta, children: list[Any]) -> trees.Expectation:
+        children, degree = _with_degree(children)
+        head, kind, *when = children
+        return self._at(trees.Expectation, meta, head, kind, tuple(when), degree)
+
+    def given_chance(self, meta: Meta, children: list[Any]) -> trees.GivenChance:
+        return self._at(trees.GivenChance, meta, *children)
 
     def claim(self, meta: Meta, children: list[Term]) -> trees.Claim:
         return self._at(trees.Claim, meta, *children)
+
+
+def _with_degree(children: list[Any]) -> tuple[list[Any], trees.Degree | None]:
+    """What stands before a degree, and the degree, where there is one."""
+    if isinstance(children[-1], trees.Degree):
+        return children[:-1], children[-1]
+    return children, None
 
 
 _SINGLE = re.compile(r"""\\.|\"""", re.DOTALL)

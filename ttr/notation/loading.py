@@ -221,6 +221,7 @@ def _join(mine: Draft, other: Theory, span: Span) -> None:
     mine.objects |= other.objects
     mine.opened |= other.opened
     mine.axioms.update(dict.fromkeys(other.axioms))
+    mine.exclusions.update(dict.fromkeys(other.exclusions))
     known = set(mine.givens)  # a fact imported twice is one fact
     mine.givens += [given for given in other.givens if given not in known]
     mine.settled.update(other.predicates)

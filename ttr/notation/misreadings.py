@@ -159,14 +159,7 @@ def _either(words: list[str]) -> str:
 
 # --- what is written another way -----------------------------------------------------
 
-_LATER = (
-    (r"^rule\s+$", r"\S", "a rule statement is"),
-    (
-        r"\bP\s*\([^|]*:[^|:]*\|[^:]*$",
-        r":",
-        "a conditional probability P(a : T | b : S) is",
-    ),
-)
+_LATER = ((r"^rule\s+$", r"\S", "a rule statement is"),)
 """What of the whole notation is still to come: before, after, the words for it."""
 
 

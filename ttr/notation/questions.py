@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from ttr.checking import (
     Check,
     Creates,
+    Expects,
     HasDegree,
     IsBelow,
     IsOf,
@@ -57,8 +58,13 @@ class Asking:
                 return IsBelow(kind(left), kind(right))
             case trees.Comparison(_, _, _, left, right):
                 return self._equation(left, right)
-            case trees.Probability(_, _, Name(_, _, ("P",)), sit, T, p):
-                return HasDegree(read(sit), kind(T), p.relation, self.reader.degree(p))
+            case trees.Probability(_, _, Name(_, _, ("P",)), sit, T, _, when):
+                on = tuple([(read(one), kind(S)) for one, S in when])
+                relation, interval = self.reader.chance(tree)
+                return HasDegree(read(sit), kind(T), relation, interval, on)
+            case trees.Expectation(_, _, Name(_, _, ("P",)), T, types):
+                of = tuple(map(kind, types))
+                return Expects(kind(T), of, *self.reader.chance(tree))
             case trees.Claim(_, _, Application(_, _, Name(_, _, ("create",)), (T,))):
                 return Creates(kind(T))
             case trees.Claim(
@@ -69,7 +75,8 @@ class Asking:
             tree,
             "this is nothing that can be checked",
             "ask a : T, S <= T, S = T, f(a) = b, merge(S, T) = U, amerge(S, T) = U, "
-            "create(T), wellformed(T), P(a : T) = p, P(a : T) in [lo, hi] or P(T) = p",
+            "create(T), wellformed(T), P(a : T) = p, P(a : T) in [lo, hi], "
+            "P(a : T | b : S) = p, P(T || S) = p or P(T) = p",
         )
 
     def _equation(self, left: Term, right: Term) -> Query:

@@ -20,7 +20,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, NoReturn, TypeVar
 
-from ttr.constructors import Pi, fun, function_type, rectype
+from ttr.constructors import Pi, fun, function_type, rectype, star
 from ttr.errors import IllFormed, NotationError, TTRError, suggestion
 from ttr.notation.culprits import culprit, misfit, refused
 from ttr.notation.drafts import Names, is_declared, meaning
@@ -36,11 +36,13 @@ from ttr.notation.trees import (
     Disjunction,
     Elements,
     Events,
+    Expectation,
     Fields,
     Items,
     Literal,
     Name,
     Part,
+    Probability,
     Restriction,
     Source,
     Term,
@@ -93,8 +95,12 @@ _OF_A_TYPE: Mapping[str, Callable[[TypeNode], TypeNode]] = {
     "nelist": NonEmpty,
     "set": SetOf,
     "plus": Plus,
+    "star": star,
 }
 """Words before a type in brackets."""
+
+_GIVING_WAY = frozenset(("star",))
+"""Words that are not reserved: what a theory calls so is meant instead."""
 
 _OF_AN_OBJECT: Mapping[str, Callable[[Object], Object]] = {"fst": fst, "rst": rst}
 """Words before an object in brackets."""
@@ -262,7 +268,7 @@ class Reader:
 
     def _call(self, term: Call, scope: Scope) -> Object:
         match term.head:
-            case Name(_, _, (name,), None) if name in _WORDS:
+            case Name(_, _, (name,), None) if self._is_word(name, scope):
                 return self._word(term, name, scope)
             case Name(_, _, (name,), None) as head:
                 function = self._called(term, head, name, scope)
@@ -281,6 +287,13 @@ class Reader:
             f"{written} is {kind} and takes no arguments: only predicates and "
             "functions do",
         )
+
+    def _is_word(self, name: str, scope: Scope) -> bool:
+        """Whether a name before a bracket is a word of the notation there."""
+        if name not in _GIVING_WAY:
+            return name in _WORDS
+        declared = name in self.theory.objects or self._value(name) is not None
+        return not (declared or _captured(name, scope))
 
     def _called(self, term: Call, head: Name, name: str, scope: Scope) -> Object:
         """What a bare name before a bracket means; a variable hides a predicate."""
@@ -395,6 +408,16 @@ class Reader:
         except TTRError as error:
             raise error.at(self.source.span(tree.value)) from None
         return lo, hi
+
+    def chance(self, tree: Probability | Expectation) -> tuple[str, Interval]:
+        """The probability that a text claims, after = or in; refuses one without."""
+        if tree.degree is None:
+            self.refuse(
+                tree,
+                "this does not say what the probability is",
+                "write P(a : T) = p or P(a : T) in [lo, hi]",
+            )
+        return tree.degree.relation, self.degree(tree.degree)
 
     # --- names ---
 

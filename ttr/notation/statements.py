@@ -24,7 +24,7 @@ from ttr.notation.trees import (
 from ttr.paths import escaping
 from ttr.printing import RESERVED
 from ttr.syntax import Basic, Object, Path, Pred, PType
-from ttr.theories import Axiom, Given
+from ttr.theories import Axiom, Exclusion, Expected, Given
 
 __all__ = ["Declaring", "mentioned"]
 
@@ -61,6 +61,8 @@ class Declaring:
                 self._objects(tree)
             case trees.GivenFact():
                 self._given(tree)
+            case trees.GivenChance():
+                self._given_chance(tree)
             case trees.Definition():
                 self._definition(tree)
             case trees.AxiomClaim():
@@ -128,19 +130,47 @@ class Declaring:
         self.draft.objects.update(declares)
         self.draft.givens.append(Given(sit, kind, p, self.source.span(tree)))
 
+    def _given_chance(self, tree: trees.GivenChance) -> None:
+        """p(a : T | b : S), of particular objects, or p(T || S), of whatever object."""
+        span, read = self.source.span(tree), self.reader
+        match tree.chance:
+            case trees.Probability(_, _, Name(_, _, ("P",)), sit, T, _, when):
+                on = [(read.object(one, ()), read.type(S, ())) for one, S in when]
+                _, p = read.chance(tree.chance)
+                subject = read.object(sit, ())
+                given = Given(subject, read.type(T, ()), p, span, tuple(on))
+                self.draft.givens.append(given)
+            case trees.Expectation(_, _, Name(_, _, ("P",)), T, types):
+                of = tuple([read.type(S, ()) for S in types])
+                _, p = read.chance(tree.chance)
+                self.draft.givens.append(Expected(read.type(T, ()), of, p, span))
+            case other:
+                found = read.written(other.head)
+                read.refuse(
+                    other.head, f"a probability is written P(…), found {found}(…)"
+                )
+
     def _definition(self, tree: trees.Definition) -> None:
         self._claim(tree.name, "defined", ())
         self.draft.definitions[tree.name.text] = self.reader.object(tree.value, ())
 
     def _axiom(self, tree: trees.AxiomClaim) -> None:
-        lower, upper = self._schema(tree.lower), self._schema(tree.upper)
+        lower = self._schema(tree.lower)
+        match tree.upper:
+            case trees.Denial(_, _, excluded):
+                upper = self._schema(excluded)
+            case upper_term:
+                upper = self._schema(upper_term)
         for path in sorted(escaping(upper) - escaping(lower), key=str):
             self.reader.refuse(
                 tree.upper,
                 f"the variable {path.labels[0]} stands on the right only",
                 f"quote it to name the object: '{path.labels[0]}'",
             )
-        self.draft.axioms[Axiom(lower, upper)] = None
+        if isinstance(tree.upper, trees.Denial):
+            self.draft.exclusions[Exclusion(lower, upper)] = None
+        else:
+            self.draft.axioms[Axiom(lower, upper)] = None
 
     def _schema(self, term: Term) -> Basic | PType:
         """A side of an axiom: the bare names in it that are no types are variables."""

@@ -34,6 +34,7 @@ __all__ = [
     "Events",
     "Field",
     "Fields",
+    "GivenChance",
     "GivenFact",
     "Import",
     "Items",
@@ -299,6 +300,13 @@ class GivenFact(Statement):
 
 
 @dataclass(frozen=True, slots=True)
+class GivenChance(Statement):
+    """given P(a : T | b : S) = p, or given P(T || S) = p."""
+
+    chance: Probability | Expectation
+
+
+@dataclass(frozen=True, slots=True)
 class Definition(Statement):
     """Name := type or object."""
 
@@ -354,12 +362,23 @@ class Comparison(Query):
 
 @dataclass(frozen=True, slots=True)
 class Probability(Query):
-    """P(a : T) = p, or in [lo, hi]; `head` is what stands before the bracket."""
+    """P(a : T | b : S, …) = p, or in [lo, hi]; `head` is what is written for P."""
 
     head: Term
     sit: Term
     type: Term
-    degree: Degree
+    degree: Degree | None
+    when: tuple[tuple[Term, Term], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Expectation(Query):
+    """P(T || S, …) = p, or in [lo, hi]."""
+
+    head: Term
+    type: Term
+    when: tuple[Term, ...]
+    degree: Degree | None
 
 
 @dataclass(frozen=True, slots=True)

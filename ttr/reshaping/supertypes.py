@@ -21,6 +21,7 @@ from ttr.objects import in_print
 from ttr.paths import escaping, moved, parts, rebuilt, replace_paths
 from ttr.places import ITSELF, step
 from ttr.reshaping.addresses import nearest
+from ttr.strings.forms import is_of_strings
 from ttr.subtyping import subtype
 from ttr.syntax import (
     Basic,
@@ -303,7 +304,16 @@ class _Both:
         theirs: tuple[TypeNode, ...],
     ) -> TypeNode | None:
         found = [self.common(f, g) for f, g in zip(mine, theirs, strict=True)]
-        return None if None in found else kind(*found)
+        several = [one for one in found if one is not None]
+        if len(several) < len(found):
+            return None
+        # Strings of strings and strings of events have nothing in common by their form.
+        alike = [
+            len(set(map(is_of_strings, parts))) == 1
+            for parts in zip(mine, theirs, several, strict=True)
+        ]
+        fits = kind not in (Str, Plus) or all(alike)
+        return kind(*several) if fits else None
 
     def _strongest(self, found: list[TypeNode]) -> list[TypeNode]:
         """The types that no other one is below; of equal ones the first."""

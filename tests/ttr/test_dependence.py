@@ -1,0 +1,219 @@
+"""Models in which judgements depend on one another."""
+
+import pytest
+
+from ttr import (
+    Basic,
+    Ind,
+    Model,
+    Pred,
+    Refused,
+    Theory,
+    TTRError,
+    check,
+    record,
+    rectype,
+    this,
+)
+from ttr.theories import Axiom, Exclusion, Signature
+
+A, B, C = Basic("A"), Basic("B"), Basic("C")
+Below = Signature(axioms=(Axiom(A, B),))
+Apart = Signature(exclusions=(Exclusion(A, B), Exclusion(B, C), Exclusion(A, C)))
+
+
+def test_one_judgement_under_a_condition():
+    M = Model().given("s1", A, 0.6).given("s2", B, 0.7, when=[("s1", A)])
+    M = M.given("s2", B, 0.2, when=[("s1", ~A)])
+    assert M.judge("s2", B).p == pytest.approx((0.5, 0.5))
+    assert M.judge("s1", A, when=[("s2", B)]).p == pytest.approx((0.84, 0.84))
+
+
+def test_a_record_along_its_dependencies():
+    cloudy, rain = Pred("cloudy", Ind), Pred("rain", Ind)
+    M = Model().given("d", Ind).given("s1", cloudy("d"), 0.5)
+    M = M.tabled(
+        ("s2", rain("d")),
+        on=[("s1", cloudy("d"))],
+        rows={(True,): 0.8, (False,): 0.1},
+    )
+    day = rectype(x=Ind, c=cloudy(this.x), r=rain(this.x))
+    j = M.judge(record(x="d", c="s1", r="s2"), day)
+    assert j.p == pytest.approx((0.4, 0.4))
+    assert "P(s2 : rain(d) | s1 : cloudy(d)) is 0.8" in str(j.why)
+
+
+def test_what_is_said_again_replaces_what_was_said():
+    M = Model().given("a", A, 0.5).given("a", B, 0.9, when=[("a", A)])
+    M = M.given("a", B, 0.4, when=[("a", A)])
+    assert M.judge("a", A & B).p == pytest.approx((0.2, 0.2))
+    assert M.given("a", A, 1).judge("a", B).p == pytest.approx((0.4, 0.4))
+
+
+def test_the_model_before_is_as_it_was():
+    M = Model().given("a", A, 0.5).given("a", B, 0.5)
+    M.dependent(("a", A), ("a", B))
+    assert M.judge("a", A & B).p == pytest.approx((0.25, 0.25))
+
+
+def test_what_is_said_of_an_object_goes_before_what_is_said_in_general():
+    M = Model().expects(B, 0.6, when=A).given("a", A).given("b", A)
+    M = M.given("a", B, 0.1, when=[("a", A)])
+    assert M.judge("a", B).p == (0.1, 0.1)
+    assert M.judge("b", B).p == (0.6, 0.6)
+
+
+def test_a_table_with_a_gap():
+    with pytest.raises(TTRError, match=r"no row for \(True, False\)"):
+        Model().tabled(C, on=[A, B], rows={(True, True): 1, (False, True): 0})
+
+
+def test_a_table_with_a_row_too_many():
+    rows = {(True,): 1, (False,): 0, (True, True): 0.5}
+    with pytest.raises(TTRError, match="about 1 judgements"):
+        Model().tabled(C, on=[A], rows=rows)
+
+
+@pytest.mark.parametrize("p", [1.5, (0.4, 0.2), "half", float("nan")])
+def test_a_conditional_that_is_no_probability(p):
+    with pytest.raises(TTRError, match="is a number in"):
+        Model().given("a", B, p, when=[("a", A)])
+    with pytest.raises(TTRError, match=r"p\(B \|\| A\)"):
+        Model().expects(B, p, when=A)
+
+
+def test_a_judgement_does_not_depend_on_itself():
+    with pytest.raises(TTRError, match="cannot depend on itself"):
+        Model().given("a", A, 0.5, when=[("a", A)])
+
+
+def test_a_condition_is_a_pair():
+    with pytest.raises(TTRError, match="pairs of an object and a type"):
+        Model().judge("a", A, when=[A])
+    with pytest.raises(TTRError, match="pairs of an object and a type"):
+        Model().judge("a", A, when=A)
+
+
+def test_given_what_cannot_be():
+    M = Model().given("a", A, 0.5).given("b", B, 0)
+    with pytest.raises(Refused, match="nothing follows given b : B"):
+        M.judge("a", A, when=[("b", B)])
+
+
+def test_an_axiom_and_a_negation():
+    M = Model(Below).given("a", A, 0.3).given("a", B, 0.5)
+    assert M.judge("a", A & ~B).p == (0, 0)
+    assert M.judge("a", B & ~A).p == pytest.approx((0.2, 0.2))
+    assert M.judge("a", A | B).p == pytest.approx((0.5, 0.5))
+    assert M.judge("a", A, when=[("a", B)]).p == pytest.approx((0.6, 0.6))
+
+
+def test_what_excludes_one_another():
+    M = Model(Apart).given("a", A, 0.3).given("a", B, 0.5)
+    assert M.judge("a", A & B).p == (0, 0)
+    assert M.judge("a", A | B).p == pytest.approx((0.8, 0.8))
+    M = M.given("a", C, (0, 1))
+    assert M.judge("a", C).p == pytest.approx((0, 0.2))
+
+
+def test_degrees_that_cannot_all_be_are_refused():
+    M = Model(Apart).given("a", A, 0.4).given("a", B, 0.4)
+    with pytest.raises(Refused, match=r"cannot all be so: a : C with 0\.3"):
+        M.given("a", C, 0.3)
+    assert M.given("a", C, 0.2).judge("a", A | B | C).p == pytest.approx((1, 1))
+
+
+def test_a_conditional_that_contradicts_what_is_given_is_refused():
+    M = Model().given("a", A, 0.9).given("a", B, 0.1)
+    with pytest.raises(Refused, match="these cannot all be so"):
+        M.given("a", B, 0.9, when=[("a", A)])
+
+
+def test_certainly_of_one_is_not_of_what_it_excludes():
+    M = Model(Apart).given("a", A)
+    assert M.judge("a", B).holds is False
+    with pytest.raises(Refused, match="A <: ~B"):
+        M.given("a", B)
+
+
+def test_exclusions_in_subtyping():
+    kennel = Theory.parse("""
+        basic Ind
+        pred dog(Ind), cat(Ind), puppy(Ind)
+        object fido : Ind
+        puppy(x) <: dog(x)
+        dog(x) <: ~cat(x)
+        check dog(fido) <= ~cat(fido)
+        check puppy(fido) <= ~cat(fido)
+        check cat(fido) <= ~puppy(fido)
+        check not dog(fido) <= cat(fido)
+        check puppy(fido) /\\ cat(fido) <= [x : Ind]
+        check [x : Ind, c : dog(x), d = c : cat(x)] <= [y : Ind]
+        check not [x : Ind, c : dog(x), d : cat(x)] <= [y : Ind]
+    """)
+    assert check(kennel).holds, check(kennel)
+
+
+def test_conditionals_in_a_file():
+    theory = Theory.parse("""
+        basic Flu, Ill, Old
+        object kim, sam : Flu
+        given kim : Old
+        given P(Ill || Flu, Old) = 0.6
+        given P(Ill || Flu, ~Old) in [0.2, 0.3]
+        given P(sam : Old | kim : Ill) = 0.5
+        given P(sam : Old | kim : ~Ill) = 0
+        check P(kim : Ill) = 0.6
+        check P(sam : Old | kim : Ill) = 0.5
+        check P(sam : Ill | kim : ~Ill, sam : Flu) = [0.2, 0.3]
+        check P(Ill || Flu) in [0.2, 0.6]
+    """)
+    assert check(theory).holds, check(theory)
+
+
+def test_something_is_of_a_type():
+    M = Model().given("a", A, 0.3).given("b", A, 0.4)
+    assert M.true(A) == pytest.approx((0.58, 1))
+    assert M.true(A, among=["a", "b"]) == pytest.approx((0.58, 0.58))
+    assert M.true(A | B, when=A) == (1, 1)
+    with pytest.raises(Refused, match="nothing is of B"):
+        M.true(A, when=B)
+
+
+def test_any_one_object():
+    M = Model().expects(B, 0.6, when=[A, C]).expects(B, 0.3, when=[A, ~C])
+    assert M.chance(B, when=A).p == (0, 1)
+    M = M.given("a", A).given("b", A, 0.5).given("b", C)
+    assert M.chance(B, when=A).p == (0.3, 0.6)
+    assert M.chance(A | C, when=A).p == (1, 1)
+    assert M.chance(B, when=A, among=["a"]).p == (0.3, 0.3)
+
+
+def sure(p):
+    return lambda *_: p
+
+
+def test_classifiers_that_contradict_an_axiom():
+    M = Model(Below).witnessed(A, by=sure(0.9)).witnessed(B, by=sure(0.5))
+    for kind in (A, B):
+        with pytest.raises(Refused, match="A <: B"):
+            M.judge("a", kind)
+    assert M.witnessed(B, by=sure(0.95)).judge("a", A).p == (0.9, 0.9)
+    assert M.witnessed(B, by=sure((0.2, 1))).judge("a", B).p == (0.9, 1)
+
+
+def test_what_is_seen_contradicts_an_axiom():
+    dog, puppy = Pred("dog", Ind), Pred("puppy", Ind)
+    theory = Signature(axioms=(Axiom(puppy(this.x), dog(this.x)),))
+    M = Model(theory).given("o", Ind)
+    M = M.witnessed(puppy, by=sure(0.9)).witnessed(dog, by=sure(0.5))
+    both = rectype(x=Ind, p=puppy(this.x) & dog(this.x))
+    with pytest.raises(Refused, match=r"puppy\(x\) <: dog\(x\)"):
+        M.perceive(record(x="o"), both)
+    j = M.witnessed(dog, by=sure(0.95)).perceive(record(x="o"), both)
+    assert j.p == pytest.approx((0.9, 0.9))
+
+
+def test_rounding_is_no_contradiction():
+    M = Model(Apart).given("a", A, 0.9).given("a", B, 0.1)
+    assert M.judge("a", A | B).p == (1, 1)

@@ -1,0 +1,131 @@
+"""Topoi: what is expected of a situation, and the arguments that rest on them."""
+
+import pytest
+
+from ttr import (
+    Basic,
+    IllFormed,
+    Ind,
+    Model,
+    Pred,
+    Refused,
+    fun,
+    merge,
+    outer,
+    record,
+    rectype,
+    subtype,
+    this,
+)
+from ttr.theories import Axiom, Signature
+from ttr.topoi import (
+    combined,
+    compatible,
+    expected,
+    necessary,
+    possible,
+    topos,
+    underpins,
+)
+
+bird, penguin, fly, swim = (Pred(n, Ind) for n in ("bird", "penguin", "fly", "swim"))
+Bird = rectype(x=Ind, c=bird(this.x))
+Penguin = rectype(x=Ind, p=penguin(this.x))
+birds_fly = topos(fun(r=Bird)(rectype(e=fly(outer.r.x))))
+penguins_do_not = topos(fun(r=Penguin)(rectype(e=~fly(outer.r.x))))
+penguins_swim = topos(fun(r=Penguin)(rectype(f=swim(outer.r.x))))
+
+tweety = record(x="tweety", c="s1")
+M = Model().given("tweety", Ind).given("s1", bird("tweety"))
+
+
+def test_what_a_topos_lets_expect():
+    assert expected(M, tweety, birds_fly) is rectype(e=fly("tweety"))
+
+
+def test_of_what_is_no_bird_nothing_is_expected():
+    with pytest.raises(Refused, match="takes objects of"):
+        expected(M, record(x="fido", c="s1"), birds_fly)
+
+
+def test_a_topos_is_parametric_content():
+    assert birds_fly.content == record(bg=Bird, fg=birds_fly.fg)
+
+
+def test_necessary_given_a_background():
+    assert necessary(M, tweety, rectype(e=fly("tweety")), birds_fly).yes
+    assert necessary(M, tweety, rectype(e=swim("tweety")), birds_fly).no
+    stone = necessary(M, record(x="stone"), rectype(e=fly("stone")), birds_fly)
+    assert stone.no
+    assert "not of the background" in stone.why
+
+
+def test_possible_given_a_background():
+    assert possible(M, tweety, rectype(e=swim("tweety")), birds_fly).yes
+    assert possible(M, tweety, rectype(e=~fly("tweety")), birds_fly).no
+
+
+def test_as_far_as_the_situation_is_of_the_background():
+    unsure = Model().given("tweety", Ind).given("s1", bird("tweety"), 0.8)
+    answer = necessary(unsure, tweety, rectype(e=fly("tweety")), birds_fly)
+    assert answer.p == pytest.approx((0.8, 0.8))
+    assert possible(unsure, tweety, rectype(e=~fly("tweety")), birds_fly).no
+
+
+def test_axioms_help():
+    fast = Pred("fast", Ind)
+    theory = Signature(axioms=(Axiom(fly(this.a), fast(this.a)),))
+    sure = Model(theory).given("tweety", Ind).given("s1", bird("tweety"))
+    assert necessary(sure, tweety, rectype(e=fast("tweety")), birds_fly).yes
+    assert necessary(M, tweety, rectype(e=fast("tweety")), birds_fly).no
+
+
+def test_topoi_combine():
+    both = combined(birds_fly, penguins_swim)
+    assert both.bg is merge(Bird, Penguin)
+    here = M.given("s2", penguin("tweety"))
+    follows = expected(here, record(x="tweety", c="s1", p="s2"), both)
+    assert follows is rectype(e=fly("tweety"), f=swim("tweety"))
+
+
+def test_topoi_that_contradict_each_other_are_both_held():
+    assert compatible(birds_fly, penguins_do_not).no
+    assert compatible(birds_fly, penguins_swim).yes
+
+
+def test_what_follows_by_a_combination_follows_by_each():
+    both = combined(birds_fly, penguins_swim)
+    here = M.given("s2", penguin("tweety"))
+    s = record(x="tweety", c="s1", p="s2")
+    for one in (birds_fly, penguins_swim):
+        assert subtype(expected(here, s, both), expected(here, s, one)).yes
+
+
+def test_an_enthymeme_and_its_topos():
+    """'It is a bird that sings, so it flies': the topos warrants it."""
+    sing = Pred("sing", Ind)
+    premise = merge(Bird, rectype(x=Ind, s=sing(this.x)))
+    said = topos(fun(r=premise)(rectype(e=fly(outer.r.x))))
+    assert underpins(birds_fly, said).yes
+    assert underpins(penguins_swim, said).no
+    other = topos(fun(r=premise)(rectype(e=swim(outer.r.x))))
+    assert underpins(birds_fly, other).no
+
+
+def test_what_is_no_topos():
+    for wrong in (Bird, "a", None, fun(x=Ind)(this.x), fun(x=Ind)("a")):
+        with pytest.raises(IllFormed, match="a topos is a function from situations"):
+            topos(wrong)
+    with pytest.raises(IllFormed, match="paths that lead nowhere"):
+        topos(fun(x=Ind)(fly(outer.y)))
+    with pytest.raises(IllFormed, match="a topos is a function from situations"):
+        expected(M, tweety, "fly")
+    assert topos(fun(x=Ind)(Basic("A"))).bg is Ind
+
+
+def test_a_function_will_do_for_a_topos():
+    assert topos(birds_fly) is birds_fly
+    assert expected(M, tweety, birds_fly.fg) is rectype(e=fly("tweety"))
+    assert necessary(M, tweety, rectype(e=fly("tweety")), birds_fly.fg).yes
+    assert underpins(birds_fly.fg, birds_fly.fg).yes
+    assert combined(birds_fly.fg, birds_fly.fg) == birds_fly

@@ -1,0 +1,67 @@
+"""A learner, taught one observation at a time, around an immutable classifier."""
+
+from __future__ import annotations
+
+from typing import Protocol, Self, runtime_checkable
+
+from ttr.errors import TTRError
+from ttr.learning.evidence import Key
+from ttr.syntax import TypeNode, kind_of
+
+__all__ = ["Classifier", "Learner"]
+
+
+@runtime_checkable
+class Classifier(Protocol):
+    """What was learned, as a value: `NaiveBayes` and `LogOdds` are such."""
+
+    def learned(self, x: TypeNode, label: str, *, key: Key) -> Self:
+        """The classifier that has learned that what is of x is so called."""
+        ...
+
+    def retracted(self, key: Key) -> Self:
+        """The classifier that has never learned what is known by the key."""
+        ...
+
+    def probabilities(self, x: TypeNode) -> dict[str, float]:
+        """The probability of each label for what is of x; they sum to 1 at most."""
+        ...
+
+
+class Learner:
+    """The two methods of a learner, and one to forget, around a classifier.
+
+    `classifier` is what has been learned so far, a value to keep or to compare.
+
+    >>> from ttr.learning.bayes import NaiveBayes
+    >>> from ttr.syntax import Basic
+    >>> Red, Round = Basic("Red"), Basic("Round")
+    >>> learner = Learner(NaiveBayes((Red, Round)))
+    >>> learner.learn_one(Red & Round, "apple", key=1)
+    >>> learner.learn_one(Round, "pear", key=2)
+    >>> learner.predict_proba_one(Red & Round)
+    {'apple': 1.0, 'pear': 0.0}
+    >>> learner.forget(2)
+    >>> learner.predict_proba_one(Round)
+    {'apple': 1.0}
+    """
+
+    def __init__(self, classifier: Classifier) -> None:
+        if not isinstance(classifier, Classifier):
+            raise TTRError(
+                f"a learner is taught a classifier, found {kind_of(classifier)}",
+                hint="write Learner(LogOdds(features)), or NaiveBayes",
+            )
+        self.classifier = classifier
+
+    def learn_one(self, x: TypeNode, label: str, *, key: Key) -> None:
+        """Learns that what is of x is so called; `KeyTaken` if the key is taken."""
+        self.classifier = self.classifier.learned(x, label, key=key)
+
+    def predict_proba_one(self, x: TypeNode) -> dict[str, float]:
+        """The probability of each label for what is of x; they sum to 1 at most."""
+        return self.classifier.probabilities(x)
+
+    def forget(self, key: Key) -> None:
+        """Be as if this had never been learned; `NoSuchKey` if it was not."""
+        self.classifier = self.classifier.retracted(key)

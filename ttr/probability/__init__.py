@@ -1,0 +1,56 @@
+"""Probabilities as intervals, and how probable events are together.
+
+The atoms are judgements of an object and a basic type or ptype; an event is made of
+them. Equal atoms are one event; distinct atoms are independent, unless a `Dependence`
+links them: by what entails or excludes what, by conditionals, or as unknown.
+"""
+
+from ttr.probability.chances import (
+    Chance,
+    Contradiction,
+    Impossible,
+    are_apart,
+    chance,
+)
+from ttr.probability.degrees import (
+    CERTAIN,
+    REFUTED,
+    UNKNOWN,
+    Degree,
+    complement,
+    degree,
+    shown,
+)
+from ttr.probability.dependence import (
+    INDEPENDENT,
+    Component,
+    Conditional,
+    Dependence,
+)
+from ttr.probability.events import All, AnyOf, Atomic, Event, Not
+from ttr.probability.worlds import feasible
+
+__all__ = [
+    "CERTAIN",
+    "INDEPENDENT",
+    "REFUTED",
+    "UNKNOWN",
+    "All",
+    "AnyOf",
+    "Atomic",
+    "Chance",
+    "Component",
+    "Conditional",
+    "Contradiction",
+    "Degree",
+    "Dependence",
+    "Event",
+    "Impossible",
+    "Not",
+    "are_apart",
+    "chance",
+    "complement",
+    "degree",
+    "feasible",
+    "shown",
+]

@@ -1,0 +1,217 @@
+"""How probable an event is, by what is known of its atoms and their dependence."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from typing import NamedTuple, TypeAlias
+
+from ttr.probability.degrees import CERTAIN, REFUTED, UNKNOWN, Degree, ordered
+from ttr.probability.dependence import INDEPENDENT, Component, Dependence
+from ttr.probability.events import (
+    SURE,
+    All,
+    AnyOf,
+    Atomic,
+    Event,
+    Not,
+    Truth,
+    atoms,
+    decided,
+    literals,
+    signs,
+)
+from ttr.probability.independent import bounds, in_cases
+from ttr.probability.programs import Infeasible
+from ttr.probability.worlds import Impossible, share, worlds
+
+__all__ = ["Chance", "Contradiction", "Impossible", "are_apart", "chance"]
+
+BRANCHES = 1024
+"""How many cases of linked atoms are told apart, in all."""
+
+
+class Chance(NamedTuple):
+    """A probability, whether its interval is exact, and the components it rests on."""
+
+    p: Degree
+    exact: bool
+    rests_on: tuple[Component, ...] = ()
+
+
+class Contradiction(Exception):
+    """The degrees of a component contradict one another."""
+
+    def __init__(self, component: Component) -> None:
+        super().__init__()
+        self.component = component
+
+
+def chance(
+    event: Event, known: Dependence = INDEPENDENT, given: Event = SURE
+) -> Chance:
+    """How probable an event is, given another one.
+
+    Exact where at most ten atoms are shared between parts of the event, and components
+    are small; else bounds that hold whatever depends on what. Raises `Impossible` where
+    what is given cannot be, and `Contradiction` where degrees do not go together.
+
+    >>> a, b = Atomic("a", Degree(0.4, 0.4)), Atomic("b", Degree(0.5, 0.5))
+    >>> print(chance(All((a, b))).p, chance(AnyOf((a, Not(a)))).p)
+    0.2 1
+    >>> below = Dependence({"a": a.p, "b": b.p}, entailed=(("a", "b"),))
+    >>> print(chance(All((a, b)), below).p, chance(a, below, given=b).p)
+    0.4 0.8
+    """
+    if given == SURE and not known.components:
+        found = in_cases(event)
+        if found is not None:
+            return Chance(found, True)
+    condition = literals(given)
+    if condition is None:
+        return _quotient(event, known, given)
+    return _Solving(known, condition).of(event, given)
+
+
+def are_apart(events: Sequence[Event], known: Dependence = INDEPENDENT) -> bool:
+    """Whether events are independent, as no two of them share or link an atom."""
+    seen: set[Hashable] = set()
+    for event in events:
+        mine = _keys(event, known)
+        if not seen.isdisjoint(mine):
+            return False
+        seen |= mine
+    return True
+
+
+def _keys(event: Event, known: Dependence) -> set[Hashable]:
+    """The atoms of an event; for linked ones, the component they are in."""
+    return {known.place.get(one.atom, one.atom) for one in atoms(event)}
+
+
+def _quotient(event: Event, known: Dependence, given: Event) -> Chance:
+    """Where more is given than some atoms: p(E ∧ C) / (p(E ∧ C) + p(¬E ∧ C))."""
+    if are_apart((event, given), known):
+        if chance(given, known).p.hi == 0.0:
+            raise Impossible
+        return chance(event, known)
+    both = chance(All((event, given)), known)
+    only = chance(All((Not(event), given)), known)
+    if both.p.hi == 0.0 == only.p.hi:
+        raise Impossible
+    lo = both.p.lo / (both.p.lo + only.p.hi) if only.p.hi > 0.0 else 1.0
+    hi = both.p.hi / (both.p.hi + only.p.lo) if both.p.hi > 0.0 else 0.0
+    points = both.p.lo == both.p.hi and only.p.lo == only.p.hi
+    rests_on = tuple(dict.fromkeys((*both.rests_on, *only.rests_on)))
+    return Chance(ordered(lo, hi), points and both.exact and only.exact, rests_on)
+
+
+Left: TypeAlias = Callable[[Truth], Event]
+"""What is left of an event in a world."""
+
+
+class _Solving:
+    """Divides an event into independent parts, and what hangs together into worlds."""
+
+    def __init__(self, known: Dependence, condition: Truth) -> None:
+        self._known, self._condition = known, condition
+        self._exact = True
+        self._rests_on: dict[int, None] = {}
+        self._branches = 1
+
+    def of(self, event: Event, given: Event) -> Chance:
+        """How probable an event is under the condition, which is what is given."""
+        place = self._known.place
+        free = {a: so for a, so in self._condition.items() if a not in place}
+        if decided(given, {}) == AnyOf(()):
+            raise Impossible
+        for number in dict.fromkeys(place[a] for a in self._condition if a in place):
+            self._in_worlds(number, lambda _: SURE)
+        self._rests_on.clear()
+        p = self._solved(decided(event, free))
+        found = tuple([self._known.components[number] for number in self._rests_on])
+        return Chance(p, self._exact, found)
+
+    def _solved(self, event: Event) -> Degree:
+        match event:
+            case Atomic(atom, p):
+                return self._entangled(event) if atom in self._known.place else p
+            case Not(part):
+                lo, hi = self._solved(part)
+                return Degree(1.0 - hi, 1.0 - lo)
+            case All(()):
+                return CERTAIN
+            case AnyOf(()):
+                return REFUTED
+        groups = list(_groups(event.parts, self._known))
+        if len(groups) == 1:
+            return self._entangled(event)
+        kind = type(event)
+        found = [
+            self._solved(kind(group) if len(group) > 1 else group[0])
+            for group in groups
+        ]
+        apart = [Atomic(number, p) for number, p in enumerate(found)]
+        return in_cases(kind(tuple(apart))) or UNKNOWN
+
+    def _entangled(self, event: Event) -> Degree:
+        """An event whose parts hang together, in each world of a component of it."""
+        place = self._known.place
+        number = next(
+            (place[one.atom] for one in atoms(event) if one.atom in place), None
+        )
+        if number is None:
+            found = in_cases(event)
+        else:
+            found = self._in_worlds(number, lambda world: decided(event, world))
+            self._exact = self._exact and not self._is_mixed(event)
+        return self._bounded(event) if found is None else found
+
+    def _in_worlds(self, number: int, left: Left) -> Degree | None:
+        """How probable it is by what is left in each world; None if they are many."""
+        component = self._known.components[number]
+        known = worlds(component)
+        branches = self._branches
+        if known is None or branches * len(known) > BRANCHES:
+            return None
+        self._branches *= len(known)
+        self._rests_on[number] = None
+        worth = [self._solved(left(world)) for world in known]
+        self._branches = branches
+        if branches > 1 and any(p.lo < p.hi for p in worth):
+            self._exact = False
+        mine = {a: so for a, so in self._condition.items() if a in component.degrees}
+        try:
+            return share(component, known, worth, mine)
+        except Infeasible:
+            raise Contradiction(component) from None
+
+    def _is_mixed(self, event: Event) -> bool:
+        """Whether it may rise and fall with an unlinked atom of unknown degree.
+
+        In each world the end of its interval is chosen that suits there.
+        """
+        rising: dict[Hashable, bool] = {}
+        return any(
+            one.p.lo < one.p.hi and rising.setdefault(one.atom, sign) != sign
+            for one, sign in signs(event)
+            if one.atom not in self._known.place
+        )
+
+    def _bounded(self, event: Event) -> Degree:
+        """What holds whatever depends on what; nothing, where something is given."""
+        self._exact = False
+        given = {self._known.place.get(a, a) for a in self._condition}
+        return bounds(event) if given.isdisjoint(_keys(event, self._known)) else UNKNOWN
+
+
+def _groups(parts: Iterable[Event], known: Dependence) -> Iterator[tuple[Event, ...]]:
+    """The parts, those together that share an atom or a component."""
+    groups: dict[int, list[Event]] = {}
+    leader: dict[Hashable, int] = {}
+    for number, part in enumerate(parts):
+        keys = _keys(part, known)
+        met = sorted({leader[key] for key in keys if key in leader})
+        groups[number] = [one for other in met for one in groups.pop(other)] + [part]
+        moved = [key for key, other in leader.items() if other in met] if met else ()
+        leader.update(dict.fromkeys((*keys, *moved), number))
+    yield from map(tuple, groups.values())

@@ -1,0 +1,187 @@
+"""What is known of how atoms depend on one another.
+
+Atoms are independent unless they are linked: by a conditional, because one entails the
+other or they exclude each other, or because it was said that nothing is known of how
+they depend. What hangs together by links is a *component*; components are independent.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TypeVar
+
+from ttr.probability.degrees import UNKNOWN, Degree
+from ttr.probability.events import Truth
+
+__all__ = ["INDEPENDENT", "Component", "Conditional", "Dependence"]
+
+Atom = Hashable
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Conditional:
+    """p(target | condition): how probable an atom is where others are so, or not so."""
+
+    target: Atom
+    condition: tuple[tuple[Atom, bool], ...]
+    p: Degree
+
+    @property
+    def atoms(self) -> tuple[Atom, ...]:
+        """The target and what it depends on."""
+        return self.target, *[atom for atom, _ in self.condition]
+
+    def applies(self, truth: Truth) -> bool:
+        """Whether the condition is met."""
+        return all(truth[atom] == wanted for atom, wanted in self.condition)
+
+
+@dataclass(frozen=True, eq=False)
+class Component:
+    """Atoms that hang together, in order, and all that is known of them together."""
+
+    atoms: tuple[Atom, ...]
+    degrees: Mapping[Atom, Degree]
+    entailed: tuple[tuple[Atom, Atom], ...] = ()
+    exclusive: tuple[tuple[Atom, Atom], ...] = ()
+    conditionals: tuple[Conditional, ...] = ()
+    unknown: bool = False
+    names: Mapping[Atom, object] = field(default_factory=dict)
+
+    def written(self, atom: Atom) -> str:
+        """The atom as it is to be read."""
+        return str(self.names.get(atom, atom))
+
+    def links(self) -> list[str]:
+        """What links the atoms, in words.
+
+        >>> pair = Component(("a", "b"), {}, exclusive=(("a", "b"),))
+        >>> pair.links()
+        ['a excludes b']
+        """
+        write = self.written
+        found = [f"{write(one)} entails {write(other)}" for one, other in self.entailed]
+        found += [
+            f"{write(one)} excludes {write(other)}" for one, other in self.exclusive
+        ]
+        for one in self.conditionals:
+            on = [("" if so else "not ") + write(atom) for atom, so in one.condition]
+            found.append(f"P({write(one.target)} | {', '.join(on)}) is {one.p}")
+        if self.unknown:
+            found.append("nothing is known of how they depend")
+        return found
+
+    def parents(self) -> dict[Atom, tuple[Atom, ...]] | None:
+        """What each atom directly depends on, where conditionals are all there is.
+
+        None where something else is known, where one atom's conditionals have different
+        conditions, or where atoms depend on one another in a circle. The parents of an
+        atom come before it.
+        """
+        if self.entailed or self.exclusive or self.unknown:
+            return None
+        found: dict[Atom, tuple[Atom, ...]] = {}
+        for one in self.conditionals:
+            on = tuple([atom for atom, _ in one.condition])
+            if set(found.setdefault(one.target, on)) != set(on):
+                return None
+            if self.degrees[one.target] != UNKNOWN:
+                return None
+        return _in_order(self.atoms, found)
+
+
+def _in_order(
+    names: tuple[Atom, ...], parents: Mapping[Atom, tuple[Atom, ...]]
+) -> dict[Atom, tuple[Atom, ...]] | None:
+    """The atoms with their parents before them; None where they go in a circle."""
+    placed: dict[Atom, tuple[Atom, ...]] = {}
+    waiting = list(names)
+    while waiting:
+        ready = [a for a in waiting if all(on in placed for on in parents.get(a, ()))]
+        if not ready:
+            return None
+        placed.update((atom, parents.get(atom, ())) for atom in ready)
+        waiting = [atom for atom in waiting if atom not in placed]
+    return placed
+
+
+@dataclass(frozen=True, eq=False)
+class Dependence:
+    """The degrees of linked atoms, and their links; whatever is not here is apart.
+
+    >>> half = Degree(0.5, 0.5)
+    >>> known = Dependence({"a": half, "b": half, "c": half}, entailed=(("a", "b"),))
+    >>> [one.atoms for one in known.components]
+    [('a', 'b')]
+    """
+
+    degrees: Mapping[Atom, Degree] = field(default_factory=dict)
+    entailed: tuple[tuple[Atom, Atom], ...] = ()
+    exclusive: tuple[tuple[Atom, Atom], ...] = ()
+    conditionals: tuple[Conditional, ...] = ()
+    unknown: tuple[tuple[Atom, ...], ...] = ()
+    names: Mapping[Atom, object] = field(default_factory=dict)
+
+    @cached_property
+    def components(self) -> tuple[Component, ...]:
+        """The atoms that are linked, put together."""
+        links = [*self.entailed, *self.exclusive, *self.unknown]
+        links += [one.atoms for one in self.conditionals]
+        groups = list(_grouped(links))
+        place = {atom: number for number, group in enumerate(groups) for atom in group}
+        entailed = _shared_out(self.entailed, [place[a] for a, _ in self.entailed])
+        exclusive = _shared_out(self.exclusive, [place[a] for a, _ in self.exclusive])
+        targets = [place[one.target] for one in self.conditionals]
+        conditionals = _shared_out(self.conditionals, targets)
+        unknown = {place[atom] for link in self.unknown for atom in link}
+        return tuple(
+            Component(
+                groups[number],
+                {atom: self.degrees.get(atom, UNKNOWN) for atom in groups[number]},
+                tuple(entailed[number]),
+                tuple(exclusive[number]),
+                tuple(conditionals[number]),
+                number in unknown,
+                self.names,
+            )
+            for number in range(len(groups))
+        )
+
+    @cached_property
+    def place(self) -> dict[Atom, int]:
+        """Which component an atom is in, for those that are in one."""
+        return {a: i for i, one in enumerate(self.components) for a in one.atoms}
+
+
+INDEPENDENT = Dependence()
+"""Nothing depends on anything."""
+
+
+def _grouped(links: Iterable[tuple[Atom, ...]]) -> Iterator[tuple[Atom, ...]]:
+    """The atoms of links that share one, directly or by others, put together."""
+    group: dict[Atom, dict[Atom, None]] = {}
+    for link in links:
+        whole: dict[Atom, None] = {}
+        for atom in link:
+            whole.update(group.get(atom, {atom: None}))
+        group.update(dict.fromkeys(whole, whole))
+    seen: set[int] = set()
+    for whole in group.values():
+        if id(whole) not in seen:
+            seen.add(id(whole))
+            yield tuple(whole)
+
+
+def _shared_out(
+    values: Iterable[T], numbers: Iterable[int]
+) -> defaultdict[int, list[T]]:
+    """The values by their numbers."""
+    found: defaultdict[int, list[T]] = defaultdict(list)
+    for value, number in zip(values, numbers, strict=True):
+        found[number].append(value)
+    return found

@@ -1,0 +1,164 @@
+"""Events: what is to happen of judgements that may or may not be so.
+
+The atoms are judgements of an object and a basic type or ptype. An event is made of
+atoms by `All`, `AnyOf` and `Not`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from ttr.probability.degrees import CERTAIN, REFUTED, Degree
+
+__all__ = [
+    "All",
+    "AnyOf",
+    "Atomic",
+    "Event",
+    "Not",
+    "Truth",
+    "atoms",
+    "decided",
+    "literals",
+    "signs",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Atomic:
+    """An atom, and how probable it is."""
+
+    atom: Hashable
+    p: Degree
+
+
+@dataclass(frozen=True, slots=True)
+class All:
+    """All of the events."""
+
+    parts: tuple[Event, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class AnyOf:
+    """At least one of the events."""
+
+    parts: tuple[Event, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Not:
+    """The event does not happen."""
+
+    part: Event
+
+
+Event: TypeAlias = Atomic | All | AnyOf | Not
+
+Truth: TypeAlias = Mapping[Hashable, bool]
+"""Which atoms are so, and which are not."""
+
+SURE, NEVER = All(()), AnyOf(())
+
+
+def atoms(event: Event) -> Iterator[Atomic]:
+    """The atoms as often as they occur."""
+    for one, _ in signs(event):
+        yield one
+
+
+def signs(event: Event) -> Iterator[tuple[Atomic, bool]]:
+    """The atoms as often as they occur, and whether the event rises with them."""
+    waiting = [(event, True)]
+    while waiting:
+        one, sign = waiting.pop()
+        match one:
+            case Atomic():
+                yield one, sign
+            case Not(part):
+                waiting.append((part, not sign))
+            case All(parts) | AnyOf(parts):
+                waiting += [(part, sign) for part in parts]
+
+
+def decided(event: Event, truth: Truth) -> Event:
+    """What is left of an event where some atoms are so, or are not.
+
+    >>> a, b = Atomic("a", Degree(0.5, 0.5)), Atomic("b", Degree(0.4, 0.4))
+    >>> decided(All((a, b)), {"a": True})
+    Atomic(atom='b', p=Degree(lo=0.4, hi=0.4))
+    >>> decided(All((a, b)), {"a": False})
+    AnyOf(parts=())
+    """
+    match event:
+        case Atomic(atom, p):
+            if atom in truth:
+                return SURE if truth[atom] else NEVER
+            if p == CERTAIN:
+                return SURE
+            return NEVER if p == REFUTED else event
+        case Not(part):
+            return _denied(decided(part, truth))
+        case All(parts):
+            return _joined(All, SURE, NEVER, parts, truth)
+        case AnyOf(parts):
+            return _joined(AnyOf, NEVER, SURE, parts, truth)
+
+
+def _denied(event: Event) -> Event:
+    match event:
+        case Not(part):
+            return part
+        case All(()):
+            return NEVER
+        case AnyOf(()):
+            return SURE
+    return Not(event)
+
+
+def _joined(
+    kind: type[All] | type[AnyOf],
+    empty: Event,
+    decisive: Event,
+    parts: tuple[Event, ...],
+    truth: Truth,
+) -> Event:
+    """The parts that are left, those of the same kind inside them taken out."""
+    kept: list[Event] = []
+    for part in parts:
+        left = decided(part, truth)
+        if left == decisive:
+            return decisive
+        kept += left.parts if isinstance(left, kind) else [left]
+    kept = list(dict.fromkeys(kept))
+    if not kept:
+        return empty
+    return kept[0] if len(kept) == 1 else kind(tuple(kept))
+
+
+def literals(event: Event) -> dict[Hashable, bool] | None:
+    """The atoms that an event says are so or not so; None if it says anything else.
+
+    >>> a, b = Atomic("a", Degree(0.5, 0.5)), Atomic("b", Degree(0.4, 0.4))
+    >>> literals(All((a, Not(b))))
+    {'a': True, 'b': False}
+    >>> literals(AnyOf((a, b))), literals(All((a, Not(a))))
+    (None, None)
+    """
+    found: dict[Hashable, bool] = {}
+    waiting = [(event, True)]
+    while waiting:
+        one, sign = waiting.pop()
+        match one:
+            case Atomic(atom):
+                if found.setdefault(atom, sign) != sign:
+                    return None
+            case Not(part):
+                waiting.append((part, not sign))
+            case All(parts) | AnyOf(parts):
+                if isinstance(one, All) != sign and len(parts) != 1:
+                    return None
+                waiting += [(part, sign) for part in reversed(parts)]
+    return found

@@ -1,0 +1,110 @@
+"""How probable an event is whose atoms are independent of one another."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Hashable, Mapping
+from itertools import product
+
+from ttr.probability.degrees import Degree, ordered
+from ttr.probability.events import All, AnyOf, Atomic, Event, Not, atoms, signs
+
+__all__ = ["bounds", "in_cases", "shared"]
+
+SHARED = 10
+"""How many atoms may occur more than once for a probability to be exact."""
+
+
+def shared(event: Event) -> list[Hashable]:
+    """The atoms that occur more than once, in the order in which they do."""
+    times = Counter(one.atom for one in atoms(event))
+    return [atom for atom, count in times.items() if count > 1]
+
+
+def in_cases(event: Event) -> Degree | None:
+    """The sum over the cases of the shared atoms, at the corners of their intervals.
+
+    An event rises with an atom that it is only for, so a corner is enough there; with
+    one it is for and against, it may be lowest or highest at either end. None where
+    more than `SHARED` atoms are shared.
+
+    >>> a, b = Atomic("a", Degree(0.4, 0.4)), Atomic("b", Degree(0.5, 1))
+    >>> print(in_cases(AnyOf((a, b))), in_cases(All((a, Not(a)))))
+    [0.7, 1] 0
+    """
+    names = shared(event)
+    if not names:
+        return ordered(*_apart(event, {}))
+    degrees = {one.atom: one.p for one in atoms(event)}
+    rising: dict[Hashable, set[bool]] = {}
+    for one, sign in signs(event):
+        rising.setdefault(one.atom, set()).add(sign)
+    mixed = [a for a in names if len(rising[a]) > 1 and degrees[a].lo < degrees[a].hi]
+    if len(names) + len(mixed) > SHARED:
+        return None
+    lows, highs = [], []
+    for corner in product(*[degrees[atom] for atom in mixed]):
+        fixed = dict(zip(mixed, corner, strict=True))
+        low = {a: fixed.get(a, degrees[a][False in rising[a]]) for a in names}
+        high = {a: fixed.get(a, degrees[a][True in rising[a]]) for a in names}
+        lows.append(_weighted(event, low)[0])
+        highs.append(_weighted(event, high)[1])
+    return ordered(min(lows), max(highs))
+
+
+def _weighted(event: Event, p: Mapping[Hashable, float]) -> tuple[float, float]:
+    """Lower and upper probability where the shared atoms have these probabilities."""
+    lo = hi = 0.0
+    for truth in product((True, False), repeat=len(p)):
+        case = dict(zip(p, truth, strict=True))
+        weight = math.prod(x if case[a] else 1.0 - x for a, x in p.items())
+        if weight > 0.0:
+            one = _apart(event, case)
+            lo, hi = lo + weight * one[0], hi + weight * one[1]
+    return lo, hi
+
+
+def _apart(event: Event, case: Mapping[Hashable, bool]) -> tuple[float, float]:
+    """The probability where all atoms are apart but those that the case decides."""
+    match event:
+        case Atomic(atom, p):
+            return (float(case[atom]),) * 2 if atom in case else (p.lo, p.hi)
+        case Not(part):
+            lo, hi = _apart(part, case)
+            return 1.0 - hi, 1.0 - lo
+        case All(parts):
+            found = [_apart(part, case) for part in parts]
+            return math.prod([p[0] for p in found]), math.prod([p[1] for p in found])
+        case AnyOf(parts):
+            found = [_apart(part, case) for part in parts]
+            return _any([p[0] for p in found]), _any([p[1] for p in found])
+
+
+def _any(found: list[float]) -> float:
+    """One of them, at least; rounding does not make it less than any of them."""
+    missed = math.prod([1.0 - p for p in found])
+    return max(1.0 - missed, max(found, default=0.0))
+
+
+def bounds(event: Event) -> Degree:
+    """What holds whatever depends on what: Fréchet's bounds, part by part.
+
+    >>> a, b = Atomic("a", Degree(0.7, 0.7)), Atomic("b", Degree(0.8, 0.8))
+    >>> print(bounds(All((a, b))))
+    [0.5, 0.7]
+    """
+    match event:
+        case Atomic(_, p):
+            return p
+        case Not(part):
+            lo, hi = bounds(part)
+            return Degree(1.0 - hi, 1.0 - lo)
+        case All(parts):
+            found = [bounds(part) for part in parts]
+            low = sum(p.lo for p in found) - (len(found) - 1)
+            return ordered(max(0.0, low), min((p.hi for p in found), default=1.0))
+        case AnyOf(parts):
+            found = [bounds(part) for part in parts]
+            high = min(1.0, sum(p.hi for p in found))
+            return ordered(max((p.lo for p in found), default=0.0), high)

@@ -1,0 +1,100 @@
+"""Degrees of truth with their reasons, and how several are true together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ttr.judgements import Claim, Why
+from ttr.objects import Missing
+from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.syntax import Object, Record, RecordType, TypeNode
+
+__all__ = ["SHOWN", "Truth", "all_true", "derived", "in_fields", "one_true", "own"]
+
+SHOWN = 5
+"""How many grounds of one kind are shown."""
+
+
+@dataclass(frozen=True)
+class Truth:
+    """How certain something is, why, and on which uncertain judgements it rests."""
+
+    p: Degree
+    why: Why
+    atoms: frozenset[Claim] = frozenset()
+
+    @property
+    def witness(self) -> Object:
+        """What is of the type, as far as something is."""
+        return self.why.sit
+
+
+def own(p: Degree, T: TypeNode) -> frozenset[Claim]:
+    """What is uncertain in itself rests on itself."""
+    return frozenset() if p in (CERTAIN, REFUTED) else frozenset({(Missing(), T)})
+
+
+def derived(why: Why, T: TypeNode) -> Truth:
+    """What a derivation says, with the uncertain judgements in it."""
+    open_ = [(atom, p) for atom, p in why.atoms() if p not in (CERTAIN, REFUTED)]
+    return Truth(why.p, why, frozenset(atom for atom, _ in open_))
+
+
+def in_fields(T: RecordType, parts: list[tuple[str, Truth]]) -> Truth:
+    """The fields together."""
+    p, atoms = all_true([found for _, found in parts])
+    sit = Record({label: found.witness for label, found in parts})
+    whys = tuple(_at(label, found.why) for label, found in parts)
+    return Truth(p, Why(sit, T, p, "field by field", whys), atoms)
+
+
+def _at(label: str, why: Why) -> Why:
+    return Why(why.sit, why.type, why.p, why.rule, why.parts, label, why.how, why.facts)
+
+
+def all_true(grounds: list[Truth]) -> tuple[Degree, frozenset[Claim]]:
+    """How certain it is that all hold; bounds, where they rest on the same."""
+    degrees = [found.p for found in grounds]
+    atoms = frozenset[Claim]().union(*(found.atoms for found in grounds))
+    if REFUTED in degrees:
+        return REFUTED, frozenset()
+    if _apart(grounds, atoms):
+        lo, hi = math.prod(p.lo for p in degrees), math.prod(p.hi for p in degrees)
+        return Degree(lo, hi), atoms
+    low = sum(p.lo for p in degrees) - (len(degrees) - 1)
+    return Degree(max(0.0, low), min(p.hi for p in degrees)), atoms
+
+
+def one_true(T: TypeNode, truths: Iterable[Truth], rule: str) -> Truth:
+    """How certain it is that one holds; bounds, where they rest on the same."""
+    grounds = list(truths)
+    sure = next((found for found in grounds if found.p == CERTAIN), None)
+    if sure is not None:
+        return Truth(CERTAIN, _under(T, sure, CERTAIN, rule, [sure]))
+    degrees = [found.p for found in grounds]
+    atoms = frozenset[Claim]().union(*(found.atoms for found in grounds))
+    if _apart(grounds, atoms):
+        low = 1.0 - math.prod(1.0 - p.lo for p in degrees)
+        p = Degree(low, 1.0 - math.prod(1.0 - p.hi for p in degrees))
+    else:
+        high = min(1.0, sum(p.hi for p in degrees))
+        p = Degree(max(p.lo for p in degrees), high)
+    best = max(grounds, key=lambda found: found.p.lo, default=None)
+    shown = sorted(grounds, key=lambda found: -found.p.hi)[:SHOWN]
+    return Truth(p, _under(T, best, p, rule, shown), atoms)
+
+
+def _apart(grounds: list[Truth], atoms: frozenset[Claim]) -> bool:
+    return len(atoms) == sum(len(found.atoms) for found in grounds)
+
+
+def _under(
+    T: TypeNode, best: Truth | None, p: Degree, rule: str, grounds: list[Truth]
+) -> Why:
+    whys = tuple(found.why for found in grounds)
+    if len(whys) == 1 and whys[0].type is T:
+        return whys[0]
+    sit = best.witness if best is not None and p != REFUTED else Missing()
+    return Why(sit, T, p, rule, whys, how="any")

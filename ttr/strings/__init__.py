@@ -1,0 +1,1 @@
+"""Types of strings of events as regular types: their forms, automata, inclusion."""
