@@ -31,7 +31,9 @@ from kille.memory import Memory, Turn
 from kille.perception.look import SCANS
 from kille.sensors.sensor import Sensor
 from kille.witness import Witnesses, thing
+from kille.words import Vocabulary
 from ttr import Model, Record, RecordType, record
+from ttr.perceptual import Meaning, Speaker
 from ttr.updates import Algorithm, Run, Step, run
 
 __all__ = ["Agent"]
@@ -125,6 +127,27 @@ class Agent:
             case _:
                 self.gaze.change(command)
         return self.look()
+
+    def words(self) -> Speaker:
+        """Its words as perceptual meanings, as it knows them now.
+
+        They judge what is in the looks that it remembers. What they learn is learned by
+        new meanings: it is neither kept nor known to the robot.
+        """
+        private, known = self.state.private, self._knowledge
+        vocabulary = Vocabulary(self._witnesses, known.objects, known.relations)
+        return vocabulary.speaker("robot", private.nouns, private.relations)
+
+    def meaning(self, word: str) -> Meaning:
+        """One of its words as a perceptual meaning; `TTRError` if it knows none such.
+
+        >>> with Agent(sensor="synthetic:empty?seed=7") as robot:
+        ...     _ = robot.do("show cup")
+        ...     _ = robot.hear("This is a cup.")
+        ...     print(robot.meaning("cup").params)
+        {labels = [cup], learner = <Handle ObjectMemory>}
+        """
+        return self.words()[word]
 
     @property
     def view(self) -> View | None:

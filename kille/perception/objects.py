@@ -70,6 +70,14 @@ class ObjectMemory:
             memory.learn(view)
         return memory
 
+    def copy(self) -> ObjectMemory:
+        """Another memory that knows the same; either learns without the other."""
+        twin = ObjectMemory()
+        twin._views = dict(self._views)
+        twin._index, twin._resemblance = self._index, self._resemblance
+        twin._indexed = self._indexed
+        return twin
+
     @property
     def views(self) -> tuple[View, ...]:
         """All that was learned, in order."""

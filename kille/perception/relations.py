@@ -36,6 +36,12 @@ class RelationMemory:
         self._heard: dict[Key, tuple[Direction, str]] = {}
         self._model: LinearSVC | None = None
 
+    def copy(self) -> RelationMemory:
+        """Another memory that knows the same; either learns without the other."""
+        twin = RelationMemory()
+        twin._heard, twin._model = dict(self._heard), self._model
+        return twin
+
     @property
     def labels(self) -> tuple[str, ...]:
         """The learned words in alphabetical order."""

@@ -120,6 +120,20 @@ def test_a_memory_is_built_anew_from_its_views() -> None:
         assert again.predict_proba_one(percept) == memory.predict_proba_one(percept)
 
 
+def test_a_copy_knows_the_same_and_learns_for_itself() -> None:
+    memory = taught()
+    asked, new = seen("cup", 31), percept_of(np.random.default_rng(4), prototypes(4))
+    degrees = memory.predict_proba_one(asked)
+    twin = memory.copy()
+    assert twin.predict_proba_one(asked) == degrees
+    twin.learn_one(new, "banana", key="new")
+    assert best(twin.predict_proba_one(new)) == "banana"
+    assert "banana" not in memory.labels
+    assert memory.predict_proba_one(asked) == degrees
+    memory.forget(memory.views[0].key)
+    assert len(twin.views) == len(memory.views) + 2
+
+
 def test_a_view_keeps_each_feature_once() -> None:
     still = seen("cup", 0)
     count = len(still.scans[0].descriptors)

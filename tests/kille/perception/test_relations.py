@@ -67,6 +67,18 @@ def test_the_laws_of_a_learner() -> None:
     check_learner(RelationMemory, EXAMPLES)
 
 
+def test_a_copy_knows_the_same_and_learns_for_itself() -> None:
+    memory = taught(1)
+    place = (0.2, 0.0, 0.0)
+    degrees = memory.predict_proba_one(place)
+    twin = memory.copy()
+    assert twin.predict_proba_one(place) == degrees
+    twin.learn_one((0.0, 0.0, 0.3), "above", key="new")
+    assert best(twin.predict_proba_one((0.0, 0.0, 0.3))) == "above"
+    assert "above" not in memory.labels
+    assert memory.predict_proba_one(place) == degrees
+
+
 @pytest.mark.parametrize("seed", range(5))
 def test_most_answers_are_acceptable_after_48_lessons(seed: int) -> None:
     memory = taught(seed)

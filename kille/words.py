@@ -1,0 +1,113 @@
+"""The robot's words as perceptual meanings: {params, bg, clf, interp}.
+
+The learner that judges a word is the classifier of its meaning. So a word can be
+printed, corrected and compared like any other meaning, on copies of what the robot has
+learned; the robot itself learns through its memory only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any, Generic, Protocol, Self, TypeVar
+
+from kille.dialogue.meanings import word_of
+from kille.perception.learners import Learner
+from kille.perception.objects import ObjectMemory
+from kille.perception.relations import RelationMemory
+from kille.witness import Witnesses
+from ttr import Path, PType, Record
+from ttr.perceptual import (
+    ByLearner,
+    Meaning,
+    Speaker,
+    interpretation,
+    learner_params,
+    meaning,
+)
+
+__all__ = ["Pupil", "Vocabulary"]
+
+X = TypeVar("X")
+X_contra = TypeVar("X_contra", contravariant=True)
+
+
+class Copied(Learner[X_contra], Protocol[X_contra]):
+    """A learner that can be copied with what it knows."""
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The learned words."""
+        ...
+
+    def copy(self) -> Self:
+        """Another one that knows the same."""
+        ...
+
+
+class Pupil(Generic[X]):
+    """A learner that is taught without keys, apart from the robot's memory."""
+
+    def __init__(self, learner: Copied[X], lessons: int = 0) -> None:
+        self._learner, self._lessons = learner, lessons
+
+    @property
+    def name(self) -> str:
+        """What kind of learner it is."""
+        return type(self._learner).__name__
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The words that it knows."""
+        return self._learner.labels
+
+    def learn_one(self, x: X, y: str, /) -> None:
+        """Take x as an instance of the word."""
+        self._lessons += 1
+        self._learner.learn_one(x, y, key=f"lesson {self._lessons} of a pupil")
+
+    def predict_proba_one(self, x: X, /) -> dict[str, float]:
+        """The degree of each word."""
+        return self._learner.predict_proba_one(x)
+
+    def copy(self) -> Pupil[X]:
+        """Another pupil that knows the same."""
+        return Pupil(self._learner.copy(), self._lessons)
+
+
+class Vocabulary:
+    """Makes meanings of words, of what the learners know and the eyes remember."""
+
+    def __init__(
+        self, witnesses: Witnesses, objects: ObjectMemory, relations: RelationMemory
+    ) -> None:
+        self._witnesses, self._objects, self._relations = witnesses, objects, relations
+
+    def speaker(
+        self, name: str, nouns: Iterable[Record], relations: Iterable[Record]
+    ) -> Speaker:
+        """Who has these words: nouns share one learner, and relations another."""
+        things = _params(self._objects), self._witnesses.percept
+        places = _params(self._relations), self._witnesses.offset
+        meanings = {sign.form: _meaning(sign, *things) for sign in nouns}
+        meanings |= {sign.form: _meaning(sign, *places) for sign in relations}
+        return Speaker(name, meanings)
+
+
+def _params(learner: Copied[Any]) -> Record:
+    return learner_params(Pupil(learner), copied=Pupil.copy)
+
+
+def _meaning(
+    sign: Record, params: Record, through: Callable[..., object | None]
+) -> Meaning:
+    """The meaning of a word, whose percept is found by the arguments it takes."""
+    word = word_of(sign)
+    label, claim = next(
+        (label, field)
+        for label, field in sign.meaning.fields
+        if isinstance(field, PType) and field.pred is word
+    )
+    of = tuple([".".join(arg.labels) for arg in claim.args if isinstance(arg, Path)])
+    method = ByLearner(word.name)
+    interp = interpretation(sign.meaning, label)
+    return meaning(interp, method, params, of=of, through=through)
