@@ -121,6 +121,16 @@ class Assignment:
         """With what probability sit was told to be of T; None if it was not."""
         return self.known.get(identity(sit), _EMPTY).get(T)
 
+    def seen_types(self) -> list[Basic]:
+        """The basic types that witness functions judge, and axioms are about."""
+        related = self.theory.related
+        return [T for T in self.functions if isinstance(T, Basic) and T in related]
+
+    def is_told(self, sit: Object, T: Atom) -> bool:
+        """Whether something says by itself how probable it is that sit is of T."""
+        seen = isinstance(T, Basic) and T in self.functions
+        return seen or self.told_degree(sit, T) is not None
+
     def types_of(self, sit: Object) -> list[Atom]:
         """What the object was told, and perhaps is, to be of; in no order."""
         facts = self.known.get(identity(sit), _EMPTY)
@@ -307,6 +317,12 @@ class Assignment:
             if exclusion:
                 why = f"by {exclusion} and {notation(sit)} : {kind}"
                 found.append((complement(p.lo), why))
+        for one in self.seen_types() if self.theory.exclusions else ():
+            exclusion = excluding(T, one, self.theory) if one not in facts else None
+            seen = self.perceived(sit, one) if exclusion else None
+            if seen is not None and seen.lo > 0.0:
+                why = f"by {exclusion} and the witness function of {one}"
+                found.append((complement(seen.lo), why))
         return min(found)
 
 

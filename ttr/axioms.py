@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import product
+from typing import cast
 
 from ttr.paths import replace_paths
-from ttr.syntax import Basic, Object, Path, PType, identity
+from ttr.syntax import Basic, Object, Path, Pred, PType, identity
 from ttr.theories import Axiom, Exclusion, Signature
 
-__all__ = ["above", "below", "excluding", "match_schema"]
+__all__ = ["above", "below", "excluding", "match_schema", "uppers"]
 
 Binding = Mapping[Path, Object]
 
@@ -40,6 +41,15 @@ def below(
     yield from _reached(T, [(axiom, axiom.upper, axiom.lower) for axiom in axioms])
 
 
+def uppers(T: Atom, theory: Signature) -> frozenset[Atom]:
+    """The types that the axioms put above T."""
+    found = theory._memo.get(T)
+    if found is None:
+        found = frozenset(upper for _, upper in above(T, theory.axioms))
+        theory._memo[T] = found
+    return cast(frozenset[Atom], found)
+
+
 def excluding(S: Atom, T: Atom, theory: Signature) -> Exclusion | None:
     """The exclusion by which nothing is of both types, or of what is above them.
 
@@ -52,14 +62,17 @@ def excluding(S: Atom, T: Atom, theory: Signature) -> Exclusion | None:
     """
     if not theory.exclusions:
         return None
-    mine = [S, *(upper for _, upper in above(S, theory.axioms))]
-    theirs = [T, *(upper for _, upper in above(T, theory.axioms))]
+    if (S, T) not in theory._memo:
+        theory._memo[S, T] = _excluding(S, T, theory)
+    return cast(Exclusion | None, theory._memo[S, T])
+
+
+def _excluding(S: Atom, T: Atom, theory: Signature) -> Exclusion | None:
+    mine, theirs = (S, *uppers(S, theory)), (T, *uppers(T, theory))
     for exclusion in theory.exclusions:
-        left, right = exclusion.left, exclusion.right
+        sides = exclusion.left, exclusion.right
         for one, other in product(mine, theirs):
-            if _match_both((left, right), (one, other)):
-                return exclusion
-            if _match_both((left, right), (other, one)):
+            if _match_both(sides, (one, other)) or _match_both(sides, (other, one)):
                 return exclusion
     return None
 
@@ -75,11 +88,14 @@ def _match_both(schemas: tuple[Atom, Atom], types: tuple[Atom, Atom]) -> bool:
 
 
 def _reached(
-    T: Basic | PType, steps: list[tuple[Axiom, Basic | PType, Basic | PType]]
-) -> Iterator[tuple[Axiom, Basic | PType]]:
+    T: Atom, steps: Iterable[tuple[Axiom, Atom, Atom]]
+) -> Iterator[tuple[Axiom, Atom]]:
+    by_head: dict[Basic | Pred, list[tuple[Axiom, Atom, Atom]]] = {}
+    for step in steps:
+        by_head.setdefault(_head(step[1]), []).append(step)
     found, waiting = {T}, [T]
     for current in waiting:
-        for axiom, start, end in steps:
+        for axiom, start, end in by_head.get(_head(current), ()):
             bound = match_schema(start, current)
             if bound is None:
                 continue
@@ -88,6 +104,10 @@ def _reached(
                 found.add(reached)
                 waiting.append(reached)
                 yield axiom, reached
+
+
+def _head(T: Atom) -> Basic | Pred:
+    return T if isinstance(T, Basic) else T.pred
 
 
 def match_schema(schema: Basic | PType, T: Basic | PType) -> Binding | None:

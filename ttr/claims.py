@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from ttr.errors import following_nesting
 from ttr.printing import notation
-from ttr.probability import CERTAIN, Degree
+from ttr.probability import CERTAIN, Degree, complement
+from ttr.probability.degrees import ordered
 from ttr.propositions import borne_out, claim, probabilistic_claim
 from ttr.subtyping import Answer, subtype
 from ttr.syntax import Basic, Object, PType, TypeNode, freeze, identity
@@ -21,8 +22,9 @@ def entails(
 
     Of types, and of Austinian propositions of one situation: is the first type below
     the second? A type is true as well where something is certainly of it. From p(s : S)
-    in [lo, hi] and S ⊑ T follows that p(s : T) is in [lo, 1], and in [lo, hi] where
-    T ⊑ S as well. Raises `IllFormed` for what is no proposition.
+    in [lo, hi] follows that p(s : T) is at least lo where S ⊑ T, at most hi where
+    T ⊑ S, at least 1 − hi where ¬S ⊑ T, and at most 1 − lo where S ⊑ ¬T. Raises
+    `IllFormed` for what is no proposition.
 
     >>> from ttr.propositions import probabilistic, proposition
     >>> from ttr.syntax import Basic
@@ -68,12 +70,25 @@ def _austinian(P: Object, Q: Object, theory: Signature | None) -> Answer:
     if identity(sit) != identity(other):
         apart = f"{notation(sit)} and {notation(other)} may be different situations"
         return Answer("unknown", apart)
-    below, above = subtype(S, T, theory), subtype(T, S, theory)
     if claimed == wanted == CERTAIN:
-        return below
-    follows = Degree(claimed.lo if below.yes else 0.0, claimed.hi if above.yes else 1.0)
+        return subtype(S, T, theory)
+    follows = _follows(claimed, S, T, theory)
     why = f"p({notation(sit)} : {T}) is in {follows}"
     if borne_out(wanted, follows) == CERTAIN:
         return Answer("yes", why)
-    refuted = S is T and isinstance(S, Basic | PType)
+    refuted = (S is T or ~S is T) and isinstance(S, Basic | PType)
     return Answer("no" if refuted else "unknown", why)
+
+
+def _follows(p: Degree, S: TypeNode, T: TypeNode, theory: Signature | None) -> Degree:
+    """How probable it is that a situation is of T, where p says so for S."""
+    least, most = [0.0], [1.0]
+    if subtype(S, T, theory).yes:
+        least.append(p.lo)
+    if subtype(T, S, theory).yes:
+        most.append(p.hi)
+    if subtype(~S, T, theory).yes:
+        least.append(complement(p.hi))
+    if subtype(S, ~T, theory).yes:
+        most.append(complement(p.lo))
+    return ordered(max(least), min(most))

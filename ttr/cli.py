@@ -326,7 +326,7 @@ def _fracas(options: argparse.Namespace) -> int:
             words = words.extended(options.lexicon)
         some = problems(options.file)
     except TTRError as error:
-        return _complain(error.message)
+        return _complain(str(error))
     found = []
     for one in answered(some, words):
         found.append(one)

@@ -34,6 +34,9 @@ __all__ = ["conditional", "expected", "table_rows", "told_when", "undetermined"]
 
 Pair = tuple[Object, TypeNode]
 
+PARENTS = 10
+"""On how many judgements a table may depend."""
+
 
 def conditional(
     facts: Assignment, sit: Object, T: TypeNode, when: Sequence[Pair]
@@ -115,11 +118,12 @@ def table_rows(
     on: Sequence[object], rows: Mapping[tuple[bool, ...], object]
 ) -> Iterator[tuple[tuple[bool, ...], object]]:
     """The rows of a table in order; `TTRError` where one is missing or too many."""
+    if len(on) > PARENTS:
+        raise TTRError(f"a table is on {PARENTS} judgements at most, found {len(on)}")
+    if not isinstance(rows, Mapping):
+        raise TTRError("the rows of a table are a dict from cases to probabilities")
     cases = list(product((True, False), repeat=len(on)))
-    found = {
-        tuple(case) if isinstance(case, tuple) else (case,): p
-        for case, p in rows.items()
-    }
+    found = dict(rows)
     missing = [case for case in cases if case not in found]
     if missing:
         raise TTRError(

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from ttr.constructors import star
+from ttr.dividing import events_in_words
 from ttr.errors import TTRError, Unexpected, Unsupported, following_nesting
 from ttr.following import Following, followed_from
 from ttr.models import Model
@@ -49,8 +50,7 @@ def begun(T: TypeNode, model: Model, /) -> Course:
     1
     """
     T = as_type(T)
-    if not isinstance(model, Model):
-        raise TTRError(f"a course is followed in a model, found {model!r}")
+    _check_model(model)
     if not is_of_strings(T) or escaping(T):
         raise Unsupported(
             f"{T} is no type of strings that can be followed",
@@ -100,6 +100,7 @@ class Course:
 
         A model that has new facts is such a one: what came before is not asked again.
         """
+        _check_model(model)
         linked = self._following.linked or bool(model._facts.links)
         following = replace(self._following, linked=linked)
         return replace(self, model=model, _following=following)
@@ -143,10 +144,14 @@ class Course:
         plus(B)
         """
         following = self._following
+        if following.automaton.empty:
+            return self.type
         return join(*map(following.automaton.rest_of, following.beliefs.states()))
 
     def __str__(self) -> str:
-        what = f"a string of {self.type} after {self.length} events"
+        if self._following.automaton.empty:
+            return f"a string of {self.type}, of which there is none"
+        what = f"a string of {self.type} after {events_in_words(self.length)}"
         if self.expected is None:
             return f"{what}, complete"
         return f"{what}; expected: {self.expected}"
@@ -165,3 +170,8 @@ class Course:
             f"{'no more events' if wanted is None else wanted}",
             hint="ask expects(event) how probable it is that it fits",
         )
+
+
+def _check_model(model: object) -> None:
+    if not isinstance(model, Model):
+        raise TTRError(f"a course is followed in a model, found {model!r}")

@@ -3,28 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Mapping
-from itertools import combinations
+from itertools import combinations, permutations
 from typing import NamedTuple
 
 from ttr.assignments import Assignment, head
-from ttr.axioms import above, excluding
+from ttr.axioms import excluding, uppers
 from ttr.errors import Refused
 from ttr.links import Atom, Claim, Conditioned, Key
 from ttr.probability import (
     CERTAIN,
     INDEPENDENT,
     UNKNOWN,
+    All,
+    AnyOf,
+    Atomic,
     Component,
     Conditional,
     Degree,
     Dependence,
+    Event,
+    Not,
     feasible,
 )
 from ttr.syntax import Object, identity
+from ttr.theories import Signature
 
 __all__ = ["check_together", "contradiction", "dependence"]
 
-RELATIVES = 8
+RELATIVES = 32
 """How many judgements of one object are looked at, where some bear on others."""
 
 SHOWN = 3
@@ -40,25 +46,84 @@ def dependence(facts: Assignment, asked: Mapping[Claim, Degree]) -> Dependence:
     if not (theory.axioms or theory.exclusions or facts.links):
         return INDEPENDENT
     linked = _linked(facts, asked)
-    more = _relatives(facts, linked.claims)
+    more, whole = _relatives(facts, linked.claims)
     while more:
         linked = _linked(facts, [*linked.claims, *more])
-        more = _relatives(facts, linked.claims)
-    entailed = tuple(_entailed(facts, linked.claims))
-    exclusive = tuple(_exclusive(facts, linked.claims))
+        more, whole = _relatives(facts, linked.claims)
+    untold = _untold(facts, linked)
+    claims = [claim for claim in linked.claims if claim not in untold]
+    entailed = tuple(_entailed(facts, claims))
+    exclusive = tuple(_exclusive(facts, claims))
     conditionals = tuple([_by_keys(one) for one in linked.said])
     links: list[tuple[Hashable, ...]] = [*entailed, *exclusive, *linked.unknown]
     links += [one.atoms for one in conditionals]
-    if not links:
-        return INDEPENDENT
-    involved = {key for link in links for key in link}
     degrees: dict[Hashable, Degree] = {
         claim.key: asked.get(claim) or facts.degree_of(claim.sit, claim.type)[0]
-        for claim in linked.claims
-        if claim.key in involved
+        for claim in claims
     }
-    names: dict[Hashable, object] = {claim.key: claim for claim in linked.claims}
-    return Dependence(degrees, entailed, exclusive, conditionals, linked.unknown, names)
+    defined = _definitions(facts, untold, claims, degrees)
+    if not (links or defined):
+        return INDEPENDENT
+    return Dependence(
+        degrees,
+        entailed,
+        exclusive,
+        conditionals,
+        linked.unknown,
+        whole,
+        {claim.key: claim for claim in linked.claims},
+        defined,
+    )
+
+
+def _untold(facts: Assignment, linked: _Linked) -> dict[Claim, None]:
+    """The claims of which only axioms say anything, in a fixed order."""
+    heads = facts.theory.related
+    targets = {claim for one in linked.said for claim in one.claims()}
+    together = {key for group in linked.unknown for key in group}
+    found = [
+        claim
+        for claim in linked.claims
+        if head(claim.type) in heads
+        and claim not in targets
+        and claim.key not in together
+        and not facts.is_told(claim.sit, claim.type)
+    ]
+    return dict.fromkeys(sorted(found, key=str))
+
+
+def _definitions(
+    facts: Assignment,
+    untold: Iterable[Claim],
+    claims: Iterable[Claim],
+    degrees: Mapping[Hashable, Degree],
+) -> dict[Hashable, Event]:
+    """What nothing is told of, in terms of what is.
+
+    It is the case if something is that entails it; and it may be, as nothing is known,
+    if everything is that it entails and nothing that excludes it.
+    """
+    theory = facts.theory
+    known = [(claim, Atomic(claim.key, degrees[claim.key])) for claim in claims]
+    said: list[tuple[Claim, Event]] = list(known)
+    found: dict[Hashable, Event] = {}
+    for claim in untold:
+        T, above_it = claim.type, uppers(claim.type, theory)
+        mine = [pair for pair in said if _of_same(pair[0], claim)]
+        enough = [event for one, event in mine if T in uppers(one.type, theory)]
+        needed = [event for one, event in mine if one.type in above_it]
+        apart = [Not(event) for one, event in mine if excluding(one.type, T, theory)]
+        if not (enough or needed or apart):
+            continue
+        free = Atomic(("only axioms tell of", claim.key), UNKNOWN)
+        event = AnyOf((*enough, All((*needed, *apart, free))))
+        found[claim.key] = event
+        said.append((claim, event))
+    return found
+
+
+def _of_same(one: Claim, other: Claim) -> bool:
+    return identity(one.sit) == identity(other.sit)
 
 
 def _by_keys(said: Conditioned) -> Conditional:
@@ -84,6 +149,8 @@ def _linked(facts: Assignment, claims: Iterable[Claim]) -> _Linked:
     while waiting:
         claim = waiting.pop()
         mine = links.of(claim)
+        if not mine and not facts.is_told(claim.sit, claim.type):
+            mine = links.in_general(claim)
         said += mine
         together = links.unknown.get(claim.key, ())
         unknown.update((tuple([one.key for one in group]), None) for group in together)
@@ -105,52 +172,52 @@ def _is_known(facts: Assignment, claim: Claim) -> bool:
 # --- what axioms link ---
 
 
-def _relatives(facts: Assignment, claims: Iterable[Claim]) -> list[Claim]:
+def _relatives(facts: Assignment, claims: Iterable[Claim]) -> tuple[list[Claim], bool]:
     """What else is known of the same objects, and related to the claims by axioms.
 
-    What is certain is left out: axioms say of each claim by itself what follows.
+    And whether that is all. What is certain is left out: axioms say of each claim by
+    itself what follows.
     """
     heads = facts.theory.related
     subject = [claim for claim in claims if head(claim.type) in heads]
     found: list[Claim] = []
+    whole = True
     for mine in _by_object(subject).values():
         known = set(mine)
-        others = _others(facts, mine[0].sit)
         related = [
             other
-            for other in others
+            for other in dict.fromkeys(_others(facts, mine[0].sit))
             if head(other.type) in heads and other not in known
-            if any(_is_related(facts, claim, other) for claim in mine)
+            if any(_is_related(facts.theory, claim.type, other.type) for claim in mine)
         ]
         room = max(0, RELATIVES - len(mine))
-        found += sorted(dict.fromkeys(related), key=str)[:room]
-    return found
+        whole = whole and len(related) <= room
+        found += sorted(related, key=str)[:room]
+    return found, whole
 
 
 def _others(facts: Assignment, sit: Object) -> Iterator[Claim]:
     """What is known, but not for certain, of an object; in no order."""
     yield from facts.links.targets(sit)
+    yield from (Claim(sit, T) for T in facts.seen_types())
     for T in facts.types_of(sit):
         if facts.told_degree(sit, T) != CERTAIN:
             yield Claim(sit, T)
 
 
-def _is_related(facts: Assignment, one: Claim, other: Claim) -> bool:
-    axioms = facts.theory.axioms
-    return (
-        any(upper is other.type for _, upper in above(one.type, axioms))
-        or any(upper is one.type for _, upper in above(other.type, axioms))
-        or excluding(one.type, other.type, facts.theory) is not None
-    )
+def _is_related(theory: Signature, S: Atom, T: Atom) -> bool:
+    if T in uppers(S, theory) or S in uppers(T, theory):
+        return True
+    return excluding(S, T, theory) is not None
 
 
 def _entailed(facts: Assignment, claims: Iterable[Claim]) -> Iterator[tuple[Key, Key]]:
-    axioms = facts.theory.axioms
-    known = {claim.key for claim in claims} if axioms else ()
-    for sit, T in known:
-        for _, upper in above(T, axioms):
-            if (sit, upper) in known:
-                yield (sit, T), (sit, upper)
+    heads = facts.theory.related
+    for mine in _by_object(claims).values():
+        types = [claim for claim in mine if head(claim.type) in heads]
+        for one, other in permutations(types, 2):
+            if other.type in uppers(one.type, facts.theory):
+                yield one.key, other.key
 
 
 def _exclusive(facts: Assignment, claims: Iterable[Claim]) -> Iterator[tuple[Key, Key]]:
@@ -177,7 +244,7 @@ def check_together(facts: Assignment, sit: Object, T: Atom) -> None:
     claim = Claim(sit, T)
     known = dependence(facts, {claim: facts.degree_of(sit, T)[0]})
     number = known.place.get(claim.key)
-    if number is not None and not feasible(known.components[number]):
+    if number is not None and not feasible(known.components[number], claim.key):
         raise contradiction(known.components[number])
 
 

@@ -31,7 +31,7 @@ from ttr.syntax import (
     identity,
 )
 
-__all__ = ["Dividing", "stopped"]
+__all__ = ["Dividing", "events_in_words", "stopped"]
 
 Derives = Callable[[Object, TypeNode], Why]
 """Why an object is of a type, or not."""
@@ -206,16 +206,17 @@ def stopped(facts: Assignment, sit: EventString, stop: Stop) -> str:
     done = stop.furthest
     wanted = " or ".join(map(str, stop.expected)) or "no more events"
     if done == len(sit):
-        what = (
-            f"it ends after {done} event{'s' * (done > 1)}" if done else "it is empty"
-        )
+        what = f"it ends after {events_in_words(done)}" if done else "it is empty"
         return f"{what}; expected next: {wanted}"
     event = sit.items[done]
     kinds = " and ".join(sorted(str(kind) for kind in facts.types_of(event)))
     found = f"event {done + 1}, {notation(event)}, is of {kinds or 'nothing known'}"
-    how_far = f"it cannot be divided beyond its first {_events(done)}; " if done else ""
-    return f"{how_far}{found}, expected: {wanted}"
+    if done == 0:
+        return f"{found}, expected: {wanted}"
+    first = "event" if done == 1 else events_in_words(done)
+    return f"it cannot be divided beyond its first {first}; {found}, expected: {wanted}"
 
 
-def _events(number: int) -> str:
-    return "event" if number == 1 else f"{number} events"
+def events_in_words(number: int) -> str:
+    """So many events, in words: "1 event", "2 events"."""
+    return "1 event" if number == 1 else f"{number} events"

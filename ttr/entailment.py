@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from itertools import combinations
+from itertools import combinations_with_replacement
 from typing import assert_never
 
 from ttr.axioms import above, excluding
@@ -145,7 +145,7 @@ class Question:
         return any(
             excluding(one, other, self.theory)
             for atoms in self.witness.atoms(self.given)
-            for one, other in combinations(atoms, 2)
+            for one, other in combinations_with_replacement(atoms, 2)
         )
 
     def ask(self, term: Object, T: TypeNode, where: Where = ()) -> Finding:

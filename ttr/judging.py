@@ -12,7 +12,7 @@ from typing import assert_never
 from ttr.assignments import Assignment
 from ttr.cases import cases
 from ttr.dependences import dependence
-from ttr.dividing import Dividing, stopped
+from ttr.dividing import Dividing, events_in_words, stopped
 from ttr.entailment import Question
 from ttr.errors import Refused
 from ttr.judgements import How, Why, together
@@ -133,12 +133,12 @@ class _Derivation:
     def _linked(self, why: Why) -> Why:
         """An uncertain judgement in the light of those that it depends on."""
         known = dependence(self._facts, claims_of([why]))
-        if not known.components:
+        if not known.defined and all(one.is_order for one in known.components):
             return why
         found = reckoned(why.event(), known)
-        if found.p == why.p:
+        if found.p == why.p and found.exact:
             return why
-        rule = reckoning("all", (why,), found)
+        rule = reckoning("all", (why,), found) or f"{why.rule}, and by other axioms"
         return replace(why, p=found.p, rule=rule, alone=why.p)
 
     def _singleton(self, sit: Object, T: Singleton, around: Around, where: str) -> Why:
@@ -176,7 +176,7 @@ class _Derivation:
         if items is None:
             return self._divided(sit, T, around, where)
         if len(sit) != len(items):
-            rule = f"it has {len(sit)} events, not {len(items)}"
+            rule = f"it has {events_in_words(len(sit))}, not {len(items)}"
             return Why(sit, T, REFUTED, rule, where=where)
         pairs = zip(sit, items, strict=True)
         grounds = [self.of(event, item, around, "") for event, item in pairs]

@@ -58,6 +58,10 @@ class Conditioned:
         on = ", ".join([_literal(claim, so) for claim, so in self.condition])
         return f"P({self.target} | {on}) {_relation(self.p)}"
 
+    def claims(self) -> tuple[Claim, ...]:
+        """The target and what it depends on."""
+        return self.target, *[claim for claim, _ in self.condition]
+
     def concerns(self) -> tuple[object, object]:
         """What it says something of: a later one that concerns the same replaces it."""
         return self.target.key, frozenset((c.key, so) for c, so in self.condition)
@@ -106,10 +110,11 @@ class Links:
         return bool(self.conditioned or self.expected or self.unknown)
 
     def of(self, claim: Claim) -> tuple[Conditioned, ...]:
-        """The conditionals of a claim."""
-        found = self.conditioned.get(claim.key)
-        if found is not None:
-            return found
+        """The conditionals of a claim: what was said of it, not of whatever object."""
+        return self.conditioned.get(claim.key, ())
+
+    def in_general(self, claim: Claim) -> tuple[Conditioned, ...]:
+        """What the conditionals of whatever object say of a claim."""
         return tuple([one.of(claim.sit) for one in self.expected.get(claim.type, ())])
 
     def on(self, claim: Claim) -> tuple[Claim, ...]:

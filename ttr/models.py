@@ -49,7 +49,7 @@ from ttr.syntax import (
 from ttr.theories import Expected, Given, Signature
 from ttr.witnesses import witnesses
 
-__all__ = ["Model"]
+__all__ = ["Conditions", "Model", "conditions"]
 
 
 _EMPTY: tuple[Object, ...] = ((), FiniteSet(), EventString())
@@ -134,8 +134,9 @@ class Model:
         """
         sit, T = _closed(sit, T)
         p = _degree_of(f"{notation(sit)} : {T}", p)
-        if when:
-            return self._with(told_when(self._facts, sit, T, p, _pairs(when)))
+        pairs = conditions(when)
+        if pairs:
+            return self._with(told_when(self._facts, sit, T, p, pairs))
         if isinstance(T, Basic | PType):
             facts = self._facts.with_fact(sit, T, p)
             if facts.links or p not in (CERTAIN, REFUTED):
@@ -166,9 +167,9 @@ class Model:
         """
         types = when if isinstance(when, tuple | list) else (when,)
         _, T = _closed((), T)
-        conditions = [_closed((), S)[1] for S in types]
-        degree = _degree_of(f"p({T} || {', '.join(map(str, conditions))})", p)
-        return self._with(expected(self._facts, T, degree, conditions))
+        of = [_closed((), S)[1] for S in types]
+        degree = _degree_of(f"p({T} || {', '.join(map(str, of))})", p)
+        return self._with(expected(self._facts, T, degree, of))
 
     def tabled(self, T: object, /, on: Sequence[object], rows: Table) -> Model:
         """The model with a table of conditional probabilities for T.
@@ -184,12 +185,13 @@ class Model:
         0.26 0.6923
         """
         model = self
+        on = _listed("what a table depends on", on)
         for case, p in table_rows(on, rows):
             literals = [_literal(one, so) for one, so in zip(on, case, strict=True)]
             if isinstance(T, TypeNode):
                 model = model.expects(T, p, when=literals)
             else:
-                sit, kind = _pairs([T])[0]
+                sit, kind = conditions([T])[0]
                 model = model.given(sit, kind, p, when=literals)
         return model
 
@@ -205,12 +207,14 @@ class Model:
         >>> print(M.dependent(("a", A), ("a", B)).judge("a", A & B).p)
         [0.5, 0.7]
         """
-        return self._with(undetermined(self._facts, _pairs(claims)))
+        return self._with(undetermined(self._facts, conditions(claims)))
 
     def stated(self, given: Given | Expected, /) -> Model:
         """The model in which also what a theory starts from is so."""
         if isinstance(given, Expected):
             return self.expects(given.type, given.p, when=given.when)
+        if not isinstance(given, Given):
+            raise TTRError(f"what a theory starts from is a Given, found {given!r}")
         return self.given(given.sit, given.type, given.p, when=given.when)
 
     def witnessed(self, head: Basic | Pred, /, *, by: WitnessFunction) -> Model:
@@ -250,7 +254,7 @@ class Model:
         0.75
         """
         sit, T = _closed(sit, T)
-        pairs = _pairs(when)
+        pairs = conditions(when)
         why = (
             conditional(self._facts, sit, T, pairs)
             if pairs
@@ -361,7 +365,7 @@ class Model:
             return self._borne_out(freeze(proposition))
         _, T = _closed((), proposition)
         given = None if when is None else _closed((), when)[1]
-        objects = None if among is None else [freeze(one) for one in among]
+        objects = None if among is None else _objects(among)
         try:
             return some(self._facts, T, given, objects)
         except Unsupported:
@@ -392,7 +396,7 @@ class Model:
         """
         types = when if isinstance(when, tuple | list) else (when,)
         _, T = _closed((), T)
-        objects = None if among is None else [freeze(one) for one in among]
+        objects = None if among is None else _objects(among)
         return of_any(self._facts, T, [_closed((), S)[1] for S in types], objects)
 
     def _borne_out(self, proposition: Object) -> Degree:
@@ -442,21 +446,33 @@ def _degree_of(what: str, p: object) -> Degree:
         raise TTRError(f"{what}: {error.message}") from None
 
 
-def _pairs(when: Iterable[object]) -> list[tuple[Object, TypeNode]]:
+def conditions(when: object) -> list[tuple[Object, TypeNode]]:
     """The conditions, each an object and its type."""
-    pairs = list(when) if isinstance(when, Iterable) else [when]
+    pairs = _listed("judgements", when)
     if not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
         raise TTRError(
-            f"judgements are pairs of an object and a type, [(a, T), …], found {when!r}"
+            "judgements are pairs of an object and a type, [(a, T), …], "
+            f"found {notation(freeze(when))}"
         )
     return [_closed(*pair) for pair in pairs]  # type: ignore[misc]
+
+
+def _objects(among: object) -> list[Object]:
+    return [freeze(one) for one in _listed("objects", among)]
+
+
+def _listed(what: str, values: object) -> list[object]:
+    """The values of a list; a text is none."""
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise TTRError(f"{what} are given as a list, found {notation(freeze(values))}")
+    return list(values)
 
 
 def _literal(one: object, so: bool) -> Any:
     """A type or a pair of object and type, denied where it is not so."""
     if isinstance(one, TypeNode):
         return one if so else ~one
-    ((sit, T),) = _pairs([one])
+    ((sit, T),) = conditions([one])
     return sit, T if so else ~T
 
 

@@ -74,12 +74,14 @@ def of_any(
     """p(T || S, …): how probable it is that any one object of all S is of T.
 
     The objects are those that are known and may be of the conditions, or those named.
-    It is certain where what is of S is of T by subtyping; and unknown where no object
-    is known.
+    It is certain where what is of S is of T by subtyping, refuted where it is not of T
+    by subtyping, and unknown where no object is known.
     """
     S = meet(*when)
     if subtype(S, T, facts.theory).yes:
         return Range(T, tuple(when), CERTAIN, ())
+    if subtype(S, ~T, facts.theory).yes:
+        return Range(T, tuple(when), REFUTED, ())
     objects = facts.objects() if among is None else among
     whys = []
     for sit in islice(objects, TRIED):

@@ -7,7 +7,7 @@ from ttr.errors import Refused
 from ttr.judging import reduced
 from ttr.objects import Unresolved
 from ttr.substitution import grounded
-from ttr.syntax import Meet, Object, PType, Record, RecordType, TypeNode
+from ttr.syntax import Join, Meet, Object, PType, Record, RecordType, TypeNode
 
 __all__ = ["filled"]
 
@@ -59,8 +59,8 @@ def _seen(
 
 
 def _perceptual(facts: Assignment, T: TypeNode) -> tuple[PType, ...]:
-    """The ptypes that T is the meet of, if all of them can be perceived; else none."""
-    parts = T.parts if isinstance(T, Meet) else (T,)
+    """The ptypes that T is the meet or join of, if all can be perceived; else none."""
+    parts = T.parts if isinstance(T, Meet | Join) else (T,)
     ptypes = tuple(part for part in parts if isinstance(part, PType))
     visible = all(ptype.pred in facts.functions for ptype in ptypes)
     return ptypes if visible and len(ptypes) == len(parts) else ()

@@ -18,6 +18,7 @@ from ttr.models import Model
 from ttr.notions import Notion, everywhere, where_they_exist
 from ttr.objects import labelled
 from ttr.paths import occurring
+from ttr.printing import notation
 from ttr.syntax import Basic, Object, Pred, PType, TypeNode, as_type, freeze, kind_of
 
 __all__ = [
@@ -68,12 +69,13 @@ class ModalSystem:
         Traceback (most recent call last):
         ttr.errors.IllFormed: there is no possibility w2, only w1
         """
-        for known, model in self.models:
+        for known, model in self.models if isinstance(name, str) else ():
             if known == name:
                 return model
+        written = notation(freeze(name))
         raise IllFormed(
-            f"there is no possibility {name}, only {', '.join(self.names)}",
-            hint=suggestion(str(name), self.names),
+            f"there is no possibility {written}, only {', '.join(self.names)}",
+            hint=suggestion(written, self.names),
         )
 
     def given(

@@ -334,6 +334,8 @@ def python(value: Object) -> str:
         case Operation(name, args):
             call = "concat" if name == "+" else name
             return f"{call}({', '.join(map(python, args))})"
+        case Missing():
+            return "Missing()"
         case RecordType(()):
             return "Rec"
         case RecordType(fields):

@@ -20,7 +20,7 @@ from ttr.probability import (
     are_apart,
     chance,
 )
-from ttr.probability.events import SURE
+from ttr.probability.events import SURE, atoms
 
 __all__ = ["reckoned", "reckoning"]
 
@@ -55,7 +55,11 @@ def reckoning(
     """
     uncertain = [ground for ground in grounds if ground.p not in (CERTAIN, REFUTED)]
     apart = are_apart([ground.event() for ground in uncertain], known)
-    links = [link for component in found.rests_on for link in component.links()]
+    keys = {atom.atom for g in uncertain for atom in atoms(known.spelt_out(g.event()))}
+    linked = [one for one in known.components if not keys.isdisjoint(one.atoms)]
+    links = [
+        link for component in linked or found.rests_on for link in component.links()
+    ]
     said = ["bounds, as too much hangs together"] * (not found.exact)
     if apart and (len(uncertain) > 1 or how == "none"):
         return "; ".join((_product(how, [ground.p for ground in uncertain]), *said))

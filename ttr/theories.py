@@ -8,8 +8,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path as FilePath
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Protocol, overload
+from typing import TYPE_CHECKING, Any, Protocol, overload
+
+from immutables import Map
 
 from ttr.errors import IllFormed, NotationError, Span, TTRError, suggestion
 from ttr.paths import occurring
@@ -107,7 +108,7 @@ class Expected:
 
 
 def _nothing() -> Mapping[str, Object]:
-    return MappingProxyType({})
+    return Map()
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,6 +120,11 @@ class Signature:
     givens: tuple[Given | Expected, ...] = ()
     definitions: Mapping[str, Object] = field(default_factory=_nothing)
     exclusions: tuple[Exclusion, ...] = ()
+
+    @cached_property
+    def _memo(self) -> dict[object, Any]:
+        """What follows from the axioms, once it was worked out (`ttr.axioms`)."""
+        return {}
 
     @cached_property
     def related(self) -> frozenset[Basic | Pred]:

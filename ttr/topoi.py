@@ -51,6 +51,16 @@ class Topos:
 
     fg: Function
 
+    def __post_init__(self) -> None:
+        fg = self.fg
+        if not isinstance(fg, Function) or not isinstance(fg.body, TypeNode):
+            raise IllFormed(
+                "a topos is a function from situations to types, as in "
+                rf"\r:[x : Ind]. [e : run(r.x)], found {kind_of(fg)}"
+            )
+        if escaping(fg):
+            raise IllFormed(f"the topos {fg} has paths that lead nowhere")
+
     @property
     def bg(self) -> TypeNode:
         """The type of the situations that the topos is about."""
@@ -75,16 +85,7 @@ def topos(fg: Function | Topos, /) -> Topos:
     >>> print(birds_fly.bg)
     [x : Ind, c : bird(x)]
     """
-    if isinstance(fg, Topos):
-        return fg
-    if isinstance(fg, Function) and isinstance(fg.body, TypeNode):
-        if not escaping(fg):
-            return Topos(fg)
-        raise IllFormed(f"the topos {fg} has paths that lead nowhere")
-    raise IllFormed(
-        "a topos is a function from situations to types, as in "
-        rf"\r:[x : Ind]. [e : run(r.x)], found {kind_of(fg)}"
-    )
+    return fg if isinstance(fg, Topos) else Topos(fg)
 
 
 # --- of a situation ------------------------------------------------------------------
@@ -96,7 +97,7 @@ def expected(model: Model, sit: object, warrant: Topos, /) -> TypeNode:
 
     Raises `Refused` where the situation is not certainly of the background type.
     """
-    return as_type(model.apply(topos(warrant).fg, sit))
+    return as_type(_model(model).apply(topos(warrant).fg, sit))
 
 
 @following_nesting
@@ -133,7 +134,7 @@ def _applied(
     The answer no, where it is not of the background or lacks what is spoken of.
     """
     warrant = topos(warrant)
-    background = model.judge(sit, warrant.bg)
+    background = _model(model).judge(sit, warrant.bg)
     outside = f"{notation(background.sit)} is not of the background {warrant.bg}"
     if background.p == REFUTED:
         return ModalAnswer(REFUTED, outside)
@@ -142,6 +143,12 @@ def _applied(
         return background, as_type(model.reduced(body))
     except (Unresolved, Refused) as wrong:
         raise Refused(f"the topos {warrant} fails there: {wrong.message}") from None
+
+
+def _model(value: object) -> Model:
+    if isinstance(value, Model):
+        return value
+    raise IllFormed(f"a topos is applied in a model, found {kind_of(value)}")
 
 
 def _as_far(background: Judgement, answer: Answer, question: str) -> ModalAnswer:

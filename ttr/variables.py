@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from ttr.errors import IllFormed, Refused
+from ttr.errors import IllFormed, Refused, TTRError
 from ttr.judgements import Judgement, Why
-from ttr.models import Conditions, Model
+from ttr.models import Conditions, Model, conditions
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.probability.degrees import ordered, shown
@@ -26,6 +26,7 @@ from ttr.syntax import (
     freeze,
     identity,
     join,
+    kind_of,
 )
 
 __all__ = ["RandomVariable"]
@@ -53,6 +54,8 @@ class RandomVariable:
     values: tuple[TypeNode, ...]
 
     def __init__(self, name: str, /, *values: TypeNode) -> None:
+        if not isinstance(name, str):
+            raise IllFormed(f"a random variable has a name, found {kind_of(name)}")
         kinds = tuple(dict.fromkeys(map(as_type, values)))
         if len(kinds) < 2:
             raise IllFormed(f"{name} needs two values or more that differ")
@@ -86,8 +89,10 @@ class RandomVariable:
         >>> print(V.judge(M, "a", A & B).p, V.judge(M, "a", A, when=[("a", B | A)]).p)
         0 0.5
         """
+        if not isinstance(M, Model):
+            raise TTRError(f"a judgement is of a model, found {kind_of(M)}")
         sit, T = freeze(sit), as_type(T)
-        mine, others = self._parted(sit, list(when))
+        mine, others = self._parted(sit, conditions(when))
         whys = self._weights(M, sit, others)
         wanted = self._meant(T)
         p, said = _share(whys, wanted & mine, mine - wanted)
@@ -113,14 +118,12 @@ class RandomVariable:
         A 0.25
         B 0.75
         """
-        conditions = list(when)
-        return {
-            value: self.judge(M, sit, value, when=conditions).p for value in self.values
-        }
+        given = conditions(when)
+        return {value: self.judge(M, sit, value, when=given).p for value in self.values}
 
     def _parted(
-        self, sit: Object, when: list[tuple[object, TypeNode]]
-    ) -> tuple[Values, list[tuple[object, TypeNode]]]:
+        self, sit: Object, when: list[tuple[Object, TypeNode]]
+    ) -> tuple[Values, list[tuple[Object, TypeNode]]]:
         """The values that conditions on the object leave, and the other conditions."""
         mine, others = frozenset(self.values), []
         for one, S in when:
@@ -131,7 +134,7 @@ class RandomVariable:
         return mine, others
 
     def _weights(
-        self, M: Model, sit: Object, when: list[tuple[object, TypeNode]]
+        self, M: Model, sit: Object, when: list[tuple[Object, TypeNode]]
     ) -> Mapping[TypeNode, Why]:
         return {value: M.judge(sit, value, when=when).why for value in self.values}
 

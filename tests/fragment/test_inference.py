@@ -70,3 +70,12 @@ def test_too_much_to_look_at_is_unknown():
 def test_sentences_may_be_read_before():
     known = understand("Every dog barks.")
     assert follows([known, "Fido is a dog."], "Fido barks.").verdict == "yes"
+
+
+def test_relations_that_divide_the_world_too_finely_are_left():
+    premises = [
+        "Fido hugs Kim loudly.",
+        "Fido sleeps near Kim.",
+        "Kim hugs Fido loudly.",
+    ]
+    assert follows(premises, "Fewer than two big animals bark.").verdict == "unknown"

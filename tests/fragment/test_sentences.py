@@ -5,7 +5,14 @@ from __future__ import annotations
 import pytest
 
 from ttr import Ind, Model, Theory, TTRError, load
-from ttr.fragment import OutsideFragment, english, lexicon, picked_up, understand
+from ttr.fragment import (
+    OutsideFragment,
+    english,
+    follows,
+    lexicon,
+    picked_up,
+    understand,
+)
 from ttr.objects import FiniteSet
 from ttr.quantifiers import Undefined, every
 
@@ -136,7 +143,7 @@ def test_a_donkey_pronoun_is_strong_after_every(M):
         ("Every xylophone barks.", "no word 'xylophone'$"),
         ("Fido and Rex bark.", "no construction with 'and' after 'Fido'"),
         ("Every dog", "something is missing at its end"),
-        ("", "something is missing"),
+        ("", "this text is empty"),
         ("It barks.", "'It' has nothing to stand for"),
         ("Fido is every dog.", "after is stands an adjective"),
         ("There is every dog.", "takes no noun phrase with every"),
@@ -175,7 +182,10 @@ def test_a_lexicon_can_be_extended(tmp_path):
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        ('basic Ind\nnouns := ["dog"]', r"no predicate dog\(Ind\) is declared"),
+        (
+            'basic Ind\nnouns := ["dog"]',
+            r"<text>: .*no predicate dog\(Ind\) is declared",
+        ),
         ('basic Ind\npred dgo(Ind)\nnouns := ["dog"]', "did you mean dgo"),
         ('basic Ind\npred dog(Ind)\ntransitives := ["dog"]', r"dog\(Ind, Ind\)"),
         ('basic Ind\nnames := ["Zed"]', "no object zed is declared"),
@@ -198,3 +208,44 @@ def test_regular_forms_are_known():
         ("IV", "takes part", "take_part"),
     ]:
         assert words.meaning(terminal, form).name == name
+
+
+def test_what_excludes_each_other_is_kept_in_a_lexicon_of_several_files(tmp_path):
+    more = tmp_path / "more.ttr"
+    more.write_text(
+        "basic Ind\npred wug(Ind), blick(Ind)\n"
+        'nouns := ["wug", "blick"]\nwug(x) <: ~blick(x)\n'
+    )
+    words = english().extended(more)
+    wug, blick = words.meaning("NOUN", "wug"), words.meaning("NOUN", "blick")
+    with pytest.raises(TTRError, match="cannot have the probability 1"):
+        Model(words.theory).given("s", wug("fido")).given("s", blick("fido"))
+    assert follows([], "No wug is a blick.", words).verdict == "yes"
+    assert follows([], "Some wug is a blick.", words).verdict == "no"
+
+
+@pytest.mark.parametrize("text", ["", "  ", "...", "?!"])
+def test_an_empty_text_is_no_sentence(text):
+    with pytest.raises(OutsideFragment, match="this text is empty"):
+        understand(text)
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda: understand(3), "a sentence is a text, found 3"),
+        (lambda: understand("Fido barks.", 3), "expected a lexicon, found 3"),
+        (lambda: understand("It barks.", picked=3), "sets of things, found 3"),
+        (lambda: understand("It barks.", picked=["fido"]), "sets of things, found"),
+        (lambda: follows("Every dog barks.", "Fido barks."), "several sentences"),
+        (lambda: follows([3], "Fido barks."), "a sentence is a text, found 3"),
+        (lambda: follows([], None), "a sentence is a text, found None"),
+        (lambda: follows([], "Fido barks.", 3), "expected a lexicon, found 3"),
+        (lambda: lexicon(3), "a lexicon is made of theories, found 3"),
+        (lambda: english().word("NOUN", "puppie"), "did you mean puppies"),
+        (lambda: english().word("VERB", "bark"), "no class of words is called 'VERB'"),
+    ],
+)
+def test_what_is_asked_of_the_fragment_is_checked(ask, message):
+    with pytest.raises(TTRError, match=message):
+        ask()

@@ -16,7 +16,7 @@ from ttr import (
 )
 from ttr.claims import entails, equivalent
 from ttr.propositions import judged, probabilistic, probabilistic_claim
-from ttr.theories import Axiom, Signature
+from ttr.theories import Axiom, Exclusion, Signature
 
 A, B = Basic("A"), Basic("B")
 M = Model().given("a", A, 0.75).given("b", A).given("b", B)
@@ -127,3 +127,17 @@ def test_what_is_no_proposition(wrong):
     ):
         with pytest.raises(IllFormed, match="a proposition is a type or a record"):
             ask()
+
+
+def test_what_follows_of_the_negation():
+    Apart = Signature(exclusions=(Exclusion(A, B),))
+    assert entails(probabilistic("s", A, 0.7), probabilistic("s", ~A, 0.3)).yes
+    assert entails(probabilistic("s", A, 0), proposition("s", ~A)).yes
+    assert entails(
+        probabilistic("s", ~A, (0.1, 0.4)), probabilistic("s", A, (0.6, 0.9))
+    ).yes
+    assert entails(probabilistic("s", A, 0.7), probabilistic("s", ~A, 0.5)).no
+    assert entails(
+        probabilistic("s", A, 0.7), probabilistic("s", B, (0, 0.3)), Apart
+    ).yes
+    assert entails(probabilistic("s", A, 0.7), probabilistic("s", B, (0, 0.3))).unknown

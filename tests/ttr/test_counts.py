@@ -1,5 +1,6 @@
 """Frequencies over judgements: counts, conditionals, intervals, wrong evidence."""
 
+import pickle
 from fractions import Fraction
 
 import pytest
@@ -16,7 +17,7 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.learning import JEFFREYS, LAPLACE, NO_SMOOTHING, Counts, lidstone
+from ttr.learning import JEFFREYS, LAPLACE, NO_SMOOTHING, Counts, Smoothing, lidstone
 from ttr.learning.counts import Weight
 from ttr.propositions import probabilistic
 from ttr.theories import Axiom, Signature
@@ -202,3 +203,16 @@ def test_what_is_no_theory_or_type(kennel):
         kennel.p("Dog")
     with pytest.raises(IllFormed, match="expected a type"):
         kennel.p(Dog, given="Bark")
+
+
+def test_counts_can_be_kept_in_a_file():
+    J = Counts().learned(probabilistic("s", A, 0.5))
+    again = pickle.loads(pickle.dumps(J))
+    assert len(again) == 1
+    assert again.p(A) == J.p(A)
+
+
+@pytest.mark.parametrize("pseudocount", [-1, float("nan"), float("inf"), "1", None])
+def test_a_smoothing_that_adds_no_number(pseudocount):
+    with pytest.raises(TTRError, match="a finite number, 0 or more"):
+        Smoothing("mine", pseudocount)

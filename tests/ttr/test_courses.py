@@ -41,7 +41,7 @@ def test_several_things_may_come_next():
     assert course.expected is A | B | C
     assert course.seen("a").expected is A | B
     assert course.seen("c").expected is None
-    assert str(course.seen("c")).endswith("after 1 events, complete")
+    assert str(course.seen("c")).endswith("after 1 event, complete")
 
 
 def test_the_rest_is_a_type_of_strings():
@@ -138,6 +138,8 @@ def test_a_type_without_strings_expects_nothing():
     course = begun(Str(A) & Str(A, A), M)
     assert course.expected is None
     assert course.on_course == (0, 0)
+    assert course.rest is course.type
+    assert str(course) == "a string of str(A) /\\ str(A, A), of which there is none"
     with pytest.raises(Unexpected):
         course.seen("a")
 
@@ -158,6 +160,8 @@ def test_what_cannot_be_followed(T, message):
 def test_a_course_needs_a_model():
     with pytest.raises(TTRError, match="followed in a model, found 'M'"):
         begun(Plus(A), "M")
+    with pytest.raises(TTRError, match="followed in a model, found 'M'"):
+        begun(Plus(A), M).judged_in("M")
 
 
 def test_each_step_costs_the_same():

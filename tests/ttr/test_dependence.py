@@ -1,5 +1,9 @@
 """Models in which judgements depend on one another."""
 
+import copy
+import pickle
+from itertools import pairwise
+
 import pytest
 
 from ttr import (
@@ -11,11 +15,14 @@ from ttr import (
     Theory,
     TTRError,
     check,
+    meet,
     record,
     rectype,
+    subtype,
     this,
 )
 from ttr.theories import Axiom, Exclusion, Signature
+from ttr.variables import RandomVariable
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 Below = Signature(axioms=(Axiom(A, B),))
@@ -90,7 +97,7 @@ def test_a_judgement_does_not_depend_on_itself():
 def test_a_condition_is_a_pair():
     with pytest.raises(TTRError, match="pairs of an object and a type"):
         Model().judge("a", A, when=[A])
-    with pytest.raises(TTRError, match="pairs of an object and a type"):
+    with pytest.raises(TTRError, match="judgements are given as a list, found A"):
         Model().judge("a", A, when=A)
 
 
@@ -217,3 +224,138 @@ def test_what_is_seen_contradicts_an_axiom():
 def test_rounding_is_no_contradiction():
     M = Model(Apart).given("a", A, 0.9).given("a", B, 0.1)
     assert M.judge("a", A | B).p == (1, 1)
+
+
+def test_two_types_below_a_third_of_which_nothing_is_told():
+    theory = Signature(axioms=(Axiom(A, C), Axiom(B, C)))
+    M = Model(theory).given("a", A, 0.25).given("a", B, 0.25)
+    assert M.judge("a", A | B).p == pytest.approx((0.4375, 0.4375))
+    assert M.judge("a", C).p == M.judge("a", C | A).p == pytest.approx((0.4375, 1))
+    assert M.judge("a", A & ~C).p == (0, 0)
+
+
+def test_a_type_below_two_that_are_independent():
+    theory = Signature(axioms=(Axiom(C, A), Axiom(C, B)))
+    M = Model(theory).given("a", A, 0.5).given("a", B, 0.5)
+    assert M.judge("a", A & B).p == (0.25, 0.25)
+    M = Model(Signature(theory.axioms, opened=frozenset((C,))))
+    M = M.given("a", A, 0.5).given("a", B, 0.5)
+    assert M.judge("a", C).p == (0, 0.25)
+
+
+def test_classifiers_and_what_excludes():
+    M = Model(Apart).witnessed(A, by=sure(0.9))
+    with pytest.raises(Refused, match="A <: ~B and the witness function of A"):
+        M.given("a", B, 0.5)
+    assert M.given("a", B, 0.1).judge("a", A | B).p == (1, 1)
+    with pytest.raises(Refused):
+        M.witnessed(B, by=sure(0.8)).judge("a", B)
+
+
+EXCLUSIVE = [Basic(f"X{i}") for i in range(15)]
+ALL_APART = Signature(
+    exclusions=tuple(
+        Exclusion(S, T) for S in EXCLUSIVE for T in EXCLUSIVE if str(S) < str(T)
+    )
+)
+
+
+def test_many_that_exclude_each_other():
+    M = Model(ALL_APART)
+    for T in EXCLUSIVE[:-1]:
+        M = M.given("a", T, 0.07)
+    last = EXCLUSIVE[-1]
+    assert M.given("a", last, (0, 1)).judge("a", last).p == pytest.approx((0, 0.02))
+    with pytest.raises(Refused, match="these cannot all be so"):
+        M.given("a", last, 0.03)
+
+
+def chain(length):
+    """A model in which each judgement depends on the one before it."""
+    kinds = [Basic(f"K{i}") for i in range(length)]
+    M = Model().given("a", kinds[0], 0.5)
+    for before, T in pairwise(kinds):
+        M = M.given("a", T, 0.9, when=[("a", before)])
+        M = M.given("a", T, 0.2, when=[("a", ~before)])
+    return kinds, M
+
+
+def test_a_long_chain_of_conditionals():
+    kinds, M = chain(40)
+    p = 0.5
+    for _ in kinds[1:]:
+        p = 0.9 * p + 0.2 * (1 - p)
+    assert M.judge("a", kinds[-1]).p == pytest.approx((p, p))
+    every = M.judge("a", meet(*kinds)).p
+    assert every == pytest.approx((0.5 * 0.9**39,) * 2)
+    back = M.judge("a", kinds[0], when=[("a", kinds[-1])]).p
+    assert back.lo == back.hi == pytest.approx(0.5, abs=1e-3)
+
+
+def test_what_is_given_goes_before_what_is_expected():
+    M = Model().expects(B, 0.9, when=A)
+    for one in (
+        M.given("a", A, 0.9).given("a", B, 0.1),
+        Model().given("a", A, 0.9).given("a", B, 0.1).expects(B, 0.9, when=A),
+    ):
+        assert one.judge("a", A & B).p == pytest.approx((0.09, 0.09))
+
+
+def test_nothing_is_of_a_type_that_contradicts_itself():
+    theory = Signature(axioms=(Axiom(A, B),), exclusions=(Exclusion(A, B),))
+    assert subtype(A, C, theory).yes
+    assert Model(theory).judge("a", A).p == (0, 0)
+
+
+def test_what_excludes_is_never_found():
+    theory = Signature(exclusions=(Exclusion(A, B),))
+    assert Model(theory).chance(A, when=B).p == (0, 0)
+    assert Model(theory).chance(~A, when=B).p == (1, 1)
+
+
+def test_models_can_be_copied_and_kept():
+    M = Model(Apart).given("a", A, 0.3).given("a", B, 0.5, when=[("a", ~A)])
+    for copied in (pickle.loads(pickle.dumps(M)), copy.deepcopy(M)):
+        assert copied.judge("a", A | B).p == M.judge("a", A | B).p
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda M: M.tabled(C, on="A", rows={}),
+        lambda M: M.tabled(C, on=None, rows={}),
+        lambda M: M.tabled(C, on=[A] * 30, rows={}),
+        lambda M: M.tabled(C, on=[A], rows=None),
+        lambda M: M.true(A, among=5),
+        lambda M: M.true(A, among="ab"),
+        lambda M: M.chance(A, when=B, among=5),
+        lambda M: M.stated("x"),
+        lambda M: M.judge("a", A, when=3),
+        lambda M: RandomVariable("V", A, B).judge("M", "a", A),
+        lambda M: RandomVariable("V", A, B).judge(M, "a", A, when=3),
+        lambda M: RandomVariable(3, A, B),
+        lambda M: RandomVariable("V", A),
+    ],
+)
+def test_wrong_input_is_told(wrong):
+    with pytest.raises(TTRError) as told:
+        wrong(Model().given("a", A, 0.5))
+    assert len(str(told.value).splitlines()) <= 2
+
+
+def test_a_field_that_is_a_join_is_perceived():
+    cup, mug = Pred("cup", Ind), Pred("mug", Ind)
+    M = (
+        Model()
+        .given("o", Ind)
+        .witnessed(cup, by=sure(0.8))
+        .witnessed(mug, by=sure(0.5))
+    )
+    j = M.perceive(record(x="o"), rectype(x=Ind, c=cup(this.x) | mug(this.x)))
+    assert j.p == pytest.approx((0.9, 0.9))
+
+
+def test_why_says_that_nothing_is_known_of_dependence():
+    M = Model().given("a", A, 0.6).given("a", B, 0.5).dependent(("a", A), ("a", B))
+    why = M.judge("a", A & B).why
+    assert "nothing is known of how they depend" in why.because

@@ -1,5 +1,8 @@
 """The classifiers as learners: what holds of every learner, and what features are."""
 
+import copy
+import pickle
+
 import pytest
 
 from kille.perception.learners import check_learner
@@ -94,3 +97,30 @@ def test_features_of_nested_and_other_types():
     assert feature_types(T) == (rectype(x=Ind), T)
     assert feature_types(A) == (A,)
     assert feature_types(rectype(x=A) & rectype(y=B)) == (rectype(x=A), rectype(y=B))
+
+
+def test_lessons_without_keys():
+    learner = Learner(NaiveBayes((A, B)))
+    learner.learn_one(A, "a", key="lesson 1")
+    learner.learn_one(B, "b")
+    learner.learn_one(B, "b")
+    assert learner.labels == ("a", "b")
+    learner.forget("lesson 3")
+    learner.forget("lesson 2")
+    assert learner.labels == ("a",)
+
+
+@pytest.mark.parametrize("kind", [NaiveBayes, LogOdds])
+def test_a_copy_is_taught_apart(kind):
+    learner = Learner(kind((A, B)))
+    for again in (learner.copy(), copy.deepcopy(learner)):
+        again.learn_one(A, "a")
+        assert (learner.labels, again.labels) == ((), ("a",))
+
+
+@pytest.mark.parametrize("kind", [NaiveBayes, LogOdds])
+def test_what_was_learned_can_be_kept_in_a_file(kind):
+    learned = kind((A, B)).learned(A, "a", key=1).learned(B, "b", key=2)
+    again = pickle.loads(pickle.dumps(learned))
+    assert again.evidence == learned.evidence
+    assert again.probabilities(A) == learned.probabilities(A)

@@ -133,3 +133,10 @@ def test_the_fit_of_one_weight_is_the_frequency():
     rows = [Example((0,), True, 30), Example((0,), False, 10)]
     assert logistic(fitted(rows, 1, 1e9)[0]) == pytest.approx(0.75)
     assert fitted([], 2, 1.0) == (0.0, 0.0)
+
+
+def test_weights_that_were_handed_out_are_not_its_own():
+    fruit = LogOdds((A, B)).learned(A, "apple", key=1).learned(B, "pear", key=2)
+    before = fruit.probabilities(A)
+    fruit.weights["apple"] = (9.0, 9.0, 9.0)
+    assert fruit.probabilities(A) == before

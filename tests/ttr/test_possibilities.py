@@ -1,5 +1,6 @@
 """Modal systems: possibilities apart, necessity, existence, box and diamond types."""
 
+import numpy as np
 import pytest
 
 from ttr import (
@@ -325,3 +326,12 @@ def test_what_cannot_be_told_changes_nothing(w):
     with pytest.raises(Refused):
         w.given("w1", "a", A & ~A)
     assert w.judge("w1", "a", A).p == before
+
+
+@pytest.mark.parametrize("name", [None, 3, [], np.array([1, 2])])
+def test_a_possibility_has_a_name(name):
+    w = modal_system(w1=Model())
+    with pytest.raises(IllFormed, match="there is no possibility"):
+        w[name]
+    with pytest.raises(IllFormed, match="there is no possibility"):
+        w.judge(name, "s", Basic("A"))

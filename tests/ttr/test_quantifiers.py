@@ -307,3 +307,99 @@ def test_a_mistake_is_told(make, why):
 def test_a_property_that_gives_no_type_is_told(M):
     with pytest.raises((IllFormed, Refused), match="type"):
         settle(M, every(dog, fun(x=Ind)(this.x)))
+
+
+# --- shares, functions and mistakes --------------------------------------------------
+
+
+def test_of_what_certainly_is_there_a_share_can_be_taken():
+    dogs, barkers = Extension.of(["f"]), Extension.of([("f", (0.25, 0.5))])
+    assert quantify(most, dogs, barkers).p == (0.25, 0.5)
+    assert quantify(few, dogs, barkers).p == (0.5, 0.75)
+
+
+def test_where_there_may_be_nothing_a_share_may_mean_nothing():
+    dogs, barkers = Extension.of([("f", (0.25, 0.5))]), Extension.of(["f"])
+    assert quantify(most, dogs, barkers).p == (0.25, 1)
+
+
+def test_truth_and_quantification_are_printed(M):
+    found = settle(M, every(dog, bark))
+    assert str(found) == str(found.why)
+    assert str(found.truth) == str(found.why)
+    assert "_split" not in repr(settle(M, most(dog, bark)))
+
+
+@pytest.mark.parametrize(
+    ("f", "rule"),
+    [
+        (
+            [record(x="f", e="bf"), record(x="s", e="bs")],
+            "f says something of s, which is not in X",
+        ),
+        ([record(x="f", e="bs"), record(x="f", e="bf")], "f has two pairs for f"),
+    ],
+)
+def test_f_is_a_function_from_X(M, f, rule):
+    found = judged(M, record(X={"f"}, f=f), exist(dog, bark))
+    assert found.holds is False
+    assert found.why.rule == rule
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda M: settle("M", every(dog, bark)), "a model is asked, found the object"),
+        (lambda M: extension(3, dog), "a model is asked, found int 3"),
+        (lambda M: truth(None, dog("f")), "a model is asked, found None"),
+        (lambda M: settle(M, every(dog, bark), 3), "takes thresholds, found int 3"),
+        (lambda M: truth(M, dog("f"), 3), "takes thresholds, found int 3"),
+        (lambda M: truth(M, dog(this.x)), "has paths that lead nowhere"),
+        (lambda M: quantify(every, 3, Extension.of([])), "two extensions, found int 3"),
+        (lambda M: quantify(3, *[Extension.of([])] * 2), "no quantifier, found int 3"),
+        (lambda M: Extension.of(3), "an extension is of several things, found int 3"),
+    ],
+)
+def test_what_is_asked_is_checked(M, ask, message):
+    with pytest.raises(TTRError, match=message):
+        ask(M)
+
+
+# --- what depends on what ------------------------------------------------------------
+
+KENNEL = Theory.parse("""
+    basic Ind, Cup, Thing
+    pred puppy(Ind), dog(Ind), cat(Ind)
+    puppy(x) <: dog(x)
+    cat(x) <: ~dog(x)
+    Cup <: Thing
+""")
+
+
+def test_what_may_be_of_a_type_by_an_axiom_counts():
+    M = Model(KENNEL).given("fido", Ind).given("s", KENNEL.puppy("fido"), 0.5)
+    M = M.given("o", KENNEL.Cup, 0.5)
+    assert truth(M, KENNEL.dog("fido")).p == (0.5, 1)
+    assert extension(M, KENNEL.Thing).members
+    assert settle(M, exist(KENNEL.Thing, KENNEL.Thing)).p == (0.5, 1)
+    assert settle(M, exist(KENNEL.dog, KENNEL.dog)).p == (0.5, 1)
+
+
+def test_judgements_that_an_axiom_relates_are_not_multiplied():
+    M = Model(KENNEL).given("fido", Ind).given("s", KENNEL.puppy("fido"), 0.5)
+    found = settle(M, every(KENNEL.dog, KENNEL.puppy)).p
+    assert found.lo <= 0.5
+    assert found.hi == 1
+    M = Model(KENNEL).given("fido", Ind)
+    M = M.given("s", KENNEL.dog("fido"), 0.5).given("s", KENNEL.cat("fido"), 0.5)
+    assert settle(M, exist(KENNEL.dog, KENNEL.cat)).p.lo == 0
+
+
+def test_judgements_that_are_linked_are_not_multiplied(M):
+    M = M.given("bf", bark("f"), 0.5).given("bs", bark("s"), 0.5)
+    M = M.given("br", bark("r"), 0.5)
+    assert settle(M, every(dog, bark)).p == (0.125, 0.125)
+    M = M.dependent(("bf", bark("f")), ("bs", bark("s")))
+    found = settle(M, every(dog, bark)).p
+    assert found.lo == 0
+    assert found.hi >= 0.5

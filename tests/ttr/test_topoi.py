@@ -19,6 +19,7 @@ from ttr import (
 )
 from ttr.theories import Axiom, Signature
 from ttr.topoi import (
+    Topos,
     combined,
     compatible,
     expected,
@@ -129,3 +130,18 @@ def test_a_function_will_do_for_a_topos():
     assert necessary(M, tweety, rectype(e=fly("tweety")), birds_fly.fg).yes
     assert underpins(birds_fly.fg, birds_fly.fg).yes
     assert combined(birds_fly.fg, birds_fly.fg) == birds_fly
+
+
+@pytest.mark.parametrize("model", [None, Model, "M"])
+@pytest.mark.parametrize("ask", [necessary, possible])
+def test_a_topos_is_applied_in_a_model(ask, model):
+    with pytest.raises(IllFormed, match="applied in a model"):
+        ask(model, tweety, Bird, birds_fly)
+    with pytest.raises(IllFormed, match="applied in a model"):
+        expected(model, tweety, birds_fly)
+
+
+@pytest.mark.parametrize("fg", [None, Bird, fun(r=Bird)(outer.r.x)])
+def test_a_topos_made_by_hand_is_checked_too(fg):
+    with pytest.raises(IllFormed, match="a topos is a function"):
+        Topos(fg)

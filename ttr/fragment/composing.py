@@ -55,8 +55,9 @@ def composed(
     """
     if sum(1 for kind in REPEATING for _ in tree.below(kind)) > MODIFIERS:
         raise OutsideFragment(
-            f"a sentence has at most {MODIFIERS} adverbs, adjectives that need a noun, "
-            "the, both and neither"
+            f"a sentence has at most {MODIFIERS} adverbs, words like very, "
+            "prepositions after a verb, adjectives that need a noun, the, both and "
+            "neither, counted together"
         )
     return _Composer(words, picked).clause(_only(tree))
 

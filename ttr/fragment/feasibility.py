@@ -63,34 +63,36 @@ def _rational(demands: Sequence[Demand], size: int) -> list[Fraction] | None:
     rows, basis = _tableau(demands, size)
     if not rows:
         return [Fraction(0)] * size
-    width = len(rows[0]) - 1
-    artificial = range(size + len(demands), width)
-    cost = [Fraction(0)] * (width + 1)
+    first = size + len(demands)
+    if not _driven_out(rows, basis, range(first, len(rows[0]) - 1)):
+        return None
+    values = [Fraction(0)] * size
+    for row, base in zip(rows, basis, strict=True):
+        if base < size:
+            values[base] = row[-1]
+    return values
+
+
+def _driven_out(
+    rows: list[list[Fraction]], basis: list[int], artificial: range
+) -> bool:
+    """Whether the artificial numbers can all be zero; then they are, afterwards."""
+    cost = [Fraction(0)] * len(rows[0])
     for row, base in zip(rows, basis, strict=True):
         if base in artificial:
             cost = [c - x for c, x in zip(cost, row, strict=True)]
-    for base in artificial:
-        cost[base] = Fraction(0)
     while True:
-        entering = next((j for j in range(width) if cost[j] < 0), None)
-        if entering is None or entering in artificial:
-            break
-        ratios = [
+        entering = next((j for j in range(artificial.start) if cost[j] < 0), None)
+        if entering is None:
+            return cost[-1] == 0
+        # Some row has something to give, as the cost cannot fall without end.
+        _, _, leaving = min(
             (row[-1] / row[entering], base, i)
             for i, (row, base) in enumerate(zip(rows, basis, strict=True))
             if row[entering] > 0
-        ]
-        if not ratios:
-            break
-        _, _, leaving = min(ratios)
+        )
         cost = _pivot(rows, cost, leaving, entering)
         basis[leaving] = entering
-    if cost[-1] != 0:
-        return None
-    values = [Fraction(0)] * width
-    for row, base in zip(rows, basis, strict=True):
-        values[base] = row[-1]
-    return values[:size]
 
 
 def _tableau(

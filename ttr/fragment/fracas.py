@@ -87,8 +87,11 @@ def _parsed(path: str | os.PathLike[str]) -> ET.Element:
         data = Path(path).read_bytes()
     except FileNotFoundError:
         raise Unreadable(f"there is no file {path}") from None
-    except (OSError, ValueError) as error:
-        raise Unreadable(f"{path} cannot be read: {error}") from None
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise Unreadable(f"{path} cannot be read: {reason}") from None
+    except ValueError:
+        raise Unreadable(f"{path!r} is no name of a file") from None
     if len(data) > LARGEST:
         raise Unreadable(f"{path} is too large for a problem set")
     try:

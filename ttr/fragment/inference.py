@@ -13,13 +13,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from ttr.errors import Unsupported, following_nesting
+from ttr.errors import TTRError, Unsupported, following_nesting
 from ttr.fragment.feasibility import Undecidable
 from ttr.fragment.formulas import Formula, Neither, claim
-from ttr.fragment.lexicon import Lexicon, english
+from ttr.fragment.lexicon import Lexicon, lexicon_of
 from ttr.fragment.regions import Regions, World
 from ttr.fragment.sentences import Sentence, understand
-from ttr.quantifiers import Thresholds
+from ttr.quantifiers.thresholds import Thresholds, thresholds_of
 
 __all__ = ["Inference", "Verdict", "follows"]
 
@@ -55,7 +55,9 @@ def follows(
     >>> print(follows(["Some dog barks."], "Every dog barks.").verdict)
     unknown
     """
-    chosen, agent = words or english(), thresholds or Thresholds()
+    if isinstance(premises, str) or not isinstance(premises, Iterable):
+        raise TTRError(f"the premises are several sentences, found {premises!r}")
+    chosen, agent = lexicon_of(words), thresholds_of(thresholds)
     given = [_claim(one, chosen, agent) for one in premises]
     wanted = _claim(hypothesis, chosen, agent)
     try:
@@ -65,7 +67,7 @@ def follows(
 
 
 def _claim(one: str | Sentence, words: Lexicon, thresholds: Thresholds) -> Formula:
-    sentence = understand(one, words) if isinstance(one, str) else one
+    sentence = one if isinstance(one, Sentence) else understand(one, words)
     return claim(sentence.content, thresholds)
 
 

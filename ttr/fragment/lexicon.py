@@ -13,7 +13,7 @@ from ttr.errors import TTRError, suggestion
 from ttr.syntax import Ind, Pred, Type, TypeNode
 from ttr.theories import Theory, load
 
-__all__ = ["Lexicon", "Word", "english", "lexicon"]
+__all__ = ["Lexicon", "Word", "english", "lexicon", "lexicon_of"]
 
 UNARY: tuple[TypeNode, ...] = (Ind,)
 BINARY: tuple[TypeNode, ...] = (Ind, Ind)
@@ -56,11 +56,26 @@ class Lexicon:
     theories: tuple[Theory, ...]
 
     def word(self, terminal: str, form: str) -> Word:
-        """The word of a class that has a form, however it is spaced or capitalised."""
-        return self.words[terminal][_plain(form)]
+        """The word of a class that has a form, however it is spaced or capitalised.
+
+        Raises `TTRError` for a class or a form that the lexicon does not have.
+        """
+        known = self.words.get(terminal)
+        if known is None:
+            raise TTRError(
+                f"no class of words is called {terminal!r}",
+                hint=f"they are {', '.join(self.words)}",
+            )
+        plain = _plain(form)
+        if plain not in known:
+            raise TTRError(
+                f"no {terminal} of the lexicon has the form {form!r}",
+                hint=suggestion(plain, known),
+            )
+        return known[plain]
 
     def meaning(self, terminal: str, form: str) -> Pred:
-        """The predicate of a word."""
+        """The predicate of a word; raises `TTRError` as `word` does, and for a name."""
         found = self.word(terminal, form).meaning
         if isinstance(found, str):
             raise TTRError(f"{form} is a name, and has no predicate")
@@ -74,7 +89,7 @@ class Lexicon:
 
     @property
     def theory(self) -> Theory:
-        """The theory to make models of: all axioms, open types and judgements."""
+        """The theory to make models of: all that the theories say of their types."""
         if len(self.theories) == 1:
             return self.theories[0]
         return Theory(
@@ -82,6 +97,7 @@ class Lexicon:
             opened=frozenset().union(*(one.opened for one in self.theories)),
             givens=tuple(given for one in self.theories for given in one.givens),
             objects=frozenset().union(*(one.objects for one in self.theories)),
+            exclusions=tuple(it for one in self.theories for it in one.exclusions),
         )
 
     def extended(self, path: str | os.PathLike[str]) -> Lexicon:
@@ -100,6 +116,17 @@ def _shipped() -> Theory:
     return Theory.parse(text, "fragment.en.ttr")
 
 
+def lexicon_of(words: object) -> Lexicon:
+    """The lexicon that was given, or the one that comes with the fragment for None."""
+    if words is None:
+        return english()
+    if isinstance(words, Lexicon):
+        return words
+    raise TTRError(
+        f"expected a lexicon, found {words!r}", hint="make one with lexicon(theory)"
+    )
+
+
 def lexicon(*theories: Theory) -> Lexicon:
     """The lexicon of theories with lists of words, as in `nouns := ["dog", "cat"]`.
 
@@ -114,11 +141,14 @@ def lexicon(*theories: Theory) -> Lexicon:
     >>> words.meaning("NOUN", "Dogs")
     Pred('dog', Basic('Ind'))
     """
+    for theory in theories:
+        if not isinstance(theory, Theory):
+            raise TTRError(f"a lexicon is made of theories, found {theory!r}")
     words: dict[str, dict[str, Word]] = {one: {} for one, _ in CLASSES.values()}
     for theory in theories:
         for name, (terminal, arity) in CLASSES.items():
             for entry in _entries(theory, name):
-                word = _word(theories, name, terminal, arity, entry)
+                word = _word(theories, theory.source, name, terminal, arity, entry)
                 for form in word.forms:
                     words[terminal].setdefault(_plain(form), word)
     return Lexicon(words, theories)
@@ -139,6 +169,7 @@ def _entries(theory: Theory, name: str) -> Iterator[tuple[str, ...]]:
 
 def _word(
     theories: tuple[Theory, ...],
+    source: str,
     name: str,
     terminal: str,
     arity: tuple[TypeNode, ...] | None,
@@ -149,7 +180,7 @@ def _word(
         if any(base in theory.objects for theory in theories):
             return Word(terminal, forms, base)
         raise TTRError(
-            f"names has {forms[0]}, but no object {base} is declared",
+            f"{source}: names has {forms[0]}, but no object {base} is declared",
             hint=f"write: object {base} : Ind",
         )
     pred = _predicate(theories, base) or _predicate(theories, f"{base}_")
@@ -157,7 +188,7 @@ def _word(
         known = (name for theory in theories for name in theory.predicates)
         wanted = f"{base}({', '.join(map(str, arity))})"
         raise TTRError(
-            f"{name} has {forms[0]}, but no predicate {wanted} is declared",
+            f"{source}: {name} has {forms[0]}, but no predicate {wanted} is declared",
             hint=suggestion(base, known) if pred is None else "",
         )
     return Word(terminal, (*forms, *_inflected(name, forms[0])), pred)

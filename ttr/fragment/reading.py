@@ -48,6 +48,10 @@ def read(text: str, words: Lexicon) -> Phrase:
     """
     from lark.exceptions import UnexpectedInput
 
+    if not isinstance(text, str):
+        raise OutsideFragment(f"a sentence is a text, found {text!r}")
+    if not text.strip(" .,!?\t\r\n"):
+        raise OutsideFragment("a sentence has words, but this text is empty")
     if len(text) > LONGEST:
         raise OutsideFragment(f"a sentence has at most {LONGEST} characters")
     plain = " ".join(text.replace("’", "'").split())

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from functools import cached_property
+from itertools import combinations, permutations, product
 from operator import ge
 
 from ttr.fragment.feasibility import Demand, Undecidable, solution
@@ -39,6 +40,9 @@ __all__ = ["Regions", "World"]
 
 PROPERTIES = 14
 """How many simple properties may divide the world."""
+
+INSIDE = 10
+"""How many may divide it where relations are looked into, each time anew."""
 
 RELATIONS = 6
 """Of how many of them is asked whether relations can bring them about together."""
@@ -81,6 +85,8 @@ class Regions:
     ) -> None:
         self._words, self._thresholds, self._held = words, thresholds, held
         self._theory = words.theory
+        self._implied: dict[tuple[Simple, Simple], bool] = {}
+        self._possible: dict[tuple[Formula, ...], bool] = {}
         monotone = ("ADVERB", "MODAL", "PREP")
         found = (it for kind in monotone for it in words.words[kind].values())
         self._monotone = {it.meaning for it in found if isinstance(it.meaning, Pred)}
@@ -104,6 +110,16 @@ class Regions:
         if undecided is not None:
             raise undecided
         return None
+
+    def can_be(self, formulas: Sequence[Formula]) -> bool:
+        """Whether there may be a world; yes, where it was not found out."""
+        asked = tuple(formulas)
+        if asked not in self._possible:
+            try:
+                self._possible[asked] = self.world(asked) is not None
+            except Undecidable:
+                self._possible[asked] = True
+        return self._possible[asked]
 
     def _of_branch(self, branch: tuple[Literal, ...]) -> World | None:
         stated = [
@@ -135,19 +151,20 @@ class Regions:
     def _regions(
         self, simple: Sequence[Simple], counts: Sequence[tuple[Counted, bool]]
     ) -> Iterator[Region]:
-        if len(simple) > PROPERTIES:
+        if len(simple) > (INSIDE if self._held else PROPERTIES):
             raise Undecidable
         plain = [one for one in simple if self._inside(one) is None]
         related = [one for one in simple if one not in plain]
         possible = list(self._together(related, self._facts(counts, set(plain))))
-        implied = [
-            (a, b) for a in simple for b in simple if a != b and self._implies(a, b)
-        ]
+        implied = [(a, b) for a, b in permutations(simple, 2) if self._implies(a, b)]
+        apart = [(a, b) for a, b in combinations(simple, 2) if self._excludes(a, b)]
         for values in product((False, True), repeat=len(plain)):
             first = dict(zip(plain, values, strict=True))
             for second in possible:
                 region = {**first, **second}
-                if all(region[b] or not region[a] for a, b in implied):
+                if any(region[a] and not region[b] for a, b in implied):
+                    continue
+                if not any(region[a] and region[b] for a, b in apart):
                     yield region
 
     def _inside(self, one: Simple) -> Formula | None:
@@ -170,15 +187,19 @@ class Regions:
         if not related:
             yield {}
             return
-        inner = Regions(self._words, self._thresholds, (*self._held, self._thing))
         for values in product((False, True), repeat=len(related)):
             claims = [*facts]
             for one, true in zip(related, values, strict=True):
                 found = self._inside(one)
                 if found is not None:
                     claims.append(found if true else Neither(found))
-            if len(related) > RELATIONS or _can_be(inner, claims):
+            if len(related) > RELATIONS or self._around.can_be(claims):
                 yield dict(zip(related, values, strict=True))
+
+    @cached_property
+    def _around(self) -> Regions:
+        """The worlds around one thing, as the things related to it see them."""
+        return Regions(self._words, self._thresholds, (*self._held, self._thing))
 
     def _facts(
         self, counts: Sequence[tuple[Counted, bool]], plain: set[Simple]
@@ -194,6 +215,11 @@ class Regions:
 
     def _implies(self, a: Simple, b: Simple) -> bool:
         """Whether what has one property has another, by axioms and what words mean."""
+        if (a, b) not in self._implied:
+            self._implied[a, b] = self._worked_out(a, b)
+        return self._implied[a, b]
+
+    def _worked_out(self, a: Simple, b: Simple) -> bool:
         if isinstance(a, Is) or isinstance(b, Is):
             return False
         S, T = applied(a.function, "·"), applied(b.function, "·")
@@ -206,10 +232,17 @@ class Regions:
         P, Q = S.args[-1], T.args[-1]
         return isinstance(P, Function) and isinstance(Q, Function) and self._below(P, Q)
 
+    def _excludes(self, a: Simple, b: Simple) -> bool:
+        """Whether nothing has both properties, by what the lexicon says."""
+        if isinstance(a, Is) or isinstance(b, Is) or not self._theory.exclusions:
+            return False
+        S, T = applied(a.function, "·"), applied(b.function, "·")
+        return subtype(S, ~T, self._theory).yes
+
     def _below(self, P: Function, Q: Function) -> bool:
         """Whether nothing can be P and not Q."""
         apart = Counted(said(P), Neither(said(Q)), AT_ALL)
-        return not _can_be(Regions(self._words, self._thresholds, self._held), [apart])
+        return not self.can_be([apart])
 
 
 _ONE = (number("at least", 1), number("at most", 1))
@@ -226,14 +259,6 @@ def _best(columns: Iterable[tuple[int, ...]]) -> list[tuple[int, ...]]:
         if not any(all(map(ge, better, one)) for better in best):
             best.append(one)
     return best
-
-
-def _can_be(regions: Regions, formulas: Sequence[Formula]) -> bool:
-    """Whether there may be a world; yes, where it was not found out."""
-    try:
-        return regions.world(formulas) is not None
-    except Undecidable:
-        return True
 
 
 # --- formulas as demands -------------------------------------------------------------

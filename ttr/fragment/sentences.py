@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from ttr.errors import TTRError
 from ttr.fragment.building import conjuncts
 from ttr.fragment.composing import Antecedent, composed
-from ttr.fragment.lexicon import Lexicon, english
-from ttr.fragment.reading import OutsideFragment, read
+from ttr.fragment.lexicon import Lexicon, lexicon_of
+from ttr.fragment.reading import read
 from ttr.models import Model
 from ttr.objects import FiniteSet, Object, Record
 from ttr.probability import CERTAIN
@@ -23,7 +24,7 @@ from ttr.quantifiers import (
 )
 from ttr.syntax import PType, TypeNode
 
-__all__ = ["OutsideFragment", "Sentence", "picked_up", "understand"]
+__all__ = ["Sentence", "picked_up", "understand"]
 
 
 @dataclass(frozen=True)
@@ -50,16 +51,29 @@ def understand(
 ) -> Sentence:
     """The sentence that a text is; `picked` is what its pronouns may stand for.
 
-    Raises `OutsideFragment` for a word or a construction that is not known.
+    Raises `OutsideFragment` for a word or a construction that is not known, and where
+    a pronoun has nothing to stand for.
 
     >>> understand("Every pupy barks.")
     Traceback (most recent call last):
     ttr.fragment.reading.OutsideFragment: the lexicon has no word 'pupy'
     help: did you mean puppy?
     """
-    chosen = words or english()
+    chosen = lexicon_of(words)
     tree = read(text, chosen)
-    return Sentence(text, composed(tree, chosen, tuple(picked)))
+    return Sentence(text, composed(tree, chosen, _antecedents(picked)))
+
+
+def _antecedents(picked: object) -> tuple[Antecedent, ...]:
+    """What pronouns may stand for; raises `TTRError` where it is no sets of things."""
+    found = tuple(picked) if isinstance(picked, Iterable) else (picked,)
+    for things in found:
+        if not isinstance(things, FiniteSet | frozenset | set):
+            raise TTRError(
+                f"pronouns stand for sets of things, found {things!r}",
+                hint="write picked=[{'fido'}], or picked=picked_up(M, sentence)",
+            )
+    return tuple([FiniteSet(*things) for things in found])
 
 
 def picked_up(
@@ -71,6 +85,7 @@ def picked_up(
     boy" the dogs, and the boys that are hugged. Nothing, if it is not certainly true.
 
     >>> from ttr.syntax import Ind
+    >>> from ttr.fragment import english
     >>> dog = english().meaning("NOUN", "dog")
     >>> M = Model(english().theory).given("s1", dog("fido")).given("fido", Ind)
     >>> picked_up(M, understand("There is a dog."))

@@ -23,6 +23,7 @@ from ttr.notation.grammar import blocks, statement
 from ttr.notation.loading import theory_of_file, theory_of_text
 from ttr.notation.statements import Declaring, mentioned
 from ttr.notation.trees import Source, Statement
+from ttr.paths import occurring
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.subtyping import Answer
@@ -344,9 +345,12 @@ def _atoms(why: Why, p: Degree) -> Iterable[tuple[Object, TypeNode, Degree]]:
 
 def _fact(theory: Theory, sit: Object, T: TypeNode, p: Degree) -> str:
     """A statement of the fact; names of objects that mean something else are quoted."""
-    scope = (theory.names - theory.objects,)
+    meant = theory.names - theory.objects
+    named = (part for part in occurring([T]) if isinstance(part, str))
+    unheard = [name for name in named if name not in theory.objects]
     degree = " = 0" * (p == REFUTED)
-    return f"given {notation(sit, scope)} : {notation(T, scope)}{degree}"
+    kind = notation(T, (meant.union(unheard),))
+    return f"given {notation(sit, (meant,))} : {kind}{degree}"
 
 
 # --- files ---------------------------------------------------------------------------

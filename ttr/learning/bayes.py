@@ -125,6 +125,11 @@ class NaiveBayes:
     def __repr__(self) -> str:
         return f"<NaiveBayes over {len(self.features)} features, {self.evidence}>"
 
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels that were learned, in alphabetical order."""
+        return self.evidence.labels
+
     def learned(self, x: TypeNode, label: str, *, key: Key) -> NaiveBayes:
         """The classifier that has also learned that what is of x is so called.
 

@@ -36,7 +36,7 @@ from ttr.theories import Signature, signature_of
 
 __all__ = ["NO_THEORY", "Counts", "Weight"]
 
-NO_THEORY = Signature()
+NO_THEORY = Signature(definitions=Map())
 """The theory without axioms, in which every type is below what its form says."""
 
 

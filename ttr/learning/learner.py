@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+from itertools import count
 from typing import Protocol, Self, runtime_checkable
 
 from ttr.errors import TTRError
-from ttr.learning.evidence import Key
+from ttr.learning.evidence import Key, KeyTaken
 from ttr.syntax import TypeNode, kind_of
 
 __all__ = ["Classifier", "Learner"]
@@ -14,6 +16,11 @@ __all__ = ["Classifier", "Learner"]
 @runtime_checkable
 class Classifier(Protocol):
     """What was learned, as a value: `NaiveBayes` and `LogOdds` are such."""
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels that were learned, in alphabetical order."""
+        ...
 
     def learned(self, x: TypeNode, label: str, *, key: Key) -> Self:
         """The classifier that has learned that what is of x is so called."""
@@ -53,10 +60,37 @@ class Learner:
                 hint="write Learner(LogOdds(features)), or NaiveBayes",
             )
         self.classifier = classifier
+        self._lessons = 0
 
-    def learn_one(self, x: TypeNode, label: str, *, key: Key) -> None:
-        """Learns that what is of x is so called; `KeyTaken` if the key is taken."""
-        self.classifier = self.classifier.learned(x, label, key=key)
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels that were learned, in alphabetical order."""
+        return self.classifier.labels
+
+    def copy(self) -> Learner:
+        """Another learner of the same, which is taught apart from this one."""
+        pupil = Learner(self.classifier)
+        pupil._lessons = self._lessons
+        return pupil
+
+    def __deepcopy__(self, _: object) -> Learner:
+        return self.copy()
+
+    def learn_one(self, x: TypeNode, label: str, *, key: Key | None = None) -> None:
+        """Learns that what is of x is so called; `KeyTaken` if the key is taken.
+
+        A lesson without a key gets the next one that is free of "lesson 1", "lesson 2"
+        and so on.
+        """
+        if key is not None:
+            self.classifier = self.classifier.learned(x, label, key=key)
+            return
+        for number in count(self._lessons + 1):
+            with suppress(KeyTaken):
+                key = f"lesson {number}"
+                self.classifier = self.classifier.learned(x, label, key=key)
+                self._lessons = number
+                return
 
     def predict_proba_one(self, x: TypeNode) -> dict[str, float]:
         """The probability of each label for what is of x; they sum to 1 at most."""

@@ -61,6 +61,11 @@ class LogOdds:
     def __repr__(self) -> str:
         return f"<LogOdds over {len(self.features)} features, {self.evidence}>"
 
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels that were learned, in alphabetical order."""
+        return self.evidence.labels
+
     def learned(self, x: TypeNode, label: str, *, key: Key) -> LogOdds:
         """The classifier that has also learned that what is of x is so called.
 
@@ -73,10 +78,14 @@ class LogOdds:
         """The classifier that never learned what is known by the key; `NoSuchKey`."""
         return replace(self, evidence=self.evidence.retracted(key))
 
-    @cached_property
+    @property
     def weights(self) -> dict[str, tuple[float, ...]]:
         """For each label the weights of the features, after the weight that is always
         there."""
+        return dict(self._weights)
+
+    @cached_property
+    def _weights(self) -> dict[str, tuple[float, ...]]:
         rows = self.evidence.rows()
         return {
             label: fitted(
@@ -92,13 +101,13 @@ class LogOdds:
 
         Raises `TTRError` for a label that was never learned.
         """
-        if not isinstance(label, str) or label not in self.weights:
+        if not isinstance(label, str) or label not in self._weights:
             known = self.evidence.labels
             raise TTRError(
                 f"the label {label!r} was never learned",
                 hint=suggestion(str(label), known),
             )
-        weights = self.weights[label]
+        weights = self._weights[label]
         return math.fsum(weights[i] for i in _inputs(self._seen(x)))
 
     def probabilities(self, x: TypeNode) -> dict[str, float]:
@@ -109,7 +118,7 @@ class LogOdds:
         inputs = _inputs(self._seen(x))
         found = {
             label: logistic(math.fsum(weights[i] for i in inputs))
-            for label, weights in self.weights.items()
+            for label, weights in self._weights.items()
         }
         whole = max(1.0, math.fsum(found.values()))
         return {label: p / whole for label, p in found.items()}

@@ -27,8 +27,21 @@ class Smoothing:
     name: str
     pseudocount: Fraction
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "pseudocount", _exact(self.pseudocount))
+
     def __str__(self) -> str:
         return self.name
+
+
+def _exact(pseudocount: float | Fraction) -> Fraction:
+    is_number = isinstance(pseudocount, int | float | Fraction)
+    if not is_number or not 0 <= pseudocount < float("inf"):
+        raise TTRError(
+            "a pseudocount is a finite number, 0 or more, "
+            f"found {' '.join(repr(pseudocount).split())}"
+        )
+    return Fraction(pseudocount)
 
 
 def as_smoothing(value: object) -> Smoothing:
@@ -47,12 +60,7 @@ def lidstone(pseudocount: float) -> Smoothing:
     >>> print(lidstone(0.1))
     Lidstone(0.1)
     """
-    is_number = isinstance(pseudocount, int | float | Fraction)
-    if not is_number or not 0 <= pseudocount < float("inf"):
-        raise TTRError(
-            f"a pseudocount is a finite number, 0 or more, found {pseudocount!r}"
-        )
-    return Smoothing(f"Lidstone({pseudocount})", Fraction(pseudocount))
+    return Smoothing(f"Lidstone({pseudocount})", _exact(pseudocount))
 
 
 NO_SMOOTHING = Smoothing("no smoothing", Fraction(0))

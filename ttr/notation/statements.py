@@ -156,21 +156,18 @@ class Declaring:
 
     def _axiom(self, tree: trees.AxiomClaim) -> None:
         lower = self._schema(tree.lower)
-        match tree.upper:
-            case trees.Denial(_, _, excluded):
-                upper = self._schema(excluded)
-            case upper_term:
-                upper = self._schema(upper_term)
+        if isinstance(tree.upper, trees.Denial):
+            excluded = self._schema(tree.upper.body)
+            self.draft.exclusions[Exclusion(lower, excluded)] = None
+            return
+        upper = self._schema(tree.upper)
         for path in sorted(escaping(upper) - escaping(lower), key=str):
             self.reader.refuse(
                 tree.upper,
                 f"the variable {path.labels[0]} stands on the right only",
                 f"quote it to name the object: '{path.labels[0]}'",
             )
-        if isinstance(tree.upper, trees.Denial):
-            self.draft.exclusions[Exclusion(lower, upper)] = None
-        else:
-            self.draft.axioms[Axiom(lower, upper)] = None
+        self.draft.axioms[Axiom(lower, upper)] = None
 
     def _schema(self, term: Term) -> Basic | PType:
         """A side of an axiom: the bare names in it that are no types are variables."""

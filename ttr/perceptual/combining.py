@@ -8,6 +8,7 @@ from ttr.errors import TTRError
 from ttr.judgements import Judgement
 from ttr.merging import merge
 from ttr.models import Model
+from ttr.perceptual.arguments import several
 from ttr.perceptual.meanings import Meaning, as_meaning
 from ttr.syntax import Record, TypeNode
 
@@ -36,7 +37,7 @@ def combined_type(*meanings: Meaning) -> TypeNode:
 
 def in_model(M: Model, meanings: tuple[Meaning, ...], *situations: Record) -> Model:
     """The model in which all of these meanings judge; see `Meaning.in_model`."""
-    for it in meanings:
+    for it in several(meanings, "meanings"):
         M = as_meaning(it).in_model(M, *situations)
     return M
 

@@ -6,8 +6,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ttr.errors import TTRError
+from ttr.perceptual.arguments import several
 from ttr.perceptual.meanings import Meaning, as_meaning
-from ttr.perceptual.speakers import Speaker
+from ttr.perceptual.speakers import Speaker, as_speaker
 from ttr.probability import Degree
 from ttr.records import differences
 from ttr.syntax import Record
@@ -59,7 +60,9 @@ class Agreement:
 def agreement(one: Meaning, other: Meaning, situations: Iterable[Record]) -> Agreement:
     """How alike two meanings judge situations; `TTRError` where there are none."""
     one, other = as_meaning(one), as_meaning(other)
-    pairs = [(one.degree(r), other.degree(r)) for r in situations]
+    pairs = [
+        (one.degree(r), other.degree(r)) for r in several(situations, "situations")
+    ]
     if not pairs:
         raise TTRError("two meanings are compared over one situation or more, not none")
     said = [(p.lo >= 0.5, q.lo >= 0.5) for p, q in pairs]
@@ -93,9 +96,10 @@ def convergence(
     teacher: Speaker, pupils: Sequence[Speaker], word: str, situations: Iterable[Record]
 ) -> Convergence:
     """How alike the teacher and each of the pupils judge these situations."""
-    probes = list(situations)
-    meant = teacher[word]
-    return Convergence(tuple([agreement(meant, it[word], probes) for it in pupils]))
+    probes = several(situations, "situations")
+    meant = as_speaker(teacher)[word]
+    learned = [as_speaker(it)[word] for it in several(pupils, "pupils")]
+    return Convergence(tuple([agreement(meant, it, probes) for it in learned]))
 
 
 def difference(one: Meaning, other: Meaning) -> tuple[str, ...]:

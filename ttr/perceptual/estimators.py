@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from ttr.errors import TTRError
+from ttr.perceptual.arguments import several, shown
 from ttr.perceptual.vectors import Vector, vector
 from ttr.printing import notation
 
@@ -21,15 +23,14 @@ def as_learner(
     beforehand; one with `fit` alone is fitted anew to all examples. Raises `TTRError`
     for what is no probabilistic classifier.
     """
-    if isinstance(classes, str):
-        raise TTRError(f"the classes are several, found {notation(classes)}")
+    labels = several(classes, "classes")
     if not callable(getattr(estimator, "predict_proba", None)):
         raise TTRError(
             f"{type(estimator).__name__} has no predict_proba, "
             "so it has no degrees to judge by"
         )
     if callable(getattr(estimator, "partial_fit", None)):
-        return Incremental(estimator, classes)
+        return Incremental(estimator, labels)
     if callable(getattr(estimator, "fit", None)):
         return Refitted(estimator)
     raise TTRError(f"{type(estimator).__name__} has neither partial_fit nor fit")
@@ -54,14 +55,15 @@ class Incremental:
 
     def learn_one(self, x: object, y: object) -> None:
         """Take x as an example of the class; `TTRError` where it is none of its own."""
-        if y not in self.labels:
+        if not any(y is label or _is_same(y, label) for label in self.labels):
             known = ", ".join(map(notation, self.labels))
-            raise TTRError(f"{notation(y)} is none of the classes {known}")
-        self.estimator.partial_fit([vector(x)], [y], classes=list(self.labels))
+            raise TTRError(f"{shown(y)} is none of the classes {known}")
+        with _naming(self):
+            self.estimator.partial_fit([vector(x)], [y], classes=list(self.labels))
 
     def predict_proba_one(self, x: object) -> dict[Any, float]:
         """The degree of each class; nothing before the first example."""
-        return _degrees(self.estimator, x)
+        return _degrees(self, x)
 
 
 class Refitted:
@@ -77,21 +79,48 @@ class Refitted:
         return type(self.estimator).__name__
 
     def learn_one(self, x: object, y: object) -> None:
-        """Take x as an example of the class, and fit if there are two classes."""
-        self.examples = (*self.examples, (vector(x), y))
-        classes = [label for _, label in self.examples]
-        if len(set(classes)) > 1:
-            self.estimator.fit([x for x, _ in self.examples], classes)
+        """Take x as an example of the class, and fit if there are two classes.
+
+        Raises `TTRError` where it cannot be fitted; the example is not kept then.
+        """
+        examples = (*self.examples, (vector(x), y))
+        classes = [label for _, label in examples]
+        with _naming(self):
+            if len(set(classes)) > 1:
+                self.estimator.fit([x for x, _ in examples], classes)
+        self.examples = examples
 
     def predict_proba_one(self, x: object) -> dict[Any, float]:
         """The degree of each class; nothing before there are examples of two."""
-        return _degrees(self.estimator, x)
+        return _degrees(self, x)
 
 
-def _degrees(estimator: Any, x: object) -> dict[Any, float]:
+@contextmanager
+def _naming(learner: Incremental | Refitted) -> Iterator[None]:
+    """Tells errors of an estimator as such."""
+    try:
+        yield
+    except TTRError:
+        raise
+    except Exception as error:
+        fault = " ".join(str(error).split())
+        raise TTRError(
+            f"{learner.name} failed: {type(error).__name__}: {fault}"
+        ) from error
+
+
+def _is_same(one: object, label: object) -> bool:
+    """Whether a class is this one; arrays, which have no one answer, are not."""
+    same = one == label
+    return same if isinstance(same, bool) else False
+
+
+def _degrees(learner: Incremental | Refitted, x: object) -> dict[Any, float]:
+    estimator = learner.estimator
     if not hasattr(estimator, "classes_"):
         return {}
-    (row,) = estimator.predict_proba([vector(x)])
+    with _naming(learner):
+        (row,) = estimator.predict_proba([vector(x)])
     return dict(zip(_plain(estimator.classes_), map(float, row), strict=True))
 
 

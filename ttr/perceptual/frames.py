@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 from ttr.constructors import rectype
 from ttr.errors import TTRError, Unsupported
+from ttr.perceptual.arguments import shown
 from ttr.perceptual.regions import PointMap
 from ttr.perceptual.vectors import RealVector, Vector, dot, number, vector
 from ttr.syntax import Object, Record, RecordType, record
@@ -74,7 +75,8 @@ def coordinates(thing: Object, frame: Record) -> Vector:
         origin, axes = frame.origin, (frame.axes.right, frame.axes.front)
     except AttributeError:
         raise TTRError(
-            f"a frame is a record {{origin, axes = {{right, front}}}}, found {frame}"
+            f"a frame is a record {{origin, axes = {{right, front}}}}, "
+            f"found {shown(frame)}"
         ) from None
     x, y = _place(thing, "the thing")
     ox, oy = _place(origin, "the origin")
@@ -111,8 +113,10 @@ class Projective:
 
     def degree(self, params: Record, x: Object, /) -> float:
         """The cosine to its power; 0 at the origin, which is in no direction."""
-        if "axis" not in params:
-            raise TTRError(f"a spatial template has {{axis = […]}}, found {params}")
+        if not isinstance(params, Record) or "axis" not in params:
+            raise TTRError(
+                f"a spatial template has {{axis = […]}}, found {shown(params)}"
+            )
         axis, place = vector(params.axis, "axis"), vector(x)
         if len(axis) != len(place):
             raise TTRError(
@@ -126,7 +130,7 @@ class Projective:
 
     def confirmed(self, _: Record, x: Object, /) -> Record:
         """A template is given, not learned: `Unsupported`."""
-        raise Unsupported(f"a spatial template does not learn, as from {x}")
+        raise Unsupported(f"a spatial template does not learn, as from {shown(x)}")
 
     rejected = confirmed
 

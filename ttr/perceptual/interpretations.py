@@ -6,6 +6,7 @@ from ttr.constructors import fun, ordered
 from ttr.errors import IllFormed
 from ttr.formation import checked
 from ttr.paths import replace_paths
+from ttr.perceptual.arguments import shown
 from ttr.syntax import BOUND, Function, Path, PType, RecordType, kind_of
 
 __all__ = ["claim_of", "interpretation"]
@@ -32,11 +33,12 @@ def interpretation(T: RecordType, label: str) -> Function:
     >>> print(interpretation(rectype(x=Ind, c=Pred("cup", Ind)(this.x)), "c"))
     \r:[x : Ind]. [c : cup(r.x)]
     """
-    claim = T.get(label) if isinstance(T, RecordType) else None
+    is_there = isinstance(T, RecordType) and isinstance(label, str)
+    claim = T.get(label) if is_there else None
     if not isinstance(claim, PType):
         found = T if isinstance(T, RecordType) else kind_of(T)
         raise IllFormed(
-            f"an interpretation is of a record type with a ptype at {label}, "
+            f"an interpretation is of a record type with a ptype at {shown(label)}, "
             f"found {found}"
         )
     bg = checked(RecordType(ordered({k: S for k, S in T.fields if k != label})), None)

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ttr.errors import TTRError, Unsupported
+from ttr.perceptual.arguments import in_one_line, several, shown
 from ttr.printing import notation
 from ttr.syntax import Object, Record, freeze, record
 
@@ -59,10 +60,8 @@ def learner_params(
             f"but {notation(learner)} lacks {' and '.join(lacking)}"
         )
     known = getattr(learner, "labels", ()) if labels is None else labels
-    if isinstance(known, str):
-        raise TTRError(f"the labels of a learner are several, found {notation(known)}")
     mine = Handle(learner, 0, copied).copy()
-    return record(labels=list(known), learner=mine)
+    return record(labels=several(known, "labels of a learner"), learner=mine)
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +133,7 @@ class Handle:
         if not -_SLACK <= found <= 1 + _SLACK:
             raise TTRError(
                 f"{self._name} is to give {notation(label)} a degree in [0, 1], "
-                f"found {p!r}"
+                f"found {in_one_line(p)}"
             )
         return min(max(found, 0.0), 1.0)
 
@@ -186,12 +185,12 @@ def _taught(params: Record, x: Object, label: object) -> Record:
 
 
 def _parts(params: Record) -> tuple[Handle, tuple[Object, ...]]:
-    fields = params._fields
+    fields = params._fields if isinstance(params, Record) else {}
     handle, labels = fields.get("learner"), fields.get("labels")
     if isinstance(handle, Handle) and isinstance(labels, tuple):
         return handle, labels
     raise TTRError(
-        f"the parameters of a learner are made by learner_params, found {params}"
+        f"the parameters of a learner are made by learner_params, found {shown(params)}"
     )
 
 

@@ -18,6 +18,7 @@ from ttr.judgements import Judgement
 from ttr.models import Model
 from ttr.objects import Unresolved
 from ttr.paths import occurring
+from ttr.perceptual.arguments import as_model
 from ttr.perceptual.classifiers import Classifier, Method
 from ttr.perceptual.forming import check_record
 from ttr.perceptual.interpretations import claim_of
@@ -220,6 +221,7 @@ class Meaning:
 
     def in_model(self, M: Model, /, *situations: Record) -> Model:
         """The model in which the meaning judges what its predicate holds of."""
+        M = as_model(M)
         if any(part is RealVector for part in occurring([self.bg])):
             M = M.witnessed(RealVector, by=is_vector)
         return M.witnessed(self.predicate, by=self.witness(*situations))

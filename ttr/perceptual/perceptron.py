@@ -13,10 +13,14 @@ import math
 from dataclasses import dataclass
 
 from ttr.errors import TTRError
+from ttr.perceptual.arguments import in_one_line, shown
 from ttr.perceptual.vectors import Vector, dot, number, vector
 from ttr.syntax import Object, Record, record
 
 __all__ = ["GradedPerceptron", "Perceptron", "blank"]
+
+_LONGEST = 1_000_000
+"""How many numbers a percept may have."""
 
 _STEEPEST = 700.0
 """Beyond this the exponential function overflows."""
@@ -28,8 +32,11 @@ def blank(dimensions: int) -> Record:
     >>> print(blank(2))
     {t = 0.0, w = [0.0, 0.0]}
     """
-    if type(dimensions) is not int or dimensions < 1:
-        raise TTRError(f"a percept has 1 number or more, found {dimensions!r}")
+    if type(dimensions) is not int or not 1 <= dimensions <= _LONGEST:
+        raise TTRError(
+            f"a percept has 1 number or more, found {in_one_line(dimensions)}",
+            hint=f"it may have {_LONGEST} at most",
+        )
     return record(w=[0.0] * dimensions, t=0.0)
 
 
@@ -145,7 +152,8 @@ def _weighed(params: Record, x: Object) -> tuple[Vector, float, Vector]:
         w, t = vector(params.w, "w"), number(params.t, "t")
     except AttributeError:
         raise TTRError(
-            f"the parameters of a perceptron are {{t = …, w = […]}}, found {params}"
+            f"the parameters of a perceptron are {{t = …, w = […]}}, "
+            f"found {shown(params)}"
         ) from None
     x = vector(x)
     if len(x) != len(w):

@@ -17,7 +17,8 @@ from typing import NamedTuple
 from ttr.constructors import fun, rectype
 from ttr.errors import TTRError
 from ttr.models import Model
-from ttr.perceptual.meanings import Meaning
+from ttr.perceptual.arguments import as_model, several
+from ttr.perceptual.meanings import Meaning, as_meaning
 from ttr.perceptual.vectors import Vector, number, vector
 from ttr.substitution import grounded
 from ttr.syntax import (
@@ -65,7 +66,10 @@ class PointMap:
     points: tuple[Vector, ...]
 
     def __init__(self, points: Iterable[object]) -> None:
-        listed = tuple(points) if isinstance(points, Iterable) else (points,)
+        try:
+            listed = tuple(points)
+        except TypeError:
+            listed = (points,)
         found = tuple([vector(point, "a point") for point in listed])
         if not found or len({len(point) for point in found}) > 1:
             raise TTRError(
@@ -115,12 +119,20 @@ def clusters(points: PointMap | Iterable[object], reach: float) -> tuple[PointMa
     return tuple(found)
 
 
+PLAIN = 3
+"""In how many dimensions all cells around one are looked at."""
+
 Cell = tuple[int, ...]
 """A cube of space, by its number along each axis."""
 
 
 def _cell(point: Vector, reach: float) -> Cell:
-    return tuple([math.floor(x / reach) for x in point])
+    try:
+        return tuple([math.floor(x / reach) for x in point])
+    except OverflowError:
+        raise TTRError(
+            f"the reach {reach:g} is too small for a point like {list(point)}"
+        ) from None
 
 
 def _joined(
@@ -130,7 +142,7 @@ def _joined(
     region = [start]
     cells[_cell(points[start], reach)].remove(start)
     for i in region:
-        for cell in _around(_cell(points[i], reach)):
+        for cell in _around(_cell(points[i], reach), cells):
             inside = cells.get(cell)
             if inside:
                 apart = [math.dist(points[i], points[j]) for j in inside]
@@ -140,7 +152,18 @@ def _joined(
     return region
 
 
-def _around(cell: Cell) -> Iterator[Cell]:
+def _around(cell: Cell, cells: Iterable[Cell]) -> Iterator[Cell]:
+    """The cells next to one, and itself; of many dimensions only those that there are.
+
+    There are 3ⁿ of them around one, which soon are more than the points.
+    """
+    if len(cell) > PLAIN:
+        yield from [
+            one
+            for one in cells
+            if all(abs(x - y) <= 1 for x, y in zip(one, cell, strict=True))
+        ]
+        return
     for step in product((-1, 0, 1), repeat=len(cell)):
         yield tuple([c + s for c, s in zip(cell, step, strict=True)])
 
@@ -155,9 +178,10 @@ def detected(regions: Iterable[PointMap], *words: Meaning) -> tuple[Record, ...]
     word with the highest degree, if that is at least a half; the first of equal ones.
     """
     found: list[Record] = []
-    for reg in regions:
+    meanings = [as_meaning(word) for word in words]
+    for reg in several(regions, "regions"):
         best, p = None, 0.5
-        for word in words:
+        for word in meanings:
             degree = word.degree(record(reg=reg)).lo
             if degree > p or (best is None and degree == p):
                 best, p = word, degree
@@ -191,7 +215,7 @@ def individuated(M: Model, region: Record) -> Individual:
     >>> print(found.model.judge(found.sit, found.type).p)
     0.8
     """
-    seeing = M.witnessed(Points, by=lambda value: isinstance(value, PointMap))
+    seeing = as_model(M).witnessed(Points, by=lambda value: isinstance(value, PointMap))
     T = seeing.apply(INDIVIDUATE, region)
     sit, after = seeing.create(T)
     claim = after.reduced(region.pfun(sit.a))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from ttr.errors import TTRError, suggestion
+from ttr.perceptual.arguments import several, shown
 from ttr.perceptual.learners import Handle
 from ttr.perceptual.meanings import Meaning, as_meaning
 from ttr.probability import Degree
@@ -37,20 +38,26 @@ class Speaker:
                 "a speaker has a mapping from words to meanings, "
                 f"found {type(self.meanings).__name__}"
             )
-        own = {word: as_meaning(it) for word, it in self.meanings.items()}
+        own = {_word(word): as_meaning(it) for word, it in self.meanings.items()}
         object.__setattr__(self, "meanings", MappingProxyType(own))
+
+    def __hash__(self) -> int:
+        return hash((self.name, frozenset(self.meanings)))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Speaker, (self.name, dict(self.meanings))
 
     def __str__(self) -> str:
         return f"{self.name}, who knows {', '.join(sorted(self.meanings))}"
 
     def __getitem__(self, word: str) -> Meaning:
-        try:
+        if isinstance(word, str) and word in self.meanings:
             return self.meanings[word]
-        except KeyError:
-            raise TTRError(
-                f"{self.name} has no meaning of {word!r}",
-                hint=suggestion(str(word), self.meanings),
-            ) from None
+        written = repr(word) if isinstance(word, str) else shown(word)
+        raise TTRError(
+            f"{self.name} has no meaning of {written}",
+            hint=suggestion(written, self.meanings),
+        )
 
     def degrees(self, r: Record) -> dict[str, Degree]:
         """The degree of each word that can be said of a situation, the best first."""
@@ -64,7 +71,7 @@ class Speaker:
 
     def with_meaning(self, word: str, meaning: Meaning) -> Speaker:
         """The speaker with this meaning of the word."""
-        return Speaker(self.name, {**self.meanings, word: meaning})
+        return Speaker(self.name, {**self.meanings, _word(word): meaning})
 
     def confirmed(self, word: str, r: Record) -> Speaker:
         """The speaker after somebody agreed that the word holds."""
@@ -81,10 +88,11 @@ class Speaker:
         degrees sum to 1 at most, the other loses what it gains. Raises what
         `Meaning.rejected` and `Meaning.confirmed` raise; nothing is learned then.
         """
+        wrong, wanted = self[said], self[right]
         if said == right:
             raise TTRError(f"{said!r} cannot be what is corrected and what is right")
-        shared = _learner(self[said])
-        if shared is not None and shared is _learner(self[right]):
+        shared = _learner(wrong)
+        if shared is not None and shared is _learner(wanted):
             return self.confirmed(right, r)
         return self.rejected(said, r).confirmed(right, r)
 
@@ -99,12 +107,26 @@ class Speaker:
         return Speaker(self.name, {**self.meanings, **changed, word: learned})
 
 
+def as_speaker(value: object) -> Speaker:
+    """The speaker itself; `TTRError` for what is none."""
+    if isinstance(value, Speaker):
+        return value
+    raise TTRError(f"expected a speaker, found {shown(value)}")
+
+
+def _word(value: object) -> str:
+    if isinstance(value, str):
+        return value
+    raise TTRError(f"a word is a text, found {shown(value)}")
+
+
 def exchange(teacher: Speaker, pupil: Speaker, word: str, r: Record) -> Speaker:
     """The pupil after both have said whether a word holds in a situation.
 
     Where they agree nothing changes. Where they do not, the pupil is corrected. Source:
     the game of Larsson 2013.
     """
+    teacher, pupil = as_speaker(teacher), as_speaker(pupil)
     wanted = says(teacher[word], r)
     if says(pupil[word], r) == wanted:
         return pupil
@@ -115,8 +137,8 @@ def history(
     teacher: Speaker, pupil: Speaker, word: str, situations: Iterable[Record]
 ) -> tuple[Speaker, ...]:
     """The pupil before any exchange, and after the exchange about each situation."""
-    pupils = [pupil]
-    for r in situations:
+    pupils = [as_speaker(pupil)]
+    for r in several(situations, "situations"):
         pupils.append(exchange(teacher, pupils[-1], word, r))
     return tuple(pupils)
 

@@ -47,7 +47,7 @@ def _numbers(value: Object) -> Vector | None:
         return None
     try:
         numbers = tuple(map(float, value))
-    except (TypeError, ValueError, OverflowError):
+    except (TypeError, ValueError, OverflowError, RuntimeError):
         return None
     return numbers if all(map(math.isfinite, numbers)) else None
 

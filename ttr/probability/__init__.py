@@ -28,7 +28,7 @@ from ttr.probability.dependence import (
     Dependence,
 )
 from ttr.probability.events import All, AnyOf, Atomic, Event, Not
-from ttr.probability.worlds import feasible
+from ttr.probability.polytopes import feasible
 
 __all__ = [
     "CERTAIN",

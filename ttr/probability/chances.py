@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from typing import NamedTuple, TypeAlias
 
 from ttr.probability.degrees import CERTAIN, REFUTED, UNKNOWN, Degree, ordered
@@ -21,8 +21,9 @@ from ttr.probability.events import (
     signs,
 )
 from ttr.probability.independent import bounds, in_cases
+from ttr.probability.networks import Impossible, Network, conjunction, network
+from ttr.probability.polytopes import Polytope, polytope
 from ttr.probability.programs import Infeasible
-from ttr.probability.worlds import Impossible, share, worlds
 
 __all__ = ["Chance", "Contradiction", "Impossible", "are_apart", "chance"]
 
@@ -62,6 +63,7 @@ def chance(
     >>> print(chance(All((a, b)), below).p, chance(a, below, given=b).p)
     0.4 0.8
     """
+    event, given = known.spelt_out(event), known.spelt_out(given)
     if given == SURE and not known.components:
         found = in_cases(event)
         if found is not None:
@@ -76,7 +78,7 @@ def are_apart(events: Sequence[Event], known: Dependence = INDEPENDENT) -> bool:
     """Whether events are independent, as no two of them share or link an atom."""
     seen: set[Hashable] = set()
     for event in events:
-        mine = _keys(event, known)
+        mine = _keys(known.spelt_out(event), known)
         if not seen.isdisjoint(mine):
             return False
         seen |= mine
@@ -105,8 +107,28 @@ def _quotient(event: Event, known: Dependence, given: Event) -> Chance:
     return Chance(ordered(lo, hi), points and both.exact and only.exact, rests_on)
 
 
-Left: TypeAlias = Callable[[Truth], Event]
-"""What is left of an event in a world."""
+Joint: TypeAlias = Network | Polytope
+"""The cases of some atoms of a component, and what shares they can have."""
+
+
+def _joint(component: Component, needed: tuple[Hashable, ...]) -> Joint | None:
+    """How some atoms of a component hang together; None where that is too much."""
+    return network(component, needed) or polytope(component, needed)
+
+
+def _conjoined(component: Component, event: Event, given: Truth) -> Degree | None:
+    """How probable an event of a network is that says of atoms that all are so, or any.
+
+    None where it says more, or says something of other atoms.
+    """
+    truth, denied = literals(event), literals(Not(event))
+    wanted = denied if truth is None else truth
+    if not wanted or not component.degrees.keys() >= wanted.keys():
+        return None
+    found = conjunction(component, wanted, given)
+    if found is None or truth is not None:
+        return found
+    return Degree(1.0 - found.hi, 1.0 - found.lo)
 
 
 class _Solving:
@@ -125,7 +147,7 @@ class _Solving:
         if decided(given, {}) == AnyOf(()):
             raise Impossible
         for number in dict.fromkeys(place[a] for a in self._condition if a in place):
-            self._in_worlds(number, lambda _: SURE)
+            self._in_cases(number, SURE)
         self._rests_on.clear()
         p = self._solved(decided(event, free))
         found = tuple([self._known.components[number] for number in self._rests_on])
@@ -161,27 +183,33 @@ class _Solving:
         )
         if number is None:
             found = in_cases(event)
-        else:
-            found = self._in_worlds(number, lambda world: decided(event, world))
-            self._exact = self._exact and not self._is_mixed(event)
+            return self._bounded(event) if found is None else found
+        event = _minimal(event, self._known.components[number])
+        found = self._in_cases(number, event)
+        self._exact = self._exact and not self._is_mixed(event)
         return self._bounded(event) if found is None else found
 
-    def _in_worlds(self, number: int, left: Left) -> Degree | None:
-        """How probable it is by what is left in each world; None if they are many."""
+    def _in_cases(self, number: int, event: Event) -> Degree | None:
+        """How probable it is by what is left in each case; None if they are many."""
         component = self._known.components[number]
-        known = worlds(component)
-        branches = self._branches
-        if known is None or branches * len(known) > BRANCHES:
-            return None
-        self._branches *= len(known)
-        self._rests_on[number] = None
-        worth = [self._solved(left(world)) for world in known]
-        self._branches = branches
-        if branches > 1 and any(p.lo < p.hi for p in worth):
-            self._exact = False
         mine = {a: so for a, so in self._condition.items() if a in component.degrees}
+        conjoined = _conjoined(component, event, mine)
+        if conjoined is not None:
+            self._rests_on[number] = None
+            return conjoined
+        asked = (one.atom for one in atoms(event) if one.atom in component.degrees)
+        joint = _joint(component, tuple(dict.fromkeys((*mine, *asked))))
+        branches = self._branches
+        if joint is None or branches * len(joint.cases) > BRANCHES:
+            return None
+        self._branches *= len(joint.cases)
+        self._rests_on[number] = None
+        worth = [self._solved(decided(event, case)) for case in joint.cases]
+        self._branches = branches
+        wide = any(p.lo < p.hi for p in worth)
+        self._exact = self._exact and joint.exact and not (wide and branches > 1)
         try:
-            return share(component, known, worth, mine)
+            return joint.share(worth, mine)
         except Infeasible:
             raise Contradiction(component) from None
 
@@ -202,6 +230,27 @@ class _Solving:
         self._exact = False
         given = {self._known.place.get(a, a) for a in self._condition}
         return bounds(event) if given.isdisjoint(_keys(event, self._known)) else UNKNOWN
+
+
+def _minimal(event: Event, component: Component) -> Event:
+    """An event without the atoms that others of its parts decide."""
+    if not isinstance(event, All | AnyOf):
+        return event
+    mine = {part.atom for part in event.parts if isinstance(part, Atomic)}
+    if isinstance(event, All) and any(mine.issuperset(e) for e in component.exclusive):
+        return AnyOf(())
+    links = [link for link in component.entailed if mine.issuperset(link)]
+    told: dict[Hashable, None] = {}
+    for lower, upper in links:
+        kept, gone = (lower, upper) if isinstance(event, All) else (upper, lower)
+        if kept not in told:
+            told[gone] = None
+    parts = [
+        part
+        for part in event.parts
+        if not (isinstance(part, Atomic) and part.atom in told)
+    ]
+    return type(event)(tuple(parts)) if len(parts) > 1 else parts[0]
 
 
 def _groups(parts: Iterable[Event], known: Dependence) -> Iterator[tuple[Event, ...]]:

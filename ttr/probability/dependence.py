@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import TypeVar
 
 from ttr.probability.degrees import UNKNOWN, Degree
-from ttr.probability.events import Truth
+from ttr.probability.events import Event, Truth, substituted
 
 __all__ = ["INDEPENDENT", "Component", "Conditional", "Dependence"]
 
@@ -43,7 +43,10 @@ class Conditional:
 
 @dataclass(frozen=True, eq=False)
 class Component:
-    """Atoms that hang together, in order, and all that is known of them together."""
+    """Atoms that hang together, in order, and all that is known of them together.
+
+    It is not whole if more hangs together with them than was looked at.
+    """
 
     atoms: tuple[Atom, ...]
     degrees: Mapping[Atom, Degree]
@@ -51,6 +54,7 @@ class Component:
     exclusive: tuple[tuple[Atom, Atom], ...] = ()
     conditionals: tuple[Conditional, ...] = ()
     unknown: bool = False
+    whole: bool = True
     names: Mapping[Atom, object] = field(default_factory=dict)
 
     def written(self, atom: Atom) -> str:
@@ -76,6 +80,46 @@ class Component:
             found.append("nothing is known of how they depend")
         return found
 
+    def closest(self, first: Iterable[Atom]) -> list[Atom]:
+        """All atoms, these first, then what is linked to them, step by step."""
+        links: list[tuple[Atom, ...]] = [*self.entailed, *self.exclusive]
+        links += [one.atoms for one in self.conditionals]
+        around: dict[Atom, dict[Atom, None]] = {atom: {} for atom in self.atoms}
+        for link in links:
+            for atom in link:
+                around[atom].update(dict.fromkeys(link))
+        found = dict.fromkeys(first)
+        waiting = list(found)
+        for atom in waiting:
+            new = [other for other in around[atom] if other not in found]
+            found.update(dict.fromkeys(new))
+            waiting += new
+        return list(found | dict.fromkeys(self.atoms))
+
+    def restricted(self, kept: Iterable[Atom]) -> Component:
+        """What is known of some of the atoms."""
+        inside = set(kept)
+        return Component(
+            tuple([atom for atom in self.atoms if atom in inside]),
+            {atom: p for atom, p in self.degrees.items() if atom in inside},
+            tuple([link for link in self.entailed if inside.issuperset(link)]),
+            tuple([link for link in self.exclusive if inside.issuperset(link)]),
+            tuple([one for one in self.conditionals if inside.issuperset(one.atoms)]),
+            self.unknown,
+            False,
+            self.names,
+        )
+
+    @property
+    def is_order(self) -> bool:
+        """Whether what entails what is all that links the atoms.
+
+        Then the degrees of each go together if those of any two do: let each be so
+        where one and the same random number is at most its degree.
+        """
+        return not (self.exclusive or self.conditionals or self.unknown)
+
+    @cached_property
     def parents(self) -> dict[Atom, tuple[Atom, ...]] | None:
         """What each atom directly depends on, where conditionals are all there is.
 
@@ -114,6 +158,9 @@ def _in_order(
 class Dependence:
     """The degrees of linked atoms, and their links; whatever is not here is apart.
 
+    What is `defined` is an event of other atoms: so are those that nothing is known of
+    but what entails them, what they entail and what excludes them.
+
     >>> half = Degree(0.5, 0.5)
     >>> known = Dependence({"a": half, "b": half, "c": half}, entailed=(("a", "b"),))
     >>> [one.atoms for one in known.components]
@@ -125,7 +172,13 @@ class Dependence:
     exclusive: tuple[tuple[Atom, Atom], ...] = ()
     conditionals: tuple[Conditional, ...] = ()
     unknown: tuple[tuple[Atom, ...], ...] = ()
+    whole: bool = True
     names: Mapping[Atom, object] = field(default_factory=dict)
+    defined: Mapping[Atom, Event] = field(default_factory=dict)
+
+    def spelt_out(self, event: Event) -> Event:
+        """The event with what is defined by others in their terms."""
+        return substituted(event, self.defined) if self.defined else event
 
     @cached_property
     def components(self) -> tuple[Component, ...]:
@@ -147,6 +200,7 @@ class Dependence:
                 tuple(exclusive[number]),
                 tuple(conditionals[number]),
                 number in unknown,
+                self.whole,
                 self.names,
             )
             for number in range(len(groups))

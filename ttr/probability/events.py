@@ -23,6 +23,7 @@ __all__ = [
     "decided",
     "literals",
     "signs",
+    "substituted",
 ]
 
 
@@ -136,6 +137,22 @@ def _joined(
     if not kept:
         return empty
     return kept[0] if len(kept) == 1 else kind(tuple(kept))
+
+
+def substituted(event: Event, by: Mapping[Hashable, Event]) -> Event:
+    """The event with other events in place of some atoms.
+
+    >>> a, b = Atomic("a", Degree(0.5, 0.5)), Atomic("b", Degree(0.4, 0.4))
+    >>> substituted(Not(a), {"a": b}) == Not(b)
+    True
+    """
+    match event:
+        case Atomic(atom):
+            return by.get(atom, event)
+        case Not(part):
+            return Not(substituted(part, by))
+        case All(parts) | AnyOf(parts):
+            return type(event)(tuple([substituted(part, by) for part in parts]))
 
 
 def literals(event: Event) -> dict[Hashable, bool] | None:

@@ -77,12 +77,20 @@ class _Table:
         self.columns = self.width + slacks
 
     def minimise(self, cost: list[int]) -> None:
-        """Pivots until no column makes the cost less."""
+        """Pivots until no column makes the cost less.
+
+        The column that does so fastest is taken, but the first after a step that got
+        nowhere: else there might be no end.
+        """
+        stuck = False
         while True:
-            column = next((j for j in range(self.columns) if cost[j] < 0), None)
-            if column is None:
+            falling = [j for j in range(self.columns) if cost[j] < 0]
+            if not falling:
                 return
-            self._pivot(self._leaving(column), column)
+            column = falling[0] if stuck else min(falling, key=cost.__getitem__)
+            number = self._leaving(column)
+            stuck = self.rows[number][-1] == 0
+            self._pivot(number, column)
 
     def drop_missing(self) -> None:
         """Takes what is missing, which is nothing by now, out of the basis."""

@@ -23,26 +23,22 @@ EXACT = 500
 
 @dataclass(frozen=True)
 class Chances:
-    """How probably one thing is P and Q, and how probably P and not Q."""
+    """How probably one thing is P, and with it Q, and without it."""
 
+    first: Degree
     both: Degree
     only: Degree
-
-    @property
-    def certain(self) -> bool:
-        """Whether nothing about it is open."""
-        known = (CERTAIN, REFUTED)
-        return self.both in known and self.only in known
 
 
 def together(p: Degree, q: Degree) -> Chances:
     """The chances of a thing that is P with one degree and Q with another, apart.
 
-    >>> together(Degree(0.5, 0.5), Degree(1.0, 1.0))
-    Chances(both=Degree(lo=0.5, hi=0.5), only=Degree(lo=0.0, hi=0.0))
+    >>> found = together(Degree(0.5, 0.5), Degree(0.5, 1.0))
+    >>> print(found.first, found.both, found.only)
+    0.5 [0.25, 0.5] [0, 0.25]
     """
     both = Degree(p.lo * q.lo, p.hi * q.hi)
-    return Chances(both, Degree(p.lo * (1.0 - q.hi), p.hi * (1.0 - q.lo)))
+    return Chances(p, both, Degree(p.lo * (1.0 - q.hi), p.hi * (1.0 - q.lo)))
 
 
 def chance_of(
@@ -87,7 +83,7 @@ def _chance(
     if not threshold.presupposes or sure != (0, 0):
         return p
     # If there is nothing of P, it is neither true nor false.
-    nothing = math.prod(1.0 - one.both.lo - one.only.lo for one in open_)
+    nothing = math.prod(1.0 - one.first.lo for one in open_)
     met = threshold.met(0, 0)
     lo, hi = (p.lo - nothing, p.hi) if met else (p.lo, p.hi + nothing)
     return Degree(max(lo, 0.0), min(hi, 1.0))

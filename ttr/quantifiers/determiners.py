@@ -147,16 +147,20 @@ def demands(T: PType, thresholds: Thresholds) -> tuple[Threshold, ...]:
     >>> print(*demands(two, Thresholds()), sep=", ")
     at least 2, at most 2
     """
-    q = determiner_of(as_quantified(T)) or exist
-    match q.name:
-        case "most" | "many" | "few" | "several":
-            own: Threshold = getattr(thresholds, q.name)
+    match determiner_of(T):
+        case None:
+            raise _not_quantified(T)
+        case Determiner("at_least", int(n)):
+            return (number("at least", n),)
+        case Determiner("at_most", int(n)):
+            return (number("at most", n),)
+        case Determiner("exactly", int(n)):
+            return number("at least", n), number("at most", n)
+        case Determiner("most" | "many" | "few" | "several" as name):
+            own: Threshold = getattr(thresholds, name)
             return (own,)
-        case "at_least" | "at_most" | "exactly":
-            n = q.amount or 0
-            both = (number("at least", n), number("at most", n))
-            return {"at_least": both[:1], "at_most": both[1:]}.get(q.name, both)
-    return _DEMANDS[q.name]
+        case Determiner(name):
+            return _DEMANDS[name]
 
 
 def determiner_of(T: object) -> Determiner | None:
@@ -199,7 +203,11 @@ def as_quantified(T: TypeNode) -> PType:
     """The type, if it is quantified; else `IllFormed`."""
     if isinstance(T, PType) and determiner_of(T) is not None:
         return T
-    raise IllFormed(
+    raise _not_quantified(T)
+
+
+def _not_quantified(T: object) -> IllFormed:
+    return IllFormed(
         f"{T} is no quantified type",
         hint="write every(P, Q) or the like, of ttr.quantifiers",
     )

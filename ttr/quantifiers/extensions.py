@@ -6,15 +6,22 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ttr.errors import IllFormed, Refused, TTRError, following_nesting
-from ttr.judgements import Claim
 from ttr.models import Model
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, Degree, degree
 from ttr.quantifiers.determiners import Property, prop
-from ttr.quantifiers.thresholds import Thresholds
-from ttr.quantifiers.truth import instance, known, thing
-from ttr.quantifiers.truths import Truth
-from ttr.syntax import Basic, Function, Object, TypeNode, freeze, identity
+from ttr.quantifiers.thresholds import Thresholds, thresholds_of
+from ttr.quantifiers.truth import checked_model, instance, known, thing
+from ttr.quantifiers.truths import Atoms, Truth
+from ttr.syntax import (
+    Basic,
+    Function,
+    Object,
+    TypeNode,
+    freeze,
+    identity,
+    kind_of,
+)
 
 __all__ = ["Extension", "Member", "extension", "in_domain", "member"]
 
@@ -28,7 +35,7 @@ class Member:
 
     sit: Object
     p: Degree = CERTAIN
-    atoms: frozenset[Claim] = frozenset()
+    atoms: Atoms = frozenset()
     found: Truth | None = None
 
     @property
@@ -57,6 +64,10 @@ class Extension:
 
         Raises `TTRError` for a degree that is none, or a thing that is there twice.
         """
+        if not isinstance(things, Iterable):
+            raise TTRError(
+                f"an extension is of several things, found {kind_of(things)}"
+            )
         members: dict[object, Member] = {}
         for entry in things:
             value, certainty = _entry(entry)
@@ -102,15 +113,16 @@ def extension(
     >>> print(extension(M, dog))
     \\x:Ind. dog(x): fido
     """
+    checked_model(M)
     P = prop(P)
-    chosen = thresholds or Thresholds()
+    chosen = thresholds_of(thresholds)
     domain = P.domain if isinstance(P, Function) else P
     if not isinstance(domain, TypeNode):
         raise IllFormed(f"{notation(domain)} is no domain of a property")
     members = {}
     for sit, p in known(M, domain, chosen):
         if not isinstance(P, Function):
-            atoms = thing(M, sit, P).atoms if p != CERTAIN else frozenset[Claim]()
+            atoms = thing(M, sit, P).atoms if p != CERTAIN else frozenset()
             members[identity(sit)] = Member(sit, p, atoms)
             continue
         one = member(M, P, sit, chosen)

@@ -8,11 +8,12 @@ all that are P and Q is such an X, and this X is the witness that is given.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Hashable
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from ttr.errors import TTRError, Undecided, following_nesting
-from ttr.judgements import Claim, Why
+from ttr.judgements import Why
 from ttr.models import Model
 from ttr.objects import Missing
 from ttr.printing import notation
@@ -32,17 +33,18 @@ from ttr.quantifiers.extensions import (
     member,
 )
 from ttr.quantifiers.splitting import Case, Split, split
-from ttr.quantifiers.thresholds import Threshold, Thresholds
-from ttr.quantifiers.truths import SHOWN, Truth
+from ttr.quantifiers.thresholds import Threshold, Thresholds, thresholds_of
+from ttr.quantifiers.truths import SHOWN, Atoms, Truth
 from ttr.syntax import (
     FiniteSet,
     Function,
     PType,
     Record,
     TypeNode,
+    kind_of,
 )
 
-__all__ = ["Case", "Quantification", "Undefined", "named", "quantify", "settle"]
+__all__ = ["Quantification", "Undefined", "named", "quantify", "settle"]
 
 
 class Undefined(TTRError):
@@ -60,8 +62,8 @@ class Quantification:
     type: PType
     asked: tuple[Threshold, ...]
     p: Degree
-    atoms: frozenset[Claim]
-    _split: Split
+    atoms: Atoms
+    _split: Split = field(repr=False)
 
     @cached_property
     def refset(self) -> tuple[Case, ...]:
@@ -87,6 +89,9 @@ class Quantification:
             f"{self.type} is neither certain nor refuted: p = {self.p}",
             hint="look at .p, or at .open_ for who is uncertain",
         )
+
+    def __str__(self) -> str:
+        return str(self.why)
 
     @property
     def maxset(self) -> tuple[Case, ...]:
@@ -162,8 +167,13 @@ def quantify(
     >>> print(quantify(most, dogs, Extension.of(["fido", ("rex", 0.5)])).p)
     0.5
     """
+    if not isinstance(q, Determiner):
+        raise TTRError(f"this is no quantifier, found {kind_of(q)}")
+    for one in (P, Q):
+        if not isinstance(one, Extension):
+            raise TTRError(f"a quantifier counts two extensions, found {kind_of(one)}")
     found = split(P.members, Q.members)
-    return _counted(q(P.property, Q.property), found, thresholds)
+    return _counted(q(P.property, Q.property), found, thresholds_of(thresholds))
 
 
 @following_nesting
@@ -185,7 +195,7 @@ def settle(
     """
     quantified = as_quantified(T)
     P, Q = properties(quantified)
-    chosen = thresholds or Thresholds()
+    chosen = thresholds_of(thresholds)
     members = extension(M, P, chosen).members
     if members and _domain(P) is not _domain(Q):
         in_domain(M, Q, next(iter(members.values())).sit)
@@ -200,8 +210,8 @@ def _domain(P: Property) -> object:
     return P.domain if isinstance(P, Function) else P
 
 
-def _counted(T: PType, found: Split, thresholds: Thresholds | None) -> Quantification:
-    asked = demands(T, thresholds or Thresholds())
+def _counted(T: PType, found: Split, thresholds: Thresholds) -> Quantification:
+    asked = demands(T, thresholds)
     if not found.P and any(one.presupposes for one in asked):
         P, _ = properties(T)
         raise Undefined(
@@ -211,7 +221,7 @@ def _counted(T: PType, found: Split, thresholds: Thresholds | None) -> Quantific
     chances = [it.chances for it in found.cases(found.open_)]
     p = chance_of(asked, sure, chances)
     each = found.atoms
-    atoms = frozenset[Claim]().union(*each)
+    atoms = frozenset[Hashable]().union(*each)
     if len(atoms) < sum(map(len, each)) and p not in (CERTAIN, REFUTED):
         p = UNKNOWN
     return Quantification(T, asked, p, atoms, found)

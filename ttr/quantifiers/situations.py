@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from typing import TypeGuard
 
 from ttr.errors import following_nesting
 from ttr.judgements import Judgement, Why
@@ -62,41 +63,56 @@ class _Fitting:
 
     def of(self, s: Object) -> tuple[Degree, str]:
         """How certainly s = {X, f} fits, and what says so."""
-        if not isinstance(s, Record) or not isinstance(s._fields.get("X"), FiniteSet):
-            return REFUTED, "it is no record {X, f} with a set X"
-        chosen = s._fields["X"]
-        X = {identity(x): x for x in chosen}
-        outside = [x for key, x in X.items() if key not in self._cases]
-        if outside:
-            return REFUTED, f"{notation(outside[0])} in X is not of the first property"
-        falls = [one for one in self._found.asked if not one.rising]
-        rises = [one for one in self._found.asked if one.rising]
-        size = len(self._found.maxset)
-        unmet = [one for one in self._found.asked if not one.met(len(X), size)]
-        if unmet and not self._found.open_:
-            return REFUTED, f"X has {len(X)} of {size}; it takes {unmet[0]}"
-        left = [it for it in self._found.refset if identity(it.sit) not in X]
-        if falls and left:
-            return REFUTED, f"{notation(left[0].sit)} is both, but not in X"
-        if rises:
-            lacking = self._lacking(X, s._fields.get("f", ()))
-            if lacking:
-                return REFUTED, lacking
+        objection = next(self._objections(s), None)
+        if objection is not None:
+            return REFUTED, objection
         if self._found.open_:
             return UNKNOWN, f"{named(self._found.open_)} may decide"
         return CERTAIN, "X is a witness set"
 
-    def _lacking(self, X: Mapping[object, Object], f: Object) -> str:
-        """What f gives no situation for, or none that makes it Q."""
-        if not isinstance(f, tuple) or not all(map(_is_pair, f)):
-            return "f is no list of pairs {x, e}"
-        pairs = {identity(pair._fields["x"]): pair._fields["e"] for pair in f}
+    def _objections(self, s: Object) -> Iterator[str]:
+        """What speaks against s = {X, f}."""
+        if not isinstance(s, Record) or not isinstance(s._fields.get("X"), FiniteSet):
+            yield "it is no record {X, f} with a set X"
+            return
+        X = {identity(x): x for x in s._fields["X"]}
+        yield from self._wrong_set(X)
+        if any(one.rising for one in self._found.asked):
+            yield from self._wrong_function(X, s._fields.get("f", ()))
+
+    def _wrong_set(self, X: Mapping[object, Object]) -> Iterator[str]:
+        """Why X is no witness set."""
         for key, x in X.items():
-            if key not in pairs:
-                return f"f gives nothing for {notation(x)}"
-            if not self._makes(x, pairs[key]):
-                return f"{notation(pairs[key])} does not make {notation(x)} so"
-        return ""
+            if key not in self._cases:
+                yield f"{notation(x)} in X is not of the first property"
+        size = len(self._found.maxset)
+        unmet = [one for one in self._found.asked if not one.met(len(X), size)]
+        if unmet and not self._found.open_:
+            yield f"X has {len(X)} of {size}; it takes {unmet[0]}"
+        if all(one.rising for one in self._found.asked):
+            return
+        for it in self._found.refset:
+            if identity(it.sit) not in X:
+                yield f"{notation(it.sit)} is both, but not in X"
+
+    def _wrong_function(self, X: Mapping[object, Object], f: Object) -> Iterator[str]:
+        """Why f does not take each of X to what makes it Q."""
+        if not isinstance(f, tuple) or not all(map(_is_pair, f)):
+            yield "f is no list of pairs {x, e}"
+            return
+        given: dict[object, Object] = {}
+        for pair in f:
+            x = pair._fields["x"]
+            if identity(x) in given:
+                yield f"f has two pairs for {notation(x)}"
+            if identity(x) not in X:
+                yield f"f says something of {notation(x)}, which is not in X"
+            given[identity(x)] = pair._fields["e"]
+        for key, x in X.items():
+            if key not in given:
+                yield f"f gives nothing for {notation(x)}"
+            elif not self._makes(x, given[key]):
+                yield f"{notation(given[key])} does not make {notation(x)} so"
 
     def _makes(self, x: Object, e: Object) -> bool:
         """Whether a situation may make x one of Q."""
@@ -110,5 +126,5 @@ class _Fitting:
         return found or self._M.judge(e, as_type(T)).p.hi > 0.0
 
 
-def _is_pair(value: object) -> bool:
+def _is_pair(value: object) -> TypeGuard[Record]:
     return isinstance(value, Record) and set(value._fields) == {"x", "e"}

@@ -9,11 +9,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from ttr.judgements import Claim, Why
+from ttr.judgements import Why
 from ttr.objects import Missing
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.quantifiers.counting import Chances, together
 from ttr.quantifiers.extensions import Member
+from ttr.quantifiers.truths import Atoms
 from ttr.syntax import Object
 
 __all__ = ["Case", "Split", "split"]
@@ -45,13 +46,13 @@ class Split:
         return tuple([_case(self.P[key], self.Q.get(key)) for key in keys])
 
     @property
-    def atoms(self) -> list[frozenset[Claim]]:
+    def atoms(self) -> list[Atoms]:
         """The uncertain judgements that each of the uncertain rests on."""
         found = [(self.P[key], self.Q.get(key)) for key in self.open_]
         return [one.atoms | (two.atoms if two else _NO_ATOMS) for one, two in found]
 
 
-_NO_ATOMS: frozenset[Claim] = frozenset()
+_NO_ATOMS: Atoms = frozenset()
 
 
 def split(P: Members, Q: Members) -> Split:
@@ -70,8 +71,8 @@ def split(P: Members, Q: Members) -> Split:
     return Split(P, Q, inside, outside, open_)
 
 
-_IS = Chances(CERTAIN, REFUTED)
-_IS_NOT = Chances(REFUTED, CERTAIN)
+_IS = Chances(CERTAIN, CERTAIN, REFUTED)
+_IS_NOT = Chances(CERTAIN, REFUTED, CERTAIN)
 _NOTHING = Missing()
 
 
@@ -88,15 +89,16 @@ def _case(one: Member, other: Member | None) -> Case:
 
 
 def _only(p: Degree) -> Chances:
-    return _IS_NOT if p == CERTAIN else Chances(REFUTED, p)
+    return _IS_NOT if p == CERTAIN else Chances(p, REFUTED, p)
 
 
 def _chances(one: Member, other: Member) -> Chances:
     """Independent, the same, or as far as can be said of what rests on the same."""
     p, q = one.p, other.p
     if one is other:
-        return Chances(p, REFUTED)
+        return Chances(p, p, REFUTED)
     if one.atoms.isdisjoint(other.atoms):
         return together(p, q)
     both = Degree(max(0.0, p.lo + q.lo - 1.0), min(p.hi, q.hi))
-    return Chances(both, Degree(max(0.0, p.lo - q.hi), min(p.hi, 1.0 - q.lo)))
+    only = Degree(max(0.0, p.lo - q.hi), min(p.hi, 1.0 - q.lo))
+    return Chances(p, both, only)

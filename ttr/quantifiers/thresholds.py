@@ -9,8 +9,9 @@ from numbers import Rational
 from typing import Literal, TypeAlias
 
 from ttr.errors import TTRError
+from ttr.syntax import kind_of
 
-__all__ = ["Sign", "Threshold", "Thresholds", "number", "share"]
+__all__ = ["Sign", "Threshold", "Thresholds", "number", "share", "thresholds_of"]
 
 Sign: TypeAlias = Literal["at least", "more than", "at most", "fewer than"]
 """How a count is compared."""
@@ -144,3 +145,19 @@ class Thresholds:
             if found.rising == (name == "few"):
                 wanted = RISING if found.sign not in RISING else SIGNS[2:]
                 raise TTRError(f"{name} is {' or '.join(wanted)} so much, not {found}")
+
+
+def thresholds_of(agent: object) -> Thresholds:
+    """The thresholds that an agent was given, or the usual ones for None.
+
+    >>> thresholds_of(None) == Thresholds()
+    True
+    """
+    if agent is None:
+        return Thresholds()
+    if isinstance(agent, Thresholds):
+        return agent
+    raise TTRError(
+        f"a quantifier takes thresholds, found {kind_of(agent)}",
+        hint="write Thresholds(most=share('at least', 0.9)) or the like",
+    )

@@ -1,15 +1,21 @@
 """How certain it is that a type is true: that something is of it.
 
-This goes further than `Model.true`: it works out quantified types, sentence negation
-and functions that stand for "whatever is of S"; and where it is only known how
-probable a judgement is, it says how probable the type is.
+Other than `Model.true` it works out quantified types, sentence negation and functions
+that stand for "whatever is of S", and takes the situations that were told to be of a
+type for all that there are.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from ttr.errors import Refused, Unsupported, following_nesting
+from ttr.errors import (
+    IllFormed,
+    Refused,
+    TTRError,
+    Unsupported,
+    following_nesting,
+)
 from ttr.judgements import Why
 from ttr.models import Model
 from ttr.objects import Missing, Unresolved
@@ -17,7 +23,7 @@ from ttr.paths import escaping, occurring
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.quantifiers.determiners import determiner_of
-from ttr.quantifiers.thresholds import Thresholds
+from ttr.quantifiers.thresholds import Thresholds, thresholds_of
 from ttr.quantifiers.truths import (
     SHOWN,
     Truth,
@@ -42,10 +48,12 @@ from ttr.syntax import (
     RecordType,
     Type,
     TypeNode,
-    identity,
+    as_type,
+    kind_of,
 )
+from ttr.witnesses import candidates
 
-__all__ = ["absent", "instance", "known", "thing", "truth"]
+__all__ = ["absent", "checked_model", "instance", "known", "thing", "truth"]
 
 absent = Pred("absent", Type)
 """Sentence negation: `absent(T)` is true if nothing is of T.
@@ -59,7 +67,8 @@ def truth(M: Model, T: TypeNode, thresholds: Thresholds | None = None) -> Truth:
     """How certain it is that something is of T, by what M has been told.
 
     Of a ptype it is how probable the situations are together that were told to be of
-    it; its witness function where it has one; unknown where it is open.
+    it; its witness function where it has one; unknown where it is open. Raises
+    `IllFormed` for a type with a path that leads out of it.
 
     >>> from ttr.quantifiers import no
     >>> from ttr.syntax import Ind
@@ -69,7 +78,17 @@ def truth(M: Model, T: TypeNode, thresholds: Thresholds | None = None) -> Truth:
     ✓ {} : absent(bark(fido))   (nothing is of it)
       ✗ nothing : bark(fido)   (nothing says so)
     """
-    return _Truths(M, thresholds or Thresholds()).of(T)
+    checked_model(M)
+    T = as_type(T)
+    if escaping(T):
+        raise IllFormed(f"{T} has paths that lead nowhere, so it is not true or false")
+    return _Truths(M, thresholds_of(thresholds)).of(T)
+
+
+def checked_model(M: object) -> None:
+    """Raises `TTRError` for what is no model."""
+    if not isinstance(M, Model):
+        raise TTRError(f"a model is asked, found {kind_of(M)}")
 
 
 class _Truths:
@@ -113,13 +132,15 @@ class _Truths:
         ways = [in_fields(T, way) for way in self.ways(T)]
         if not ways:
             p = UNKNOWN if _may_have_more(self._M, T) else REFUTED
-            return Truth(p, Why(Missing(), T, p, "nothing known is of it"), own(p, T))
+            return Truth(
+                p, Why(Missing(), T, p, "nothing known is of it"), own(self._M, p, T)
+            )
         if len(ways) == 1 and not _may_have_more(self._M, T):
             return ways[0]
         found = one_true(T, ways, "there is one")
         if found.p != CERTAIN and _may_have_more(self._M, T):
             p = Degree(found.p.lo, 1.0)
-            return Truth(p, found.why, found.atoms | own(p, T))
+            return Truth(p, found.why, found.atoms | own(self._M, p, T))
         return found
 
     def ways(self, T: RecordType) -> Iterator[list[tuple[str, Truth]]]:
@@ -151,7 +172,7 @@ class _Truths:
             yield from [[*way, (label, found)]] if found.p != REFUTED else []
             return
         for sit, p in known(self._M, S, self._thresholds):
-            found = derived(Why(sit, S, p, "given"), S)
+            found = derived(self._M, Why(sit, S, p, "given"))
             yield [*way, (label, found)]
 
     def _whatever(self, T: FunType, domain: TypeNode, result: TypeNode) -> Truth:
@@ -164,7 +185,7 @@ class _Truths:
             grounds.append(found)
         p, atoms = all_true(grounds)
         if _may_have_more(self._M, domain) and p != REFUTED:
-            p, atoms = Degree(0.0, p.hi), atoms | own(UNKNOWN, T)
+            p, atoms = Degree(0.0, p.hi), atoms | own(self._M, UNKNOWN, T)
         failing = [found.why for found in grounds if found.p != CERTAIN]
         shown = failing or [found.why for found in grounds]
         rule = f"for each of {len(grounds)} of {domain}"
@@ -179,9 +200,9 @@ class _Truths:
         """Any other type is true as the model says."""
         found = next((sit for sit, p in known(self._M, T) if p == CERTAIN), None)
         if found is not None:
-            return derived(self._M.judge(found, T).why, T)
+            return derived(self._M, self._M.judge(found, T).why)
         p = self._M.true(T)
-        return Truth(p, Why(Missing(), T, p, "as far as is known"), own(p, T))
+        return Truth(p, Why(Missing(), T, p, "as far as is known"), own(self._M, p, T))
 
 
 # --- what the model has been told ----------------------------------------------------
@@ -193,17 +214,17 @@ def _told(M: Model, T: Basic | PType) -> Truth:
     seen = facts.perceived(Missing(), T) if isinstance(T, PType) else None
     if seen is not None:
         why = Why(Missing(), T, seen, "by the witness function")
-        return Truth(seen, why, own(seen, T))
+        return Truth(seen, why, own(M, seen, T))
     possible = known(M, T)
     sure = next((sit for sit, p in possible if p == CERTAIN), None)
     if sure is not None:
         return Truth(CERTAIN, Why(sure, T, CERTAIN, "given"))
     if possible:
-        grounds = [derived(Why(sit, T, p, "given"), T) for sit, p in possible]
+        grounds = [derived(M, Why(sit, T, p, "given")) for sit, p in possible]
         return one_true(T, grounds, "one of these is of it")
     if facts.leaves_open(T):
         why = Why(Missing(), T, UNKNOWN, "nothing is known of it")
-        return Truth(UNKNOWN, why, own(UNKNOWN, T))
+        return Truth(UNKNOWN, why, own(M, UNKNOWN, T))
     return Truth(REFUTED, Why(Missing(), T, REFUTED, "nothing says so"))
 
 
@@ -217,19 +238,18 @@ def known(
     may be others without end.
     """
     if isinstance(T, RecordType):
-        ways = _Truths(M, thresholds or Thresholds()).ways(T)
+        ways = _Truths(M, thresholds_of(thresholds)).ways(T)
         records = [in_fields(T, way) for way in ways]
         return [(found.witness, found.p) for found in records]
     if not isinstance(T, Basic | PType):
         return [(sit, CERTAIN) for sit in M.witnesses(T)]
-    facts = M._facts
-    found = {identity(sit): (sit, CERTAIN) for sit in facts.witnesses(T)}
-    told = facts.told.get(T)
-    for _, sit in sorted(told.values() if told else (), key=lambda entry: entry[0]):
-        if identity(sit) not in found:
-            p = facts.degree_of(sit, T)[0]
-            found |= {identity(sit): (sit, p)} if p != REFUTED else {}
-    return list(found.values())
+    return [(sit, _how_surely(M, sit, T)) for sit in candidates(M._facts, T)]
+
+
+def _how_surely(M: Model, sit: Object, T: Basic | PType) -> Degree:
+    """How probably an object is of a type, in the light of what it depends on."""
+    p, _ = M._facts.degree_of(sit, T)
+    return p if p == CERTAIN else M.judge(sit, T).p
 
 
 def _may_have_more(M: Model, T: TypeNode) -> bool:
@@ -243,7 +263,7 @@ def _may_have_more(M: Model, T: TypeNode) -> bool:
 
 def thing(M: Model, sit: Object, T: TypeNode) -> Truth:
     """How certain it is that one object is of T."""
-    return derived(M.judge(sit, T).why, T)
+    return derived(M, M.judge(sit, T).why)
 
 
 def instance(M: Model, f: Function, sit: Object, thresholds: Thresholds) -> Truth:

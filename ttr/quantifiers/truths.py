@@ -3,15 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
+from typing import TypeAlias
 
-from ttr.judgements import Claim, Why
+from ttr.assignments import head
+from ttr.judgements import Why
+from ttr.models import Model
 from ttr.objects import Missing
 from ttr.probability import CERTAIN, REFUTED, Degree
-from ttr.syntax import Object, Record, RecordType, TypeNode
+from ttr.syntax import Basic, Object, PType, Record, RecordType, TypeNode
 
-__all__ = ["SHOWN", "Truth", "all_true", "derived", "in_fields", "one_true", "own"]
+__all__ = [
+    "SHOWN",
+    "Atoms",
+    "Truth",
+    "all_true",
+    "derived",
+    "in_fields",
+    "one_true",
+    "own",
+]
+
+Atoms: TypeAlias = frozenset[Hashable]
+"""The uncertain judgements that something rests on, or what stands for several."""
 
 SHOWN = 5
 """How many grounds of one kind are shown."""
@@ -19,11 +34,17 @@ SHOWN = 5
 
 @dataclass(frozen=True)
 class Truth:
-    """How certain something is, why, and on which uncertain judgements it rests."""
+    """How certain something is, why, and on which uncertain judgements it rests.
+
+    What has none of these `atoms` in common is independent.
+    """
 
     p: Degree
     why: Why
-    atoms: frozenset[Claim] = frozenset()
+    atoms: Atoms = frozenset()
+
+    def __str__(self) -> str:
+        return str(self.why)
 
     @property
     def witness(self) -> Object:
@@ -31,15 +52,30 @@ class Truth:
         return self.why.sit
 
 
-def own(p: Degree, T: TypeNode) -> frozenset[Claim]:
+def own(M: Model, p: Degree, T: TypeNode) -> Atoms:
     """What is uncertain in itself rests on itself."""
-    return frozenset() if p in (CERTAIN, REFUTED) else frozenset({(Missing(), T)})
+    if p in (CERTAIN, REFUTED):
+        return frozenset()
+    return frozenset({_atom(M, Missing(), T)})
 
 
-def derived(why: Why, T: TypeNode) -> Truth:
+def derived(M: Model, why: Why) -> Truth:
     """What a derivation says, with the uncertain judgements in it."""
-    open_ = [(atom, p) for atom, p in why.atoms() if p not in (CERTAIN, REFUTED)]
-    return Truth(why.p, why, frozenset(atom for atom, _ in open_))
+    uncertain = [atom for atom, p in why.atoms() if p not in (CERTAIN, REFUTED)]
+    return Truth(why.p, why, frozenset(_atom(M, *atom) for atom in uncertain))
+
+
+def _atom(M: Model, sit: object, T: TypeNode) -> Hashable:
+    """A judgement, or what stands for all that may depend on it.
+
+    Where the model states how judgements depend on one another, it is one for all; of
+    an object and the types that an axiom or an exclusion is about, it is one, too.
+    """
+    if M._facts.links:
+        return "linked"
+    if isinstance(T, Basic | PType) and head(T) in M.theory.related:
+        return sit, frozenset(T.args) if isinstance(T, PType) else "related"
+    return sit, T
 
 
 def in_fields(T: RecordType, parts: list[tuple[str, Truth]]) -> Truth:
@@ -54,10 +90,10 @@ def _at(label: str, why: Why) -> Why:
     return Why(why.sit, why.type, why.p, why.rule, why.parts, label, why.how, why.facts)
 
 
-def all_true(grounds: list[Truth]) -> tuple[Degree, frozenset[Claim]]:
+def all_true(grounds: list[Truth]) -> tuple[Degree, Atoms]:
     """How certain it is that all hold; bounds, where they rest on the same."""
     degrees = [found.p for found in grounds]
-    atoms = frozenset[Claim]().union(*(found.atoms for found in grounds))
+    atoms = frozenset[Hashable]().union(*(found.atoms for found in grounds))
     if REFUTED in degrees:
         return REFUTED, frozenset()
     if _apart(grounds, atoms):
@@ -74,7 +110,7 @@ def one_true(T: TypeNode, truths: Iterable[Truth], rule: str) -> Truth:
     if sure is not None:
         return Truth(CERTAIN, _under(T, sure, CERTAIN, rule, [sure]))
     degrees = [found.p for found in grounds]
-    atoms = frozenset[Claim]().union(*(found.atoms for found in grounds))
+    atoms = frozenset[Hashable]().union(*(found.atoms for found in grounds))
     if _apart(grounds, atoms):
         low = 1.0 - math.prod(1.0 - p.lo for p in degrees)
         p = Degree(low, 1.0 - math.prod(1.0 - p.hi for p in degrees))
@@ -86,7 +122,7 @@ def one_true(T: TypeNode, truths: Iterable[Truth], rule: str) -> Truth:
     return Truth(p, _under(T, best, p, rule, shown), atoms)
 
 
-def _apart(grounds: list[Truth], atoms: frozenset[Claim]) -> bool:
+def _apart(grounds: list[Truth], atoms: Atoms) -> bool:
     return len(atoms) == sum(len(found.atoms) for found in grounds)
 
 
