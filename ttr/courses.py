@@ -13,9 +13,9 @@ from dataclasses import dataclass, field, replace
 
 from ttr.constructors import star
 from ttr.dividing import events_in_words
-from ttr.errors import TTRError, Unexpected, Unsupported, following_nesting
+from ttr.errors import Unexpected, Unsupported, following_nesting
 from ttr.following import Following, followed_from
-from ttr.models import Model
+from ttr.models import Model, as_model
 from ttr.paths import escaping
 from ttr.printing import notation
 from ttr.probability import REFUTED, Degree
@@ -50,7 +50,7 @@ def begun(T: TypeNode, model: Model, /) -> Course:
     1
     """
     T = as_type(T)
-    _check_model(model)
+    as_model(model)
     if not is_of_strings(T) or escaping(T):
         raise Unsupported(
             f"{T} is no type of strings that can be followed",
@@ -62,7 +62,7 @@ def begun(T: TypeNode, model: Model, /) -> Course:
             f"{T} says of a string as a whole what its events do not tell",
             hint="judge the string when it is complete",
         )
-    return Course(T, model, followed_from(found, bool(model._facts.links)))
+    return Course(T, model, followed_from(found, bool(model.facts.links)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,8 +100,8 @@ class Course:
 
         A model that has new facts is such a one: what came before is not asked again.
         """
-        _check_model(model)
-        linked = self._following.linked or bool(model._facts.links)
+        as_model(model)
+        linked = self._following.linked or bool(model.facts.links)
         following = replace(self._following, linked=linked)
         return replace(self, model=model, _following=following)
 
@@ -162,7 +162,7 @@ class Course:
         return replace(self, _following=after, length=self.length + 1)
 
     def _unexpected(self, event: Object) -> Unexpected:
-        kinds = sorted(str(kind) for kind in self.model._facts.types_of(event))
+        kinds = sorted(str(kind) for kind in self.model.facts.types_of(event))
         found = " and ".join(kinds) or "nothing that is known"
         wanted = self.expected
         return Unexpected(
@@ -170,8 +170,3 @@ class Course:
             f"{'no more events' if wanted is None else wanted}",
             hint="ask expects(event) how probable it is that it fits",
         )
-
-
-def _check_model(model: object) -> None:
-    if not isinstance(model, Model):
-        raise TTRError(f"a course is followed in a model, found {model!r}")

@@ -27,10 +27,7 @@ if TYPE_CHECKING:
     from ttr.assignments import Assignment
     from ttr.models import Model
 
-__all__ = ["Claim", "How", "Judgement", "Why", "mark", "together"]
-
-Claim: TypeAlias = tuple[object, TypeNode]
-"""A judgement that rests on no other: the identity of an object, and a type."""
+__all__ = ["How", "Judgement", "Why", "mark", "together"]
 
 How: TypeAlias = Literal["all", "any", "none"]
 """What a claim needs of its grounds: that all of them hold, any or none."""
@@ -69,15 +66,6 @@ class Why(Drawn):
         if not self.parts:
             return Atomic((identity(self.sit), self.type), self.p)
         return together(self.how, self.parts)
-
-    def atoms(self) -> Iterator[tuple[Claim, Degree]]:
-        """The judgements it rests on, in order, as often as they occur."""
-        waiting = [self]
-        while waiting:
-            step = waiting.pop()
-            if not step.parts:
-                yield (identity(step.sit), step.type), step.p
-            waiting.extend(reversed(step.parts))
 
     def uncertain(self) -> Iterator[Why]:
         """The uncertain judgements it rests on, in order, as often as they occur."""

@@ -45,11 +45,12 @@ from ttr.syntax import (
     TypeNode,
     as_type,
     freeze,
+    kind_of,
 )
 from ttr.theories import Expected, Given, Signature
 from ttr.witnesses import witnesses
 
-__all__ = ["Conditions", "Model", "conditions"]
+__all__ = ["Conditions", "Model", "as_model", "conditions"]
 
 
 _EMPTY: tuple[Object, ...] = ((), FiniteSet(), EventString())
@@ -109,6 +110,11 @@ class Model:
         model = object.__new__(cls)
         model._facts = facts
         return model
+
+    @property
+    def facts(self) -> Assignment:
+        """What is judged of atoms: the assignment that everything else follows from."""
+        return self._facts
 
     @property
     def theory(self) -> Signature:
@@ -428,6 +434,18 @@ class Model:
     def _with(self, facts: Assignment) -> Model:
         """The model of these facts: the same model where they are the same."""
         return self if facts is self._facts else Model.of(facts)
+
+
+def as_model(value: object) -> Model:
+    """The model itself; `TTRError` for what is none.
+
+    >>> as_model("M")
+    Traceback (most recent call last):
+    ttr.errors.TTRError: expected a model to judge in, found the object 'M'
+    """
+    if isinstance(value, Model):
+        return value
+    raise TTRError(f"expected a model to judge in, found {kind_of(value)}")
 
 
 def _signature(theory: Signature | _HasSignature | None) -> Signature:

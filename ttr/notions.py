@@ -203,7 +203,7 @@ class Notion:
             if j.p != CERTAIN:
                 why = f"{notation(j.sit)} is of {S}, but may not be of {T} in {name}"
                 return ModalAnswer(UNKNOWN, why, name, j)
-        if _leaves_open(model._facts, S) or not _lists_all(S, T):
+        if _leaves_open(model.facts, S) or not _lists_all(S, T):
             why = f"more may be of {S} than is known in {name}"
             return ModalAnswer(UNKNOWN, why, name)
         return ModalAnswer(CERTAIN, f"all that is of {S} is of {T} in {name}")

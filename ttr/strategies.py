@@ -218,7 +218,7 @@ def _told(M: Model, r: Object, T: TypeNode) -> tuple[Object, Model] | None:
 
 def _shaped(T: TypeNode, M: Model) -> st.SearchStrategy[Object]:
     """Objects of the shape of T, over the names that the model knows and new ones."""
-    known = [name for name in M._facts.known if isinstance(name, str)]
+    known = [name for name in M.facts.known if isinstance(name, str)]
     names = [*sorted(known), *(f"new{number}" for number in range(1, 4))]
     return _shapes(T, M, tuple(names))
 

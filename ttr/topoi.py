@@ -13,7 +13,7 @@ from ttr.errors import IllFormed, Refused, following_nesting
 from ttr.judgements import Judgement
 from ttr.merging import merge
 from ttr.modality import ModalAnswer
-from ttr.models import Model
+from ttr.models import Model, as_model
 from ttr.objects import Unresolved
 from ttr.paths import escaping
 from ttr.printing import notation
@@ -97,7 +97,7 @@ def expected(model: Model, sit: object, warrant: Topos, /) -> TypeNode:
 
     Raises `Refused` where the situation is not certainly of the background type.
     """
-    return as_type(_model(model).apply(topos(warrant).fg, sit))
+    return as_type(as_model(model).apply(topos(warrant).fg, sit))
 
 
 @following_nesting
@@ -134,7 +134,7 @@ def _applied(
     The answer no, where it is not of the background or lacks what is spoken of.
     """
     warrant = topos(warrant)
-    background = _model(model).judge(sit, warrant.bg)
+    background = as_model(model).judge(sit, warrant.bg)
     outside = f"{notation(background.sit)} is not of the background {warrant.bg}"
     if background.p == REFUTED:
         return ModalAnswer(REFUTED, outside)
@@ -143,12 +143,6 @@ def _applied(
         return background, as_type(model.reduced(body))
     except (Unresolved, Refused) as wrong:
         raise Refused(f"the topos {warrant} fails there: {wrong.message}") from None
-
-
-def _model(value: object) -> Model:
-    if isinstance(value, Model):
-        return value
-    raise IllFormed(f"a topos is applied in a model, found {kind_of(value)}")
 
 
 def _as_far(background: Judgement, answer: Answer, question: str) -> ModalAnswer:

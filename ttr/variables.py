@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from ttr.errors import IllFormed, Refused, TTRError
+from ttr.errors import IllFormed, Refused
 from ttr.judgements import Judgement, Why
-from ttr.models import Conditions, Model, conditions
+from ttr.models import Conditions, Model, as_model, conditions
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.probability.degrees import ordered, shown
@@ -89,9 +89,7 @@ class RandomVariable:
         >>> print(V.judge(M, "a", A & B).p, V.judge(M, "a", A, when=[("a", B | A)]).p)
         0 0.5
         """
-        if not isinstance(M, Model):
-            raise TTRError(f"a judgement is of a model, found {kind_of(M)}")
-        sit, T = freeze(sit), as_type(T)
+        M, sit, T = as_model(M), freeze(sit), as_type(T)
         mine, others = self._parted(sit, conditions(when))
         whys = self._weights(M, sit, others)
         wanted = self._meant(T)

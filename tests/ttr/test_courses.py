@@ -158,9 +158,9 @@ def test_what_cannot_be_followed(T, message):
 
 
 def test_a_course_needs_a_model():
-    with pytest.raises(TTRError, match="followed in a model, found 'M'"):
+    with pytest.raises(TTRError, match="expected a model to judge in"):
         begun(Plus(A), "M")
-    with pytest.raises(TTRError, match="followed in a model, found 'M'"):
+    with pytest.raises(TTRError, match="expected a model to judge in"):
         begun(Plus(A), M).judged_in("M")
 
 

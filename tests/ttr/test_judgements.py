@@ -95,6 +95,8 @@ def test_equality_is_of_situation_type_and_degree():
     assert "model" not in repr(M.judge("a", Ind))
 
 
-def test_atoms_in_order():
+def test_uncertain_judgements_in_order():
+    M = Model().given("a", Ind, 0.5).given("s", dog("a"), 0.9)
     why = M.judge(record(x="a", c="s"), Dog).why
-    assert [T for (_, T), _ in why.atoms()] == [Ind, dog("a")]
+    assert [step.type for step in why.uncertain()] == [Ind, dog("a")]
+    assert list(Model().given("a", Ind).judge("a", Ind).why.uncertain()) == []

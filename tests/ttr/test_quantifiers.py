@@ -349,9 +349,12 @@ def test_f_is_a_function_from_X(M, f, rule):
 @pytest.mark.parametrize(
     ("ask", "message"),
     [
-        (lambda M: settle("M", every(dog, bark)), "a model is asked, found the object"),
-        (lambda M: extension(3, dog), "a model is asked, found int 3"),
-        (lambda M: truth(None, dog("f")), "a model is asked, found None"),
+        (
+            lambda M: settle("M", every(dog, bark)),
+            "expected a model to judge in, found",
+        ),
+        (lambda M: extension(3, dog), "expected a model to judge in, found int 3"),
+        (lambda M: truth(None, dog("f")), "expected a model to judge in, found"),
         (lambda M: settle(M, every(dog, bark), 3), "takes thresholds, found int 3"),
         (lambda M: truth(M, dog("f"), 3), "takes thresholds, found int 3"),
         (lambda M: truth(M, dog(this.x)), "has paths that lead nowhere"),

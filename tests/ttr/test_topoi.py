@@ -9,6 +9,7 @@ from ttr import (
     Model,
     Pred,
     Refused,
+    TTRError,
     fun,
     merge,
     outer,
@@ -135,9 +136,9 @@ def test_a_function_will_do_for_a_topos():
 @pytest.mark.parametrize("model", [None, Model, "M"])
 @pytest.mark.parametrize("ask", [necessary, possible])
 def test_a_topos_is_applied_in_a_model(ask, model):
-    with pytest.raises(IllFormed, match="applied in a model"):
+    with pytest.raises(TTRError, match="a model to judge in"):
         ask(model, tweety, Bird, birds_fly)
-    with pytest.raises(IllFormed, match="applied in a model"):
+    with pytest.raises(TTRError, match="a model to judge in"):
         expected(model, tweety, birds_fly)
 
 

@@ -6,25 +6,12 @@ from collections.abc import Iterable
 from typing import TypeVar
 
 from ttr.errors import TTRError
-from ttr.models import Model
 from ttr.printing import notation
 from ttr.syntax import freeze
 
-__all__ = ["as_model", "in_one_line", "several", "shown"]
+__all__ = ["in_one_line", "several", "shown"]
 
 T = TypeVar("T")
-
-
-def as_model(value: object) -> Model:
-    """The model itself; `TTRError` for what is none.
-
-    >>> as_model("M")
-    Traceback (most recent call last):
-    ttr.errors.TTRError: expected a model to judge in, found M
-    """
-    if isinstance(value, Model):
-        return value
-    raise TTRError(f"expected a model to judge in, found {shown(value)}")
 
 
 def several(values: Iterable[T], what: str) -> tuple[T, ...]:

@@ -15,10 +15,9 @@ from typing import Any, cast
 
 from ttr.errors import TTRError, Undecided, Unsupported
 from ttr.judgements import Judgement
-from ttr.models import Model
+from ttr.models import Model, as_model
 from ttr.objects import Unresolved
 from ttr.paths import occurring
-from ttr.perceptual.arguments import as_model
 from ttr.perceptual.classifiers import Classifier, Method
 from ttr.perceptual.forming import check_record
 from ttr.perceptual.interpretations import claim_of

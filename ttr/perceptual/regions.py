@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 from ttr.constructors import fun, rectype
 from ttr.errors import TTRError
-from ttr.models import Model
-from ttr.perceptual.arguments import as_model, several
+from ttr.models import Model, as_model
+from ttr.perceptual.arguments import several
 from ttr.perceptual.meanings import Meaning, as_meaning
 from ttr.perceptual.vectors import Vector, number, vector
 from ttr.substitution import grounded

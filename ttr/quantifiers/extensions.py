@@ -6,12 +6,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ttr.errors import IllFormed, Refused, TTRError, following_nesting
-from ttr.models import Model
+from ttr.models import Model, as_model
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, Degree, degree
 from ttr.quantifiers.determiners import Property, prop
 from ttr.quantifiers.thresholds import Thresholds, thresholds_of
-from ttr.quantifiers.truth import checked_model, instance, known, thing
+from ttr.quantifiers.truth import instance, known, thing
 from ttr.quantifiers.truths import Atoms, Truth
 from ttr.syntax import (
     Basic,
@@ -113,7 +113,7 @@ def extension(
     >>> print(extension(M, dog))
     \\x:Ind. dog(x): fido
     """
-    checked_model(M)
+    as_model(M)
     P = prop(P)
     chosen = thresholds_of(thresholds)
     domain = P.domain if isinstance(P, Function) else P

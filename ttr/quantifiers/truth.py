@@ -12,12 +12,11 @@ from collections.abc import Iterable, Iterator
 from ttr.errors import (
     IllFormed,
     Refused,
-    TTRError,
     Unsupported,
     following_nesting,
 )
 from ttr.judgements import Why
-from ttr.models import Model
+from ttr.models import Model, as_model
 from ttr.objects import Missing, Unresolved
 from ttr.paths import escaping, occurring
 from ttr.printing import notation
@@ -49,11 +48,10 @@ from ttr.syntax import (
     Type,
     TypeNode,
     as_type,
-    kind_of,
 )
 from ttr.witnesses import candidates
 
-__all__ = ["absent", "checked_model", "instance", "known", "thing", "truth"]
+__all__ = ["absent", "instance", "known", "thing", "truth"]
 
 absent = Pred("absent", Type)
 """Sentence negation: `absent(T)` is true if nothing is of T.
@@ -78,17 +76,11 @@ def truth(M: Model, T: TypeNode, thresholds: Thresholds | None = None) -> Truth:
     ✓ {} : absent(bark(fido))   (nothing is of it)
       ✗ nothing : bark(fido)   (nothing says so)
     """
-    checked_model(M)
+    as_model(M)
     T = as_type(T)
     if escaping(T):
         raise IllFormed(f"{T} has paths that lead nowhere, so it is not true or false")
     return _Truths(M, thresholds_of(thresholds)).of(T)
-
-
-def checked_model(M: object) -> None:
-    """Raises `TTRError` for what is no model."""
-    if not isinstance(M, Model):
-        raise TTRError(f"a model is asked, found {kind_of(M)}")
 
 
 class _Truths:
@@ -210,7 +202,7 @@ class _Truths:
 
 def _told(M: Model, T: Basic | PType) -> Truth:
     """How probable the situations are together that were told to be of T."""
-    facts = M._facts
+    facts = M.facts
     seen = facts.perceived(Missing(), T) if isinstance(T, PType) else None
     if seen is not None:
         why = Why(Missing(), T, seen, "by the witness function")
@@ -243,19 +235,19 @@ def known(
         return [(found.witness, found.p) for found in records]
     if not isinstance(T, Basic | PType):
         return [(sit, CERTAIN) for sit in M.witnesses(T)]
-    return [(sit, _how_surely(M, sit, T)) for sit in candidates(M._facts, T)]
+    return [(sit, _how_surely(M, sit, T)) for sit in candidates(M.facts, T)]
 
 
 def _how_surely(M: Model, sit: Object, T: Basic | PType) -> Degree:
     """How probably an object is of a type, in the light of what it depends on."""
-    p, _ = M._facts.degree_of(sit, T)
+    p, _ = M.facts.degree_of(sit, T)
     return p if p == CERTAIN else M.judge(sit, T).p
 
 
 def _may_have_more(M: Model, T: TypeNode) -> bool:
     """Whether more may be of T than what was told, by what it is made of."""
     return any(
-        M._facts.leaves_open(part)
+        M.facts.leaves_open(part)
         for part in occurring([T])
         if isinstance(part, Basic | PType)
     )

@@ -12,7 +12,7 @@ from ttr.judgements import Why
 from ttr.models import Model
 from ttr.objects import Missing
 from ttr.probability import CERTAIN, REFUTED, Degree
-from ttr.syntax import Basic, Object, PType, Record, RecordType, TypeNode
+from ttr.syntax import Basic, Object, PType, Record, RecordType, TypeNode, identity
 
 __all__ = [
     "SHOWN",
@@ -61,8 +61,9 @@ def own(M: Model, p: Degree, T: TypeNode) -> Atoms:
 
 def derived(M: Model, why: Why) -> Truth:
     """What a derivation says, with the uncertain judgements in it."""
-    uncertain = [atom for atom, p in why.atoms() if p not in (CERTAIN, REFUTED)]
-    return Truth(why.p, why, frozenset(_atom(M, *atom) for atom in uncertain))
+    steps = why.uncertain()
+    atoms = frozenset(_atom(M, identity(step.sit), step.type) for step in steps)
+    return Truth(why.p, why, atoms)
 
 
 def _atom(M: Model, sit: object, T: TypeNode) -> Hashable:
@@ -71,7 +72,7 @@ def _atom(M: Model, sit: object, T: TypeNode) -> Hashable:
     Where the model states how judgements depend on one another, it is one for all; of
     an object and the types that an axiom or an exclusion is about, it is one, too.
     """
-    if M._facts.links:
+    if M.facts.links:
         return "linked"
     if isinstance(T, Basic | PType) and head(T) in M.theory.related:
         return sit, frozenset(T.args) if isinstance(T, PType) else "related"
