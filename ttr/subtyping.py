@@ -24,6 +24,7 @@ from ttr.syntax import (
     FiniteSet,
     ListOf,
     Meet,
+    Object,
     Path,
     Pred,
     PType,
@@ -166,9 +167,21 @@ _PLAIN = (*_TYPES, Pred, Path, FiniteSet, EventString)
 
 def _is_plain(T: TypeNode) -> bool:
     """Whether it is of constructors whose rules leave nothing underivable."""
+    waiting: dict[Object, None] = {T: None}
+    found: dict[Object, None] = {}
+    while waiting:
+        value, _ = waiting.popitem()
+        # A record type may be wide: its ptypes are looked at without going into paths.
+        match value:
+            case RecordType(fields):
+                waiting.update((field, None) for _, field in fields)
+            case PType(pred, args) if all(type(arg) in (Path, str) for arg in args):
+                found[pred] = None
+            case _:
+                found[value] = None
     return all(
         isinstance(part, _PLAIN) or not isinstance(part, Node)
-        for part in occurring([T])
+        for part in occurring(found)
     )
 
 
