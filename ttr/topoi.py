@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from ttr.errors import IllFormed, Refused, following_nesting
 from ttr.judgements import Judgement
 from ttr.merging import merge
-from ttr.modality import ModalAnswer
 from ttr.models import Model, as_model
 from ttr.objects import Unresolved
 from ttr.paths import escaping
+from ttr.possibilities.modality import ModalAnswer
 from ttr.printing import notation
 from ttr.probability import REFUTED, Degree
 from ttr.reshaping.functions import fix, restrict

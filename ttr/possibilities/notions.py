@@ -15,8 +15,8 @@ from ttr.assignments import Assignment
 from ttr.axioms import below
 from ttr.errors import IllFormed, Refused, Unsupported, following_nesting
 from ttr.merging import merge
-from ttr.modality import ModalAnswer, is_modal, mentions_modal, nec, poss
 from ttr.paths import occurring
+from ttr.possibilities.modality import ModalAnswer, is_modal, mentions_modal, nec, poss
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.propositions import borne_out, claim, probabilistic_claim
@@ -35,7 +35,7 @@ from ttr.syntax import (
 )
 
 if TYPE_CHECKING:
-    from ttr.possibilities import ModalSystem
+    from ttr.possibilities.systems import ModalSystem
 
 __all__ = ["Notion", "everywhere", "where_they_exist"]
 

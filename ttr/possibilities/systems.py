@@ -2,7 +2,7 @@
 
 A possibility is a model. As types and models are immutable values, what is judged in
 one possibility never shows in another. What is necessary or possible is asked of the
-system as a whole, by the restrictive or the inclusive notion (`ttr.notions`).
+system as a whole, by the restrictive or the inclusive notion (`notions`).
 """
 
 from __future__ import annotations
@@ -13,24 +13,18 @@ from dataclasses import dataclass, replace
 
 from ttr.errors import IllFormed, Refused, following_nesting, suggestion
 from ttr.judgements import Judgement
-from ttr.modality import ModalAnswer, claims_of, nec, necessarily, poss, possibly
 from ttr.models import Model
-from ttr.notions import Notion, everywhere, where_they_exist
 from ttr.objects import labelled
 from ttr.paths import occurring
+from ttr.possibilities.modality import (
+    claims_of,
+    nec,
+)
+from ttr.possibilities.notions import Notion, everywhere, where_they_exist
 from ttr.printing import notation
 from ttr.syntax import Basic, Object, Pred, PType, TypeNode, as_type, freeze, kind_of
 
-__all__ = [
-    "ModalAnswer",
-    "ModalSystem",
-    "Notion",
-    "modal_system",
-    "nec",
-    "necessarily",
-    "poss",
-    "possibly",
-]
+__all__ = ["ModalSystem", "modal_system"]
 
 Head = Basic | Pred
 """What a possibility may lack: a basic type, or a predicate with its ptypes."""
@@ -130,6 +124,7 @@ class ModalSystem:
         Any situation of the possibility is of nec(T) as far as T is necessary, by the
         restrictive notion.
 
+        >>> from ttr.possibilities import necessarily, possibly
         >>> Rain = Basic("Rain")
         >>> w = modal_system(w1=Model().given("r", Rain), w2=Model())
         >>> w.judge("w1", "s", possibly(Rain) & ~necessarily(Rain)).holds
