@@ -131,7 +131,8 @@ def _claim(value: Judgement | Why, shown: _Shown) -> Line:
 
 
 def _step(why: Why, shown: _Shown) -> Step:
-    return _follow(why, shown, why.failure())
+    """A derivation; what is likely does not fail, so nothing is pointed at then."""
+    return _follow(why, shown, why.failure() if why.p.lo == 0.0 else None)
 
 
 def _follow(why: Why, shown: _Shown, failing: Why | None) -> Step:

@@ -10,6 +10,7 @@ import pytest
 import ttr
 from ttr import (
     Application,
+    Basic,
     IllFormed,
     Ind,
     Model,
@@ -562,3 +563,12 @@ def test_what_is_only_about_objects_is_not_drawn(form, value, kind):
 
 def test_any_other_value_of_python_is_drawn_as_an_object():
     assert ttr.box(3.5) == "3.5"
+
+
+def test_the_arithmetic_of_a_reason_is_plain_latex():
+    A, B = Basic("A"), Basic("B")
+    M = Model().given("a", A, 0.6).given("a", B, 0.3)
+    either, both = (ttr.latex(M.judge("a", T).why) for T in (A | B, A & B))
+    assert r"\text{(each part; 0.6 }\times \text{ 0.3)}" in both
+    assert "−" not in either
+    assert "×" not in either + both

@@ -244,7 +244,27 @@ _ESCAPED = {
 }
 
 
+_MATHS = {
+    "−": "-",
+    "×": "\\times ",
+    "≤": "\\le ",
+    "≥": "\\ge ",
+    "→": "\\to ",
+    "∧": "\\wedge ",
+    "∨": "\\vee ",
+    "¬": "\\neg ",
+    "⊑": "\\sqsubseteq ",
+}
+"""The signs of arithmetic and logic, which plain LaTeX does not read in a text."""
+
+_SPECIAL = "_%&#${}~^\\`<>"
+"""What LaTeX reads otherwise in a text."""
+
+_PIECE = re.compile(f"[^{re.escape(_SPECIAL)}{''.join(_MATHS)}]+|.", re.DOTALL)
+
+
 def _prose(text: str) -> str:
     """A remark, with its words as text and what LaTeX reads otherwise as signs."""
-    pieces = re.findall(r"[^_%&#${}~^\\\\`<>]+|.", text, flags=re.DOTALL)
-    return "".join(_ESCAPED.get(it) or f"\\text{{{it}}}" for it in pieces)
+    known = _ESCAPED | _MATHS
+    pieces = _PIECE.findall(text)
+    return "".join(known.get(it, f"\\text{{{it}}}") for it in pieces)
