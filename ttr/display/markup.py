@@ -31,7 +31,7 @@ def marked_up(layout: Layout) -> str:
 
 
 def marked_up_derivation(step: Step) -> str:
-    """The derivation as steps that open and close, open where it fails first."""
+    """The derivation as steps that open and close, open where it fails or is likely."""
     return _styled(f'<ul class="ttr-why"><li>{_derivation(step)}</li></ul>')
 
 
@@ -168,7 +168,7 @@ def _derivation(step: Step) -> str:
     if not step.parts:
         return f'<div class="ttr-leaf{_failing(step)}">{claim}</div>'
     parts = "".join([f"<li>{_derivation(part)}</li>" for part in step.parts])
-    opened = ' open=""' if step.fails else ""
+    opened = ' open=""' if step.fails or step.mark not in "✓✗" else ""
     return (
         f'<details{opened}><summary class="{_failing(step).strip()}">{claim}</summary>'
         f"<ul>{parts}</ul></details>"
