@@ -114,6 +114,7 @@ def _definitions(
         needed = [event for one, event in mine if one.type in above_it]
         apart = [Not(event) for one, event in mine if excluding(one.type, T, theory)]
         if not (enough or needed or apart):
+            said.append((claim, Atomic(claim.key, UNKNOWN)))
             continue
         free = Atomic(("only axioms tell of", claim.key), UNKNOWN)
         event = AnyOf((*enough, All((*needed, *apart, free))))
@@ -155,7 +156,7 @@ def _linked(facts: Assignment, claims: Iterable[Claim]) -> _Linked:
         together = links.unknown.get(claim.key, ())
         unknown.update((tuple([one.key for one in group]), None) for group in together)
         more = [other for one in mine for other, _ in one.condition]
-        more += [other for other in links.on(claim) if _is_known(facts, other)]
+        more += [other for other in links.on(claim) if _tells(facts, other)]
         more += [other for group in together for other in group]
         for other in more:
             if other.key not in found:
@@ -164,9 +165,18 @@ def _linked(facts: Assignment, claims: Iterable[Claim]) -> _Linked:
     return _Linked(list(found.values()), said, tuple(unknown))
 
 
-def _is_known(facts: Assignment, claim: Claim) -> bool:
-    """Whether something is known of a claim apart from what it is conditioned on."""
-    return facts.degree_of(claim.sit, claim.type)[0] != UNKNOWN
+def _tells(facts: Assignment, claim: Claim) -> bool:
+    """Whether a claim tells of what it is conditioned on.
+
+    In a network what nothing else is known of does not; but there each claim has its
+    conditionals on the same others, and axioms do not relate it.
+    """
+    if facts.degree_of(claim.sit, claim.type)[0] != UNKNOWN:
+        return True
+    parents = [
+        frozenset(on.key for on, _ in one.condition) for one in facts.links.of(claim)
+    ]
+    return len(set(parents)) > 1 or head(claim.type) in facts.theory.related
 
 
 # --- what axioms link ---
@@ -198,7 +208,7 @@ def _relatives(facts: Assignment, claims: Iterable[Claim]) -> tuple[list[Claim],
 
 def _others(facts: Assignment, sit: Object) -> Iterator[Claim]:
     """What is known, but not for certain, of an object; in no order."""
-    yield from facts.links.targets(sit)
+    yield from facts.links.concerning(sit)
     yield from (Claim(sit, T) for T in facts.seen_types())
     for T in facts.types_of(sit):
         if facts.told_degree(sit, T) != CERTAIN:

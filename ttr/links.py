@@ -121,9 +121,14 @@ class Links:
         """The claims of which there are conditionals on this one."""
         return self.dependent.get(claim.key, ())
 
-    def targets(self, sit: Object) -> list[Claim]:
-        """The claims of an object of which there are conditionals."""
-        general = [Claim(sit, T) for T in self.expected]
+    def concerning(self, sit: Object) -> list[Claim]:
+        """The claims of an object that some conditional is about."""
+        general = [
+            Claim(sit, T)
+            for several in self.expected.values()
+            for one in several
+            for T in (one.type, *[kind for kind, _ in one.condition])
+        ]
         return list(dict.fromkeys((*self.about.get(identity(sit), ()), *general)))
 
     def with_conditioned(self, new: Conditioned) -> Links:
@@ -140,9 +145,11 @@ class Links:
             if one.concerns() != new.concerns()
         ]
         conditioned = self.conditioned.set(key, (*kept, new))
-        others = self.about.get(key[0], ())
-        mine = others if new.target in others else (*others, new.target)
-        about = self.about.set(key[0], mine)
+        about = self.about
+        for claim in new.claims():
+            others = about.get(claim.key[0], ())
+            if claim not in others:
+                about = about.set(claim.key[0], (*others, claim))
         return replace(self, conditioned=conditioned, dependent=dependent, about=about)
 
     def with_expected(self, new: Expectation) -> Links:

@@ -359,3 +359,15 @@ def test_why_says_that_nothing_is_known_of_dependence():
     M = Model().given("a", A, 0.6).given("a", B, 0.5).dependent(("a", A), ("a", B))
     why = M.judge("a", A & B).why
     assert "nothing is known of how they depend" in why.because
+
+
+def test_two_types_that_exclude_each_other_and_of_which_nothing_is_told():
+    theory = Signature(
+        exclusions=(Exclusion(A, B),),
+        axioms=(Axiom(C, A),),
+        opened=frozenset((A, B, C)),
+    )
+    M = Model(theory)
+    assert M.judge("a", A & B).p == M.judge("a", C & B).p == (0, 0)
+    assert M.judge("a", C & ~A).p == (0, 0)
+    assert M.judge("a", ~(A & B)).p == (1, 1)
