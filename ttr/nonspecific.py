@@ -37,7 +37,7 @@ from ttr.witnesses import candidates, witnesses
 __all__ = ["Range", "of_any", "some"]
 
 TRIED = 1_000
-"""How many objects are looked at."""
+"""How many objects are told apart; beyond, another one may be of the type."""
 
 SHOWN = 3
 """How many objects are named."""
@@ -45,7 +45,7 @@ SHOWN = 3
 
 @dataclass(frozen=True)
 class Range:
-    """p(T || S): from the least to the most probable object; `whys` has one of each."""
+    """p(T || S): from the least to the most probable object, with the reason for each."""
 
     type: TypeNode
     when: tuple[TypeNode, ...]
@@ -84,7 +84,7 @@ def of_any(
         return Range(T, tuple(when), REFUTED, ())
     objects = facts.objects() if among is None else among
     whys = []
-    for sit in islice(objects, TRIED):
+    for sit in objects:
         if derivation(facts, sit, S).p != REFUTED:
             whys.append(conditional(facts, sit, T, [(sit, S)]))
     if not whys:

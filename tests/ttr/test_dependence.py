@@ -371,3 +371,10 @@ def test_two_types_that_exclude_each_other_and_of_which_nothing_is_told():
     assert M.judge("a", A & B).p == M.judge("a", C & B).p == (0, 0)
     assert M.judge("a", C & ~A).p == (0, 0)
     assert M.judge("a", ~(A & B)).p == (1, 1)
+
+
+def test_any_one_of_many_objects_is_any():
+    M = Model().expects(B, 0.6, when=A)
+    for number in range(1_001):
+        M = M.given(f"o{number}", A)
+    assert M.given("o1000", B, 0.1).chance(B, when=A).p == (0.1, 0.6)
