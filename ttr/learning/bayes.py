@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TypeVar
 
 from ttr.errors import IllFormed, following_nesting
 from ttr.learning.counts import NO_THEORY, Counts
-from ttr.learning.evidence import NO_EVIDENCE, Evidence, Key
+from ttr.learning.evidence import NO_EVIDENCE, Evidence
 from ttr.learning.features import Features, features_of, seen, types_of
 from ttr.learning.smoothing import NO_SMOOTHING, Smoothing, as_smoothing
+from ttr.learning.taught import Taught
 from ttr.probability import UNKNOWN, Degree
 from ttr.syntax import TypeNode, kind_of
 from ttr.theories import Signature, signature_of
@@ -98,7 +99,7 @@ def _share(one: C, scaled: Mapping[C, Score]) -> Degree:
 
 
 @dataclass(frozen=True, repr=False)
-class NaiveBayes:
+class NaiveBayes(Taught):
     """A naive Bayes classifier over types: which labels go with which features.
 
     The evidence is what features a situation's type is below; features that it is not
@@ -121,26 +122,6 @@ class NaiveBayes:
         object.__setattr__(self, "features", features_of(self.features))
         object.__setattr__(self, "theory", signature_of(self.theory))
         as_smoothing(self.smoothing)
-
-    def __repr__(self) -> str:
-        return f"<NaiveBayes over {len(self.features)} features, {self.evidence}>"
-
-    @property
-    def labels(self) -> tuple[str, ...]:
-        """The labels that were learned, in alphabetical order."""
-        return self.evidence.labels
-
-    def learned(self, x: TypeNode, label: str, *, key: Key) -> NaiveBayes:
-        """The classifier that has also learned that what is of x is so called.
-
-        Raises `Refused` where nothing can be of x, and `KeyTaken`.
-        """
-        found = seen(x, self.features, self.theory)
-        return replace(self, evidence=self.evidence.learned(found, label, key))
-
-    def retracted(self, key: Key) -> NaiveBayes:
-        """The classifier that never learned what is known by the key; `NoSuchKey`."""
-        return replace(self, evidence=self.evidence.retracted(key))
 
     def probabilities(self, x: TypeNode) -> dict[str, float]:
         """The probability of each label for what is of x.

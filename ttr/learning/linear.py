@@ -9,14 +9,15 @@ frequencies and naive Bayes go wrong.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 from ttr.errors import TTRError, suggestion
 from ttr.learning.counts import NO_THEORY
-from ttr.learning.evidence import NO_EVIDENCE, Evidence, Key
+from ttr.learning.evidence import NO_EVIDENCE, Evidence
 from ttr.learning.features import Features, features_of, seen
 from ttr.learning.fitting import Example, fitted, logistic
+from ttr.learning.taught import Taught
 from ttr.syntax import TypeNode
 from ttr.theories import Signature, signature_of
 
@@ -27,7 +28,7 @@ WIDEST = 1e6
 
 
 @dataclass(frozen=True, repr=False)
-class LogOdds:
+class LogOdds(Taught):
     """Log-odds of each label against all others, linear in the features.
 
     The weights are the most probable ones given the evidence, where each is normally
@@ -57,26 +58,6 @@ class LogOdds:
                 "the variance of weights is a number above 0 and at most "
                 f"{WIDEST:.0f}, found {self.variance!r}"
             )
-
-    def __repr__(self) -> str:
-        return f"<LogOdds over {len(self.features)} features, {self.evidence}>"
-
-    @property
-    def labels(self) -> tuple[str, ...]:
-        """The labels that were learned, in alphabetical order."""
-        return self.evidence.labels
-
-    def learned(self, x: TypeNode, label: str, *, key: Key) -> LogOdds:
-        """The classifier that has also learned that what is of x is so called.
-
-        Raises `Refused` where nothing can be of x, and `KeyTaken`.
-        """
-        found = seen(x, self.features, self.theory)
-        return replace(self, evidence=self.evidence.learned(found, label, key))
-
-    def retracted(self, key: Key) -> LogOdds:
-        """The classifier that never learned what is known by the key; `NoSuchKey`."""
-        return replace(self, evidence=self.evidence.retracted(key))
 
     @property
     def weights(self) -> dict[str, tuple[float, ...]]:
