@@ -45,7 +45,7 @@ SHOWN = 3
 
 @dataclass(frozen=True)
 class Range:
-    """p(T || S): from the least to the most probable object, with the reason for each."""
+    """p(T || S): from the least to the most probable object, each with its reason."""
 
     type: TypeNode
     when: tuple[TypeNode, ...]
