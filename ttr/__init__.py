@@ -12,9 +12,13 @@ from typing import TYPE_CHECKING, Any
 from ttr import updates
 from ttr.constructors import Pi, fun, rectype
 from ttr.errors import (
+    Endless,
     IllFormed,
+    NoState,
     NotationError,
+    NotHeard,
     Refused,
+    RuleFailed,
     TTRError,
     Undecided,
     Unexpected,
@@ -84,6 +88,7 @@ __all__ = [
     "Degree",
     "EventString",
     "FiniteSet",
+    "Endless",
     "FunType",
     "Function",
     "IllFormed",
@@ -95,6 +100,8 @@ __all__ = [
     "Model",
     "Negation",
     "NonEmpty",
+    "NoState",
+    "NotHeard",
     "NotationError",
     "Operation",
     "PType",
@@ -107,6 +114,7 @@ __all__ = [
     "Record",
     "RecordType",
     "Refused",
+    "RuleFailed",
     "SetOf",
     "Singleton",
     "Str",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import cast
 
@@ -88,8 +88,10 @@ def _match_both(schemas: tuple[Atom, Atom], types: tuple[Atom, Atom]) -> bool:
 
 
 def _reached(
-    T: Atom, steps: Iterable[tuple[Axiom, Atom, Atom]]
+    T: Atom, steps: Sequence[tuple[Axiom, Atom, Atom]]
 ) -> Iterator[tuple[Axiom, Atom]]:
+    if not steps:
+        return
     by_head: dict[Basic | Pred, list[tuple[Axiom, Atom, Atom]]] = {}
     for step in steps:
         by_head.setdefault(_head(step[1]), []).append(step)

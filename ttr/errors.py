@@ -13,9 +13,13 @@ from functools import wraps
 from typing import ParamSpec, TypeVar
 
 __all__ = [
+    "Endless",
     "IllFormed",
+    "NoState",
+    "NotHeard",
     "NotationError",
     "Refused",
+    "RuleFailed",
     "Span",
     "TTRError",
     "Undecided",
@@ -154,6 +158,22 @@ def following_nesting(function: Callable[P, R]) -> Callable[P, R]:
 
 class UpdateError(TTRError):
     """A rule, a state or an event that an update cannot go on with."""
+
+
+class NoState(UpdateError):
+    """Something that is not of the type of the information states."""
+
+
+class RuleFailed(UpdateError):
+    """A rule that raised an error, or gave what no state can be made of."""
+
+
+class Endless(UpdateError):
+    """A repetition, or an agenda, that comes to no end."""
+
+
+class NotHeard(UpdateError):
+    """An event of a type that no rule takes."""
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:

@@ -60,14 +60,16 @@ TRIED = 100
 """How many known objects a function is tried on."""
 
 
-def derivation(facts: Assignment, sit: Object, T: TypeNode) -> Why:
+def derivation(facts: Assignment, sit: Object, T: TypeNode, around: Around = ()) -> Why:
     """How probable sit : T is by the facts, and why.
+
+    `around` are the scopes that paths in T lead out to, innermost first.
 
     An atom has the degree the facts give it. What is made of parts is as probable as
     its distinct atoms together: an atom that another one entails adds nothing, and
     the others are independent.
     """
-    return _Derivation(facts).of(sit, T, (), "")
+    return _Derivation(facts).of(sit, T, around, "")
 
 
 class _Derivation:
@@ -375,11 +377,20 @@ def _where(why: Why) -> str:
 
 def _applies(value: Object) -> bool:
     """Whether an application stands in the value."""
-    if type(value) is str or isinstance(value, Basic):
+    if type(value) is str:
         return False
     if isinstance(value, Application):
         return True
-    if isinstance(value, PType):
-        return any(map(_applies, value.args))
+    if not isinstance(value, TypeNode):
+        return _applies_inside(value)
+    try:
+        return value._applies
+    except AttributeError:
+        found = _applies_inside(value)
+    object.__setattr__(value, "_applies", found)
+    return found
+
+
+def _applies_inside(value: Object) -> bool:
     same, inner = parts(value)
     return any(map(_applies, same)) or any(map(_applies, inner))

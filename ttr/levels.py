@@ -36,7 +36,20 @@ def level_of(value: Object) -> int:
     >>> level_of(Ind), level_of(RecType), level_of(rectype(T=Universe("Type", 1)))
     (0, 1, 2)
     """
+    if not isinstance(value, TypeNode):
+        return _level(value)
+    try:
+        return value._level
+    except AttributeError:
+        found = _level(value)
+    object.__setattr__(value, "_level", found)
+    return found
+
+
+def _level(value: Object) -> int:
     if isinstance(value, Universe):
         return value.level + 1
+    if type(value) is str:
+        return 0
     same, inner = parts(value)
     return max(map(level_of, (*same, *inner)), default=0)

@@ -83,9 +83,12 @@ class TypeNode(Node):
     functions from S to T, `T @ a` a singleton; `S <= T` asks for subtyping.
     """
 
-    __slots__ = ("_escaping",)
+    __slots__ = ("_applies", "_escaping", "_level")
 
+    # What was worked out of it once, by `ttr.paths`, `ttr.judging` and `ttr.levels`.
+    _applies: bool
     _escaping: frozenset[Path]
+    _level: int
 
     def __le__(self, other: object) -> bool:
         from ttr.subtyping import subtype

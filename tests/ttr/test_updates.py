@@ -4,6 +4,7 @@ import pytest
 
 from ttr import (
     Basic,
+    Endless,
     Ind,
     ListOf,
     Model,
@@ -118,10 +119,22 @@ def test_a_repetition_without_progress():
 def test_a_repetition_without_end():
     circle = first(at_three, up)
     with pytest.raises(
-        UpdateError, match="after 50 rounds; the last rules: at_three, up, up"
-    ) as caught:
+        Endless, match="goes in a circle: up → up → up → at_three → up"
+    ):
         play(repeat(circle, times=50))
-    assert "did not end" in str(caught.value)
+
+
+def test_a_repetition_that_goes_on_and_on():
+    @rule(when=Counter)
+    def longer(s):
+        return replace(s, log=[*s.log, "a"])
+
+    with pytest.raises(Endless, match="after 50 rounds; the last rules: longer, long"):
+        play(repeat(longer, times=50))
+    with pytest.raises(Endless, match="did not end after 1000 rounds"):
+        play(repeat(longer))
+    with pytest.raises(Endless, match="log should get smaller .* from 0 to 1"):
+        play(repeat(longer, measure="log"))
 
 
 def test_events_are_played_once_and_in_order():

@@ -1,0 +1,60 @@
+"""Information-state update: rules, strategies as values, runs with a trace, games.
+
+A rule has a precondition, a record type, and an effect, a pure function or a type. A
+strategy combines rules: `first`, `all_`, `maybe`, `repeat`, `seq`, `by_class`, `ask`.
+`run` plays events through a strategy and checks the state against its declared type
+after every rule; a `Game` is what is needed to play whole dialogues.
+"""
+
+from ttr.updates.algorithms import (
+    Algorithm,
+    All,
+    Ask,
+    ByClass,
+    First,
+    Maybe,
+    Repeat,
+    Seq,
+    all_,
+    ask,
+    by_class,
+    first,
+    maybe,
+    repeat,
+    rules_of,
+    seq,
+)
+from ttr.updates.games import Game, Turn
+from ttr.updates.nbest import NBest, nbest
+from ttr.updates.rules import Body, Rule, rule, update
+from ttr.updates.running import Run, Step, run
+
+__all__ = [
+    "Algorithm",
+    "All",
+    "Ask",
+    "Body",
+    "ByClass",
+    "First",
+    "Game",
+    "Maybe",
+    "NBest",
+    "Repeat",
+    "Rule",
+    "Run",
+    "Seq",
+    "Step",
+    "Turn",
+    "all_",
+    "ask",
+    "by_class",
+    "first",
+    "maybe",
+    "nbest",
+    "repeat",
+    "rule",
+    "rules_of",
+    "run",
+    "seq",
+    "update",
+]

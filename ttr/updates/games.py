@@ -1,0 +1,238 @@
+"""A game: an information-state type, its rules, where it starts, and how it is played.
+
+Each turn takes an event from outside and then makes the moves that the rules have put
+on the agenda, as in Cooper 2023: the first type on it is created, and the event of
+having made the move is taken by the rules like any other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from ttr.errors import Endless, NotHeard, TTRError, UpdateError, suggestion
+from ttr.judgements import Judgement
+from ttr.models import Model, as_model
+from ttr.printing import notation
+from ttr.probability import REFUTED
+from ttr.syntax import Object, Record, RecordType, TypeNode, freeze, kind_of
+from ttr.theories import Theory
+from ttr.updates.algorithms import Algorithm, checked, rules_of
+from ttr.updates.nbest import NBest
+from ttr.updates.rules import Rule
+from ttr.updates.running import Run, Step, check_state, run
+
+__all__ = ["Act", "Game", "Turn"]
+
+Act: TypeAlias = Callable[[TypeNode, Model], tuple[Object, Model]]
+"""Makes a move of a type: the event, and the model that has it."""
+
+MOVES = 100
+"""How many moves of its own a turn may have."""
+
+
+@dataclass(frozen=True, eq=False)
+class Turn:
+    """A turn: what happened, what was said in answer, and the run that it was.
+
+    `event` is what was given, `heard` the object that was played, None where nothing
+    happened; `said` are the own moves, in order, each as a judgement of the planned
+    type. The run has the state and the model after the turn, and its steps only.
+    """
+
+    event: object
+    heard: Object | NBest
+    said: tuple[Judgement, ...]
+    run: Run
+
+    @property
+    def state(self) -> Record:
+        """The state after the turn."""
+        return self.run.state
+
+    @property
+    def model(self) -> Model:
+        """The model after the turn."""
+        return self.run.model
+
+    @property
+    def trace(self) -> tuple[Step, ...]:
+        """The rules of this turn."""
+        return self.run.trace
+
+    def __str__(self) -> str:
+        happened = "nothing" if self.heard is None else _shown(self.heard)
+        lines = [f"> {happened}", *map(str, self.trace)]
+        return "\n".join([*lines, *(f"< {move}" for move in self.said)])
+
+
+@dataclass(frozen=True, eq=False)
+class Game:
+    """A dialogue theory that can be played: a state type, a start, and an algorithm.
+
+    `agenda` is the path of the list of types of the moves to be made next, if the game
+    makes any. `hears` are the types of the events from outside; where it is empty they
+    are those that any rule takes. `act` makes a planned move; else an event of its type
+    is created. A game with a language reads texts by `hear` and words its moves by
+    `say`. Raises `UpdateError` where the start is no state.
+
+    >>> from ttr.theories import Theory
+    >>> from ttr.updates import first, update
+    >>> fetch = Theory.parse(r'''
+    ...     basic Ind
+    ...     object h, s : Ind
+    ...     pred pick_up(Ind, Ind)
+    ...     Picking := [e : pick_up(h, s)]
+    ...     Board := [agenda : list(RecType)]
+    ...     Idle := [agenda = [] : list(RecType)]
+    ...     Busy := [agenda = [Picking] : list(RecType)]
+    ...     plan := \\r:Idle. Busy
+    ...     done := \\r:Busy. \\e:Picking. Idle
+    ... ''')
+    >>> rules = first(update(fetch.done, "done"), update(fetch.plan, "plan"))
+    >>> game = Game("fetch", fetch.Board, {"agenda": []}, rules, Model(fetch), "agenda")
+    >>> print(game.take(game.begin(), None))
+    > nothing
+    plan
+      agenda: + [e : pick_up(h, s)]
+    done
+      agenda: − [e : pick_up(h, s)]
+    < {e = s1} : [e : pick_up(h, s)]
+    """
+
+    name: str
+    type: RecordType
+    start: Record
+    algorithm: Algorithm
+    model: Model = field(default_factory=Model)
+    agenda: str | None = None
+    hears: tuple[TypeNode, ...] = ()
+    act: Act | None = None
+    hear: Callable[[str], object] | None = None
+    say: Callable[[Judgement], str] | None = None
+    theory: Theory | None = None
+
+    def __post_init__(self) -> None:
+        checked("a game", (self.algorithm,))
+        as_model(self.model)
+        object.__setattr__(self, "start", freeze(self.start))
+        check_state(self.start, self.type, self.model, "at the start")
+        if self.agenda is not None:
+            self._planned(self.start)
+
+    @property
+    def rules(self) -> tuple[Rule, ...]:
+        """The rules, each once, in the order in which the algorithm has them."""
+        return rules_of(self.algorithm)
+
+    def begin(self) -> Run:
+        """The start of a dialogue."""
+        return Run(self.start, self.model, ())
+
+    def take(self, so_far: Run, event: object = None) -> Turn:
+        """One turn: the event, then the moves on the agenda.
+
+        The event is an object, an `NBest`, or a type, of which one is created; None if
+        nothing happens. Raises `NotHeard` for an
+        event of which no rule could take anything, and as `run` does; then nothing is
+        changed.
+        """
+        happened, model = self._event(event, so_far.model)
+        events = () if happened is None else (happened,)
+        after = self._run(Run(so_far.state, model, ()), events)
+        said: list[Judgement] = []
+        while planned := self._planned(after.state):
+            if len(said) >= MOVES:
+                raise Endless(f"the agenda is not empty after {MOVES} moves in a turn")
+            move, model = self._made(planned[0], after.model)
+            following = self._run(after._replace(model=model), (move,))
+            if len(following.trace) == len(after.trace):
+                raise Endless(
+                    f"no rule takes the move {planned[0]}, so it stays on the agenda",
+                    hint="write a rule that takes it off when it has been made",
+                )
+            said.append(model.judge(move, planned[0]))
+            after = following
+        return Turn(event, happened, tuple(said), after)
+
+    def play(self, events: Iterable[object]) -> tuple[Turn, ...]:
+        """The turns of a dialogue from the start."""
+        turns: list[Turn] = []
+        so_far = self.begin()
+        for event in events:
+            turns.append(self.take(so_far, event))
+            so_far = turns[-1].run
+        return tuple(turns)
+
+    def _run(self, so_far: Run, events: Iterable[object]) -> Run:
+        state, model, trace = so_far
+        after = run(self.algorithm, state, type=self.type, model=model, events=events)
+        return after._replace(trace=trace + after.trace)
+
+    # --- events ---
+
+    def _event(self, event: object, model: Model) -> tuple[Object | NBest, Model]:
+        """What happens, as an object, in a model in which it does."""
+        if isinstance(event, NBest):
+            return self._alternatives(event, model)
+        if isinstance(event, TypeNode):
+            event, model = model.create(event)
+        happened = freeze(event)
+        self._check_heard(happened, model)
+        return happened, model
+
+    def _alternatives(self, event: NBest, model: Model) -> tuple[NBest, Model]:
+        """The alternatives as objects; those given as types are created."""
+        made: list[tuple[Object, float]] = []
+        for one, p in event:
+            if isinstance(one, TypeNode):
+                one, model = model.create(one)
+            self._check_heard(one, model)
+            made.append((one, p))
+        return NBest(tuple(made)), model
+
+    def _check_heard(self, event: Object, model: Model) -> None:
+        """Refuses an event that no rule could take anything of."""
+        if event is None:
+            return
+        types = self.hears or tuple(
+            dict.fromkeys(rule.on for rule in self.rules if rule.on is not None)
+        )
+        if any(model.judge(event, T).p != REFUTED for T in types):
+            return
+        wanted = " or ".join(map(str, types)) or "none at all"
+        raise NotHeard(
+            f"{notation(event)} is no event that the game {self.name} takes: expected "
+            f"{wanted}"
+        )
+
+    # --- own moves ---
+
+    def _planned(self, state: Record) -> tuple[TypeNode, ...]:
+        """The types of the moves to be made."""
+        if self.agenda is None:
+            return ()
+        try:
+            planned = state[self.agenda]
+        except (KeyError, TTRError):
+            raise UpdateError(
+                f"the game {self.name} acts on {self.agenda}, which its state lacks",
+                hint=suggestion(self.agenda, state),
+            ) from None
+        if isinstance(planned, tuple) and all(
+            isinstance(one, TypeNode) for one in planned
+        ):
+            return planned
+        raise UpdateError(
+            f"an agenda is a list of types, but {self.agenda} is {kind_of(planned)}"
+        )
+
+    def _made(self, planned: TypeNode, model: Model) -> tuple[Object, Model]:
+        if self.act is not None:
+            return self.act(planned, model)
+        return model.create(planned)
+
+
+def _shown(event: Object | NBest) -> str:
+    return str(event) if isinstance(event, NBest) else notation(event)

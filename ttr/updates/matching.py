@@ -1,0 +1,75 @@
+"""Finding what a rule binds: what `where` asks of state, event and model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from ttr.certainty import certainly
+from ttr.errors import Refused
+from ttr.judging import reduced
+from ttr.models import Model
+from ttr.objects import Unresolved
+from ttr.substitution import grounded
+from ttr.syntax import Object, PType, RecordType, Singleton, TypeNode
+
+__all__ = ["Found", "found"]
+
+Found = tuple[Mapping[str, Object], Model]
+"""The bindings, and the model that has the situations seen for them."""
+
+
+def found(
+    where: RecordType, variables: Mapping[str, Object], model: Model
+) -> Found | None:
+    """What the fields of `where` are bound to, so that each is certainly of its type.
+
+    A manifest field is worked out; another one is the first known object of its type
+    with which the later fields come out, too. What a witness function says yes to, and
+    nothing is known to be, gets a fresh situation.
+    """
+    return _found(where.fields, {}, variables, model)
+
+
+def _found(
+    fields: tuple[tuple[str, TypeNode], ...],
+    bound: Mapping[str, Object],
+    variables: Mapping[str, Object],
+    model: Model,
+) -> Found | None:
+    if not fields:
+        return bound, model
+    (label, field), *rest = fields
+    for value, extended in _candidates(field, bound, variables, model):
+        whole = _found(tuple(rest), {**bound, label: value}, variables, extended)
+        if whole is not None:
+            return whole
+    return None
+
+
+def _candidates(
+    field: TypeNode,
+    bound: Mapping[str, Object],
+    variables: Mapping[str, Object],
+    model: Model,
+) -> Iterable[tuple[Object, Model]]:
+    try:
+        T = grounded(field, (bound, variables))
+        if isinstance(T, Singleton):
+            value = reduced(model.facts, T.value)
+            return [(value, model)] if certainly(model.facts, value, T.base) else []
+        T = reduced(model.facts, T)
+        known = [(one, model) for one in model.witnesses(T)]
+        return known or _seen(T, model)
+    except (Unresolved, Refused):
+        return []
+
+
+def _seen(T: TypeNode, model: Model) -> Iterable[tuple[Object, Model]]:
+    """A fresh situation of a ptype that a witness function is certain of."""
+    if not isinstance(T, PType) or T.pred not in model.facts.functions:
+        return []
+    try:
+        seen, extended = model.create(T)
+    except Refused:
+        return []
+    return [(seen, extended)] if certainly(extended.facts, seen, T) else []

@@ -1,0 +1,277 @@
+"""Rules of information-state update: a condition, an event, bindings and an effect."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from ttr.errors import Span, TTRError, UpdateError
+from ttr.judging import reduced
+from ttr.models import Model
+from ttr.paths import escaping, replace_paths
+from ttr.probability import CERTAIN, Degree, degree
+from ttr.substitution import grounded
+from ttr.syntax import (
+    BOUND,
+    Function,
+    Object,
+    Path,
+    RecordType,
+    TypeNode,
+    kind_of,
+)
+
+__all__ = ["Body", "Effect", "Rule", "rule", "update"]
+
+Effect: TypeAlias = Callable[..., object]
+
+EXTRAS = ("model", "p", "nbest")
+"""What an effect may ask for by name besides the bindings."""
+
+
+@dataclass(frozen=True)
+class Rule:
+    """An update rule: where `when` holds of the state, `effect` gives the next one.
+
+    A rule with `on` takes an event of that type, as probable as `p` says; one without
+    is tacit. `where` binds names to what the state, the event and the model have, and
+    the rule applies only where all of it is found. `gives` is what the next state is
+    of, `kind` the rule's class, `doc` what the rule is for. `takes` are the bindings
+    and other things that the effect asks for by name, `names` what it calls the state
+    and the event; `text` is what was written, from the rule's name on, in a file. Built
+    by `rule`, `update` or a theory file.
+    """
+
+    name: str
+    effect: Effect
+    when: RecordType
+    on: TypeNode | None = None
+    where: RecordType | None = None
+    gives: RecordType | None = None
+    kind: str = ""
+    p: Degree = CERTAIN
+    takes: frozenset[str] = frozenset()
+    names: tuple[str, ...] = ("s", "e")
+    doc: str = ""
+    span: Span | None = None
+    text: str = ""
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True)
+class Body:
+    """An effect written in the notation: a type or a record, with paths to variables.
+
+    In `value` the paths that lead out of it begin with the name of the state, of the
+    event or of a binding. It is called as a Python effect is, with all of them.
+    """
+
+    value: Object
+    names: tuple[str, ...]
+
+    def __call__(self, *args: Object, model: Model, **bound: Object) -> Object:
+        """The type or record for a state, an event and bindings."""
+        around = {**dict(zip(self.names, args, strict=False)), **bound}
+        return reduced(model.facts, grounded(self.value, (around,)))
+
+
+def rule(
+    *,
+    when: RecordType,
+    on: TypeNode | None = None,
+    where: RecordType | None = None,
+    gives: RecordType | None = None,
+    kind: str = "",
+    p: object = CERTAIN,
+) -> Callable[[Effect], Rule]:
+    """Makes a rule of a function of the state, and of the event if the rule has one.
+
+    The function may ask by name for what `where` binds, for the `model`, and for the
+    probability `p` of the event and its alternatives `nbest`. It gives the next state,
+    or a pair of state and model when it adds facts, or a record type, as in the
+    literature: then the next state is of the asymmetric merge of the state's own type
+    with it. It gives None where it does not apply after all. Raises `UpdateError` where
+    `when`, `on`, `where` or `gives` is no such type, or the function's parameters are
+    others.
+
+    The fields of `where` lead to the function's parameters by their names, one record
+    further out: `outer.s.qud` where the state is called `s`.
+
+    >>> from ttr.constructors import rectype
+    >>> from ttr.records import replace
+    >>> from ttr.syntax import Ind, outer, record
+    >>> from ttr.updates import run
+    >>> Board = rectype(spkr=Ind, addr=Ind)
+    >>> @rule(when=Board, where=rectype(other=Ind @ outer.s.addr))
+    ... def take_turn(s, other):
+    ...     "Who was spoken to speaks."
+    ...     return replace(s, spkr=other, addr=s.spkr)
+    >>> M = Model().given("a", Ind).given("b", Ind)
+    >>> state = record(spkr="a", addr="b")
+    >>> after, M, trace = run(take_turn, state, type=Board, model=M)
+    >>> print(after)
+    {addr = a, spkr = b}
+    >>> print(trace[0])
+    take_turn: Who was spoken to speaks.
+      with other = b
+      addr: b → a
+      spkr: a → b
+    """
+    if not isinstance(when, RecordType):
+        raise UpdateError(f"the condition of a rule is a record type, found {when!r}")
+    if on is not None and not isinstance(on, TypeNode):
+        raise UpdateError(f"the event of a rule is of a type, found {on!r}")
+    for role, found in (("bindings", where), ("target", gives)):
+        if found is not None and not isinstance(found, RecordType):
+            raise UpdateError(
+                f"the {role} of a rule are a record type, found {found!r}"
+            )
+    if not isinstance(kind, str):
+        raise UpdateError(f"the kind of a rule is a word, found {kind!r}")
+    certain = _certainty(p)
+
+    def made(effect: Effect) -> Rule:
+        if not callable(effect):
+            raise UpdateError(f"a rule is made of a function, found {effect!r}")
+        name = getattr(effect, "__name__", "rule")
+        names, takes = _parameters(name, effect, on is not None, where)
+        return Rule(
+            name,
+            effect,
+            when,
+            on=on,
+            where=where,
+            gives=gives,
+            kind=kind,
+            p=certain,
+            takes=takes,
+            names=names,
+            doc=inspect.getdoc(effect) or "",
+            span=_written_at(effect),
+        )
+
+    return made
+
+
+def _certainty(p: object) -> Degree:
+    """A number as how probable at least, a pair as an interval."""
+    try:
+        found = degree(p, "the probability of a rule's event")
+    except TTRError as error:
+        raise UpdateError(error.message) from None
+    plain = not isinstance(p, tuple | list)
+    return Degree(found.lo, 1.0) if plain else found
+
+
+def _parameters(
+    name: str, effect: Effect, has_event: bool, where: RecordType | None
+) -> tuple[tuple[str, ...], frozenset[str]]:
+    """The names of state and event, and what the effect asks for besides."""
+    asked = list(inspect.signature(effect).parameters)
+    extras = {*EXTRAS, *(where or ())}
+    plain = tuple(parameter for parameter in asked if parameter not in extras)
+    wanted = 1 + has_event
+    if len(plain) != wanted:
+        roles = "the state and the event" if has_event else "the state"
+        raise UpdateError(
+            f"the rule {name} takes {roles}, and model by that name, "
+            f"but its parameters are ({', '.join(asked)})"
+        )
+    return plain, frozenset(asked).difference(plain)
+
+
+def _written_at(effect: Effect) -> Span | None:
+    """The line of the function's name, where its source can be had."""
+    code = getattr(effect, "__code__", None)
+    if code is None:
+        return None
+    try:
+        lines, first = inspect.getsourcelines(effect)
+    except (OSError, TypeError):
+        return None
+    for number, line in enumerate(lines):
+        column = line.find(f"def {code.co_name}")
+        if column >= 0:
+            column += len("def ")
+            length = len(code.co_name)
+            text = line.rstrip("\n")
+            return Span(code.co_filename, first + number, column + 1, length, text)
+    return None
+
+
+def update(
+    function: Object,
+    /,
+    name: str = "update",
+    *,
+    where: RecordType | None = None,
+    gives: RecordType | None = None,
+    kind: str = "",
+    p: object = CERTAIN,
+    doc: str = "",
+    span: Span | None = None,
+) -> Rule:
+    r"""The rule of an update function (S → (E → T)), or of a tacit one (S → T).
+
+    If the state is of S and the event of E, the next state is of the asymmetric merge
+    of the state's own type with T. Raises `UpdateError` for what is no such function.
+    Source: Cooper 2023, chapter 2.
+
+    >>> from ttr.theories import Theory
+    >>> from ttr.syntax import record
+    >>> from ttr.updates import run
+    >>> board = Theory.parse('''
+    ...     basic Ind
+    ...     object a, b : Ind
+    ...     Board := [spkr : Ind, addr : Ind]
+    ...     turn := \\s:Board. [spkr = s.addr : Ind, addr = s.spkr : Ind]
+    ... ''')
+    >>> start = record(spkr="a", addr="b")
+    >>> run(update(board.turn), start, type=board.Board, model=Model(board)).state
+    record(addr='a', spkr='b')
+    """
+    if not isinstance(function, Function):
+        raise UpdateError(
+            f"an update is a function of states, found {kind_of(function)}"
+        )
+    if not isinstance(function.domain, RecordType):
+        raise UpdateError(
+            f"an update is a function of states, records, found {function}"
+        )
+    names, on, inside = [function.hint], None, function.body
+    if isinstance(inside, Function):
+        if escaping(inside.domain):
+            raise UpdateError(f"the event's type depends on the state in {function}")
+        on = inside.domain
+        names.append(inside.hint + "_" * (inside.hint == function.hint))
+        inside = inside.body
+    return Rule(
+        name,
+        Body(_with_names(inside, names), tuple(names)),
+        function.domain,
+        on=on,
+        where=where,
+        gives=gives,
+        kind=kind,
+        p=_certainty(p),
+        takes=frozenset(("model", *(where or ()))),
+        names=tuple(names),
+        doc=doc,
+        span=span,
+    )
+
+
+def _with_names(value: Object, names: list[str]) -> Object:
+    """The body of a function of these variables with their names in place of them."""
+
+    def at(path: Path) -> Object:
+        first, *rest = path.labels
+        if first != BOUND:
+            raise UpdateError(f"the path {path} leads out of the function")
+        return Path(0, (names[-1 - path.up], *rest))
+
+    return replace_paths(value, at)

@@ -1,0 +1,387 @@
+"""Running an update algorithm: events through rules, each state checked, with a trace.
+
+The state is checked against its declared type after every rule, so that a rule that
+fails, or a state that leaves its type, changes nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from time import perf_counter
+from typing import NamedTuple
+
+from ttr.certainty import certainly
+from ttr.errors import Endless, NoState, RuleFailed, TTRError, UpdateError
+from ttr.judgements import Judgement
+from ttr.models import Model
+from ttr.paths import escaping
+from ttr.printing import notation
+from ttr.probability import Degree
+from ttr.records import differences
+from ttr.syntax import (
+    FiniteSet,
+    Object,
+    Record,
+    RecordType,
+    TypeNode,
+    freeze,
+    kind_of,
+)
+from ttr.updates.algorithms import (
+    Algorithm,
+    All,
+    Ask,
+    ByClass,
+    First,
+    Maybe,
+    Measure,
+    Repeat,
+    Seq,
+    checked,
+)
+from ttr.updates.matching import found
+from ttr.updates.nbest import Heard, NBest, heard
+from ttr.updates.rules import Rule
+from ttr.updates.settling import settled
+
+__all__ = ["Run", "Step", "check_state", "run"]
+
+ROUNDS = 1000
+"""How often anything is repeated at most, if nothing else is said."""
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """One rule that was applied: to what, what it bound, and what it changed.
+
+    `event` is what the rule took of what happened, with probability `p`; `created` are
+    the paths of what the rule only typed and had to be made up; `seconds` is how long
+    it took.
+    """
+
+    rule: Rule
+    event: Object
+    p: Degree
+    bindings: Mapping[str, Object]
+    before: Record
+    after: Record
+    created: tuple[str, ...]
+    seconds: float
+    model: Model
+
+    @cached_property
+    def licence(self) -> Judgement:
+        """The judgement that allowed the rule: that the state was of its condition."""
+        return self.model.judge(self.before, self.rule.when)
+
+    @cached_property
+    def changes(self) -> tuple[str, ...]:
+        """The differences between the states, path by path."""
+        return tuple(differences(self.before, self.after))
+
+    def __str__(self) -> str:
+        doc = self.rule.doc.split("\n")[0]
+        lines = [f"{self.rule.name}: {doc}" if doc else self.rule.name]
+        if self.p.lo < 1.0:
+            lines.append(f"  on {notation(self.event)}   p = {self.p}")
+        lines += [f"  with {k} = {notation(v)}" for k, v in self.bindings.items()]
+        for change in self.changes:
+            path = change.partition(":")[0]
+            made = any(_is_within(path, one) for one in self.created)
+            lines.append(f"  {change}" + "   (created)" * made)
+        return "\n".join(lines)
+
+
+def _is_within(path: str, outer: str) -> bool:
+    return path == outer or path.startswith(f"{outer}.")
+
+
+class Run(NamedTuple):
+    """The state and the model after a run, and the steps that led there."""
+
+    state: Record
+    model: Model
+    trace: tuple[Step, ...]
+
+
+def run(
+    algorithm: Algorithm,
+    state: Record,
+    *,
+    type: RecordType,
+    model: Model,
+    events: Iterable[object] = (),
+) -> Run:
+    """Plays the events through the algorithm, or runs it once where there are none.
+
+    An event that nothing applies to leaves the state as it is. Raises `UpdateError`:
+    `NoState` where the state is not of its type before the first or after any rule,
+    `RuleFailed` where a rule fails, `Endless` where a repetition does not end; the
+    caller's state and model stay what they were.
+    """
+    checked("run", (algorithm,))
+    if isinstance(events, str | NBest):
+        raise UpdateError(f"events are a list of objects, found the one {events!r}")
+    if not isinstance(events, Iterable):
+        raise UpdateError(f"events are a list of objects, found {kind_of(events)}")
+    if not isinstance(model, Model):
+        raise UpdateError(f"a run is in a model, found {kind_of(model)}")
+    state = freeze(state)
+    played = [one if isinstance(one, NBest) else freeze(one) for one in events]
+    check_state(state, type, model, "before the first rule")
+    trace: list[Step] = []
+    for event in played or (None,):
+        after = _Player(type, event).play(algorithm, Run(state, model, ()))
+        if after is not None:
+            state, model = after.state, after.model
+            trace += after.trace
+    return Run(state, model, tuple(trace))
+
+
+# --- states --------------------------------------------------------------------------
+
+
+def check_state(state: Object, type: RecordType, model: Model, when: str) -> None:
+    """Refuses what is not certainly a state of its type, and says where it fails."""
+    if not isinstance(type, RecordType):
+        raise UpdateError(f"the type of a state is a record type, found {type!r}")
+    if not isinstance(state, Record):
+        raise NoState(f"{when} the state is no record, but {notation(state)}")
+    if certainly(model.facts, state, type):
+        return
+    why = model.judge(state, type).why
+    failed = why.failure()
+    if failed is not None:
+        claim = f"{notation(failed.sit)} : {failed.type}, {failed.because}"
+        raise NoState(f"{when} the state is not of its type, at {why.path()}: {claim}")
+
+
+def _still_of(before: Record, after: Record, T: RecordType, model: Model) -> bool:
+    """Whether a record is of T where another one is, in the same model.
+
+    What is the same object in both, and of a type that mentions nothing else, need not
+    be judged again.
+    """
+    was, found = before._fields, after._fields
+    for label, field in T.fields:
+        if label not in found or escaping(field):
+            return False
+        value, old = found[label], was[label]
+        if value is old:
+            continue
+        if not _part_still_of(old, value, field, model):
+            return False
+    return True
+
+
+def _part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> bool:
+    match was, found, T:
+        case Record(), Record(), RecordType():
+            return _still_of(was, found, T, model)
+    return certainly(model.facts, found, T)
+
+
+# --- playing -------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Player:
+    """Plays one event; its methods give the run so far, or None if nothing applies."""
+
+    type: RecordType
+    event: Object | NBest
+
+    def play(self, algorithm: Algorithm, so_far: Run) -> Run | None:
+        match algorithm:
+            case Rule():
+                return self._apply(algorithm, so_far)
+            case First(parts):
+                tried = (self.play(part, so_far) for part in parts)
+                return next((after for after in tried if after is not None), None)
+            case All(parts):
+                return self._each(parts, so_far)
+            case ByClass(classes):
+                return self._each([r for _, rules in classes for r in rules], so_far)
+            case Seq(parts):
+                return self._in_turn(parts, so_far)
+            case Maybe(part):
+                return self.play(part, so_far) or so_far
+            case Repeat():
+                return self._again(algorithm, so_far)
+            case Ask():
+                return self._chosen(algorithm, so_far)
+
+    def _each(self, parts: Sequence[Algorithm], so_far: Run) -> Run | None:
+        current = so_far
+        for part in parts:
+            current = self.play(part, current) or current
+        return None if current is so_far else current
+
+    def _in_turn(self, parts: Sequence[Algorithm], so_far: Run) -> Run | None:
+        current: Run | None = so_far
+        for part in parts:
+            if current is None:
+                return None
+            current = self.play(part, current)
+        return current
+
+    def _chosen(self, asked: Ask, so_far: Run) -> Run | None:
+        tried = [(part, self.play(part, so_far)) for part in asked.parts]
+        able = [(str(part), after) for part, after in tried if after is not None]
+        if not able:
+            return None
+        index = asked.choose([name for name, _ in able], so_far.state)
+        if index is None:
+            return None
+        if type(index) is not int or not 0 <= index < len(able):
+            raise UpdateError(
+                f"what chooses gives an index below {len(able)}, or None, but gave "
+                f"{index!r}"
+            )
+        return able[index][1]
+
+    def _again(self, repeat: Repeat, so_far: Run) -> Run | None:
+        current, rounds = so_far, 0
+        seen = {so_far.state: 0}
+        while True:
+            following = self.play(repeat.part, current)
+            if following is None:
+                return None if rounds == 0 else current
+            if following is current:
+                return current
+            rounds += 1
+            self._check_progress(repeat, current, following, rounds)
+            if following.model is not so_far.model:
+                seen = {}
+            elif following.state in seen:
+                self._refuse_circle(following, len(so_far.trace), seen)
+            seen[following.state] = len(following.trace)
+            current = following
+
+    def _check_progress(
+        self, repeat: Repeat, before: Run, after: Run, rounds: int
+    ) -> None:
+        if rounds > (repeat.times or ROUNDS):
+            last = ", ".join(str(step.rule) for step in before.trace[-3:])
+            raise Endless(
+                f"a repetition did not end after {rounds - 1} rounds; the last rules: "
+                f"{last}"
+            )
+        if repeat.measure is None:
+            return
+        had, has = (_measured(repeat.measure, one.state) for one in (before, after))
+        if not 0 <= has < had:
+            named = repeat.measure if isinstance(repeat.measure, str) else "the measure"
+            raise Endless(
+                f"{named} should get smaller each time {repeat.part} is repeated, but "
+                f"{after.trace[-1].rule} took it from {had:g} to {has:g}"
+            )
+
+    def _refuse_circle(self, run: Run, start: int, seen: Mapping[Record, int]) -> None:
+        steps = run.trace[max(start, seen[run.state]) :]
+        names = [str(step.rule) for step in steps]
+        if len(names) == 1 and run.trace[-1].before == run.state:
+            raise Endless(
+                f"{names[0]} is repeated without changing anything",
+                hint="let its precondition fail once its work is done",
+            )
+        raise Endless(
+            f"a repetition goes in a circle: {' → '.join([*names, names[0]])}",
+            hint="let a precondition fail once the work is done",
+        )
+
+    # --- one rule ---
+
+    def _apply(self, rule: Rule, so_far: Run) -> Run | None:
+        start = perf_counter()
+        state, model, trace = so_far
+        event = self._heard(rule, model)
+        if event is None or not self._holds(rule.when, state, model):
+            return None
+        bound = self._bound(rule, state, event, model)
+        if bound is None:
+            return None
+        bindings, model = bound
+        effect = self._effect(rule, state, event, bindings, model)
+        if effect is None:
+            return None
+        after = settled(rule, effect, state, model)
+        self._check(rule, so_far, after.state, after.model)
+        step = Step(
+            rule,
+            event.event,
+            event.p,
+            bindings,
+            state,
+            after.state,
+            after.created,
+            perf_counter() - start,
+            so_far.model,
+        )
+        return Run(after.state, after.model, (*trace, step))
+
+    def _heard(self, rule: Rule, model: Model) -> Heard | None:
+        if rule.on is None:
+            plain = None if isinstance(self.event, NBest) else self.event
+            return Heard(plain, Degree(1.0, 1.0))
+        if self.event is None:
+            return None
+        return heard(self.event, rule.on, rule.p, model)
+
+    def _holds(self, when: TypeNode, state: Record, model: Model) -> bool:
+        return when is self.type or certainly(model.facts, state, when)
+
+    def _bound(
+        self, rule: Rule, state: Record, event: Heard, model: Model
+    ) -> tuple[Mapping[str, Object], Model] | None:
+        if rule.where is None:
+            return {}, model
+        variables = dict(zip(rule.names, (state, event.event), strict=False))
+        with _failing(rule):
+            return found(rule.where, variables, model)
+
+    def _effect(
+        self,
+        rule: Rule,
+        state: Record,
+        event: Heard,
+        bindings: Mapping[str, Object],
+        model: Model,
+    ) -> object:
+        args = (state,) if rule.on is None else (state, event.event)
+        extras = {"model": model, "p": event.p, "nbest": self.event, **bindings}
+        asked = {name: extras[name] for name in rule.takes}
+        with _failing(rule):
+            return rule.effect(*args, **asked)
+
+    def _check(self, rule: Rule, so_far: Run, after: Record, model: Model) -> None:
+        same = model is so_far.model
+        if not same or not _still_of(so_far.state, after, self.type, model):
+            check_state(after, self.type, model, f"after {rule}")
+        if rule.gives is not None:
+            check_state(after, rule.gives, model, f"after {rule}, by what it gives,")
+
+
+@contextmanager
+def _failing(rule: Rule) -> Iterator[None]:
+    """Turns what goes wrong inside into one line about the rule."""
+    try:
+        yield
+    except TTRError as error:
+        raise RuleFailed(f"the rule {rule} failed: {error}") from error
+    except Exception as error:
+        fault = f"{error.__class__.__name__}: {error}"
+        raise RuleFailed(f"the rule {rule} failed: {fault}") from error
+
+
+def _measured(measure: Measure, state: Record) -> float:
+    """The number that a measure is of a state: a list's length, or a number."""
+    value = state[measure] if isinstance(measure, str) else measure(state)
+    if isinstance(value, list | tuple | FiniteSet):
+        return len(value)
+    if isinstance(value, int | float):
+        return value
+    raise UpdateError(f"a measure is a list or a number, found {kind_of(value)}")
