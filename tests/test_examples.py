@@ -108,7 +108,19 @@ KEY_LINES = {
         "a game is two by two: no",
         "a round and then any: True",
     ],
-    "10_first_words.py": [
+    "09_a_game_of_fetch.py": [
+        "The dog attends: the stick is to be thrown.",
+        "begin: Nothing is going on: the human is to pick up the stick.",
+        ": [e : pick_up(human, stick)]!   "
+        "{e = s1} : [e : pick_up(human, stick)]   p = 1",
+        "human: {e = s3} : [e : throw(human, stick)]",
+        "dog: {e = s4} : [e : run_after(dog, stick)]",
+        "dog: {e = s6} : [e : bring(dog, stick, human)]",
+        "boards agree: True",
+        "before the first rule the state is not of its type, at agenda: "
+        "stone : RecType, it is no type",
+    ],
+    "12_first_words.py": [
         "S> OK, I learned a cup.",
         "S> OK, I learned a book.",
         "S> This is a cup.",

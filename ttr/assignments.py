@@ -41,6 +41,9 @@ WitnessFunction = Callable[..., object]
 Facts: TypeAlias = Map[Atom, Degree]
 """What one object is judged to be of, and how probably."""
 
+Bound: TypeAlias = tuple[float, str]
+"""A probability that another one cannot pass, and what says so."""
+
 
 _EMPTY: Map[Any, Any] = Map()
 
@@ -79,8 +82,7 @@ class Assignment:
         told = facts.get(T)
         if told in (CERTAIN, REFUTED):
             return told, "given"
-        least, lower = self._bound_below(facts, sit, T)
-        most, upper = self._bound_above(facts, sit, T)
+        (least, lower), (most, upper) = self._bounds(facts, sit, T)
         if told is None and isinstance(T, Basic) and perceptual:
             told = self.perceived(sit, T) or UNKNOWN
             rule = f"by the witness function of {T}"
@@ -249,16 +251,15 @@ class Assignment:
                     f"{notation(sit)} : {T} is refused by the witness function of "
                     f"{head(kind).name}"
                 )
-        lower = self._bound_below(facts, sit, T)
-        self._within(sit, T, p, lower, self._bound_above(facts, sit, T))
+        self._within(sit, T, p, *self._bounds(facts, sit, T))
 
     def _within(
         self,
         sit: Object,
         T: Atom,
         p: Degree,
-        lower: tuple[float, str],
-        upper: tuple[float, str],
+        lower: Bound,
+        upper: Bound,
     ) -> Degree:
         """The degree within the bounds that axioms set; `Refused` if it is outside."""
         lo, hi = max(p.lo, lower[0]), min(p.hi, upper[0])
@@ -275,7 +276,13 @@ class Assignment:
 
     # --- what axioms say -----------------------------------------------------------
 
-    def _bound_below(self, facts: Facts, sit: Object, T: Atom) -> tuple[float, str]:
+    def _bounds(self, facts: Facts, sit: Object, T: Atom) -> tuple[Bound, Bound]:
+        """How probable a : T is at least and at most, and by which axiom."""
+        if head(T) not in self.theory.related:
+            return (0.0, ""), (1.0, "")
+        return self._bound_below(facts, sit, T), self._bound_above(facts, sit, T)
+
+    def _bound_below(self, facts: Facts, sit: Object, T: Atom) -> Bound:
         """a : T is at least as probable as a : S, wherever S <: T; and by which."""
         best, why = 0.0, ""
         for axiom, lower in below(T, self.theory.axioms):
@@ -288,7 +295,7 @@ class Assignment:
                     why = f"by {axiom} and {notation(sit)} : {kind}"
         return best, why
 
-    def _bound_above(self, facts: Facts, sit: Object, T: Atom) -> tuple[float, str]:
+    def _bound_above(self, facts: Facts, sit: Object, T: Atom) -> Bound:
         """a : T is at most as probable as a : U, wherever T <: U; and by which."""
         best, why = 1.0, ""
         for axiom, upper in above(T, self.theory.axioms):
@@ -302,12 +309,8 @@ class Assignment:
         apart, excluded = self._bound_by_exclusion(facts, sit, T)
         return (apart, excluded) if apart < best else (best, why)
 
-    def _bound_by_exclusion(
-        self, facts: Facts, sit: Object, T: Atom
-    ) -> tuple[float, str]:
+    def _bound_by_exclusion(self, facts: Facts, sit: Object, T: Atom) -> Bound:
         """a : T is as probable as what is left by a : S, wherever S <: ~T."""
-        if head(T) not in self.theory.related:
-            return 1.0, ""
         itself = excluding(T, T, self.theory)
         if itself:
             return 0.0, f"by {itself}"

@@ -6,6 +6,8 @@ of the type. Law: `certainly(facts, a, T)` iff the derivation of a : T ends in [
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from ttr.assignments import Assignment
 from ttr.errors import Refused
 from ttr.judging import derivation, reduced
@@ -45,36 +47,59 @@ def certainly(facts: Assignment, sit: Object, T: TypeNode) -> bool:
 
 
 def _certain(facts: Assignment, sit: Object, T: TypeNode, around: Around) -> bool:
-    match T:
-        case RecordType(fields):
-            if not isinstance(sit, Record):
-                return False
-            found = sit._fields
-            if any(label not in found for label, _ in fields):
-                return False
-            inside = (found, *around)
-            return all(_certain(facts, found[k], field, inside) for k, field in fields)
-        case Singleton(base, value):
-            wanted = _worked_out(facts, value, around)
-            same = wanted is not None and identity(wanted) == identity(sit)
-            return same and _certain(facts, sit, base, around)
-        case ListOf(item):
-            return isinstance(sit, tuple) and _each(facts, sit, item, around)
-        case NonEmpty(item):
-            there = isinstance(sit, tuple) and bool(sit)
-            return there and _each(facts, sit, item, around)
-        case Universe():
-            return not why_outside(sit, T)
-        case Basic():
-            return _atom(facts, sit, T)
-        case PType():
-            ground = _worked_out(facts, T, around)
-            return ground is not None and _atom(facts, sit, ground)
+    plain = _PLAIN.get(type(T))
+    if plain is not None:
+        return plain(facts, sit, T, around)
     return derivation(facts, sit, T, around).p == CERTAIN
 
 
-def _each(facts: Assignment, sit: Object, item: TypeNode, around: Around) -> bool:
-    return all(_certain(facts, element, item, around) for element in sit)
+def _record(facts: Assignment, sit: Object, T: RecordType, around: Around) -> bool:
+    if not isinstance(sit, Record):
+        return False
+    found = sit._fields
+    inside = (found, *around)
+    for label, field in T.fields:
+        if label not in found or not _certain(facts, found[label], field, inside):
+            return False
+    return True
+
+
+def _singleton(facts: Assignment, sit: Object, T: Singleton, around: Around) -> bool:
+    wanted = _worked_out(facts, T.value, around)
+    if wanted is None or (wanted is not sit and identity(wanted) != identity(sit)):
+        return False
+    return _certain(facts, sit, T.base, around)
+
+
+def _list(facts: Assignment, sit: Object, T: ListOf | NonEmpty, around: Around) -> bool:
+    if not isinstance(sit, tuple) or (not sit and isinstance(T, NonEmpty)):
+        return False
+    return all(_certain(facts, element, T.item, around) for element in sit)
+
+
+def _universe(facts: Assignment, sit: Object, T: Universe, around: Around) -> bool:
+    return not why_outside(sit, T)
+
+
+def _basic(facts: Assignment, sit: Object, T: Basic, around: Around) -> bool:
+    return _atom(facts, sit, T)
+
+
+def _ptype(facts: Assignment, sit: Object, T: PType, around: Around) -> bool:
+    ground = _worked_out(facts, T, around)
+    return ground is not None and _atom(facts, sit, ground)
+
+
+_PLAIN: dict[type[TypeNode], Callable[..., bool]] = {
+    RecordType: _record,
+    Singleton: _singleton,
+    ListOf: _list,
+    NonEmpty: _list,
+    Universe: _universe,
+    Basic: _basic,
+    PType: _ptype,
+}
+"""What decides for types of which the form is enough to tell."""
 
 
 def _atom(facts: Assignment, sit: Object, T: Basic | PType) -> bool:

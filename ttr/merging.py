@@ -30,6 +30,9 @@ def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeN
     S, T, theory = as_type(S), as_type(T), signature_of(theory)
     if S is T:
         return S
+    match S, T:
+        case RecordType(), RecordType() if _shares(S, T):
+            return _side_by_side(S, T, theory)
     simplest = [one for one, other in ((S, T), (T, S)) if _says_all(one, other, theory)]
     if simplest:
         return min(simplest, key=lambda one: (len(str(one)), str(one), repr(one)))
@@ -43,6 +46,20 @@ def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeN
         case _, Singleton(base, a) if not isinstance(S, Singleton):
             return Singleton(merge(S, base, theory), a)
     return meet(S, T)
+
+
+def _shares(S: RecordType, T: RecordType) -> bool:
+    """Whether the record types have the same field at each label that both have."""
+    return all(S[label] is field for label, field in T.fields if label in S)
+
+
+def _side_by_side(S: RecordType, T: RecordType, theory: Signature | None) -> RecordType:
+    """The merge of record types that have the same fields at the labels they share."""
+    if all(label in S for label in T):
+        return S
+    if all(label in T for label in S):
+        return T
+    return rectype({**dict(S.fields), **dict(T.fields)}, theory)
 
 
 def _says_all(S: TypeNode, T: TypeNode, theory: Signature | None) -> bool:

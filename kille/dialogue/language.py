@@ -8,11 +8,19 @@ a rule without one is the label under which its part's meaning stands.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from kille.dialogue.meanings import named, noun, relation, theory, value_at
+from kille.dialogue.meanings import (
+    named,
+    noun,
+    relation,
+    set_to,
+    spoken,
+    theory,
+    value_at,
+)
 from ttr import Rec, Record, RecordType, RecType, merge, rectype
 
 if TYPE_CHECKING:
@@ -23,6 +31,9 @@ __all__ = ["NotUnderstood", "Utterance", "understand"]
 
 _LONGEST = 400
 """Characters; no sentence of the grammar has more, and parsing slows down beyond."""
+
+_REMEMBERED = 1024
+"""Texts of which the reading is kept; parsing takes most of a turn's time."""
 
 
 class NotUnderstood(Exception):
@@ -45,8 +56,11 @@ class Utterance:
         return content
 
 
+@lru_cache(_REMEMBERED)
 def understand(text: str) -> Utterance:
     """The utterance that a text is; raises `NotUnderstood`.
+
+    Pure, and so remembered for the latest texts.
 
     >>> heard = understand("This is a cup.")
     >>> print(heard.type["content"])
@@ -80,12 +94,12 @@ def _heard(text: str, move: Tree[Token]) -> RecordType:
     content: RecordType = Rec
     for part in _parts(move):
         content = _merged(content, _meaning(part))
-    said = rectype(
+    return set_to(
+        spoken("Heard", _type_name(move)),
         text=theory()["Text"] @ text,
         signs=named("Heard")["signs"] @ signs,
         content=RecType @ content,
     )
-    return _merged(_merged(named("Heard"), named(_type_name(move))), said)
 
 
 def _signs(tree: Tree[Token]) -> list[Record]:

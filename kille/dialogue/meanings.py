@@ -21,6 +21,7 @@ from ttr import (
     Theory,
     TypeNode,
     meet,
+    merge,
     record,
     rectype,
 )
@@ -32,6 +33,8 @@ __all__ = [
     "predicate_at",
     "predicate_name",
     "relation",
+    "set_to",
+    "spoken",
     "theory",
     "value_at",
     "word_of",
@@ -55,6 +58,30 @@ def named(name: str) -> RecordType:
     if not isinstance(found, RecordType):
         raise TypeError(f"{name} of tutor.ttr should be a record type, but is {found}")
     return found
+
+
+@cache
+def spoken(speaking: str, move: str) -> RecordType:
+    """The type of a move of the theory, as something that is heard or said.
+
+    >>> greeted = spoken("Heard", "Greet")
+    >>> greeted <= named("Heard"), greeted <= named("Greet")
+    (True, True)
+    """
+    both = merge(named(speaking), named(move))
+    if not isinstance(both, RecordType):
+        raise TypeError(f"{speaking} and {move} of tutor.ttr do not go together")
+    return both
+
+
+def set_to(T: RecordType, **fields: TypeNode) -> RecordType:
+    """The record type with some of its fields, or new ones, as they are here.
+
+    >>> from ttr import Ind
+    >>> print(set_to(rectype(x=Ind), x=Ind @ "o1"))
+    [x = o1 : Ind]
+    """
+    return rectype({**dict(T.fields), **fields})
 
 
 def predicate_name(form: str) -> str:

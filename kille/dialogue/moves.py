@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import cache
 
-from kille.dialogue.meanings import named, theory, word_of
+from kille.dialogue.meanings import named, set_to, spoken, theory, word_of
 from ttr import (
     Pred,
     PType,
@@ -13,7 +14,7 @@ from ttr import (
     RecordType,
     RecType,
     TypeNode,
-    merge,
+    outer,
     rectype,
     replace,
 )
@@ -23,6 +24,7 @@ __all__ = ["answering", "in_look", "plan", "related", "uses"]
 NOTHING_PLANNED = theory()["Agenda"] @ ()
 
 
+@cache
 def answering(move: str) -> RecordType:
     """The states in which this is the latest move and no answer is planned yet."""
     return rectype(
@@ -44,20 +46,19 @@ def plan(
     `signs` are the words that it will use or learn; `pending` is what the tutor may
     confirm afterwards.
     """
-    said = rectype(
+    move = set_to(
+        spoken("Said", act),
         signs=named("Said")["signs"] @ tuple(signs),
         content=RecType @ content,
         rival=RecType @ rival,
     )
-    move = together(named("Said"), named(act), said)
     return replace(s, {"private.agenda": (move,), "shared.pending": tuple(pending)})
 
 
-def in_look(s: Record, content: TypeNode, x: str) -> RecordType:
+def in_look(s: Record, content: RecordType, x: str) -> RecordType:
     """A content, set to be about this individual in the latest look."""
     naming = named("Naming")
-    there = rectype(x=naming["x"] @ x, look=naming["look"] @ s.view.look)
-    return together(content, there)
+    return set_to(content, x=naming["x"] @ x, look=naming["look"] @ s.view.look)
 
 
 def related(
@@ -67,22 +68,22 @@ def related(
 
     Without a relation it says only that both are there.
     """
-    look, ind = named("Naming")["look"], named("Naming")["x"]
-    roles = rectype(
-        look=look @ s.view.look,
-        target=together(target.meaning, rectype(x=ind @ x)),
-        landmark=together(landmark.meaning, rectype(x=ind @ y)),
+    relating = named("Relating")
+    content = set_to(
+        relating,
+        look=relating["look"] @ s.view.look,
+        target=_standing(target, x),
+        landmark=_standing(landmark, y),
     )
-    return together(named("Relating"), roles, *(sign.meaning for sign in relation))
+    for sign in relation:
+        content = set_to(sign.meaning, **dict(content.fields))
+    return content
 
 
-def together(S: TypeNode, *others: TypeNode) -> RecordType:
-    """The merge of record types."""
-    for other in others:
-        S = merge(S, other)
-    if not isinstance(S, RecordType):
-        raise TypeError(f"what is said is a record type, but found {S}")
-    return S
+def _standing(sign: Record, x: str) -> RecordType:
+    """That x is what a sign means, in the look that the record around it has."""
+    naming = named("Naming")
+    return set_to(sign.meaning, x=naming["x"] @ x, look=naming["look"] @ outer.look)
 
 
 def uses(content: TypeNode, sign: Record) -> bool:

@@ -1,5 +1,7 @@
 """Rules, strategies and runs: pure, checked after every rule, and explained."""
 
+import dataclasses
+
 import pytest
 
 from ttr import (
@@ -8,20 +10,38 @@ from ttr import (
     Ind,
     ListOf,
     Model,
+    NoState,
     Pred,
     Rec,
     Record,
     RecType,
+    RuleFailed,
     TTRError,
     Type,
     UpdateError,
+    fun,
     merge,
+    outer,
     record,
     rectype,
     replace,
     this,
 )
-from ttr.updates import first, maybe, repeat, rule, run, seq
+from ttr.updates import (
+    all_,
+    ask,
+    by_class,
+    first,
+    maybe,
+    nbest,
+    repeat,
+    rule,
+    rules_of,
+    run,
+    seq,
+    update,
+)
+from ttr.updates.algorithms import replaced
 
 Count = Basic("Count")
 Counter = rectype(n=Count, log=ListOf(Ind))
@@ -118,9 +138,7 @@ def test_a_repetition_without_progress():
 
 def test_a_repetition_without_end():
     circle = first(at_three, up)
-    with pytest.raises(
-        Endless, match="goes in a circle: up → up → up → at_three → up"
-    ):
+    with pytest.raises(Endless, match="goes in a circle: up → up → up → at_three → up"):
         play(repeat(circle, times=50))
 
 
@@ -133,7 +151,7 @@ def test_a_repetition_that_goes_on_and_on():
         play(repeat(longer, times=50))
     with pytest.raises(Endless, match="did not end after 1000 rounds"):
         play(repeat(longer))
-    with pytest.raises(Endless, match="log should get smaller .* from 0 to 1"):
+    with pytest.raises(Endless, match=r"log should get smaller .* from 0 to 1"):
         play(repeat(longer, measure="log"))
 
 
@@ -382,3 +400,271 @@ def test_the_example_of_the_contract():
 def test_what_a_run_cannot_be_given(slip, told):
     with pytest.raises(UpdateError, match=told):
         run(up, START, **{"type": Counter, "model": M, **slip})
+
+
+# --- bindings -------------------------------------------------------------------------
+
+likes = Pred("likes", Ind, Ind)
+Fans = M.given("s1", likes("a", "b")).given("s2", likes("a", "c"))
+Topic = rectype(topic=Ind)
+
+
+def bound(where, effect, state, model=Fans, **options):
+    made = rule(when=Topic, where=where, **options)(effect)
+    return run(made, state, type=Topic, model=model)
+
+
+def test_what_a_rule_binds_is_worked_out_or_found_in_the_model():
+    where = rectype(other=Ind, c=likes(outer.s.topic, this.other))
+
+    def move_on(s, other):
+        return replace(s, topic=other)
+
+    after, model, trace = bound(where, move_on, record(topic="a"))
+    assert after == record(topic="b")
+    assert model is Fans
+    assert trace[0].bindings == {"other": "b", "c": "s1"}
+    assert "  with other = b" in str(trace[0])
+    assert bound(where, move_on, record(topic="c")).trace == ()
+
+
+def test_later_fields_choose_among_what_earlier_ones_found():
+    where = rectype(other=Ind, c=likes("a", this.other), d=likes(this.other, "a"))
+    model = Fans.given("s3", likes("c", "a"))
+    _, _, trace = bound(where, lambda s, other: s, record(topic="a"), model)
+    assert trace[0].bindings["other"] == "c"
+
+
+def test_a_binding_that_a_witness_function_sees():
+    model = M.witnessed(likes, by=lambda x, y: x == "a")
+    where = rectype(c=likes(outer.s.topic, outer.s.topic))
+    _, after, trace = bound(where, lambda s, c: s, record(topic="a"), model)
+    assert after.judge(trace[0].bindings["c"], likes("a", "a")).holds is True
+    assert bound(where, lambda s, c: s, record(topic="b"), model).trace == ()
+
+
+def test_a_binding_is_certainly_of_its_type():
+    where = rectype(c=likes("a", "b") @ "s2")
+    assert bound(where, lambda s: s, record(topic="a")).trace == ()
+    where = rectype(c=likes("a", "b") @ outer.s.nothing)
+    assert bound(where, lambda s: s, record(topic="a")).trace == ()
+
+
+# --- what a rule gives ----------------------------------------------------------------
+
+
+def test_a_rule_keeps_to_what_it_says_it_gives():
+    @rule(when=Counter, gives=rectype(n=Count @ 0))
+    def reset(s):
+        return replace(s, n=1)
+
+    with pytest.raises(NoState, match=r"after reset, by what it gives, .* at n: 1 "):
+        play(reset)
+
+
+def test_a_type_changes_just_what_it_mentions():
+    T = rectype(shared=rectype(latest=Rec, com=RecType), x=Ind)
+    state = record(shared={"latest": {"e": "a"}, "com": Rec, "more": 1}, x="a")
+
+    @rule(when=T)
+    def turn(s):
+        return rectype(shared=rectype(latest=rectype(by=Ind @ s.x)), x=Ind)
+
+    after, _, trace = run(turn, state, type=T, model=M)
+    assert after.shared == record(latest={"e": "a", "by": "a"}, com=Rec, more=1)
+    assert after.x not in ("a", "b", "c")
+    assert trace[0].created == ("x",)
+    assert "(created)" in str(trace[0])
+
+
+def test_a_value_of_the_wrong_type_is_refused_where_it_stands():
+    @rule(when=Counter)
+    def banana(s):
+        return rectype(n=Count @ "banana")
+
+    with pytest.raises(RuleFailed, match="at n: banana : Count"):
+        play(banana)
+
+
+# --- more strategies ------------------------------------------------------------------
+
+
+def renamed(made, name, **changes):
+    return dataclasses.replace(made, name=name, **changes)
+
+
+@pytest.mark.parametrize(
+    ("algorithm", "n", "steps"),
+    [
+        (all_(at_three, up, never, up), 2, 2),
+        (all_(at_three, never), 0, 0),
+        (seq(all_(at_three), up), 0, 0),
+        (maybe(all_(up)), 1, 1),
+        (repeat(all_(up, up)), 3, 3),
+        (repeat(up, measure=lambda s: 5 - s.n), 3, 3),
+    ],
+)
+def test_more_strategies(algorithm, n, steps):
+    after, _, trace = play(algorithm)
+    assert (after.n, len(trace)) == (n, steps)
+
+
+def test_rules_class_by_class():
+    late = renamed(at_three, "late", kind="late")
+    early = [renamed(up, f"up{number}", kind="early") for number in range(3)]
+    _, _, trace = play(by_class(late, *early, order=["early", "late"]))
+    assert [step.rule.name for step in trace] == ["up0", "up1", "up2", "late"]
+    assert rules_of(by_class(late, *early, order=["early", "late"])) == (*early, late)
+
+
+def test_somebody_chooses_among_the_rules_that_apply():
+    asked = []
+
+    def choose(names, state):
+        asked.append((tuple(names), state.n))
+        return len(names) - 1 if state.n < 2 else None
+
+    algorithm = ask(at_three, renamed(up, "one"), renamed(up, "two"), choose=choose)
+    after, _, trace = play(algorithm, events=[None] * 4)
+    assert [step.rule.name for step in trace] == ["two", "two"]
+    assert asked[0] == (("one", "two"), 0)
+    assert after.n == 2
+    with pytest.raises(
+        UpdateError, match="gives an index below 1, or None, but gave 3"
+    ):
+        play(ask(up, choose=lambda names, s: 3))
+
+
+def test_a_measure_gets_smaller_and_is_never_negative():
+    @rule(when=Counter)
+    def down(s):
+        return replace(s, n=s.n - 1) if s.n else None
+
+    assert play(repeat(down, measure="n"), record(n=3, log=[])).state.n == 0
+    with pytest.raises(Endless, match="n should get smaller each time up is repeated"):
+        play(repeat(up, measure="n"))
+    with pytest.raises(Endless, match="from 0 to -1"):
+        play(repeat(up, measure=lambda s: -s.n))
+    with pytest.raises(UpdateError, match="a measure is a list or a number, found Non"):
+        play(repeat(up, measure=lambda s: None))
+
+
+def test_strategies_print_as_they_are_written():
+    shown = str(first(up, maybe(repeat(at_three, times=3)), all_(never), seq(still)))
+    assert shown == "first(up, maybe(repeat(at_three, 3)), all(never), seq(still))"
+
+
+def test_a_rule_is_replaced_by_its_name():
+    algorithm = seq(up, maybe(repeat(first(up, at_three))), all_(never))
+    other = renamed(still, "up")
+    after = replaced(algorithm, {"up": other})
+    assert rules_of(after) == (other, at_three, never)
+    assert replaced(after, {"up": up}) == algorithm
+
+
+# --- uncertain events -----------------------------------------------------------------
+
+Yes, No = rectype(yes=Ind), rectype(no=Ind)
+yes, no = record(yes="a"), record(no="a")
+
+
+def heard_as(*rules):
+    def play_heard(*alternatives):
+        event = nbest(*alternatives) if len(alternatives) > 1 else alternatives[0]
+        after = play(first(*rules), events=[event])
+        return after.trace[0] if after.trace else None
+
+    return play_heard
+
+
+def answer(name, on, **options):
+    return renamed(rule(when=Counter, on=on, **options)(lambda s, e: s), name)
+
+
+def test_a_rule_takes_the_likeliest_alternative_of_its_type():
+    hears = heard_as(answer("sure", Yes), answer("likely", Yes, p=0.5))
+    other = record(yes="b")
+    assert hears(yes).rule.name == "sure"
+    assert hears((yes, 0.6), (no, 0.3)).rule.name == "likely"
+    assert hears((yes, 0.4), (no, 0.3)) is None
+    both = hears((other, 0.4), (yes, 0.2))
+    assert (both.event, both.rule.name) == (other, "likely")
+    assert both.p.lo == pytest.approx(0.6)
+    assert hears((other, 0.7), (yes, 0.3)).rule.name == "sure"
+
+
+def test_bands_of_probability_decide():
+    hears = heard_as(
+        answer("accept", Yes, p=0.7),
+        answer("confirm", Yes, p=(0.3, 0.7)),
+        answer("repeat", Yes | No, p=0),
+    )
+    taken = [hears((yes, p), (no, 0.05)).rule.name for p in (0.9, 0.7, 0.4, 0.2)]
+    assert taken == ["accept", "accept", "confirm", "repeat"]
+
+
+def test_a_rule_may_ask_how_probable_its_event_is():
+    @rule(when=Counter, on=Yes, p=0.1)
+    def keep(s, e, p, nbest):
+        return replace(s, n=round(p.lo * 5), log=[one["yes"] for one, _ in nbest])
+
+    event = nbest((yes, 0.4), (record(yes="b"), 0.4))
+    assert play(keep, events=[event]).state == record(n=4, log=["a", "b"])
+    assert "p = 0.8" in str(play(keep, events=[event]).trace[0])
+
+
+def test_an_event_that_is_judged_uncertainly():
+    Wave = Basic("Wave")
+    model = M.given("w", Wave, 0.6)
+    waved = answer("waved", Wave, p=0.5)
+    assert run(waved, START, type=Counter, model=model, events=["w"]).trace
+    sure = answer("waved", Wave)
+    assert not run(sure, START, type=Counter, model=model, events=["w"]).trace
+    event = nbest(("w", 0.5), ("a", 0.5))
+    assert not run(waved, START, type=Counter, model=model, events=[event]).trace
+
+
+@pytest.mark.parametrize(
+    ("alternatives", "message"),
+    [
+        ([("a", 0.9), ("b", 0.9)], "come to at most 1, found 1.8"),
+        ([("a", 0)], "a probability above 0"),
+        ([("a", "much")], "a probability above 0"),
+        (["a"], "an alternative is an event and a probability"),
+        ([], "has one alternative at least"),
+    ],
+)
+def test_what_is_no_uncertain_event(alternatives, message):
+    with pytest.raises(UpdateError, match=message):
+        nbest(*alternatives)
+
+
+MORE_MISTAKES = {
+    "the bindings of a rule are a record type, found": lambda: rule(
+        when=Rec, where=Ind
+    ),
+    "the target of a rule are a record type, found": lambda: rule(when=Rec, gives=3),
+    "the probability of a rule's event is a number": lambda: rule(when=Rec, p=7),
+    "by_class takes rules, found": lambda: by_class(first(up), order=["x"]),
+    "is of the class none, which is not in the order x": lambda: by_class(
+        up, order=["x"]
+    ),
+    "did you mean early?": lambda: by_class(
+        renamed(up, "up", kind="erly"), order=["early"]
+    ),
+    "no rule is of the class late": lambda: by_class(
+        renamed(up, "up", kind="early"), order=["early", "late"]
+    ),
+    "the order of classes is a list of words": lambda: by_class(up, order="early"),
+    "what chooses is a function": lambda: ask(up, choose=3),
+    "a measure is the path of a list or number": lambda: repeat(up, measure=3),
+    "an update is a function of states": lambda: update(Ind),
+    "an update is a function of states, records": lambda: update(fun(x=Ind)(Rec)),
+}
+
+
+@pytest.mark.parametrize("message", MORE_MISTAKES)
+def test_more_mistakes_are_named(message):
+    with pytest.raises(UpdateError) as caught:
+        MORE_MISTAKES[message]()
+    assert message in str(caught.value)

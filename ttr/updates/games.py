@@ -64,10 +64,12 @@ class Turn:
     def __str__(self) -> str:
         happened = "nothing" if self.heard is None else _shown(self.heard)
         lines = [f"> {happened}", *map(str, self.trace)]
-        return "\n".join([*lines, *(f"< {move}" for move in self.said)])
+        return "\n".join(
+            [*lines, *(f"< {notation(move.sit)} : {move.type}" for move in self.said)]
+        )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Game:
     """A dialogue theory that can be played: a state type, a start, and an algorithm.
 
@@ -119,7 +121,10 @@ class Game:
         object.__setattr__(self, "start", freeze(self.start))
         check_state(self.start, self.type, self.model, "at the start")
         if self.agenda is not None:
-            self._planned(self.start)
+            self.planned(self.start)
+
+    def __repr__(self) -> str:
+        return f"<Game {self.name}: {self.algorithm}>"
 
     @property
     def rules(self) -> tuple[Rule, ...]:
@@ -142,7 +147,7 @@ class Game:
         events = () if happened is None else (happened,)
         after = self._run(Run(so_far.state, model, ()), events)
         said: list[Judgement] = []
-        while planned := self._planned(after.state):
+        while planned := self.planned(after.state):
             if len(said) >= MOVES:
                 raise Endless(f"the agenda is not empty after {MOVES} moves in a turn")
             move, model = self._made(planned[0], after.model)
@@ -209,8 +214,8 @@ class Game:
 
     # --- own moves ---
 
-    def _planned(self, state: Record) -> tuple[TypeNode, ...]:
-        """The types of the moves to be made."""
+    def planned(self, state: Record) -> tuple[TypeNode, ...]:
+        """The types of the moves to be made in a state, the next one first."""
         if self.agenda is None:
             return ()
         try:

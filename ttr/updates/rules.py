@@ -31,7 +31,7 @@ EXTRAS = ("model", "p", "nbest")
 """What an effect may ask for by name besides the bindings."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Rule:
     """An update rule: where `when` holds of the state, `effect` gives the next one.
 
@@ -60,6 +60,9 @@ class Rule:
 
     def __str__(self) -> str:
         return self.name
+
+    def __repr__(self) -> str:
+        return f"<Rule {self.name}>"
 
 
 @dataclass(frozen=True)

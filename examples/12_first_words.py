@@ -1,6 +1,6 @@
 """First words: teach the robot a cup and a book, ask it, and look at the judgement.
 
-Run it with `python examples/10_first_words.py`. It needs no camera: the robot looks at
+Run it with `python examples/12_first_words.py`. It needs no camera: the robot looks at
 a simulated table.
 """
 

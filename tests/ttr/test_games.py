@@ -1,0 +1,103 @@
+"""Games: whole dialogues, turn by turn, with moves of their own."""
+
+import dataclasses
+
+import pytest
+
+from ttr import (
+    Endless,
+    Ind,
+    ListOf,
+    Model,
+    NotHeard,
+    RecType,
+    UpdateError,
+    record,
+    rectype,
+    replace,
+)
+from ttr.probability import Degree
+from ttr.updates import Game, nbest, rule
+
+M = Model().given("a", Ind).given("b", Ind).given("c", Ind)
+
+Act = rectype(by=Ind)
+Talk = rectype(plan=ListOf(RecType), heard=ListOf(Ind))
+
+
+@rule(when=Talk, on=Act)
+def reply(s, e):
+    if e.by == "b":
+        return replace(s, plan=s.plan[1:])
+    return replace(s, plan=[rectype(by=Ind @ "b")], heard=[*s.heard, e.by])
+
+
+def talk(**changes):
+    options = {"algorithm": reply, "agenda": "plan"} | changes
+    start = {"plan": [], "heard": []}
+    return Game("talk", Talk, start, model=M, **options)
+
+
+def test_a_game_is_played_turn_by_turn():
+    turns = talk().play([{"by": "a"}, None, rectype(by=Ind @ "c")])
+    assert [[move.sit for move in turn.said] for turn in turns] == [
+        [record(by="b")],
+        [],
+        [record(by="b")],
+    ]
+    assert turns[-1].state == record(plan=[], heard=["a", "c"])
+    assert [len(turn.trace) for turn in turns] == [2, 0, 2]
+    assert turns[0].said[0].type is rectype(by=Ind @ "b")
+
+
+def test_a_turn_that_fails_changes_nothing():
+    game = talk()
+    so_far = game.take(game.begin(), {"by": "a"}).run
+    with pytest.raises(NotHeard, match="is no event that the game talk takes: expecte"):
+        game.take(so_far, {"who": "a"})
+    assert so_far.state == record(plan=[], heard=["a"])
+
+
+def test_a_move_that_nobody_takes_off_the_agenda():
+    @rule(when=rectype(plan=ListOf(RecType) @ ()), on=Act)
+    def planning(s, e):
+        return replace(s, plan=[rectype(by=Ind @ "b")])
+
+    game = talk(algorithm=planning)
+    with pytest.raises(Endless, match=r"no rule takes the move .* stays on the agenda"):
+        game.take(game.begin(), {"by": "a"})
+
+    @rule(when=Talk, on=Act)
+    def on_and_on(s, e):
+        return replace(s, plan=[rectype(by=Ind @ "b")])
+
+    game = talk(algorithm=on_and_on)
+    with pytest.raises(Endless, match="not empty after 100 moves in a turn"):
+        game.take(game.begin(), {"by": "a"})
+
+
+def test_uncertain_events_of_a_game():
+    sure = dataclasses.replace(reply, p=Degree(0.5, 1.0))
+    game = talk(algorithm=sure)
+    event = nbest((rectype(by=Ind @ "a"), 0.6), (record(by="c"), 0.3))
+    turn = game.take(game.begin(), event)
+    assert turn.state.heard == ("a",)
+    assert turn.event is event
+    assert [one for one, _ in turn.heard] == [record(by="a"), record(by="c")]
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"agenda": "paln"}, "acts on paln, which its state lacks"),
+        ({"agenda": "paln"}, "did you mean plan?"),
+        ({"agenda": "heard", "start": {"plan": [], "heard": ["a"]}}, "a list of types"),
+        ({"start": {"plan": []}}, "at the start the state is not of its type, at hear"),
+        ({"algorithm": 3}, "a game takes rules and strategies, found 3"),
+    ],
+)
+def test_what_is_no_game(changes, message):
+    options = {"algorithm": reply, "agenda": "plan", "start": {"plan": [], "heard": []}}
+    with pytest.raises(UpdateError) as caught:
+        Game("talk", Talk, model=M, **options | changes)
+    assert message in str(caught.value)
