@@ -10,6 +10,8 @@ Source: Dobnik and de Graaf 2017, section 3.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from kille.dialogue.beliefs import (
     Beliefs,
     best_pair,
@@ -151,10 +153,9 @@ def learn_confirmed(s: Record) -> Record | None:
         return None
     content = s.shared.pending[0]
     if content <= named("Relating"):
-        signs = [sign for sign in s.private.relations if uses(content, sign)]
+        signs = _used(s.private.relations, content)
         return plan(s, "LearnedRelation", content, signs=signs)
-    signs = [sign for sign in s.private.nouns if uses(content, sign)]
-    return plan(s, "Learned", content, signs=signs)
+    return plan(s, "Learned", content, signs=_used(s.private.nouns, content))
 
 
 @rule(when=answering("Affirm"))
@@ -164,7 +165,14 @@ def ask_which(s: Record) -> Record | None:
         return None
     content, rival = s.shared.pending
     act = "AskWhichPlace" if content <= named("Relating") else "AskWhich"
-    return plan(s, act, content, rival, pending=s.shared.pending)
+    known = s.private.nouns + s.private.relations
+    signs = _used(known, content, rival)
+    return plan(s, act, content, rival, signs=signs, pending=s.shared.pending)
+
+
+def _used(known: Iterable[Record], *contents: RecordType) -> list[Record]:
+    """The words that are known and occur in one of the contents."""
+    return [sign for sign in known if any(uses(one, sign) for one in contents)]
 
 
 @rule(when=answering("Deny"))
