@@ -47,6 +47,10 @@ Bound: TypeAlias = tuple[float, str]
 
 _EMPTY: Map[Any, Any] = Map()
 
+_NO_LOWER: Bound = (0.0, "")
+_NO_UPPER: Bound = (1.0, "")
+"""What axioms say of a type that none is about."""
+
 NO_LINKS = Links()
 """Nothing was said of how judgements depend."""
 
@@ -82,11 +86,11 @@ class Assignment:
         told = facts.get(T)
         if told in (CERTAIN, REFUTED):
             return told, "given"
+        if told is None and perceptual and isinstance(T, Basic):
+            seen = self.perceived(sit, T) or UNKNOWN
+            within = self._within(sit, T, seen, *self._bounds(facts, sit, T))
+            return within, f"by the witness function of {T.name}"
         (least, lower), (most, upper) = self._bounds(facts, sit, T)
-        if told is None and isinstance(T, Basic) and perceptual:
-            told = self.perceived(sit, T) or UNKNOWN
-            rule = f"by the witness function of {T}"
-            return self._within(sit, T, told, (least, lower), (most, upper)), rule
         if told is not None:
             rule = f"seen as {head(T).name}" if perceptual else "given"
             return self._within(sit, T, told, (least, lower), (most, upper)), rule
@@ -112,7 +116,10 @@ class Assignment:
             return None
         args = (sit,) if isinstance(T, Basic) else T.args
         try:
-            return degree(function(*args), "the answer")
+            answer = function(*args)
+            if isinstance(answer, bool):
+                return CERTAIN if answer else REFUTED
+            return degree(answer, "the answer")
         except TTRError as error:
             raise TTRError(f"{_call(T, args)}: {error.message}") from error
         except Exception as error:
@@ -262,6 +269,8 @@ class Assignment:
         upper: Bound,
     ) -> Degree:
         """The degree within the bounds that axioms set; `Refused` if it is outside."""
+        if lower is _NO_LOWER and upper is _NO_UPPER:
+            return p
         lo, hi = max(p.lo, lower[0]), min(p.hi, upper[0])
         if lo > hi:
             raise Refused(
@@ -279,7 +288,7 @@ class Assignment:
     def _bounds(self, facts: Facts, sit: Object, T: Atom) -> tuple[Bound, Bound]:
         """How probable a : T is at least and at most, and by which axiom."""
         if head(T) not in self.theory.related:
-            return (0.0, ""), (1.0, "")
+            return _NO_LOWER, _NO_UPPER
         return self._bound_below(facts, sit, T), self._bound_above(facts, sit, T)
 
     def _bound_below(self, facts: Facts, sit: Object, T: Atom) -> Bound:

@@ -30,7 +30,7 @@ from ttr.syntax import (
     identity,
 )
 
-__all__ = ["certainly"]
+__all__ = ["certainly", "certainly_also"]
 
 
 def certainly(facts: Assignment, sit: Object, T: TypeNode) -> bool:
@@ -44,6 +44,64 @@ def certainly(facts: Assignment, sit: Object, T: TypeNode) -> bool:
     True
     """
     return _certain(facts, sit, T, ())
+
+
+def certainly_also(
+    facts: Assignment, sit: Object, T: TypeNode, known: TypeNode
+) -> bool:
+    """Whether sit : T is certain by the facts, by which it certainly is of `known`.
+
+    What the known type says is not judged again. Law: where sit : known is certain,
+    the answer is that of `certainly`.
+
+    >>> from ttr.models import Model
+    >>> from ttr.syntax import Ind
+    >>> M = Model().given("a", Ind)
+    >>> certainly_also(M.facts, ("a", "a"), NonEmpty(Ind), ListOf(Ind))
+    True
+    """
+    return _also(facts, sit, T, known, ())
+
+
+def _also(
+    facts: Assignment, sit: Object, T: TypeNode, known: TypeNode, around: Around
+) -> bool:
+    if T is known:
+        return True
+    if isinstance(T, RecordType) and isinstance(known, RecordType):
+        return _fields_also(facts, sit, T.fields, known, around)
+    if isinstance(T, Singleton):
+        return _is_value(facts, sit, T, around) and _also(
+            facts, sit, T.base, known, around
+        )
+    lists = ListOf, NonEmpty
+    if isinstance(T, lists) and isinstance(known, lists) and T.item is known.item:
+        return bool(sit) or isinstance(T, ListOf)
+    return _certain(facts, sit, T, around)
+
+
+def _fields_also(
+    facts: Assignment,
+    sit: Record,
+    fields: tuple[tuple[str, TypeNode], ...],
+    known: RecordType,
+    around: Around,
+) -> bool:
+    found = sit._fields
+    inside = (found, *around)
+    types = known._types
+    for label, field in fields:
+        if label not in found:
+            return False
+        given = types.get(label)
+        if given is field:
+            continue
+        if given is None:
+            if not _certain(facts, found[label], field, inside):
+                return False
+        elif not _also(facts, found[label], field, given, inside):
+            return False
+    return True
 
 
 def _certain(facts: Assignment, sit: Object, T: TypeNode, around: Around) -> bool:
@@ -65,10 +123,14 @@ def _record(facts: Assignment, sit: Object, T: RecordType, around: Around) -> bo
 
 
 def _singleton(facts: Assignment, sit: Object, T: Singleton, around: Around) -> bool:
+    return _is_value(facts, sit, T, around) and _certain(facts, sit, T.base, around)
+
+
+def _is_value(facts: Assignment, sit: Object, T: Singleton, around: Around) -> bool:
     wanted = _worked_out(facts, T.value, around)
-    if wanted is None or (wanted is not sit and identity(wanted) != identity(sit)):
-        return False
-    return _certain(facts, sit, T.base, around)
+    return wanted is not None and (
+        wanted is sit or bool(identity(wanted) == identity(sit))
+    )
 
 
 def _list(facts: Assignment, sit: Object, T: ListOf | NonEmpty, around: Around) -> bool:

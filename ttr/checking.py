@@ -4,193 +4,41 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, TypeAlias, assert_never
+from typing import TYPE_CHECKING, assert_never
 
 from ttr.circles import circle
 from ttr.errors import Span, TTRError, Undecided
 from ttr.merging import amerge, merge
 from ttr.printing import notation
+from ttr.queries import (
+    Creates,
+    Expects,
+    HasDegree,
+    IsBelow,
+    IsOf,
+    IsSame,
+    IsTrue,
+    IsWellFormed,
+    Merges,
+    Query,
+    Updates,
+)
+from ttr.records import differences
+from ttr.reports import Failure, Report
 from ttr.subtyping import subtype
-from ttr.syntax import Object, TypeNode, identity, kind_of
+from ttr.syntax import TypeNode, identity, kind_of
 from ttr.theories import Interval, Theory
+from ttr.updates.checks import Fault, faults_alone, faults_of
+from ttr.updates.rules import Rule
+from ttr.updates.stepping import stepped
 
 if TYPE_CHECKING:
     from ttr.models import Model
 
-__all__ = [
-    "Check",
-    "Creates",
-    "Expects",
-    "Failure",
-    "HasDegree",
-    "IsOf",
-    "IsBelow",
-    "IsSame",
-    "IsTrue",
-    "IsWellFormed",
-    "Merges",
-    "Query",
-    "Report",
-    "check",
-]
+__all__ = ["asked", "check", "model_of"]
 
 TOLERANCE = 1e-9
 """How far two probabilities may be apart and still count as the same number."""
-
-
-@dataclass(frozen=True)
-class IsOf:
-    """a : T."""
-
-    sit: Object
-    type: TypeNode
-
-
-@dataclass(frozen=True)
-class IsBelow:
-    """S <= T, under the axioms of the theory."""
-
-    lower: TypeNode
-    upper: TypeNode
-
-
-@dataclass(frozen=True)
-class IsSame:
-    """S = T: the same type, or the same object; f(a) is what the function gives."""
-
-    left: Object
-    right: Object
-
-
-@dataclass(frozen=True)
-class Merges:
-    """merge(S, T) = U, or amerge(S, T) = U; `operation` is its name."""
-
-    operation: str
-    left: TypeNode
-    right: TypeNode
-    result: Object
-
-
-@dataclass(frozen=True)
-class Creates:
-    """create(T): a fresh witness of T can be made."""
-
-    type: TypeNode
-
-
-@dataclass(frozen=True)
-class IsWellFormed:
-    """wellformed(T): every path leads to a field that fits, and none in a circle.
-
-    Where T cannot even be built, `type` is the error that says why.
-    """
-
-    type: TypeNode | TTRError
-
-
-@dataclass(frozen=True)
-class HasDegree:
-    """P(a : T | b : S, …) = [lo, hi] (`relation` is "="), or within it (it is "in")."""
-
-    sit: Object
-    type: TypeNode
-    relation: str
-    interval: Interval
-    when: tuple[tuple[Object, TypeNode], ...] = ()
-
-
-@dataclass(frozen=True)
-class Expects:
-    """P(T || S, …) = [lo, hi], or within it: of any known object."""
-
-    type: TypeNode
-    when: tuple[TypeNode, ...]
-    relation: str
-    interval: Interval
-
-
-@dataclass(frozen=True)
-class IsTrue:
-    """P(T) = [lo, hi]: so certainly something is of T."""
-
-    type: TypeNode
-    interval: Interval
-
-
-Query: TypeAlias = (
-    IsOf
-    | IsBelow
-    | IsSame
-    | Merges
-    | Creates
-    | IsWellFormed
-    | HasDegree
-    | Expects
-    | IsTrue
-)
-
-
-@dataclass(frozen=True)
-class Check:
-    """A claim: the query's answer is the expected one, yes, no, unknown or error.
-
-    Where the query mentions a type that cannot be built, `query` is the error.
-    """
-
-    expected: str
-    query: Query | TTRError
-    span: Span
-    text: str
-
-
-@dataclass(frozen=True)
-class Failure:
-    """A check that does not hold: what was expected, what was found, and why."""
-
-    check: Check
-    found: str
-    why: str
-
-    def __str__(self) -> str:
-        """The failure as the command prints it.
-
-        >>> theory = Theory.parse("basic A, B\\ncheck A <= B", "ab.ttr")
-        >>> print(check(theory).failures[0])
-        failed: check A <= B
-          ┌─ ab.ttr:2:1
-        2 │ check A <= B
-          │ ^^^^^^^^^^^^
-        expected: yes
-        found:    no
-        why:      A is not below B
-        """
-        why = self.why.strip().replace("\n", "\n          ")
-        return (
-            f"failed: {self.check.text}\n{self.check.span}\n"
-            f"expected: {self.check.expected}\nfound:    {self.found}"
-            + f"\nwhy:      {why}"
-            * bool(why)
-        )
-
-
-@dataclass(frozen=True)
-class Report:
-    """What became of a theory's checks: how many were asked, and those that failed."""
-
-    asked: int
-    failures: tuple[Failure, ...]
-
-    @property
-    def holds(self) -> bool:
-        """Whether no check failed."""
-        return not self.failures
-
-    def __str__(self) -> str:
-        if self.failures:
-            return "\n\n".join(map(str, self.failures))
-        verb = "check holds" if self.asked == 1 else "checks hold"
-        return f"{self.asked} {verb}"
 
 
 @dataclass(frozen=True)
@@ -205,15 +53,24 @@ class _Answer:
 def check(theory: Theory) -> Report:
     """Asks the theory's checks, of the model in which just its givens are judged.
 
-    Raises `Refused` where the givens contradict one another.
+    Its rules are looked at as well, before anything runs: those of each game together,
+    and each of the others alone. Raises `Refused` where the givens contradict one
+    another, and `UpdateError` where the start of a game is not of its type.
 
     >>> theory = Theory.parse("basic A, B\\nA <: B\\ncheck A <= B\\ncheck not B <= A")
     >>> print(check(theory))
     2 checks hold
     """
+    report = asked(theory)
+    rules = [one for one in theory.rules.values() if _is_own(one.span, theory)]
+    return replace(report, rules=len(rules), faults=_faults(theory, rules))
+
+
+def asked(theory: Theory) -> Report:
+    """Asks the theory's checks, and looks at no rule."""
     if not isinstance(theory, Theory):
         raise TTRError(f"check takes a theory, found {kind_of(theory)}")
-    model = _model(theory)
+    model = model_of(theory)
     failures = []
     for one in theory.checks:
         answer = _answered(one.query, theory, model)
@@ -222,7 +79,22 @@ def check(theory: Theory) -> Report:
     return Report(len(theory.checks), tuple(failures))
 
 
-def _model(theory: Theory) -> Model:
+def _faults(theory: Theory, rules: list[Rule]) -> tuple[Fault, ...]:
+    """What is wrong with the rules and games that are declared here, not imported."""
+    own = [k for k, one in theory.openings.items() if _is_own(one.span, theory)]
+    games = [theory.games[name] for name in own]
+    played = {id(one) for game in games for one in game.rules}
+    alone = [one for one in rules if id(one) not in played]
+    found = [fault for game in games for fault in faults_of(game)]
+    found += [fault for one in alone for fault in faults_alone(one)]
+    return tuple({(one.message, one.span): one for one in found}.values())
+
+
+def _is_own(span: Span | None, theory: Theory) -> bool:
+    return span is not None and span.source == theory.source
+
+
+def model_of(theory: Theory) -> Model:
     """The model of just the givens; an error tells which of them it was."""
     from ttr.models import Model
 
@@ -251,7 +123,7 @@ def _reduced(query: Query, model: Model) -> Query:
 
     Raises `Refused` where an argument is not of the domain of the function.
     """
-    if isinstance(query, IsWellFormed):
+    if isinstance(query, IsWellFormed | Updates):
         return query
     inside = {part.name: getattr(query, part.name) for part in fields(query)}
     return replace(query, **{k: model.reduced(v) for k, v in inside.items()})
@@ -284,6 +156,8 @@ def _asked(query: Query, theory: Theory, model: Model) -> _Answer:
             p = model.true(T)
             why = f"{'a' if p.lo == 1.0 else 'no'} certain witness of {T} is known"
             return _Answer("yes" if _same(p, interval) else "no", _interval(p), why)
+        case Updates():
+            return _updates(query, model)
     assert_never(query)
 
 
@@ -310,6 +184,15 @@ def _merges(query: Merges, theory: Theory) -> _Answer:
     if merged is query.result:
         return _Answer("yes", "yes")
     return _Answer("no", str(merged), f"it is not {query.result}")
+
+
+def _updates(query: Updates, model: Model) -> _Answer:
+    """Whether the rule gives the state; an error where it does not apply."""
+    wanted = model.reduced(query.result)
+    after = stepped(query.rule, [*map(model.reduced, query.args)], model).state
+    if identity(after) == identity(wanted):
+        return _Answer("yes", "yes")
+    return _Answer("no", notation(after), "\n".join(differences(wanted, after)))
 
 
 def _is_well_formed(T: TypeNode | TTRError) -> _Answer:

@@ -32,7 +32,7 @@ from ttr.syntax import (
 )
 from ttr.theories import Signature, signature_of
 
-__all__ = ["checked", "checked_binder", "target", "wellformed"]
+__all__ = ["checked", "checked_binder", "checked_within", "target", "wellformed"]
 
 
 @following_nesting
@@ -85,6 +85,21 @@ def checked_binder(binder: _BINDER, theory: Signature | None = None) -> _BINDER:
     inside = binder.body if isinstance(binder, Function) else binder.result
     _check(inside, _scope(binder), (), signature_of(theory))
     return binder
+
+
+def checked_within(
+    value: Object, around: RecordType, theory: Signature | None = None
+) -> None:
+    """Refuses a value whose paths do not resolve in records of `around`, or misfit.
+
+    The value stands in such a record, as the type of a field of it does.
+
+    >>> from ttr.syntax import Ind, Pred, this
+    >>> checked_within(Pred("dog", Ind)(this.s.y), RecordType((("s", RecordType(())),)))
+    Traceback (most recent call last):
+    ttr.errors.IllFormed: the path s.y leads nowhere: Rec has no y
+    """
+    _check(value, _scope(around), (), signature_of(theory))
 
 
 class _Scope(NamedTuple):

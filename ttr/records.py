@@ -40,8 +40,16 @@ def _replaced(r: Record, path: tuple[str, ...], value: Object) -> Record:
             f"{'.'.join(path)} is not in {r}, so it cannot be replaced",
             hint=suggestion(label, known),
         )
-    inner = _replaced(r[label], tuple(rest), value) if rest else value
-    return Record({**r._fields, label: inner})
+    inner = _replaced(r._fields[label], tuple(rest), value) if rest else value
+    return _with(r, label, inner)
+
+
+def _with(r: Record, label: str, value: Object) -> Record:
+    """The record with a frozen value at a label that it has: nothing needs checking."""
+    changed = object.__new__(Record)
+    object.__setattr__(changed, "_fields", {**r._fields, label: value})
+    object.__setattr__(changed, "_hash", None)
+    return changed
 
 
 def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:

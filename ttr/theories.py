@@ -14,10 +14,23 @@ from immutables import Map
 
 from ttr.errors import IllFormed, NotationError, Span, TTRError, suggestion
 from ttr.paths import occurring
-from ttr.syntax import Basic, Object, Path, Pred, PType, TypeNode, kind_of
+from ttr.syntax import (
+    Basic,
+    Object,
+    Path,
+    Pred,
+    PType,
+    Record,
+    RecordType,
+    TypeNode,
+    kind_of,
+)
 
 if TYPE_CHECKING:
-    from ttr.checking import Check
+    from ttr.queries import Check
+    from ttr.updates.algorithms import Algorithm
+    from ttr.updates.games import Game
+    from ttr.updates.rules import Rule
 
 __all__ = [
     "Axiom",
@@ -26,6 +39,7 @@ __all__ = [
     "Given",
     "Interval",
     "Mistakes",
+    "Opening",
     "Signature",
     "Theory",
     "load",
@@ -104,6 +118,21 @@ class Expected:
     type: TypeNode
     when: tuple[TypeNode, ...]
     p: Interval
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
+class Opening:
+    """How a theory declares a game: all of it but the model in which it is played.
+
+    `start` is its first state, of `type`; `agenda` the path of what it plans.
+    """
+
+    name: str
+    type: RecordType
+    start: Record
+    algorithm: Algorithm
+    agenda: str | None = None
     span: Span | None = None
 
 
@@ -250,6 +279,9 @@ class Theory(Signature):
     objects: frozenset[str] = frozenset()
     checks: tuple[Check, ...] = ()
     source: str = "<text>"
+    rules: Mapping[str, Rule] = field(default_factory=dict)
+    strategies: Mapping[str, Algorithm] = field(default_factory=dict)
+    openings: Mapping[str, Opening] = field(default_factory=dict)
 
     parse = _Parse()
 
@@ -284,10 +316,24 @@ class Theory(Signature):
             self.axioms, self.opened, self.givens, self.definitions, self.exclusions
         )
 
+    @cached_property
+    def games(self) -> Mapping[str, Game]:
+        """The games, played in the model of the theory's givens.
+
+        Raises `TTRError` where the givens contradict one another, or where the start of
+        a game is not of its type.
+        """
+        from ttr.notation.openings import opened
+
+        return opened(self)
+
     @property
     def names(self) -> frozenset[str]:
-        """Every name declared in the theory, objects too."""
-        return self.objects.union(self.definitions, self.basics, self.predicates)
+        """Every name declared in the theory, objects and rules too."""
+        played = (self.rules, self.strategies, self.openings)
+        return self.objects.union(
+            self.definitions, self.basics, self.predicates, *played
+        )
 
     def __getitem__(self, name: str) -> Object:
         if not isinstance(name, str):
@@ -311,8 +357,16 @@ class Theory(Signature):
             raise AttributeError(self._missing(name)) from None
 
     def _missing(self, name: str) -> str:
-        known = [*self.definitions, *self.basics, *self.predicates]
-        hint = suggestion(name, known)
+        played = {
+            "rules": self.rules,
+            "strategies": self.strategies,
+            "games": self.openings,
+        }
+        for kind, names in played.items():
+            if name in names:
+                return f"{name} is one of the {kind}: theory.{kind}[{name!r}]"
+        terms = [*self.definitions, *self.basics, *self.predicates]
+        hint = suggestion(name, [*terms, *(one for k in played.values() for one in k)])
         return f"the theory has no {name}" + f": {hint}" * bool(hint)
 
     def __repr__(self) -> str:

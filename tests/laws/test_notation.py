@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from generators import records, types
-from hypothesis import example, given
+from hypothesis import assume, example, given, reject
 from hypothesis import strategies as st
 
 from ttr import (
@@ -13,6 +13,7 @@ from ttr import (
     Basic,
     EventString,
     FiniteSet,
+    IllFormed,
     Ind,
     ListOf,
     Negation,
@@ -41,7 +42,14 @@ from ttr import (
     rst,
     this,
 )
-from ttr.syntax import BOUND, Object
+from ttr.notation.drafts import Draft
+from ttr.notation.grammar import statement
+from ttr.notation.statements import Declaring
+from ttr.notation.trees import Source
+from ttr.probability import CERTAIN, Degree
+from ttr.syntax import BOUND, Object, RecordType
+from ttr.updates.rules import Body, Rule
+from ttr.updates.writing import written
 
 A, B = Basic("A"), Basic("B")
 dog, hug, rains = Pred("dog", Ind), Pred("hug", Ind, Ind), Pred("rains", ())
@@ -212,6 +220,7 @@ def record_types(draw: st.DrawFn, around: Around, depth: int) -> TypeNode:
 @example(rectype(x=Ind, t=Type @ rectype(c=dog(outer.x))))
 @example(Singleton(Singleton(Ind, "a"), "b"))
 @example(rectype(f=Ind @ "λx", λx=Ind))
+@example(rectype(λ=Ind @ 0.5))
 @example(Application(Application("x", Type), "Type"))
 @example(rectype(fun=Ind, s=Type @ EventString(this.fun, "x")))
 @example(rectype(set=Ind, s=Type @ EventString(this.set, record(x=1))))
@@ -247,3 +256,57 @@ def test_a_printed_type_reads_back_as_itself(T):
 @given(records())
 def test_a_printed_record_reads_back_as_its_equal(r):
     assert Theory.of(r).parse(str(r)) == r
+
+
+# --- rules ---------------------------------------------------------------------------
+
+KINDS = st.sampled_from((Ind, A, B, PROPERTY, LISTS))
+VARIABLES = ("s", "e", *LABELS)
+ENDS = st.sampled_from((0.0, 0.25, 0.7, 1.0))
+
+
+@st.composite
+def rules(draw: st.DrawFn) -> Rule:
+    """Rules of any form, with paths to the state, the event and what is bound."""
+    fields = draw(st.dictionaries(st.sampled_from(LABELS), KINDS, max_size=3))
+    when = rectype(fields)
+    on = draw(st.none() | types_of((), 2))
+    some = st.lists(st.sampled_from(VARIABLES), min_size=2, max_size=2, unique=True)
+    names = tuple(draw(some)[: 1 if on is None else 2])
+    around = tuple(Place(0, (names[0], k), T) for k, T in fields.items())
+    around += (Place(0, (names[0],), when),)
+    where = draw(st.none() | record_types(around, 1))
+    if isinstance(where, RecordType):
+        assume(not set(where) & set(names))
+        around += tuple(Place(0, (k,), T) for k, T in where.fields)
+    records_of = st.dictionaries(st.sampled_from(LABELS), objects(around, 1))
+    value = draw(record_types(around, 2) | records_of.map(record))
+    return Rule(
+        draw(st.sampled_from(("greet", "größe", "rule", "of"))),
+        Body(value, names),
+        when,
+        on=on,
+        where=where,
+        kind=draw(st.sampled_from(("", "grounding", "where", "λ"))),
+        p=CERTAIN if on is None else Degree(*sorted((draw(ENDS), draw(ENDS)))),
+        takes=frozenset(("model", *(where or ()))),
+        names=names,
+        doc=draw(
+            st.sampled_from(("", "Says 'hello'.", 'a "b"\nc')) | st.text(max_size=4)
+        ),
+    )
+
+
+@given(rules())
+def test_a_rule_reads_back_as_itself(rule):
+    parts = (rule.when, rule.on or (), rule.where or (), rule.effect.value)
+    draft = Draft.of(Theory.of(*parts))
+    assume(rule.name not in draft.names)
+    source = Source(written(rule))
+    try:
+        Declaring(draft, source).declare(statement(source, 0, len(source.text)))
+    except IllFormed:
+        reject()  # a path leads to what does not fit, as the types of the rule say
+    found = draft.rules[rule.name]
+    assert replace(found, span=None, text="") == rule
+    assert written(found) == written(rule)

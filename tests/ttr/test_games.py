@@ -86,6 +86,15 @@ def test_uncertain_events_of_a_game():
     assert [one for one, _ in turn.heard] == [record(by="a"), record(by="c")]
 
 
+def test_a_move_that_cannot_be_made():
+    def act(planned, model):
+        raise OSError("the arm is stuck")
+
+    game = talk(act=act)
+    with pytest.raises(UpdateError, match="cannot be made: OSError: the arm is stuck"):
+        game.take(game.begin(), {"by": "a"})
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [

@@ -132,7 +132,7 @@ def test_a_quoted_name_in_an_axiom_is_an_object() -> None:
         ("bsaic A", (4, 7), "expected := or <:, found A", "did you mean basic?"),
         ("Dog = Ind", (4, 5), "expected := or <:, found =", "written Name := T"),
         ("fido : Ind", (4, 6), "expected := or <:, found :", "write given a : T"),
-        ("rule greet", (4, 6), "a rule statement is not part of this version", ""),
+        ("rule greet", (4, 11), "expected (, found the end of", "rule name(s : S"),
         ("check dog('a')", (4, 7), "this is nothing that can be checked", "a : T"),
         ("check P(Ind) = [0.5]", (4, 16), "a number in [0, 1]", ""),
         (
@@ -375,6 +375,8 @@ STATEMENTS = {
     "facts": "given s{} : dog('rex')",
     "checks": "check unknown 'rex{}' : Image",
     "axioms": "hug(x, 'a{}') <: dog(x)",
+    "rules": "rule r{}(s : [x : Ind]) of k := [x = s.x : Ind]",
+    "strategies": "rule r{0}(s : Rec) := Rec\nstrategy s{0} := maybe(r{0})",
     "names nobody declared": "T{} := [x : Spoilt]",
 }
 
@@ -405,6 +407,9 @@ def test_a_mistake_in_a_statement_adds_nothing_of_it() -> None:
         "open Ind, Nobody",
         "X := [x : Idn]",
         "puppy(x) <: dog(y)",
+        "rule r(s : [x : Ind]) := [x = s.y : Ind]",
+        "strategy n := by_class(k)",
+        "game g({x = a} : [x : Ind]) := n",
         "check dog",
     ):
         source = Source(text)

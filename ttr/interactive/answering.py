@@ -5,20 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from ttr.checking import Check, IsBelow, IsOf, check
+from ttr.checking import asked
+from ttr.display.folding import folding
 from ttr.errors import NotationError, Span, TTRError, following_nesting
 from ttr.interactive.sessions import INPUT, Answered, Session, created, declared
 from ttr.judgements import Why
 from ttr.merging import amerge, merge
 from ttr.notation import trees
 from ttr.notation.grammar import statement, vetted
+from ttr.notation.openings import opened
 from ttr.notation.questions import Asking
 from ttr.notation.reader import Reader, read
 from ttr.notation.trees import Application, Name, Source, Statement
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
+from ttr.queries import Check, IsBelow, IsOf
 from ttr.subtyping import subtype
 from ttr.syntax import Object, TypeNode, as_type
+from ttr.updates.stepping import stepped
+from ttr.updates.writing import declaration
 
 __all__ = ["ASKED", "Reply", "answered", "changes", "term"]
 
@@ -71,9 +76,11 @@ def changes(names: Iterable[str]) -> str:
 def _stated(session: Session, tree: Statement, source: Source) -> Reply:
     """The session with the statement; a check that fails is not kept."""
     after, changed = declared(session, tree, source)
+    if changed or isinstance(tree, trees.GameStatement):
+        opened(after.theory)  # refuses a game that starts from what is no state of it
     if not isinstance(tree, trees.Question):
         return Reply(replace(after, before=session), changes(changed))
-    report = check(replace(after.theory, checks=after.theory.checks[-1:]))
+    report = asked(replace(after.theory, checks=after.theory.checks[-1:]))
     if not report.holds:
         return Reply(session, str(report))
     return Reply(replace(after, before=session), "it holds")
@@ -171,7 +178,7 @@ def _asked(session: Session, question: Check) -> Reply:
             return _judged(session, model.reduced(sit), _type(session, T))
         case IsBelow(lower, upper):
             return _compared(session, _type(session, lower), _type(session, upper))
-    report = check(replace(session.theory, checks=(question,)))
+    report = asked(replace(session.theory, checks=(question,)))
     if report.holds:
         return Reply(session, "yes")
     (failure,) = report.failures
@@ -245,11 +252,42 @@ def _claimed(session: Session, claim: trees.Term, reader: Reader) -> Reply:
             word in ASKED and word not in session.theory.names
         ):
             return _asked_of_types(session, word, claim, reader)
+        case Name(_, _, (name,), None) if _is_played(session, name):
+            return Reply(session, _declared(session, name))
+        case Application(_, _, Name(_, _, (name,), None)) if (
+            name in session.theory.rules
+        ):
+            rule, args = Asking(reader).step(claim, name)
+            args = tuple(map(session.model.reduced, args))
+            return _shown(session, stepped(rule, args, session.model).state)
+        case Application(_, _, Name(_, _, (name,), None), args) if (
+            name in session.theory.openings
+        ):
+            return _played(session, name, [reader.object(arg, ()) for arg in args])
     return _shown(session, session.model.reduced(reader.object(claim, ())))
 
 
 def _shown(session: Session, value: Answered) -> Reply:
     return Reply(replace(session, last=value), notation(value))
+
+
+def _is_played(session: Session, name: str) -> bool:
+    theory = session.theory
+    played = (theory.rules, theory.strategies, theory.openings)
+    return any(name in kind for kind in played)
+
+
+def _declared(session: Session, name: str) -> str:
+    """The rule, strategy or game, with the names of what is defined."""
+    return declaration(session.theory, name, folding(session.theory, 0))
+
+
+def _played(session: Session, name: str, events: list[Object]) -> Reply:
+    """The turns of a game from its start: one for each event, or one without any."""
+    game = session.theory.games[name]
+    turns = game.play([session.model.reduced(event) for event in events] or [None])
+    state = notation(turns[-1].state)
+    return Reply(session, "\n".join([*map(str, turns), f"state: {state}"]))
 
 
 def _asked_of_types(

@@ -73,32 +73,40 @@ _SIGNS = re.compile(
 )
 
 
+_PROMISES = re.compile(r"\s*(rule|game)\s+\w+\s*\(")
+
+
 @dataclass(frozen=True)
 class Pending:
     """How an input stands after some of its lines, so that each is looked at once.
 
-    `depth` is how many brackets are open, `last` the kind of the last sign.
+    `depth` is how many brackets are open, `last` the kind of the last sign. What
+    `is_promised` is a rule or a game before its :=.
     """
 
     depth: int = 0
     last: str = ""
     is_command: bool = False
+    is_promised: bool = False
 
     def after(self, line: str) -> Pending:
         """How it stands after a line more."""
         depth, last = self.depth, self.last
+        is_promised = self.is_promised or (not last and bool(_PROMISES.match(line)))
         for found in _SIGNS.finditer(line):
             kind = found.lastgroup
             depth += (kind == "opening") - (kind == "closing")
             last = kind or last
+            is_promised = is_promised and found[0] != ":="
         begins_here = not self.last and line.lstrip().startswith(":")
-        return Pending(depth, last, self.is_command or begins_here)
+        is_command = self.is_command or begins_here
+        return Pending(depth, last, is_command, is_promised)
 
     @property
     def is_complete(self) -> bool:
         """Whether the input ends here."""
         waits = self.last == "operator" and not self.is_command
-        return self.depth <= 0 and not waits
+        return self.depth <= 0 and not waits and not self.is_promised
 
 
 def is_complete(text: str) -> bool:
@@ -167,10 +175,13 @@ def _kinds(theory: Theory) -> Iterator[str]:
         "pred": arities,
         "object": sorted(theory.objects),
         "defined": theory.definitions,
+        "rule": theory.rules,
+        "strategy": theory.strategies,
+        "game": theory.openings,
     }
     for kind, names in kinds.items():
         if names:
-            yield f"{kind:<8}{', '.join(names)}"
+            yield f"{kind:<7} {', '.join(names)}"
 
 
 def _arities(pred: Pred) -> Iterator[str]:
@@ -215,8 +226,10 @@ _TYPED = (
     ("Dog := T", "define a name; declared again, what rests on it follows"),
     ("given a : T", "a fact, also with a degree: given a : T = 0.7"),
     ("S <: T", "an axiom"),
+    ("rule r(s : S)", "… := T, a rule of update; also strategy n := …, game g(…) := …"),
     ("a : T, S <= T", "is it so? also S = T, merge(S, T) = U, wellformed(T)"),
     ("merge(S, T)", "what it comes to; also amerge(S, T), f(a)"),
+    ("r(s, e), g(e)", "the state that a rule gives; the turns of a game"),
     ("create(T)", "make a witness and keep it; witnesses(T) lists the known ones"),
 )
 """What is no command, with what it does."""

@@ -22,6 +22,7 @@ from ttr.notation.drafts import Draft
 from ttr.notation.grammar import blocks, statement
 from ttr.notation.loading import theory_of_file, theory_of_text
 from ttr.notation.statements import Declaring, mentioned
+from ttr.notation.strategies import gathered
 from ttr.notation.trees import Source, Statement
 from ttr.paths import occurring
 from ttr.printing import notation
@@ -41,11 +42,15 @@ Answered: TypeAlias = Object | Judgement | Answer | None
 
 @dataclass(frozen=True)
 class Entry:
-    """A statement of a session: the names that it declares, and those it rests on."""
+    """A statement of a session: the names that it declares, and those it rests on.
+
+    `kinds` are those of the rules in it, as `rests_on` has those that are gathered.
+    """
 
     text: str
     declares: frozenset[str]
     rests_on: frozenset[str]
+    kinds: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +92,7 @@ def declared(
         entries = (*session.entries, entry)
         return _afresh(session, entries, _theory_of(entries)), frozenset()
     again = _declared_again(session.theory, tree)
-    if again:
+    if again or _gathered(session, entry):
         return _redeclared(session, entry, tree, source)
     theory = _after(session.theory, session.entries, tree, source)
     return _with(session, (*session.entries, entry), theory), frozenset()
@@ -108,11 +113,33 @@ def _entry(tree: Statement, source: Source, folder: Path) -> Entry:
     if isinstance(tree, trees.Import):
         path = (folder / tree.path).resolve()
         try:
-            names = theory_of_file(path).names
+            theory = theory_of_file(path)
         except TTRError as error:
             raise error.at(source.span(tree)) from None
-        return Entry(f"import {json.dumps(str(path))}", names, frozenset())
-    return Entry(_indented(_written(source, tree)), _announced(tree), mentioned(tree))
+        kinds = _of_kinds(rule.kind for rule in theory.rules.values())
+        text = f"import {json.dumps(str(path))}"
+        return Entry(text, theory.names, frozenset(), kinds)
+    text = _indented(_written(source, tree))
+    rests_on = mentioned(tree) | _of_kinds(gathered(tree))
+    return Entry(text, _announced(tree), rests_on, _kinds(tree))
+
+
+def _kinds(tree: Statement) -> frozenset[str]:
+    """The kind of the rule that a statement declares, if it has one."""
+    match tree:
+        case trees.RuleStatement(kind=trees.Word(_, _, kind)):
+            return _of_kinds([kind])
+    return frozenset()
+
+
+def _of_kinds(kinds: Iterable[str]) -> frozenset[str]:
+    """The kinds of rules as what is rested on: written so that they are no names."""
+    return frozenset(f"of {kind}" for kind in kinds)
+
+
+def _gathered(session: Session, entry: Entry) -> bool:
+    """Whether a strategy gathers the rules of a kind, and the entry is one more."""
+    return any(entry.kinds & one.rests_on for one in session.entries)
 
 
 def _indented(text: str) -> str:
@@ -129,7 +156,12 @@ def _announced(tree: Statement) -> frozenset[str]:
             return frozenset(word.text for word in words)
         case trees.Predicates(_, _, arities):
             return frozenset(arity.name.text for arity in arities)
-        case trees.Definition(_, _, word):
+        case (
+            trees.Definition(_, _, word)
+            | trees.RuleStatement(_, _, word)
+            | trees.StrategyStatement(_, _, word)
+            | trees.GameStatement(_, _, word)
+        ):
             return frozenset((word.text,))
         case trees.GivenFact(_, _, trees.Name(_, _, (name,), None)):
             return frozenset((name,))
@@ -196,7 +228,7 @@ def _redeclared(
 ) -> tuple[Session, frozenset[str]]:
     """The session with the entry for those that declared its names before."""
     names = entry.declares
-    ahead, behind = _parted(session.entries, names)
+    ahead, behind = _parted(session.entries, names, entry.kinds)
     try:
         _after(_theory_of(ahead), ahead, tree, source)
     except TTRError:
@@ -247,21 +279,26 @@ def _names_of(entries: Iterable[Entry]) -> frozenset[str]:
 
 
 def _parted(
-    entries: Iterable[Entry], names: frozenset[str]
+    entries: Iterable[Entry],
+    names: frozenset[str],
+    kinds: frozenset[str] = frozenset(),
 ) -> tuple[list[Entry], list[Entry]]:
     """The entries but for those that declare the names, in two parts.
 
-    First those that do not rest on the names, then those that do, each in their order.
+    First those that do not rest on the names and the kinds, then those that do, each in
+    their order.
     """
     ahead: list[Entry] = []
     behind: list[Entry] = []
-    changed = names
+    changed = names | kinds
     for entry in entries:
         follows = bool(entry.rests_on & changed)
         left = _without(entry, names)
         (behind if follows else ahead).extend(left)
         if follows:
             changed |= _names_of(left)
+        if follows or entry.declares & names:
+            changed |= entry.kinds
     return ahead, behind
 
 
@@ -366,7 +403,8 @@ def loaded(session: Session, path: Path) -> tuple[Session, frozenset[str]]:
     new = tuple(entry for entry in _entries(path) if entry.text not in known)
     if not session.entries:
         return _afresh(session, new, theory), frozenset()
-    ahead, behind = _parted(session.entries, _names_of(new))
+    kinds = _union(one.kinds for one in new)
+    ahead, behind = _parted(session.entries, _names_of(new), kinds)
     return _replaced(session, ahead, new, behind)
 
 

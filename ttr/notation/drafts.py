@@ -6,9 +6,11 @@ from collections.abc import Mapping, Set
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from ttr.checking import Check
+from ttr.queries import Check
 from ttr.syntax import Basic, Object, Pred
-from ttr.theories import Axiom, Exclusion, Expected, Given, Signature, Theory
+from ttr.theories import Axiom, Exclusion, Expected, Given, Opening, Signature, Theory
+from ttr.updates.algorithms import Algorithm
+from ttr.updates.rules import Rule
 
 __all__ = ["Draft", "Names", "is_declared", "meaning"]
 
@@ -29,6 +31,15 @@ class Names(Protocol):
     def objects(self) -> Set[str]: ...  # noqa: D102
 
     @property
+    def rules(self) -> Mapping[str, Rule]: ...  # noqa: D102
+
+    @property
+    def strategies(self) -> Mapping[str, Algorithm]: ...  # noqa: D102
+
+    @property
+    def openings(self) -> Mapping[str, Opening]: ...  # noqa: D102
+
+    @property
     def names(self) -> frozenset[str]:
         """Every name, listed: to ask for one of them there is `is_declared`."""
 
@@ -39,8 +50,9 @@ class Names(Protocol):
 
 def is_declared(theory: Names, name: str) -> bool:
     """Whether a name is among those of a theory, without listing them all."""
-    kinds = (theory.objects, theory.definitions, theory.basics, theory.predicates)
-    return any(name in kind for kind in kinds)
+    terms = (theory.objects, theory.definitions, theory.basics, theory.predicates)
+    played = (theory.rules, theory.strategies, theory.openings)
+    return any(name in kind for kind in (*terms, *played))
 
 
 def meaning(theory: Names, name: str) -> Object | None:
@@ -56,7 +68,8 @@ class Draft:
     """What has been read of a theory: the fields are those of `Theory`, to be added to.
 
     `settled` are the names that statements rest on: a predicate among them has its
-    final arities.
+    final arities. `gathered` are the kinds of rules of which a strategy or a game has
+    been made, with its name: no rule of them may follow.
     """
 
     source: str = "<text>"
@@ -69,7 +82,11 @@ class Draft:
     exclusions: dict[Exclusion, None] = field(default_factory=dict)
     givens: list[Given | Expected] = field(default_factory=list)
     checks: list[Check] = field(default_factory=list)
+    rules: dict[str, Rule] = field(default_factory=dict)
+    strategies: dict[str, Algorithm] = field(default_factory=dict)
+    openings: dict[str, Opening] = field(default_factory=dict)
     settled: set[str] = field(default_factory=set)
+    gathered: dict[str, str] = field(default_factory=dict)
 
     @classmethod
     def of(cls, theory: Theory) -> Draft:
@@ -85,13 +102,17 @@ class Draft:
             exclusions=dict.fromkeys(theory.exclusions),
             givens=list(theory.givens),
             checks=list(theory.checks),
+            rules=dict(theory.rules),
+            strategies=dict(theory.strategies),
+            openings=dict(theory.openings),
         )
 
     @property
     def names(self) -> frozenset[str]:
         """Every name declared so far."""
+        played = (self.rules, self.strategies, self.openings)
         return frozenset().union(
-            self.objects, self.definitions, self.basics, self.predicates
+            self.objects, self.definitions, self.basics, self.predicates, *played
         )
 
     @property
@@ -112,4 +133,7 @@ class Draft:
             objects=frozenset(self.objects),
             checks=tuple(self.checks),
             source=self.source,
+            rules=dict(self.rules),
+            strategies=dict(self.strategies),
+            openings=dict(self.openings),
         )

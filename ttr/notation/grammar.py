@@ -256,6 +256,45 @@ class _Trees(Transformer_NonRecursive[Token, Any]):
     def definition(self, meta: Meta, children: list[Any]) -> trees.Definition:
         return self._at(trees.Definition, meta, *children)
 
+    def rule(self, meta: Meta, children: list[Any]) -> trees.RuleStatement:
+        name, *inner, value = children
+        given, doc, kind, where = (
+            [part for part in inner if isinstance(part, sort)]
+            for sort in (trees.Parameter, trees.Literal, trees.Word, trees.Fields)
+        )
+        return self._at(
+            trees.RuleStatement,
+            meta,
+            name,
+            tuple(given),
+            *(found[0] if found else None for found in (doc, kind, where)),
+            value,
+        )
+
+    def parameter(self, meta: Meta, children: list[Any]) -> trees.Parameter:
+        name, base, *degree = children
+        word = self._word(name)
+        return self._at(
+            trees.Parameter, meta, word, base, degree[0] if degree else None
+        )
+
+    def doc(self, meta: Meta, children: list[Token]) -> trees.Literal:
+        return self.text(meta, children)
+
+    def kind(self, meta: Meta, children: list[Token]) -> trees.Word:
+        return self._word(children[0])
+
+    def bindings(self, meta: Meta, children: list[trees.Field]) -> trees.Fields:
+        return self.fields(meta, children)
+
+    def strategy(self, meta: Meta, children: list[Any]) -> trees.StrategyStatement:
+        return self._at(trees.StrategyStatement, meta, *children)
+
+    def game(self, meta: Meta, children: list[Any]) -> trees.GameStatement:
+        name, begin, base, *agenda, value = children
+        path = agenda[0] if agenda else None
+        return self._at(trees.GameStatement, meta, name, begin, base, path, value)
+
     def axiom(self, meta: Meta, children: list[Term]) -> trees.AxiomClaim:
         return self._at(trees.AxiomClaim, meta, *children)
 

@@ -121,7 +121,9 @@ def _contents(path: Path) -> tuple[Path, str]:
         raise Unreadable(f"{str(path)!r} is no path of a file") from None
 
 
-_DECLARES = re.compile(r"(basic|pred|object)\s+(.*)|(\w+)\s*:=")
+_DECLARES = re.compile(
+    r"(basic|pred|object)\s+(.*)|(?:rule|strategy|game)\s+(\w+)|(\w+)\s*:="
+)
 
 
 def _announced(text: str, start: int) -> list[str]:
@@ -129,8 +131,8 @@ def _announced(text: str, start: int) -> list[str]:
     found = _DECLARES.match(text, start)
     if found is None:
         return []
-    if found[3]:
-        return [found[3]]
+    if found[3] or found[4]:
+        return [found[3] or found[4]]
     return list(_listed(found[2]))
 
 
@@ -218,6 +220,9 @@ def _join(mine: Draft, other: Theory, span: Span) -> None:
     mine.basics.update(other.basics)
     mine.predicates.update(other.predicates)
     mine.definitions.update(other.definitions)
+    mine.rules.update(other.rules)
+    mine.strategies.update(other.strategies)
+    mine.openings.update(other.openings)
     mine.objects |= other.objects
     mine.opened |= other.opened
     mine.axioms.update(dict.fromkeys(other.axioms))
@@ -229,4 +234,7 @@ def _join(mine: Draft, other: Theory, span: Span) -> None:
 
 def _meaning(theory: Names, name: str) -> object:
     """What a name is declared as, in a form that can be compared."""
+    for kind in (theory.rules, theory.strategies, theory.openings):
+        if name in kind:
+            return kind[name]
     return name if name in theory.objects else (Theory, identity(meaning(theory, name)))

@@ -17,7 +17,18 @@ NEAR = 200
 LONGEST = 60
 """How many characters of a text an error repeats."""
 
-KEYWORDS = ("basic", "check", "given", "import", "object", "open", "pred", "rule")
+KEYWORDS = (
+    "basic",
+    "check",
+    "game",
+    "given",
+    "import",
+    "object",
+    "open",
+    "pred",
+    "rule",
+    "strategy",
+)
 """The words that begin a statement."""
 
 
@@ -35,11 +46,6 @@ def explained(
     span = Span.of(source.name, source.text, start + at, start + at + len(found))
     found = shown(found)
     near = before[-NEAR:]
-    construct = _unsupported(near, after)
-    if construct:
-        return NotationError(
-            f"{construct} not part of this version of the notation", span=span
-        )
     return NotationError(
         f"expected {_expected(wanted, before)}, found {found or _end(source, end)}",
         span=span,
@@ -96,6 +102,11 @@ _SIGNS = {
     "_ARROW": "->",
     "_DOT": "a dot and the body",
     "LPAR": "(",
+    "LSQB": "[",
+    "_OF": "of",
+    "_WHERE": "where",
+    "_ACTS": "acts on",
+    "_ON": "on",
     "STRING": "a quoted name",
     "$END": "the end",
 }
@@ -108,6 +119,8 @@ _OPERATOR = "_AND"
 """A sign that may stand only where a type or object ends."""
 
 _AFTER = (
+    (r"(?s)^(strategy|game)\b.*:=$", "a rule or a strategy"),
+    (r"(?s)^game\b.*\bacts\s+on$", "a path"),
     (r"(^|[^\w])(<:|<=|⊑|/\\|&|∧|\\/|\||∨|~|¬|->|→)$", "a type"),
     (r":=$", "a type or an object"),
     (r":$", "a type"),
@@ -135,6 +148,8 @@ def _expected(wanted: frozenset[str], before: str) -> str:
     signs = [word for sign, word in _SIGNS.items() if sign in wanted]
     if _OPERATOR in wanted:
         signs = [word for word in signs if word != "->"]
+    if "_WHERE" in wanted:
+        signs = [word for word in signs if word != _SIGNS["STRING"]]
     if len(signs) > 1:
         signs = [word for word in signs if word != "("]
     return _either(names + signs) or "the end"
@@ -159,20 +174,26 @@ def _either(words: list[str]) -> str:
 
 # --- what is written another way -----------------------------------------------------
 
-_LATER = ((r"^rule\s+$", r"\S", "a rule statement is"),)
-"""What of the whole notation is still to come: before, after, the words for it."""
-
-
-def _unsupported(before: str, after: str) -> str:
-    for left, right, construct in _LATER:
-        if re.match(right, after) and re.search(left, before):
-            return construct
-    return ""
-
-
 _DOTTED = r"a function is written \x:T. body, with a space after the dot"
 
+_RULE = "a rule is written rule name(s : S, e : E) := T"
+_PARTS = "between the brackets and := stand a 'text', of kind and where [x = a : T]"
+_STRATEGY = "a strategy is written strategy name := first(a, b)"
+_GAME = "a game is written game name({x = a} : S) := strategy"
+
 _HINTS = (
+    (r"^rule\s*\([^()]*$", r":", _RULE),
+    (r"^rule\s+\w+\s*$", r"", _RULE),
+    (r"^rule\s+\w+\s*\((\s*\w+\s*:[^()]*,)?\s*\w*\s*$", r"", _RULE),
+    (r"\bwhere\s*$", r"", "what is bound stands in brackets: where [x = s.y : T]"),
+    (r"(?s)^rule\b.*\)\s*$", r"=|->|→|:(?!=)|\[|\{", _RULE),
+    (r"(?s)^rule\b.*[)\]\w'\"]\s+$", r"(of|where)\b|['\"]", _PARTS),
+    (r"^strategy\s+\w*\s*$", r"", _STRATEGY),
+    (r"^game\s*\([^()]*$", r":", _GAME),
+    (r"^game\s+\w+\s*$", r"", _GAME),
+    (r"(?s)^game\s+\w+\s*\(.*$", r"acts\b", "a comma stands before acts on"),
+    (r"^game\s+\w+\s*\([^:]*$", r"\)", _GAME),
+    (r"(?s)^game\b.*\)\s*$", r"=|->|→", _GAME),
     (r"(\\|\bfun\s)\s*\w+\s*:[^:]*[^\W\d]\.\w[^:]*$", r"", _DOTTED),
     (r"(\\|\bfun\s|λ)\s*\w*\s*$", r"[:.\w](?!=)", _DOTTED),
     (r"(\\|\bfun\s)\s*\w+\s*:[^.]*$", r"\.\w", _DOTTED),
@@ -208,5 +229,22 @@ def _hint(before: str, after: str) -> str:
     for left, right, hint in _HINTS:
         if re.match(right, after) and re.search(left, before):
             return hint
+    return _misspelt(before, after)
+
+
+_WORDS = (
+    (r"(?s)^rule\b.*[)\]'\"]\s*$", ("of", "where")),
+    (r"(?s)^game\b.*,\s*$", ("acts",)),
+    (r"\bacts\s*$", ("on",)),
+)
+"""What words stand behind what."""
+
+
+def _misspelt(before: str, after: str) -> str:
+    """The word that may have been meant by the one before, or by the one found."""
     first = re.match(r"(\w+)\s+$", before)
-    return suggestion(first[1], KEYWORDS) if first else ""
+    if first:
+        return suggestion(first[1], KEYWORDS)
+    found = _found(after)
+    known = (words for left, words in _WORDS if re.search(left, before))
+    return suggestion(found, next(known, ()))

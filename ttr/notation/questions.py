@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ttr.checking import (
+from ttr.errors import IllFormed, TTRError
+from ttr.notation import trees
+from ttr.notation.drafts import is_declared
+from ttr.notation.reader import Reader
+from ttr.notation.trees import Application, Name, Term
+from ttr.objects import Unresolved
+from ttr.queries import (
     Check,
     Creates,
     Expects,
@@ -16,14 +22,10 @@ from ttr.checking import (
     IsWellFormed,
     Merges,
     Query,
+    Updates,
 )
-from ttr.errors import IllFormed, TTRError
-from ttr.notation import trees
-from ttr.notation.drafts import is_declared
-from ttr.notation.reader import Reader
-from ttr.notation.trees import Application, Name, Term
-from ttr.objects import Unresolved
 from ttr.syntax import Object, TypeNode
+from ttr.updates.rules import Rule
 
 __all__ = ["Asking"]
 
@@ -91,7 +93,19 @@ class Asking:
             ):
                 degree = trees.Degree(right.start, right.end, "=", right)
                 return IsTrue(self._type(T), self.reader.degree(degree))
+            case Application(_, _, Name(_, _, (name,), None)) if (
+                name in self.reader.theory.rules
+            ):
+                return Updates(*self.step(left, name), self._object(right))
         return IsSame(self._object(left), self._object(right))
+
+    def step(self, term: Application, name: str) -> tuple[Rule, tuple[Object, ...]]:
+        """A rule that is written like a function, with its state and its event."""
+        rule = self.reader.theory.rules[name]
+        if len(term.args) != len(rule.names):
+            wanted = "the state and the event" if rule.on else "the state alone"
+            self.reader.refuse(term, f"{name} takes {wanted}, but has {len(term.args)}")
+        return rule, tuple(map(self._object, term.args))
 
     def _built(self, term: Term) -> TypeNode | TTRError:
         try:

@@ -153,12 +153,14 @@ def read(text: str, theory: Theory, source: str = "<text>") -> Object:
 class Reader:
     """Reads terms of one text in one theory.
 
-    `later` says in which line a name is declared that the theory does not have yet.
+    `later` says in which line a name is declared that the theory does not have yet,
+    `way_out` what to do about a name that means nothing.
     """
 
     theory: Names
     source: Source
     later: Mapping[str, int] = field(default_factory=dict)
+    way_out: str = "declare it first"
 
     # --- where an object or a type may stand ---
 
@@ -189,7 +191,7 @@ class Reader:
         return tuple([self.object(term, scope) for term in terms])
 
     def _record(self, term: Braces, scope: Scope) -> Record:
-        self._distinct([label for label, _ in term.settings])
+        self.distinct([label for label, _ in term.settings])
         pairs = [(k.text, self.object(v, scope)) for k, v in term.settings]
         return Record(dict(pairs))
 
@@ -210,7 +212,7 @@ class Reader:
             return False
         if self._value(name) is not None:
             return False
-        return not suggestion(name, {*self.theory.names, *_around(scope)})
+        return not suggestion(name, {*_terms(self.theory), *_around(scope)})
 
     def _function(self, term: Abstraction, scope: Scope) -> Function:
         name = self._variable(term.variable)
@@ -244,7 +246,8 @@ class Reader:
             self.refuse(name, f"{head} is an object without labels")
         if value is None:
             quoted = f"quote it to name an object: '{shown(head)}'"
-            self._unknown(name, head, scope, f"declare it first, or {quoted}")
+            way_out = self.way_out.format(name=head)
+            self._unknown(name, head, scope, f"{way_out}, or {quoted}")
         try:
             return along(value, rest)
         except Unresolved as error:
@@ -384,7 +387,7 @@ class Reader:
             raise error.at(self.source.span(wrong)) from None
 
     def _record_type(self, term: Fields, scope: Scope) -> RecordType:
-        self._distinct([f.label for f in term.fields])
+        self.distinct([f.label for f in term.fields])
         scope = (frozenset(f.label.text for f in term.fields), *scope)
         found: dict[str, TypeNode] = {}
         for part in term.fields:
@@ -433,16 +436,31 @@ class Reader:
 
     def _unknown(self, part: Part, name: str, scope: Scope, way_out: str) -> NoReturn:
         """Refuses a name; the way out is told where none like it is known."""
+        self._refuse_played(part, name)
         if name in self.later:
-            self._too_early(part, name)
-        known = [*self.theory.names, *RESERVED, *_around(scope)]
+            self.too_early(part, name)
+        known = [*_terms(self.theory), *RESERVED, *_around(scope)]
         self.refuse(
             part,
             f"nothing is called {shown(name)} here",
             suggestion(name, known) or way_out,
         )
 
-    def _too_early(self, part: Part, name: str) -> NoReturn:
+    def _refuse_played(self, part: Part, name: str) -> None:
+        """Refuses a rule, strategy or game where a type or an object should be."""
+        theory = self.theory
+        kinds = {
+            "rule": theory.rules,
+            "strategy": theory.strategies,
+            "game": theory.openings,
+        }
+        for kind, names in kinds.items():
+            if name in names:
+                told = f"{name} is a {kind}, which is no type, object or predicate"
+                self.refuse(part, told)
+
+    def too_early(self, part: Part, name: str) -> NoReturn:
+        """Refuses a name that is declared further down."""
         self.refuse(
             part,
             f"{name} is used before its definition in line {self.later[name]}",
@@ -450,9 +468,10 @@ class Reader:
         )
 
     def _no_predicate(self, term: Call, name: str, scope: Scope) -> NoReturn:
+        self._refuse_played(term.head, name)
         if name in self.later:
-            self._too_early(term.head, name)
-        known = {*self.theory.names, *_WORDS, *_around(scope)} - {*self.theory.basics}
+            self.too_early(term.head, name)
+        known = {*_terms(self.theory), *_WORDS, *_around(scope)} - {*self.theory.basics}
         arity = ", ".join(["…"] * len(term.args[:5]))
         self.refuse(
             term.head,
@@ -485,7 +504,7 @@ class Reader:
 
     # --- refusing ---
 
-    def _distinct(self, labels: list[Word]) -> None:
+    def distinct(self, labels: list[Word]) -> None:
         """Refuses what is no label, and a label that is there twice."""
         seen: set[str] = set()
         for label in labels:
@@ -500,7 +519,7 @@ class Reader:
             seen.add(label.text)
 
     def _variable(self, word: Word) -> str:
-        self._distinct([word])
+        self.distinct([word])
         return word.text
 
     def written(self, part: Part) -> str:
@@ -510,6 +529,14 @@ class Reader:
     def refuse(self, part: Part, message: str, hint: str = "") -> NoReturn:
         """Raises a `NotationError` at a part of the text."""
         raise NotationError(message, span=self.source.span(part), hint=hint)
+
+
+def _terms(theory: Names) -> Iterator[str]:
+    """The names that may stand for a type, an object or a predicate."""
+    yield from theory.objects
+    yield from theory.definitions
+    yield from theory.basics
+    yield from theory.predicates
 
 
 def _around(scope: Scope) -> Iterator[str]:

@@ -104,6 +104,7 @@ _BINDING = re.compile(
         | (?P<closing> [\])}}>] )
         | (?P<comma> , )
         | (?P<sign> -> | \\/ | /\\ )
+        | (?P<number> (?<![{_WORD}])[0-9]+\.[0-9]+ )
         | (?P<function> \\ \s* λ?
             | (?<![{_WORD}])(?: fun\s++ λ? | λ )(?= \s*+ [{_WORD}]*+ \s*+ :(?!=) ) )
         | (?P<dot> \.(?![{_LETTER}]) ) """,

@@ -9,8 +9,11 @@ from functools import cached_property
 from ttr.errors import suggestion
 from ttr.notation import trees
 from ttr.notation.drafts import Draft, is_declared
+from ttr.notation.openings import opening_of
 from ttr.notation.questions import Asking
 from ttr.notation.reader import LOGICAL, Reader
+from ttr.notation.rules import rule_of
+from ttr.notation.strategies import algorithm, gathered
 from ttr.notation.trees import (
     Application,
     Arity,
@@ -65,6 +68,12 @@ class Declaring:
                 self._given_chance(tree)
             case trees.Definition():
                 self._definition(tree)
+            case trees.RuleStatement():
+                self._rule(tree)
+            case trees.StrategyStatement():
+                self._strategy(tree)
+            case trees.GameStatement():
+                self._game(tree)
             case trees.AxiomClaim():
                 self._axiom(tree)
             case trees.Question():
@@ -154,6 +163,39 @@ class Declaring:
         self._claim(tree.name, "defined", ())
         self.draft.definitions[tree.name.text] = self.reader.object(tree.value, ())
 
+    def _rule(self, tree: trees.RuleStatement) -> None:
+        self._claim(tree.name, "a rule", ())
+        self._check_gathered(tree)
+        self.draft.rules[tree.name.text] = rule_of(tree, self.reader)
+
+    def _check_gathered(self, tree: trees.RuleStatement) -> None:
+        """Refuses a rule of a kind whose rules have been gathered without it."""
+        if tree.kind is None:
+            return
+        kind = tree.kind.text
+        if kind in self.draft.gathered:
+            self.reader.refuse(
+                tree.kind,
+                f"{self.draft.gathered[kind]} has been made of the rules of {kind} "
+                "before",
+                "move the rule up",
+            )
+
+    def _strategy(self, tree: trees.StrategyStatement) -> None:
+        self._claim(tree.name, "a strategy", ())
+        self.draft.strategies[tree.name.text] = algorithm(tree.value, self.reader)
+        self._gather(tree.name, tree.value)
+
+    def _game(self, tree: trees.GameStatement) -> None:
+        self._claim(tree.name, "a game", ())
+        self.draft.openings[tree.name.text] = opening_of(tree, self.reader)
+        self._gather(tree.name, tree.value)
+
+    def _gather(self, name: Word, value: Term) -> None:
+        """Remembers which kinds of rules have been gathered, and in what."""
+        for kind in sorted(gathered(value)):
+            self.draft.gathered.setdefault(kind, name.text)
+
     def _axiom(self, tree: trees.AxiomClaim) -> None:
         lower = self._schema(tree.lower)
         if isinstance(tree.upper, trees.Denial):
@@ -209,6 +251,9 @@ class Declaring:
             "defined": self.draft.definitions,
             "a basic type": self.draft.basics,
             "a predicate": self.draft.predicates,
+            "a rule": self.draft.rules,
+            "a strategy": self.draft.strategies,
+            "a game": self.draft.openings,
         }
         return next((k for k, names in kinds.items() if name in names), "an object")
 

@@ -34,6 +34,7 @@ __all__ = [
     "Events",
     "Field",
     "Fields",
+    "GameStatement",
     "GivenChance",
     "GivenFact",
     "Import",
@@ -43,14 +44,17 @@ __all__ = [
     "Name",
     "ObjectNames",
     "OpenNames",
+    "Parameter",
     "Part",
     "Predicates",
     "Probability",
     "Query",
     "Question",
     "Restriction",
+    "RuleStatement",
     "Source",
     "Statement",
+    "StrategyStatement",
     "Term",
     "Word",
     "inside",
@@ -311,6 +315,46 @@ class Definition(Statement):
     """Name := type or object."""
 
     name: Word
+    value: Term
+
+
+@dataclass(frozen=True, slots=True)
+class RuleStatement(Statement):
+    """rule name(s : S, e : E) "doc" of kind where [x : T] := value."""
+
+    name: Word
+    parameters: tuple[Parameter, ...]
+    doc: Literal | None
+    kind: Word | None
+    where: Fields | None
+    value: Term
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter(Part):
+    """s : S, or e : E in [lo, hi]."""
+
+    name: Word
+    type: Term
+    degree: Degree | None
+
+
+@dataclass(frozen=True, slots=True)
+class StrategyStatement(Statement):
+    """strategy name := value."""
+
+    name: Word
+    value: Term
+
+
+@dataclass(frozen=True, slots=True)
+class GameStatement(Statement):
+    """game name(start : S, acts on agenda) := value."""
+
+    name: Word
+    begin: Term
+    type: Term
+    agenda: Term | None
     value: Term
 
 

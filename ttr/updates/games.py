@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from ttr.certainty import certainly
 from ttr.errors import Endless, NotHeard, TTRError, UpdateError, suggestion
 from ttr.judgements import Judgement
 from ttr.models import Model, as_model
@@ -21,7 +22,7 @@ from ttr.theories import Theory
 from ttr.updates.algorithms import Algorithm, checked, rules_of
 from ttr.updates.nbest import NBest
 from ttr.updates.rules import Rule
-from ttr.updates.running import Run, Step, check_state, run
+from ttr.updates.running import Run, Step, check_state, continued
 
 __all__ = ["Act", "Game", "Turn"]
 
@@ -144,14 +145,14 @@ class Game:
         changed.
         """
         happened, model = self._event(event, so_far.model)
-        events = () if happened is None else (happened,)
-        after = self._run(Run(so_far.state, model, ()), events)
+        after = self._run(Run(so_far.state, model, ()), happened, None)
         said: list[Judgement] = []
         while planned := self.planned(after.state):
             if len(said) >= MOVES:
                 raise Endless(f"the agenda is not empty after {MOVES} moves in a turn")
             move, model = self._made(planned[0], after.model)
-            following = self._run(after._replace(model=model), (move,))
+            ready = after._replace(model=model)
+            following = self._run(ready, move, after.model)
             if len(following.trace) == len(after.trace):
                 raise Endless(
                     f"no rule takes the move {planned[0]}, so it stays on the agenda",
@@ -170,10 +171,12 @@ class Game:
             so_far = turns[-1].run
         return tuple(turns)
 
-    def _run(self, so_far: Run, events: Iterable[object]) -> Run:
-        state, model, trace = so_far
-        after = run(self.algorithm, state, type=self.type, model=model, events=events)
-        return after._replace(trace=trace + after.trace)
+    def _run(self, so_far: Run, event: Object | NBest, judged_in: Model | None) -> Run:
+        """The run after an event; its state may have been judged in the same facts."""
+        state, model, _ = so_far
+        if judged_in is None or model.facts is not judged_in.facts:
+            check_state(state, self.type, model, "before the first rule")
+        return continued(self.algorithm, so_far, event, self.type)
 
     # --- events ---
 
@@ -204,6 +207,8 @@ class Game:
         types = self.hears or tuple(
             dict.fromkeys(rule.on for rule in self.rules if rule.on is not None)
         )
+        if any(certainly(model.facts, event, T) for T in types):
+            return
         if any(model.judge(event, T).p != REFUTED for T in types):
             return
         wanted = " or ".join(map(str, types)) or "none at all"
@@ -234,9 +239,15 @@ class Game:
         )
 
     def _made(self, planned: TypeNode, model: Model) -> tuple[Object, Model]:
-        if self.act is not None:
+        if self.act is None:
+            return model.create(planned)
+        try:
             return self.act(planned, model)
-        return model.create(planned)
+        except TTRError:
+            raise
+        except Exception as error:
+            fault = f"{error.__class__.__name__}: {error}"
+            raise UpdateError(f"the move {planned} cannot be made: {fault}") from error
 
 
 def _shown(event: Object | NBest) -> str:

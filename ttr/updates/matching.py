@@ -53,11 +53,12 @@ def _candidates(
     model: Model,
 ) -> Iterable[tuple[Object, Model]]:
     try:
-        T = grounded(field, (bound, variables))
-        if isinstance(T, Singleton):
-            value = reduced(model.facts, T.value)
-            return [(value, model)] if certainly(model.facts, value, T.base) else []
-        T = reduced(model.facts, T)
+        around = (bound, variables)
+        if isinstance(field, Singleton):
+            value = reduced(model.facts, grounded(field.value, around))
+            base = grounded(field.base, around)
+            return [(value, model)] if certainly(model.facts, value, base) else []
+        T = reduced(model.facts, grounded(field, around))
         known = [(one, model) for one in model.witnesses(T)]
         return known or _seen(T, model)
     except (Unresolved, Refused):

@@ -10,19 +10,21 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
+from math import inf
 from time import perf_counter
 from typing import NamedTuple
 
-from ttr.certainty import certainly
+from ttr.certainty import certainly, certainly_also
 from ttr.errors import Endless, NoState, RuleFailed, TTRError, UpdateError
 from ttr.judgements import Judgement
 from ttr.models import Model
 from ttr.paths import escaping
 from ttr.printing import notation
-from ttr.probability import Degree
+from ttr.probability import CERTAIN, Degree
 from ttr.records import differences
 from ttr.syntax import (
     FiniteSet,
+    ListOf,
     Object,
     Record,
     RecordType,
@@ -47,10 +49,10 @@ from ttr.updates.nbest import Heard, NBest, heard
 from ttr.updates.rules import Rule
 from ttr.updates.settling import settled
 
-__all__ = ["Run", "Step", "check_state", "run"]
+__all__ = ["Run", "Step", "check_state", "continued", "run"]
 
 ROUNDS = 1000
-"""How often anything is repeated at most, if nothing else is said."""
+"""How often anything is repeated at most, where neither times nor measure are given."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,11 +136,20 @@ def run(
     check_state(state, type, model, "before the first rule")
     trace: list[Step] = []
     for event in played or (None,):
-        after = _Player(type, event).play(algorithm, Run(state, model, ()))
-        if after is not None:
-            state, model = after.state, after.model
-            trace += after.trace
+        after = continued(algorithm, Run(state, model, ()), event, type)
+        state, model = after.state, after.model
+        trace += after.trace
     return Run(state, model, tuple(trace))
+
+
+def continued(
+    algorithm: Algorithm, so_far: Run, event: Object | NBest, type: RecordType
+) -> Run:
+    """The run after one more event, or the same run where nothing applies to it.
+
+    The state so far has to be of the type; it is not checked again.
+    """
+    return _Player(type, event).play(algorithm, so_far) or so_far
 
 
 # --- states --------------------------------------------------------------------------
@@ -181,6 +192,10 @@ def _part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> boo
     match was, found, T:
         case Record(), Record(), RecordType():
             return _still_of(was, found, T, model)
+        case tuple(), tuple(), ListOf(item):
+            old = set(map(id, was))
+            new = (element for element in found if id(element) not in old)
+            return all(certainly(model.facts, element, item) for element in new)
     return certainly(model.facts, found, T)
 
 
@@ -245,7 +260,7 @@ class _Player:
 
     def _again(self, repeat: Repeat, so_far: Run) -> Run | None:
         current, rounds = so_far, 0
-        seen = {so_far.state: 0}
+        seen: dict[Record, int] = {}
         while True:
             following = self.play(repeat.part, current)
             if following is None:
@@ -254,17 +269,15 @@ class _Player:
                 return current
             rounds += 1
             self._check_progress(repeat, current, following, rounds)
-            if following.model is not so_far.model:
-                seen = {}
-            elif following.state in seen:
-                self._refuse_circle(following, len(so_far.trace), seen)
-            seen[following.state] = len(following.trace)
+            if repeat.measure is None:
+                self._refuse_return(current, following, seen)
             current = following
 
     def _check_progress(
         self, repeat: Repeat, before: Run, after: Run, rounds: int
     ) -> None:
-        if rounds > (repeat.times or ROUNDS):
+        most = repeat.times or (ROUNDS if repeat.measure is None else inf)
+        if rounds > most:
             last = ", ".join(str(step.rule) for step in before.trace[-3:])
             raise Endless(
                 f"a repetition did not end after {rounds - 1} rounds; the last rules: "
@@ -280,8 +293,21 @@ class _Player:
                 f"{after.trace[-1].rule} took it from {had:g} to {has:g}"
             )
 
-    def _refuse_circle(self, run: Run, start: int, seen: Mapping[Record, int]) -> None:
-        steps = run.trace[max(start, seen[run.state]) :]
+    def _refuse_return(self, before: Run, after: Run, seen: dict[Record, int]) -> None:
+        """Notes a state with its place in the trace; refuses one met in this model.
+
+        Where a measure gets smaller no state can come back, and this is not asked.
+        """
+        if after.model is not before.model:
+            seen.clear()
+        elif not seen:
+            seen[before.state] = len(before.trace)
+        if after.state in seen:
+            self._refuse_circle(after, seen)
+        seen[after.state] = len(after.trace)
+
+    def _refuse_circle(self, run: Run, seen: Mapping[Record, int]) -> None:
+        steps = run.trace[seen[run.state] :]
         names = [str(step.rule) for step in steps]
         if len(names) == 1 and run.trace[-1].before == run.state:
             raise Endless(
@@ -325,14 +351,18 @@ class _Player:
 
     def _heard(self, rule: Rule, model: Model) -> Heard | None:
         if rule.on is None:
-            plain = None if isinstance(self.event, NBest) else self.event
-            return Heard(plain, Degree(1.0, 1.0))
+            return self._in_passing
         if self.event is None:
             return None
         return heard(self.event, rule.on, rule.p, model)
 
+    @cached_property
+    def _in_passing(self) -> Heard:
+        """What a rule that takes no event is told of what happened."""
+        return Heard(None if isinstance(self.event, NBest) else self.event, CERTAIN)
+
     def _holds(self, when: TypeNode, state: Record, model: Model) -> bool:
-        return when is self.type or certainly(model.facts, state, when)
+        return certainly_also(model.facts, state, when, self.type)
 
     def _bound(
         self, rule: Rule, state: Record, event: Heard, model: Model

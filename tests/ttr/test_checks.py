@@ -1,0 +1,759 @@
+"""Static checks: what they see, what they leave alone, and that they raise no alarm."""
+
+import runpy
+import time
+from pathlib import Path
+
+import pytest
+
+from ttr import (
+    Basic,
+    ListOf,
+    Model,
+    NonEmpty,
+    Pred,
+    Rec,
+    RecType,
+    Theory,
+    UpdateError,
+    load,
+    outer,
+    record,
+    rectype,
+    replace,
+    this,
+)
+from ttr.objects import fst
+from ttr.records import differences
+from ttr.updates import (
+    Game,
+    all_,
+    ask,
+    by_class,
+    first,
+    maybe,
+    repeat,
+    rule,
+    seq,
+    update,
+)
+from ttr.updates.checks import Fault, faults, faults_alone, faults_of
+
+EXAMPLES = Path(__file__).resolve().parent.parent.parent / "examples"
+
+Ind, Text, Count = Basic("Ind"), Basic("Text"), Basic("Count")
+hug, run_ = Pred("hug", Ind), Pred("run", Ind)
+Move = rectype(spkr=Ind, addr=Ind)
+Ask = rectype(spkr=Ind, addr=Ind, question=RecType)
+Board = rectype(
+    agenda=ListOf(RecType),
+    n=Count,
+    shared=rectype(qud=ListOf(RecType), latest=Rec, move=Move, facts=ListOf(Ind)),
+)
+M = Model().witnessed(Count, by=lambda n: isinstance(n, int) and n >= 0)
+
+
+def messages(algorithm, type=Board, **known):
+    return [fault.message for fault in faults(algorithm, type, **known)]
+
+
+def sorts(algorithm, type=Board, **known):
+    return [fault.sort for fault in faults(algorithm, type, **known)]
+
+
+# --- no false alarms -----------------------------------------------------------------
+
+
+def test_no_alarm_for_the_games_of_a_tutor():
+    from kille.dialogue.meanings import noun
+    from kille.dialogue.tutoring import tutoring
+
+    assert faults_of(tutoring([noun("cup")])) == ()
+
+
+def test_no_alarm_for_a_travel_agency():
+    travel = runpy.run_path(str(EXAMPLES / "travel" / "travel.py"))["game"]
+    assert [fault for fault in faults_of(travel) if fault.severity == "error"] == []
+
+
+def test_no_alarm_for_the_game_of_fetch():
+    assert faults_of(load(EXAMPLES / "fetch.ttr").games["fetch"]) == ()
+
+
+def test_no_alarm_for_what_cannot_be_followed():
+    @rule(when=Board)
+    def any_way(s):
+        t = s
+        s = getattr(t, "whatever", t)
+        label = "nowhere"
+        if "hidden" in s.shared and s.shared.hidden:
+            return replace(s, {label: 1})
+        return replace(s, {f"shared.{label}": s.shared.latest.of.any.kind})
+
+    @rule(when=Board)
+    def tried(s):
+        try:
+            return replace(s, n=s.hidden)
+        except AttributeError:
+            return None
+
+    @rule(when=Board)
+    def asked(s):
+        return replace(s, n=s.extra) if hasattr(s, "extra") else None
+
+    @rule(when=Board)
+    def inner(s):
+        return replace(s, n=len([s for s in s.shared.qud if s.hidden]))
+
+    @rule(when=Board)
+    def methods(s):
+        return replace(s, n=s.shared.qud.count(1) + s.n.bit_length())
+
+    @rule(when=Board, on=Move)
+    def judged(s, e, *, model):
+        if model.judge(e, Ask).holds and isinstance(s.shared.move, object):
+            return replace(s, agenda=(e.question, s.shared.move.question))
+        return None
+
+    @rule(when=Board)
+    def elsewhere(s):
+        return replace(s, n=len(list(differences(s, s.agenda))))
+
+    algorithm = all_(any_way, tried, asked, inner, methods, judged, elsewhere)
+    assert messages(algorithm, model=M) == []
+
+
+def test_more_specific_types_may_have_more_labels():
+    @rule(when=rectype(shared=rectype(latest=Ask, move=Ask)), on=Ask)
+    def answer(s, e):
+        return replace(s, {"shared.move": e, "agenda": (s.shared.move.question,)})
+
+    @rule(when=Board)
+    def later(s):
+        return replace(s, agenda=(s.shared.move.question,))
+
+    assert messages(first(answer, later)) == []
+    assert messages(later) == [
+        "the rule later reads s.shared.move.question, but s.shared.move has no question"
+    ]
+
+
+def test_what_the_start_has_may_be_read():
+    @rule(when=Board)
+    def look(s):
+        return replace(s, n=s.extra)
+
+    shared = record(qud=[], latest={}, move=record(spkr="a", addr="b"), facts=[])
+    start = record(agenda=[], n=0, shared=shared, extra=1)
+    N = M.given("a", Ind).given("b", Ind)
+    assert messages(look, start=start, model=N) == []
+    assert sorts(look) == ["missing"]
+
+
+def test_events_may_be_of_what_the_rule_before_takes():
+    said, named = rectype(text=Text), rectype(name=Ind)
+
+    @rule(when=Board, on=said)
+    def hear(s, e):
+        return replace(s, {"shared.latest": e})
+
+    @rule(when=Board, on=named)
+    def keep(s, e):
+        return replace(s, n=len(e.text) + len(e.nmae))
+
+    (fault,) = faults(seq(hear, keep), Board)
+    assert fault.message == "the rule keep reads e.nmae, but e has no nmae"
+    assert fault.hint == "did you mean name?"
+
+
+def test_functions_that_an_effect_calls_are_read_too():
+    @rule(when=Board)
+    def plan(s):
+        shared = s.shared
+        return planned(s, shared.qdu)
+
+    @rule(when=Board)
+    def plan_again(s):
+        return planned(s, 1)
+
+    found = faults(all_(plan, plan_again), Board)
+    assert [fault.message for fault in found] == [
+        "the rule plan reads s.shared.qdu, but s.shared has no qdu",
+        "the rule plan replaces s.shared.pln, but s.shared has no pln",
+    ]
+    assert found[1].span.text.strip() == 'return replace(board, {"shared.pln": what})'
+
+
+def test_what_is_returned_is_a_state():
+    @rule(when=Board)
+    def plan(s, *, model):
+        board = CHANGES["somehow"](s)
+        after = replace(board, m=1)
+        return (after, model) if s.n else (replace(board, n=1), model)
+
+    assert messages(plan) == ["the rule plan replaces s.m, but s has no m"]
+
+
+def test_types_that_an_effect_builds():
+    @rule(when=Board)
+    def ask_it(s):
+        asked = rectype(spkr=Ind, addr=Ind, question=RecType)
+        if s.n:
+            return rectype(shared=rectype(move=asked))
+        return rectype(n=Count, shared=rectype(mvoe=asked, latest=rectype(any=Ind)))
+
+    found = faults(ask_it, Board)
+    assert [fault.message for fault in found] == [
+        "the rule ask_it writes shared.mvoe, but shared has no mvoe"
+    ]
+    assert found[0].span.text[found[0].span.column - 1 :].startswith("mvoe=asked")
+    assert messages(first(ask_it, ALWAYS)) == [
+        found[0].message,
+        "the rule always can never fire: "
+        "the rule ask_it comes first, and applies wherever always would",
+    ]
+
+
+def planned(board, what):
+    return replace(board, {"shared.pln": what})
+
+
+# --- paths ---------------------------------------------------------------------------
+
+
+def test_each_path_that_is_missing():
+    @rule(when=Board, gives=rectype(agneda=ListOf(RecType)))
+    def plan(s):
+        changes = {"shared.qdu": (), "agenda": ()}
+        return replace(replace(s, changes), m=1)
+
+    found = faults(plan, Board)
+    assert [(fault.message, fault.hint) for fault in found] == [
+        (
+            "the rule plan replaces s.shared.qdu, but s.shared has no qdu",
+            "did you mean qud?",
+        ),
+        ("the rule plan replaces s.m, but s has no m", "s has agenda, n, shared"),
+        (
+            "the rule plan promises agneda, but a state has no agneda",
+            "did you mean agenda?",
+        ),
+    ]
+    assert found[2].span.text.strip().startswith("@rule(when=Board, gives=")
+
+
+def test_paths_of_bindings_and_measures():
+    @rule(when=Board, where=rectype(q=RecType @ fst(outer.s.shared.qdu)))
+    def drop(s, q):
+        return replace(s, {"shared.qud": s.shared.qud[1:]})
+
+    assert messages(drop) == [
+        "the rule drop reads s.shared.qdu, but s.shared has no qdu"
+    ]
+    assert messages(repeat(seq(), measure="shared.qdu")) == [
+        "a repetition is measured by shared.qdu, but shared has no qdu"
+    ]
+
+
+def test_the_path_of_the_agenda():
+    @rule(when=rectype(n=Count))
+    def stay(s):
+        return s
+
+    state, start = rectype(n=Count), record(n=0)
+    game = Game("g", state, start, stay, M)
+    object.__setattr__(game, "agenda", "next")
+    assert [fault.message for fault in faults_of(game)] == [
+        "moves are planned at next, but a state has no next"
+    ]
+
+
+def test_where_a_named_type_is_misspelt():
+    @rule(when=MISSPELT)
+    def wait(s):
+        return s
+
+    (fault,) = faults(wait, Board)
+    assert fault.span.text.startswith("MISSPELT = ")
+    assert fault.span.text[fault.span.column - 1 :].startswith("qdu")
+
+
+MISSPELT = rectype(shared=rectype(qdu=ListOf(RecType)))
+
+
+def test_update_functions_are_read_too():
+    theory = Theory.parse(r"""
+        basic Ind
+        object a : Ind
+        Board := [spkr : Ind, addr : Ind]
+        turn := \s:[spkr : Ind]. [adr = s.spkr : Ind]
+    """)
+    assert messages(update(theory.turn, "turn"), theory.Board) == [
+        "the rule turn writes adr, but a state has no adr"
+    ]
+
+
+def test_a_rule_alone_may_write_what_its_pattern_does_not_name():
+    theory = Theory.parse("""
+        basic Ind
+        object a : Ind
+        rule greet(s : [spkr : Ind]) := [latest = s.spkr : Ind]
+    """)
+    assert faults_alone(theory.rules["greet"]) == ()
+    assert len(faults(theory.rules["greet"], rectype(spkr=Ind))) == 1
+
+
+# --- values --------------------------------------------------------------------------
+
+
+def test_values_of_wrong_types():
+    @rule(when=Board, gives=rectype(agenda=Text))
+    def wrong(s):
+        if s.n:
+            return replace(s, n=-1)
+        return replace(s, {"shared.facts": "a", "agenda": (1, 2)})
+
+    found = messages(wrong, model=M)
+    assert found == [
+        "the rule wrong sets n to -1, which is no Count",
+        "the rule wrong sets shared.facts to a, which is no list(Ind)",
+        "the rule wrong sets agenda to [1, 2], which is no list(RecType)",
+    ]
+
+
+def test_a_value_that_may_become_known_is_left_alone():
+    @rule(when=Board)
+    def name(s, *, model):
+        after = replace(s, {"shared.facts": ("new",)})
+        return after, model.given("new", Ind)
+
+    assert messages(name, model=M) == []
+
+
+def test_a_start_that_is_no_state():
+    assert messages(seq(), rectype(n=Count), start=record(n=-1), model=M) == [
+        "the state to start from is not of its type, at n: -1 : Count, "
+        "by the witness function of Count"
+    ]
+
+
+# --- rules that never fire -----------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("condition", "why"),
+    [
+        (rectype(n=Count @ -1), "it asks that n be -1, but n is of Count"),
+        (rectype(shared=ListOf(Ind)), "it asks that shared be of list(Ind)"),
+        (rectype(agenda=NonEmpty(RecType) @ ()), "nothing can be a state and of"),
+    ],
+)
+def test_impossible_conditions(condition, why):
+    @rule(when=condition)
+    def never(s):
+        return s
+
+    (message,) = messages(never, model=M)
+    assert message.startswith(f"the rule never can never fire: {why}")
+
+
+def test_impossible_bindings():
+    @rule(when=Board, where=rectype(q=ListOf(Ind) @ outer.s.shared.move))
+    def never(s, q):
+        return s
+
+    assert sorts(never) == ["dead"]
+
+
+def test_an_element_of_a_wrong_type():
+    one = Theory.parse("""
+        basic Ind, Dish
+        object ann : Ind
+        object fish : Dish
+        Board := [dishes : list(Dish)]
+        rule right(s : Board) := [dishes = [fish] : list(Dish)]
+        rule wrong(s : Board) := [dishes = [fish, ann] : list(Dish)]
+        game g({dishes = []} : Board) := first(right, wrong)
+    """).games["g"]
+    assert [fault.message for fault in faults_of(one) if fault.sort == "misfit"] == [
+        "the rule wrong sets dishes to [fish, ann], which is no list(Dish)"
+    ]
+
+
+SEARCHED = """
+    basic Ind, Dish
+    object ann : Ind
+    pred ordered(Dish), serve(Ind, Dish)
+    Order := [dish : Dish]
+    Board := [dishes : list(Dish), agenda : list(RecType)]
+"""
+
+
+@pytest.mark.parametrize(
+    "T", ["~ordered(d)", "list(Dish)", "[x : Dish, no : ~ordered(x)]", "(Ind -> Type)"]
+)
+def test_what_no_search_can_find(T):
+    one = Theory.parse(f"""{SEARCHED}
+    rule missing(s : Board, e : Order)
+        where [d = e.dish : Dish, sit : {T}] := [agenda = [] : list(RecType)]
+    """).rules["missing"]
+    (fault,) = faults(one, one.when)
+    assert fault.sort == "unbound" and fault.span.column == 35
+    assert "missing looks for sit, but what is of " in fault.message
+    assert "cannot be listed" in fault.message
+
+
+@pytest.mark.parametrize(
+    "T", ["ordered(d)", "Dish", "[x : Dish, c : ordered(x)]", "Dish /\\ ~Ind", "Rec"]
+)
+def test_what_a_search_can_find(T):
+    one = Theory.parse(f"""{SEARCHED}
+    rule there(s : Board, e : Order)
+        where [d = e.dish : Dish, sit : {T}] := [agenda = [] : list(RecType)]
+    """).rules["there"]
+    assert faults(one, one.when) == ()
+
+
+def test_a_label_that_hides_what_it_should_be_set_to():
+    """It stands for itself, so that no move can be made of the planned type."""
+    one = Theory.parse(f"""{SEARCHED}
+    rule plan(s : Board, e : Order)
+        where [dish = e.dish : Dish]
+        := [agenda = [[dish = dish : Dish, c : serve(ann, dish)]] : list(RecType)]
+    """).rules["plan"]
+    (fault,) = faults(one, one.when)
+    assert fault.severity == "warning" and fault.sort == "unbound"
+    assert fault.message == "in the rule plan dish is set to itself: dish → dish"
+    assert fault.hint == "call what where binds differently from the label"
+
+
+def test_a_type_that_goes_in_a_circle():
+    one = Theory.parse(f"""{SEARCHED}
+    rule plan(s : Board) := [agenda = [[x = y : Dish, y = x : Dish]] : list(RecType)]
+    """).rules["plan"]
+    (fault,) = faults(one, one.when)
+    assert fault.message == "in the rule plan fields go in a circle: x → y → x"
+    assert "no witness" in fault.hint
+
+
+def made(name, when=Board, on=None, refuses=False, **options):
+    """A rule that changes nothing, or refuses."""
+
+    def applies(s):
+        return s
+
+    def refusing(s):
+        return None if s.n else s
+
+    def hears(s, e):
+        return s
+
+    effect = hears if on is not None else refusing if refuses else applies
+    effect.__name__ = name
+    return rule(when=when, on=on, **options)(effect)
+
+
+ALWAYS, SOMETIMES = made("always"), made("sometimes", rectype(n=Count @ 0))
+EMPTY = rectype(n=Count @ 0, agenda=ListOf(RecType) @ ())
+
+
+@pytest.mark.parametrize(
+    ("algorithm", "never"),
+    [
+        (first(ALWAYS, SOMETIMES), ["sometimes"]),
+        (first(SOMETIMES, ALWAYS), []),
+        (first(SOMETIMES, made("late", EMPTY)), ["late"]),
+        (first(made("early", EMPTY), SOMETIMES), []),
+        (first(made("early", refuses=True), SOMETIMES), []),
+        (first(made("early", where=rectype(q=Ind)), SOMETIMES), []),
+        (first(maybe(made("early", EMPTY)), SOMETIMES), ["sometimes"]),
+        (first(seq(ALWAYS, made("and", EMPTY)), SOMETIMES), []),
+        (first(seq(ALWAYS, maybe(made("and", EMPTY))), SOMETIMES), ["sometimes"]),
+        (first(all_(made("and", EMPTY), ALWAYS), SOMETIMES), ["sometimes"]),
+        (first(first(made("and", EMPTY), ALWAYS), SOMETIMES), ["sometimes"]),
+        (first(ALWAYS, seq(SOMETIMES, made("then"))), ["sometimes"]),
+        (first(ALWAYS, seq(maybe(SOMETIMES), made("then"))), ["sometimes"]),
+        (seq(first(ALWAYS, SOMETIMES), SOMETIMES), []),
+        (all_(ALWAYS, SOMETIMES), []),
+        (ask(ALWAYS, SOMETIMES, choose=lambda names, state: 0), []),
+        (first(made("hear", on=Move), made("late", on=Ask)), ["late"]),
+        (first(made("hear", on=Ask), made("late", on=Move)), []),
+        (first(made("hear", on=Move), made("tacit")), []),
+        (first(made("tacit"), made("late", on=Move)), ["late"]),
+        (first(made("sure", on=Move), made("late", on=Move, p=0.5)), []),
+        (first(made("unsure", on=Move, p=0.5), made("late", on=Move)), ["late"]),
+        (first(made("low", on=Move, p=(0, 0.5)), made("late", on=Move)), []),
+    ],
+    ids=str,
+)
+def test_cases_that_come_too_late(algorithm, never):
+    assert [fault.rule.name for fault in faults(algorithm, Board)] == never
+
+
+def test_axioms_count():
+    theory = Theory.parse("basic Animal, Dog\nDog <: Animal\nS := [x : Animal]")
+    dogs = made("dogs", rectype(x=theory.Dog))
+    animals = made("animals", rectype(x=theory.Animal))
+    known = {"model": Model(theory)}
+    assert sorts(first(animals, dogs), theory.S, **known) == ["dead"]
+    assert sorts(first(dogs, animals), theory.S, **known) == []
+
+
+# --- what nothing brings about -------------------------------------------------------
+
+Phase = Basic("Phase")
+Phased = rectype(phase=Phase, log=ListOf(Ind))
+IDLE, BUSY, DONE = (rectype(phase=Phase @ p) for p in ("idle", "busy", "done"))
+P = Model().given("a", Ind)
+for _phase in ("idle", "busy", "done"):
+    P = P.given(_phase, Phase)
+AT_FIRST = {"start": record(phase="idle", log=[]), "model": P}
+
+
+@rule(when=IDLE)
+def work(s):
+    return replace(s, phase="busy")
+
+
+@rule(when=BUSY)
+def finish(s):
+    return replace(s, phase="done")
+
+
+@rule(when=DONE)
+def rest(s):
+    return replace(s, phase="idle")
+
+
+@rule(when=BUSY)
+def somehow(s):
+    return CHANGES["somehow"](s)
+
+
+CHANGES = {"somehow": lambda s: s}
+
+
+def unset(algorithm, **known):
+    found = faults(algorithm, Phased, **{**AT_FIRST, **known})
+    return [fault.rule.name for fault in found if fault.sort == "unset"]
+
+
+def test_what_nothing_brings_about():
+    assert unset(first(work, finish, rest)) == []
+    assert unset(first(work, rest)) == ["rest"]
+    assert unset(first(finish, rest)) == ["finish"]
+    assert unset(first(finish, somehow, rest, work)) == []
+    assert unset(first(rest, somehow)) == ["somehow"]
+    assert faults(first(work, rest), Phased, model=P) == ()
+
+
+def test_what_is_copied_from_an_event_may_be_anything_of_its_type():
+    @rule(when=IDLE, on=rectype(phase=Phase))
+    def follow(s, e):
+        return replace(s, phase=e.phase)
+
+    @rule(when=IDLE, on=BUSY)
+    def follow_busy(s, e):
+        return replace(s, phase=e.phase)
+
+    assert unset(first(follow, rest)) == []
+    assert unset(first(follow_busy, rest)) == ["rest"]
+
+
+def test_events_that_nobody_sends():
+    hello, bye = rectype(e=hug("a")), rectype(e=run_("a"))
+    greet = made("greet", Phased, on=hello)
+    leave = made("leave", Phased, on=bye)
+    both = first(greet, leave)
+    assert unset(both) == []
+    assert unset(both, hears=[hello]) == ["leave"]
+    assert unset(both, hears=[hello, Rec]) == []
+
+
+def test_own_moves_are_events():
+    theory = Theory.parse("""
+        basic Ind
+        object a : Ind
+        pred hug(Ind), run(Ind), bark(Ind)
+        Hug := [e : hug(a)]
+        Run := [e : run(a)]
+        Bark := [e : bark(a)]
+        Board := [next : list(RecType)]
+        rule hugged(s : Board, e : Hug) := [next = [Run] : list(RecType)]
+        rule ran(s : Board, e : Run) := [next = [] : list(RecType)]
+        rule barked(s : Board, e : Bark) := [next = [] : list(RecType)]
+        game dogs({next = []} : Board, acts on next) := first(hugged, ran, barked)
+    """)
+    dogs = theory.games["dogs"]
+    assert faults_of(dogs) == ()
+    heard = Game(
+        "heard",
+        dogs.type,
+        dogs.start,
+        dogs.algorithm,
+        dogs.model,
+        "next",
+        (theory.Hug,),
+    )
+    assert [fault.rule.name for fault in faults_of(heard)] == ["barked"]
+
+
+# --- rules that disagree -------------------------------------------------------------
+
+
+def test_rules_of_a_class_disagree_only_where_both_may_apply():
+    @rule(when=IDLE, kind="k")
+    def one(s):
+        return replace(s, phase="busy")
+
+    @rule(when=Phased, kind="k")
+    def two(s):
+        return replace(s, phase="done")
+
+    @rule(when=DONE, kind="k")
+    def three(s):
+        return replace(s, phase="idle")
+
+    @rule(when=IDLE, kind="k")
+    def same(s):
+        return replace(s, phase="busy", log=())
+
+    def disagreeing(*members):
+        found = faults(by_class(*members, order=["k"]), Phased, model=P)
+        return [(fault.severity, fault.rule.name) for fault in found]
+
+    assert disagreeing(one, two) == [("error", "two")]
+    assert disagreeing(one, three) == []
+    assert disagreeing(one, same) == []
+    found = faults(all_(one, two), Phased, model=P)
+    assert [(fault.severity, fault.sort) for fault in found] == [
+        ("warning", "disagreement")
+    ]
+    assert faults(first(one, two), Phased, model=P) == ()
+
+
+def test_rules_for_different_events_do_not_disagree():
+    def to(name, on, phase):
+        def effect(s, e):
+            return replace(s, phase="busy") if phase else replace(s, phase="done")
+
+        effect.__name__ = name
+        return rule(when=Phased, on=on, kind="k")(effect)
+
+    hello, bye = rectype(e=hug(this.x), x=Ind), rectype(e=run_(this.x), x=Ind)
+    greeted, left = to("greeted", hello, True), to("left", bye, False)
+    assert faults(by_class(greeted, left, order=["k"]), Phased) == ()
+
+
+# --- repetitions ---------------------------------------------------------------------
+
+
+def test_repetitions_that_surely_end():
+    assert faults(repeat(work), Phased, model=P) == ()
+    assert faults(repeat(first(work, finish)), Phased, model=P) == ()
+    assert faults(repeat(maybe(work), times=3), Phased, model=P) == ()
+
+
+def test_repetitions_that_go_round():
+    (fault,) = faults(repeat(first(work, finish, rest)), Phased, model=P)
+    assert fault.message == (
+        "repeat(first(work, finish, rest)) need not end: "
+        "work leaves its own condition as it is"
+    )
+    (fault,) = faults(repeat(somehow), Phased, model=P)
+    assert fault.severity == "warning"
+    assert (
+        fault.message == "repeat(somehow) may not end: nothing says when somehow stops"
+    )
+
+
+def test_taking_the_first_off_a_list_ends():
+    theory = Theory.parse("""
+        basic Ind
+        Board := [qud : list(Ind), done : list(Ind)]
+        rule drop(s : [qud : nelist(Ind)]) := [qud = rst(s.qud) : list(Ind)]
+        rule keep(s : [qud : nelist(Ind), done : list(Ind)])
+            := [done = s.qud : list(Ind), qud = s.done : list(Ind)]
+    """)
+    drop, keep = theory.rules["drop"], theory.rules["keep"]
+    assert faults(repeat(drop), theory.Board) == ()
+    assert sorts(repeat(all_(drop, keep)), theory.Board) == ["endless"]
+
+
+# --- the report ----------------------------------------------------------------------
+
+
+def test_a_fault_prints_like_an_error():
+    fault = Fault(None, "missing", "there is no x", "did you mean y?")
+    assert str(fault) == "there is no x\nhelp: did you mean y?"
+
+
+def test_what_is_no_strategy():
+    with pytest.raises(UpdateError, match="faults takes rules and strategies"):
+        faults("rule", Board)
+    with pytest.raises(UpdateError, match="the type of a state is a record type"):
+        faults(ALWAYS, Ind)
+    with pytest.raises(UpdateError, match="what is heard is a list of types"):
+        faults(ALWAYS, Board, hears=Ind)
+    with pytest.raises(UpdateError, match="faults_alone takes a rule"):
+        faults_alone(first(ALWAYS))
+
+
+def test_effects_that_cannot_be_read():
+    class Callable:
+        def __call__(self, s):
+            return s
+
+        def method(self, s):
+            return s.nowhere
+
+    one, other = rule(when=Board)(lambda s: s.a), rule(when=Board)(lambda s: s.n)
+    by_object = rule(when=Board)(Callable())
+    by_method = rule(when=Board)(Callable().method)
+    assert messages(all_(one, other, by_object, by_method), model=M) == []
+
+
+def test_either_of_two_record_types():
+    either = rectype(r=rectype(a=Ind) | rectype(b=Ind))
+
+    @rule(when=either)
+    def both(s):
+        return replace(s, {"r.a": s.r.b, "r.c": s.r.d})
+
+    assert messages(both, either) == [
+        "the rule both reads s.r.d, but s.r has no d",
+        "the rule both replaces s.r.c, but s.r has no c",
+    ]
+
+
+def test_fifty_rules_are_checked_within_a_second():
+    game = Theory.parse(fifty_rules()).games["g"]
+    began = time.perf_counter()
+    assert faults_of(game) == ()
+    assert time.perf_counter() - began < 1.0
+
+
+def fifty_rules(number: int = 50) -> str:
+    """A theory with as many rules, each for one phase and one move of a wide board."""
+    phases = ", ".join(f"p{i}" for i in range(number + 1))
+    lists = ", ".join(f"l{i} : list(RecType)" for i in range(10))
+    empty = ", ".join(f"l{i} = []" for i in range(10))
+    names = ", ".join(f"r{i}" for i in range(number))
+    rules = "\n".join(
+        f"rule r{i}(s : [phase = p{i} : Phase], e : {('Ask', 'Tell')[i % 2]}) "
+        f"of k{i % 3} := [phase = p{i + 1} : Phase, shared : [latest = e : Rec]]"
+        for i in range(number)
+    )
+    return f"""
+        basic Ind, Phase
+        pred ask(Ind, Ind), tell(Ind, Ind)
+        object a, b : Ind
+        object {phases} : Phase
+        Ask   := [spkr : Ind, addr : Ind, e : ask(spkr, addr)]
+        Tell  := [spkr : Ind, addr : Ind, e : tell(spkr, addr)]
+        Board := [phase : Phase, private : [{lists}], shared : [latest : Rec, {lists}]]
+        {rules}
+        strategy answers := by_class(k0, k1, k2)
+        game g({{phase = p0, private = {{{empty}}},
+                 shared = {{latest = {{}}, {empty}}}}} : Board) := first({names})
+    """

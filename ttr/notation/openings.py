@@ -1,0 +1,94 @@
+"""Games as statements: `game name({next = []} : State, acts on next) := strategy`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ttr.checking import model_of
+from ttr.errors import IllFormed, TTRError
+from ttr.formation import target
+from ttr.notation.reader import Reader
+from ttr.notation.rules import record_type
+from ttr.notation.strategies import algorithm
+from ttr.notation.trees import GameStatement, Name, Term
+from ttr.syntax import ListOf, NonEmpty, Path, Record, RecordType, Singleton, TypeNode
+from ttr.theories import Opening, Theory
+from ttr.updates.games import Game
+
+__all__ = ["opened", "opening_of"]
+
+
+def opening_of(tree: GameStatement, reader: Reader) -> Opening:
+    """How a statement declares a game; raises `NotationError` or `IllFormed`."""
+    state = record_type(tree.type, reader)
+    start = reader.object(tree.begin, ())
+    if not isinstance(start, Record):
+        reader.refuse(
+            tree.begin,
+            f"a game starts from a state, a record, found {reader.written(tree.begin)}",
+            "write {x = a, …}",
+        )
+    played = algorithm(tree.value, reader)
+    agenda = _agenda(tree.agenda, state, reader) if tree.agenda else None
+    span = reader.source.span(tree.begin)
+    return Opening(tree.name.text, state, start, played, agenda, span)
+
+
+def _agenda(term: Term, state: RecordType, reader: Reader) -> str:
+    """The path of a list of types in the state."""
+    match term:
+        case Name(_, _, labels, None):
+            path = Path(0, labels)
+        case _:
+            found = reader.written(term)
+            reader.refuse(
+                term,
+                f"a game acts on the path of a list of types, found {found}",
+                "write acts on agenda, or acts on shared.next",
+            )
+    try:
+        found_type = target(path, state)
+    except IllFormed as error:
+        raise error.at(reader.source.span(term)) from None
+    if not _may_be_list(found_type):
+        reader.refuse(
+            term,
+            f"a game acts on a list of types, but {reader.written(term)} is of "
+            f"{found_type}",
+        )
+    return ".".join(labels)
+
+
+def _may_be_list(T: TypeNode) -> bool:
+    match T:
+        case Singleton(base, _):
+            return _may_be_list(base)
+        case ListOf() | NonEmpty():
+            return True
+    return False
+
+
+def opened(theory: Theory) -> Mapping[str, Game]:
+    """The games of a theory, played in the model of its givens.
+
+    Raises `TTRError`, with its place, for givens that contradict one another and for a
+    start that is not of its type.
+    """
+    if not theory.openings:
+        return {}
+    model = model_of(theory)
+    games: dict[str, Game] = {}
+    for one in theory.openings.values():
+        try:
+            games[one.name] = Game(
+                one.name,
+                one.type,
+                one.start,
+                one.algorithm,
+                model,
+                agenda=one.agenda,
+                theory=theory,
+            )
+        except TTRError as error:
+            raise error.at(one.span) if one.span else error from None
+    return games

@@ -1,0 +1,60 @@
+"""Bindings that no search can find, and labels that stand for themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ttr.circles import round_about
+from ttr.paths import occurring
+from ttr.syntax import Object, RecordType, Singleton
+from ttr.updates.checks.places import place
+from ttr.updates.checks.rulesets import RuleSet
+from ttr.updates.checks.sorts import Fault
+from ttr.updates.rules import Body, Rule
+from ttr.witnesses import can_be_listed
+
+__all__ = ["circular", "unlisted"]
+
+
+def unlisted(rules: RuleSet) -> Iterator[Fault]:
+    """The bindings that are looked for among what is known of a type without end."""
+    for rule in rules.rules:
+        for label, field in rule.where.fields if rule.where else ():
+            if isinstance(field, Singleton) or can_be_listed(field):
+                continue
+            message = (
+                f"the rule {rule} looks for {label}, but what is of {field} cannot be "
+                "listed, as there may be no end of it"
+            )
+            hint = f"say what {label} is, as in {label} = s.x : T, or leave it out"
+            yield Fault(
+                rule, "unbound", message, hint, place(rule, label, (label,), "where")
+            )
+
+
+def circular(rules: RuleSet) -> Iterator[Fault]:
+    """The types in effects and bindings whose fields depend on themselves.
+
+    They can be judged, but nothing of them can be made; mostly a label hides the
+    binding that is meant.
+    """
+    for rule in rules.rules:
+        if isinstance(rule.effect, Body):
+            yield from _circles(rule, rule.effect.value)
+        if rule.where is not None:
+            yield from _circles(rule, rule.where)
+
+
+def _circles(rule: Rule, value: Object) -> Iterator[Fault]:
+    types = (part for part in occurring([value]) if isinstance(part, RecordType))
+    around = next(filter(None, map(round_about, types)), ())
+    if not around:
+        return
+    told = " → ".join(around)
+    if around[1:] == around[:1]:
+        message = f"in the rule {rule} {around[0]} is set to itself: {told}"
+        hint = "call what where binds differently from the label"
+    else:
+        message = f"in the rule {rule} fields go in a circle: {told}"
+        hint = "no witness of such a type can be made: let one field not be manifest"
+    yield Fault(rule, "unbound", message, hint, rule.span, "warning")
