@@ -11,11 +11,11 @@ from kille.agent import Agent
 from kille.dialogue.meanings import theory
 from kille.memory import Memory
 from kille.sensors.sensor import SensorError
-from kille.stories import Line, Mismatch, Story, StoryError
 from ttr import TTRError, TypeNode
 from ttr.probability import CERTAIN
+from ttr.stories import SILENCE, Line, Mismatch, Story, failing, fits
 
-__all__ = ["play"]
+__all__ = ["Echo", "play"]
 
 Echo = Callable[[str], None]
 
@@ -30,10 +30,12 @@ def play(
     The first difference, or None if there is none. `echo` is given each line as it is
     played. Raises StoryError for a line that cannot be played.
     """
+    if story.game is not None:
+        raise story.game.wrong("a story that names its game is played by `ttr play`")
     try:
         robot = Agent(_first_scene(story), memory)
     except SensorError as error:
-        raise StoryError(f"{story.lines[0].place}: {error}") from error
+        raise story.lines[0].wrong(str(error)) from error
     with robot:
         return _Playing(robot, echo).play(story)
 
@@ -50,7 +52,7 @@ def _expanded(line: Line) -> str:
     """The sensor that an `@ scene` line names; a path is from the story's folder."""
     name = os.path.expandvars(line.text.removeprefix("scene ").strip())
     if unset := re.search(r"\$\{?(\w+)", name):
-        raise StoryError(f"{line.place}: set the variable {unset[1]} before")
+        raise line.wrong(f"set the variable {unset[1]} before")
     beside = Path(line.file).parent / name
     return str(beside) if not Path(name).is_absolute() and beside.exists() else name
 
@@ -87,7 +89,7 @@ class _Playing:
         try:
             answer = self._answer(line)
         except SensorError as error:
-            raise StoryError(f"{line.place}: {error}") from error
+            raise line.wrong(str(error)) from error
         self._said = answer.split("\n") if answer else []
         for sentence in self._said:
             self._echo(f"S> {sentence}")
@@ -96,6 +98,8 @@ class _Playing:
     def _answer(self, line: Line) -> str:
         if line.mark == "U>":
             return self._robot.hear(line.text)
+        if line.mark == "U~":
+            raise line.wrong("the robot is told things for certain: write `U>`")
         if not line.text.startswith("scene "):
             return self._robot.do(line.text)
         if not self._started:
@@ -106,48 +110,42 @@ class _Playing:
         found = self._said.pop(0) if self._said else ""
         if line.mark == "S>" and found == line.text:
             return None
-        if line.mark == "S~" and _fits(line, found):
+        if line.mark == "S~" and fits(line, found):
             return None
-        return Mismatch(line, line.text or "silence", found or "silence")
+        return self._differing(line, line.text or SILENCE, found or SILENCE)
 
     def _left_over(self, line: Line) -> Mismatch | None:
         """What the robot said more than the story has, before this line."""
         if not self._said:
             return None
-        return Mismatch(line, "nothing more to be said before this", self._said[0])
+        expected = "nothing more to be said before this"
+        return self._differing(line, expected, self._said[0])
 
     def _judge(self, line: Line) -> Mismatch | None:
         T = _type_of_state(line)
         judgement = self._robot.model.judge(self._robot.state, T)
         if judgement.p == CERTAIN:
             return None
-        failed = judgement.why.failure()
-        reason = f"{failed.sit} : {failed.type}, {failed.rule}" if failed else ""
-        path = judgement.why.path() or "the state"
-        return Mismatch(line, str(T), f"at {path}: {reason}")
+        return self._differing(line, str(T), failing(judgement))
 
-
-def _fits(line: Line, found: str) -> bool:
-    try:
-        return re.fullmatch(line.text, found) is not None
-    except re.error as error:
-        raise StoryError(
-            f"{line.place}: {line.text!r} is no regular expression: {error}"
-        ) from None
+    def _differing(self, line: Line, expected: str, found: str) -> Mismatch:
+        latest = self._robot.exchanges[-1:]
+        trace = latest[0].steps if latest else ()
+        return Mismatch(line, expected, found, trace)
 
 
 def _type_of_state(line: Line) -> TypeNode:
     """The type in `s : T`."""
     name, colon, text = line.text.partition(":")
     if not colon or name.strip() != "s":
-        raise StoryError(
-            f"{line.place}: a judgement of the state is written `= s : T`, as in "
+        raise line.wrong(
+            "a judgement of the state is written `= s : T`, as in "
             "`= s : [shared : [latest : Learned]]`"
         )
     try:
         T = theory().parse(text.strip())
     except TTRError as error:
-        raise StoryError(f"{line.place}: {error}") from None
+        raise line.wrong(str(error)) from None
     if not isinstance(T, TypeNode):
-        raise StoryError(f"{line.place}: {text.strip()} is no type of states")
+        raise line.wrong(f"{text.strip()} is no type of states")
     return T

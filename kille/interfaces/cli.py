@@ -123,6 +123,9 @@ def _parser() -> argparse.ArgumentParser:
     telling = replay.add_mutually_exclusive_group()
     telling.add_argument("--quiet", action="store_true", help="only what differs")
     telling.add_argument("--json", action="store_true", help="report for machines")
+    replay.add_argument(
+        "--junit", type=Path, metavar="FILE", help="write a report for CI (.xml)"
+    )
     replay.set_defaults(run=_replay)
     memory = commands.add_parser("memory", help="what the robot has learned")
     actions = memory.add_subparsers(metavar="ACTION", parser_class=_Parser)
@@ -171,9 +174,8 @@ def _talk(options: argparse.Namespace) -> int:
 def _replay(options: argparse.Namespace) -> int:
     from kille.interfaces.replay import as_json, in_brief, in_full, replay
 
-    if options.json:
-        return replay(options.files, as_json)
-    return replay(options.files, in_brief if options.quiet else in_full)
+    report = in_brief if options.quiet else in_full
+    return replay(options.files, as_json if options.json else report, options.junit)
 
 
 def _memory_list(options: argparse.Namespace) -> int:

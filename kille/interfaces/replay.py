@@ -4,28 +4,21 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
 from pathlib import Path
+from time import perf_counter
 
 from rich.console import Console
 from rich.progress import track
 
 from kille.interfaces.terminal import FAILED, FINE, complain, console
 from kille.memory import MemoryFileError
-from kille.replay import play
+from kille.replay import Echo, play
 from kille.sensors.sensor import SensorError
-from kille.stories import Mismatch, Story, StoryError, read_stories
+from ttr import TTRError
+from ttr.files import write_whole
+from ttr.stories import Outcome, Story, facts, junit, read_stories, summary
 
-__all__ = ["Outcome", "as_json", "in_brief", "in_full", "replay"]
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What became of a story; `difference` is None where the robot said just that."""
-
-    file: str
-    title: str
-    difference: Mismatch | None
+__all__ = ["as_json", "in_brief", "in_full", "replay"]
 
 
 Plan = Sequence[tuple[Path, Sequence[Story]]]
@@ -33,14 +26,25 @@ Report = Callable[[Plan], Iterator[Outcome]]
 """How stories are played, and what is printed about them meanwhile."""
 
 
-def replay(files: Sequence[Path], report: Report) -> int:
-    """Plays the stories in these files; the exit code."""
+def replay(files: Sequence[Path], report: Report, report_file: Path | None) -> int:
+    """Plays the stories in these files; the exit code.
+
+    With a report file, what became of them is also written for CI, as JUnit does.
+    """
     try:
         plan = [(file, read_stories(file)) for file in files]
         outcomes = list(report(plan))
-    except (StoryError, SensorError, MemoryFileError) as error:
+        if report_file is not None:
+            write_whole(report_file, f"{junit(outcomes)}\n")
+    except (TTRError, SensorError, MemoryFileError) as error:
         return complain(error)
-    return FAILED if any(outcome.difference for outcome in outcomes) else FINE
+    return FINE if all(outcome.as_written for outcome in outcomes) else FAILED
+
+
+def _outcome(file: Path, story: Story, echo: Echo = lambda line: None) -> Outcome:
+    start = perf_counter()
+    mismatch = play(story, echo=echo)
+    return Outcome(str(file), story.title, perf_counter() - start, mismatch)
 
 
 def in_full(plan: Plan) -> Iterator[Outcome]:
@@ -49,8 +53,7 @@ def in_full(plan: Plan) -> Iterator[Outcome]:
 
     def told(file: Path, story: Story) -> Outcome:
         out.print(f"--- {story.title}", markup=False, style="bold")
-        mismatch = play(story, echo=lambda line: out.print(line, markup=False))
-        return Outcome(str(file), story.title, mismatch)
+        return _outcome(file, story, lambda line: out.print(line, markup=False))
 
     for file, stories in plan:
         yield from _summed_up(out, file, [told(file, story) for story in stories])
@@ -67,28 +70,22 @@ def in_brief(plan: Plan) -> Iterator[Outcome]:
             transient=True,
             disable=not out.is_terminal,
         )
-        outcomes = [Outcome(str(file), story.title, play(story)) for story in played]
+        outcomes = [_outcome(file, story) for story in played]
         yield from _summed_up(out, file, outcomes)
 
 
 def as_json(plan: Plan) -> Iterator[Outcome]:
     """Prints a list of objects, one for each story, for machines."""
-    outcomes = [
-        Outcome(str(file), story.title, play(story))
-        for file, stories in plan
-        for story in stories
-    ]
-    console().print_json(json.dumps([asdict(outcome) for outcome in outcomes]))
+    outcomes = [_outcome(file, story) for file, stories in plan for story in stories]
+    console().print_json(json.dumps([facts(outcome) for outcome in outcomes]))
     yield from outcomes
 
 
 def _summed_up(
     out: Console, file: Path, outcomes: Sequence[Outcome]
 ) -> Sequence[Outcome]:
-    failed = [outcome for outcome in outcomes if outcome.difference]
-    for outcome in failed:
-        out.print(str(outcome.difference), markup=False)
-    told = f"{len(outcomes)} {'story' if len(outcomes) == 1 else 'stories'}"
-    result = f"{len(failed)} of {told} differ" if failed else f"{told} as written"
-    out.print(f"{file}: {result}", markup=False)
+    for outcome in outcomes:
+        if not outcome.as_written:
+            out.print(str(outcome), markup=False)
+    out.print(summary(str(file), outcomes), markup=False)
     return outcomes

@@ -8,7 +8,7 @@ import pytest
 
 from kille.memory import Memory
 from kille.replay import play
-from kille.stories import Mismatch, StoryError, read_stories
+from ttr.stories import Mismatch, StoryError, read_stories
 
 
 @pytest.fixture
@@ -91,6 +91,7 @@ WRONG = {
     "@ scene nowhere": "nowhere",
     "@ point 3": "no thing #3",
     "U> #3 This is a cup.": "no thing #3",
+    "U~ Hello. 0.6 | Goodbye. 0.3": "for certain: write `U>`",
 }
 
 
@@ -153,3 +154,14 @@ def test_a_story_may_go_on_with_an_earlier_memory(file: Path, tmp_path: Path) ->
     )
     for story in read_stories(file):
         assert play(story, Memory.open(tmp_path / "m.db")) is None
+
+
+def test_a_story_of_a_game_is_not_for_the_robot(file: Path) -> None:
+    with pytest.raises(StoryError, match=r"story\.dlg:1: .*`ttr play`"):
+        played(file, "@ game door.ttr door\nU> Greet\n")
+
+
+def test_a_difference_comes_with_the_rules_of_its_turn(file: Path) -> None:
+    mismatch = played(file, "U> Hello.\nS> Good day.\n")
+    assert mismatch is not None
+    assert [step.rule.name for step in mismatch.trace][:1] == ["hear"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -50,7 +51,9 @@ def test_a_theory_gives_the_output_beside_it(
     code = main(["check", file.name])
     out = capsys.readouterr().out
     assert out == file.with_suffix(".out").read_text(encoding="utf-8")
-    assert (code == 0) == out.endswith(("checks hold\n", "check holds\n"))
+    *_, last = out.splitlines()
+    failed = re.search(r"mistakes?, |checks failed|[0-9] faults? in", last)
+    assert (code == 0) == (failed is None)
 
 
 def test_theories_are_there() -> None:
@@ -94,6 +97,8 @@ def test_machines_get_json(folder: Path, capsys: pytest.CaptureFixture[str]) -> 
         "asked": 1,
         "holds": True,
         "failures": [],
+        "rules": 0,
+        "faults": [],
         "mistakes": [],
     }
     assert false["failures"][0]["line"] == 5
@@ -135,6 +140,83 @@ def test_show_prints_the_statement_that_declares_a_name(
     ):
         assert main(["show", "good.ttr", name, "--as", "text"]) == 0
         assert capsys.readouterr().out == said
+
+
+RULES = (
+    GOOD
+    + """\
+object a, b : Ind
+Board := [spkr : Ind, addr : Ind]
+rule turn(s : Board) "Who was spoken to speaks." := [spkr = s.addr : Ind]
+strategy once := maybe(turn)
+game talk({spkr = a, addr = b} : Board) := once
+"""
+)
+
+
+def test_rules_are_looked_at_and_faults_exit_with_1(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "rules.ttr").write_text(RULES)
+    faulty = "rule never(s : Board) := [addr = s.spkr : Ind]\n"
+    played = RULES.replace("strategy", f"{faulty}strategy")
+    (folder / "faulty.ttr").write_text(
+        played.replace("maybe(turn)", "first(turn, never)")
+    )
+    (folder / "library.ttr").write_text(
+        GOOD + "rule none(s : [x : Ind]) := [y : Ind]\n"
+    )
+    (folder / "start.ttr").write_text(RULES.replace("{spkr = a", "{spkr = 'c'"))
+    assert main(["check", "rules.ttr", "library.ttr"]) == 0
+    assert capsys.readouterr().out == (
+        "rules.ttr: 1 check holds, no fault in 1 rule\n"
+        "library.ttr: 1 check holds, no fault in 1 rule\n"
+    )
+    assert main(["check", "faulty.ttr"]) == 1
+    out = capsys.readouterr().out
+    assert out.startswith("fault: ")
+    assert "┌─ faulty.ttr:8:6\n8 │ rule never(s : Board)" in out
+    assert out.endswith("faulty.ttr: 1 check holds, 1 fault in 2 rules\n")
+    assert main(["check", "--json", "faulty.ttr", "start.ttr"]) == 1
+    faulty, start = json.loads(capsys.readouterr().out)
+    assert (faulty["rules"], faulty["holds"], faulty["failures"]) == (2, False, [])
+    (fault,) = faulty["faults"]
+    assert (fault["line"], fault["column"], fault["rule"]) == (8, 6, "never")
+    assert (fault["sort"], fault["severity"]) == ("dead", "error")
+    assert fault["message"]
+    (mistake,) = start["mistakes"]
+    assert (mistake["line"], mistake["column"]) == (9, 11)
+
+
+def test_show_prints_rules_strategies_and_games(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "rules.ttr").write_text(RULES)
+    for words, said in (
+        (
+            ["turn"],
+            'rule turn(s : [addr : Ind, spkr : Ind]) "Who was spoken to speaks."\n'
+            "    := [spkr = s.addr : Ind]\n",
+        ),
+        (
+            ["turn", "--unfold", "0"],
+            'rule turn(s : Board) "Who was spoken to speaks."\n'
+            "    := [spkr = s.addr : Ind]\n",
+        ),
+        (["once"], "strategy once := maybe(turn)\n"),
+        (
+            ["talk", "--unfold", "0"],
+            "game talk({addr = b, spkr = a} : Board) := maybe(turn)\n",
+        ),
+    ):
+        assert main(["show", "rules.ttr", *words]) == 0
+        assert capsys.readouterr().out == said
+    assert main(["show", "rules.ttr", "turn", "--as", "box"]) == 1
+    assert capsys.readouterr().out == (
+        "error: turn is shown as text only: it is no type\n"
+    )
+    assert main(["show", "rules.ttr", "trun"]) == 2
+    assert "the theory has no trun: did you mean turn?" in capsys.readouterr().err
 
 
 def test_show_draws_a_definition(

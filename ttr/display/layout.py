@@ -197,11 +197,15 @@ class Listed:
 
 @dataclass(frozen=True)
 class Row:
-    """A field: a label, for a manifest field its object, and what the label has."""
+    """A field: a label, for a manifest field its object, and what the label has.
+
+    One that has `changed` stands out where there are colours.
+    """
 
     label: Word
     manifest: Layout | None
     has: Layout
+    changed: bool = False
 
     @cached_property
     def name_width(self) -> int:

@@ -22,7 +22,7 @@ from ttr.display.layout import (
     Word,
 )
 
-__all__ = ["marked_up", "marked_up_derivation", "page"]
+__all__ = ["STYLE", "marked_up", "marked_up_derivation", "page", "part_of_page"]
 
 
 def marked_up(layout: Layout) -> str:
@@ -35,16 +35,24 @@ def marked_up_derivation(step: Step) -> str:
     return _styled(f'<ul class="ttr-why"><li>{_derivation(step)}</li></ul>')
 
 
-def page(title: str, body: str) -> str:
+def part_of_page(layout: Layout) -> str:
+    """The layout without its style, for a page that has the style once."""
+    return f'<div class="ttr">{_markup(layout)}</div>'
+
+
+def page(title: str, body: str, style: str = "") -> str:
     """A page of its own around a piece of HTML."""
+    styled = f"<style>{style}</style>\n" if style else ""
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n'
-        f"<title>{escape(title)}</title>\n</head>\n<body>\n{body}\n</body>\n</html>"
+        f"<title>{escape(title)}</title>\n{styled}</head>\n<body>\n{body}\n</body>\n"
+        "</html>"
     )
 
 
-_STYLE = """
+STYLE = """
 .ttr { color: inherit; overflow-x: auto; padding: .2em 0; line-height: 1.4; }
 .ttr table.ttr-matrix { display: inline-table; width: auto;
   table-layout: auto; margin: .1em .15em;
@@ -68,6 +76,8 @@ _STYLE = """
 .ttr .ttr-matrix td { padding: .1em .2em; text-align: left; vertical-align: middle;
   white-space: nowrap; font-size: inherit; line-height: inherit; max-width: none; }
 .ttr .ttr-matrix td:last-child { white-space: normal; }
+.ttr .ttr-matrix tr.ttr-changed > td { background: rgba(229, 160, 13, .2) !important; }
+.ttr .ttr-matrix tr.ttr-changed > td:first-child { font-weight: bold; }
 .ttr .ttr-type { font-style: italic; }
 .ttr .ttr-unseen { position: absolute; width: 1px; height: 1px; overflow: hidden;
   clip-path: inset(50%); white-space: pre; }
@@ -87,7 +97,7 @@ _STYLE = """
 
 
 def _styled(body: str) -> str:
-    return f'<div class="ttr"><style>{_STYLE}</style>{body}</div>'
+    return f'<div class="ttr"><style>{STYLE}</style>{body}</div>'
 
 
 # --- values --------------------------------------------------------------------------
@@ -147,8 +157,10 @@ def _matrix(matrix: Matrix) -> str:
         before = _unseen(matrix.opening) if number == 0 else ""
         after = _unseen(matrix.closing if number == last else ",")
         cells = (before + _name(row), sign, _markup(row.has) + after)
-        rows.append("".join([f"<td>{cell}</td>" for cell in cells]))
-    body = "".join([f"<tr>{row}</tr>" for row in rows])
+        inside = "".join([f"<td>{cell}</td>" for cell in cells])
+        kind = ' class="ttr-changed"' if row.changed else ""
+        rows.append(f"<tr{kind}>{inside}</tr>")
+    body = "".join(rows)
     start = '<table class="ttr-matrix ttr-square" role="presentation">'
     return f"{start}<tbody>{body}</tbody></table>"
 

@@ -1,10 +1,11 @@
-"""Dialogue files (`.dlg`): stories that anyone can write.
+"""Reading dialogue files (`.dlg`): stories that anyone can write.
 
-A line begins with what it is: `---` a title, `@` something that happens in the world,
-`U>` what the tutor says, `S>` what the robot says then, to the letter (nothing after
-it: silence), `S~` the same as a regular expression, `=` a judgement that holds of the
-state, as in `= s : [shared : [latest : Learned]]`, `#` a comment. What the robot says
-has to be in the story, and in that order.
+A line begins with what it is: `---` a title, `@` something that happens in the world or
+a setting, `U>` what is said to the system, `U~` what was perhaps said, with
+probabilities, `S>` what the system says then, to the letter (nothing after it:
+silence), `S~` the same roughly, `=` a judgement that holds of the state, as in
+`= s : [shared : [latest : Learned]]`, `#` a comment. What the system says has to be in
+the story, and in that order.
 """
 
 from __future__ import annotations
@@ -14,40 +15,61 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-__all__ = ["Line", "Mismatch", "Story", "StoryError", "read_stories"]
+from ttr.errors import Span, TTRError
 
-_MARKS = ("---", "@", "U>", "S>", "S~", "=")
+__all__ = ["Line", "Story", "StoryError", "read_stories"]
+
+_MARKS = ("---", "@", "U>", "U~", "S>", "S~", "=")
+
+_OF_THE_FILE = "game"
+"""What is said by an `@` line of the stories after it, too."""
 
 
-class StoryError(Exception):
-    """A dialogue file that cannot be read: one line that says where and why."""
+class StoryError(TTRError):
+    """A dialogue file that cannot be read or played: where, and why."""
 
 
 @dataclass(frozen=True)
 class Line:
-    """A line of a story: its place, its mark and the text after it."""
+    """A line of a story: its place, its mark and the text after it.
+
+    `column` is where the text begins in the line as it is `written`.
+    """
 
     file: str
     number: int
     mark: str
     text: str
+    column: int = 1
+    written: str = ""
 
     @property
     def place(self) -> str:
         """The file and the number of the line."""
         return f"{self.file}:{self.number}"
 
+    def span(self, start: int, length: int) -> Span:
+        """The place of a part of the text, which begins so far into it."""
+        return Span(self.file, self.number, self.column + start, length, self.written)
+
+    def wrong(self, message: str) -> StoryError:
+        """The error that there is something wrong with the line."""
+        return StoryError(f"{self.place}: {message}")
+
 
 @dataclass(frozen=True)
 class Story:
-    """A titled dialogue."""
+    """A titled dialogue; `game` is the line that says what is played, if one does."""
 
     title: str
     lines: tuple[Line, ...]
+    game: Line | None = None
 
 
 def read_stories(path: Path) -> tuple[Story, ...]:
     """The stories in a file. Raises `StoryError`.
+
+    A line `@ game …` is of its story and of those after it.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -66,7 +88,7 @@ def read_stories(path: Path) -> tuple[Story, ...]:
         raise StoryError(f"{path} is not a text in UTF-8") from None
     except OSError as error:
         raise StoryError(f"{path} cannot be read: {error.strerror}") from None
-    stories = _stories(path, list(_lines(path, text)))
+    stories = tuple(_stories(path.stem, _lines(path, text)))
     if not stories:
         raise StoryError(f"{path} has no story: write lines such as `U> Hello.`")
     return stories
@@ -83,7 +105,10 @@ def _lines(path: Path, text: str) -> Iterator[Line]:
                 f"{path}:{number}: a line begins with {', '.join(_MARKS)} or #, "
                 f"but found {line[:40]!r}"
             )
-        yield Line(str(path), number, mark, _content(line.removeprefix(mark)))
+        after = written.index(mark) + len(mark)
+        begin = after + len(written[after:]) - len(written[after:].lstrip())
+        content = _content(written[after:])
+        yield Line(str(path), number, mark, content, begin + 1, written)
 
 
 def _content(text: str) -> str:
@@ -91,30 +116,23 @@ def _content(text: str) -> str:
     return re.split(r"\s#\s", f" {text}", maxsplit=1)[0].strip()
 
 
-def _stories(path: Path, lines: list[Line]) -> tuple[Story, ...]:
-    stories: list[Story] = []
-    title, body = path.stem, list[Line]()
+def _stories(title: str, lines: Iterator[Line]) -> Iterator[Story]:
+    game: Line | None = None
+    body: list[Line] = []
     for line in lines:
-        if line.mark != "---":
+        if line.mark == "---":
+            if body:
+                yield Story(title, tuple(body), game)
+            title, body = line.text, []
+        elif line.mark != "@" or _verb(line) != _OF_THE_FILE:
             body.append(line)
-            continue
-        if body:
-            stories.append(Story(title, tuple(body)))
-        title, body = line.text, []
+        elif body:
+            raise line.wrong("a story says which game it is of before anything else")
+        else:
+            game = line
     if body:
-        stories.append(Story(title, tuple(body)))
-    return tuple(stories)
+        yield Story(title, tuple(body), game)
 
 
-@dataclass(frozen=True)
-class Mismatch:
-    """Where a story and the robot differ: what the story has, what there was."""
-
-    line: Line
-    expected: str
-    found: str
-
-    def __str__(self) -> str:
-        return (
-            f"{self.line.place}\n  expected: {self.expected}\n     found: {self.found}"
-        )
+def _verb(line: Line) -> str:
+    return line.text.partition(" ")[0]

@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from xml.etree import ElementTree
 
 import cv2
 import numpy as np
@@ -359,13 +360,31 @@ def test_replay_of_what_is_as_written(kille: Run, fine: Path) -> None:
 def test_replay_says_what_differs(kille: Run, stories: Path, fine: Path) -> None:
     outcome = kille("replay", "--quiet", str(stories), str(fine))
     assert outcome.code == 1
-    assert outcome.out.splitlines() == [
+    told = outcome.out.splitlines()
+    assert told[:4] == [
         f"{stories}:6",
         "  expected: Good day.",
         "     found: Hello.",
-        f"{stories}: 1 of 2 stories differ",
+        "  the rules of this turn:",
+    ]
+    assert "    hear: What the tutor says is the latest move" in outcome.out
+    assert told[-2:] == [
+        f"{stories}: 1 of 2 stories differs",
         f"{fine}: 1 story as written",
     ]
+
+
+def test_replay_writes_a_report_for_ci(
+    kille: Run, stories: Path, tmp_path: Path
+) -> None:
+    report = tmp_path / "report.xml"
+    outcome = kille("replay", "--quiet", str(stories), "--junit", str(report))
+    assert outcome.code == 1
+    root = ElementTree.parse(report).getroot()
+    assert (root.get("tests"), root.get("failures")) == ("2", "1")
+    lost = kille("replay", "--quiet", str(stories), "--junit", "no/such/report.xml")
+    assert lost.code == 2
+    assert "no/such/report.xml cannot be written" in lost.complaint
 
 
 def test_replay_for_machines(kille: Run, stories: Path) -> None:

@@ -1,0 +1,132 @@
+"""`ttr check`: does what theory files claim hold?"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from ttr.commands.output import (
+    FAILED,
+    FINE,
+    WRONG_USE,
+    Commands,
+    complain,
+    place,
+    say,
+)
+from ttr.errors import TTRError
+
+if TYPE_CHECKING:
+    from ttr.reports import Report
+
+__all__ = ["add"]
+
+
+def add(commands: Commands) -> None:
+    """Declares the command."""
+    check = commands.add_parser(
+        "check",
+        help="does what the files claim hold?",
+        description="Asks the checks of theory files and looks at their rules; exits "
+        "with 1 if one fails or is wrong.",
+    )
+    check.add_argument("files", nargs="+", metavar="FILE", help="a theory file (.ttr)")
+    check.add_argument("--json", action="store_true", help="report for machines")
+    check.set_defaults(command=_check)
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    """What became of one file: its mistakes, or the report on it."""
+
+    file: str
+    report: Report | None = None
+    mistakes: tuple[TTRError, ...] = ()
+    unreadable: str = ""
+
+    @property
+    def code(self) -> int:
+        if self.unreadable:
+            return WRONG_USE
+        return FINE if self.report is not None and self.report.holds else FAILED
+
+
+def _check(options: argparse.Namespace) -> int:
+    outcomes = []
+    for file in options.files:
+        outcome = _outcome(file)
+        outcomes.append(outcome)
+        if not options.json:
+            _tell(outcome)
+    if options.json:
+        say(json.dumps([_facts(one) for one in outcomes], ensure_ascii=False, indent=2))
+    return max(one.code for one in outcomes)
+
+
+def _outcome(file: str) -> _Outcome:
+    from ttr.checking import check
+    from ttr.notation.loading import Unreadable
+    from ttr.theories import Mistakes, load
+
+    try:
+        report = check(load(file))
+    except Unreadable as error:
+        if error.span is None:
+            return _Outcome(file, unreadable=error.message)
+        return _Outcome(file, mistakes=(error,))
+    except Mistakes as error:
+        return _Outcome(file, mistakes=error.errors)
+    except TTRError as error:
+        return _Outcome(file, mistakes=(error,))
+    return _Outcome(file, report)
+
+
+def _tell(outcome: _Outcome) -> None:
+    if outcome.unreadable:
+        complain(outcome.unreadable)
+        return
+    if outcome.report is None:
+        count = len(outcome.mistakes)
+        told = [f"error: {mistake}" for mistake in outcome.mistakes]
+        summary = f"{count} mistake{'s' * (count != 1)}, nothing checked"
+    else:
+        told, summary = list(outcome.report.told), outcome.report.summary
+    say("\n\n".join([*told, f"{outcome.file}: {summary}"]))
+
+
+def _facts(outcome: _Outcome) -> dict[str, Any]:
+    report = outcome.report
+    return {
+        "file": outcome.file,
+        "asked": report.asked if report else 0,
+        "holds": outcome.code == FINE,
+        "failures": [
+            {
+                **place(failure.check.span),
+                "check": failure.check.text,
+                "expected": failure.check.expected,
+                "found": failure.found,
+                "why": failure.why,
+            }
+            for failure in (report.failures if report else ())
+        ],
+        "rules": report.rules if report else 0,
+        "faults": [
+            {
+                **place(fault.span),
+                "rule": fault.rule.name if fault.rule else None,
+                "sort": fault.sort,
+                "severity": fault.severity,
+                "message": fault.message,
+                "help": fault.hint,
+            }
+            for fault in (report.faults if report else ())
+        ],
+        "mistakes": [
+            {**place(error.span), "message": error.message, "help": error.hint}
+            for error in outcome.mistakes
+        ]
+        + [{"message": outcome.unreadable}] * bool(outcome.unreadable),
+    }

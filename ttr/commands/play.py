@@ -1,0 +1,170 @@
+"""`ttr play`: plays stories with the games that they name, and compares."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from ttr.commands.output import (
+    FAILED,
+    FINE,
+    WRONG_USE,
+    Commands,
+    complain,
+    say,
+)
+from ttr.errors import TTRError
+from ttr.files import write_whole
+
+if TYPE_CHECKING:
+    from ttr.logs import LogFile
+    from ttr.stories import Line, Moment, Outcome, Played, Setting, Story
+
+    _Result = tuple[Outcome, Played | None]
+
+__all__ = ["add"]
+
+
+def add(commands: Commands) -> None:
+    """Declares the command."""
+    play = commands.add_parser(
+        "play",
+        help="play dialogues, and say where they differ",
+        description="Plays stories with the games that they name; exits with 1 if "
+        "one differs.",
+    )
+    play.add_argument("files", nargs="+", type=Path, metavar="FILE.dlg")
+    telling = play.add_mutually_exclusive_group()
+    telling.add_argument("--quiet", action="store_true", help="only what differs")
+    telling.add_argument("--trace", action="store_true", help="the rules, too")
+    telling.add_argument("--json", action="store_true", help="report for machines")
+    play.add_argument("--log", type=Path, metavar="FILE", help="keep a log (.jsonl)")
+    play.add_argument("--html", type=Path, metavar="FILE", help="write a transcript")
+    play.add_argument(
+        "--junit", type=Path, metavar="FILE", help="write a report for CI (.xml)"
+    )
+    play.set_defaults(command=_play)
+
+
+def _play(options: argparse.Namespace) -> int:
+    from ttr.logs import LogFile
+    from ttr.stories import Outcome, StoryError, read_stories
+
+    plan: list[tuple[str, Story]] = []
+    unread: list[Outcome] = []
+    for file in options.files:
+        try:
+            plan += ((str(file), story) for story in read_stories(file))
+        except StoryError as error:
+            complain(str(error))
+            unread.append(Outcome(str(file), file.stem, error=error))
+    try:
+        with ExitStack() as closing:
+            log = closing.enter_context(LogFile(options.log)) if options.log else None
+            results = _Playing(_echo(options), options.trace, log).all(plan)
+        _write_reports(options, unread, results)
+    except TTRError as error:
+        return complain(str(error))
+    _sum_up(options, results)
+    if unread:
+        return WRONG_USE
+    return FINE if all(one.as_written for one, _ in results) else FAILED
+
+
+def _echo(options: argparse.Namespace) -> Callable[[str], None]:
+    return (lambda line: None) if options.quiet or options.json else say
+
+
+@dataclass
+class _Playing:
+    """Stories being played one after the other."""
+
+    echo: Callable[[str], None]
+    trace: bool
+    log: LogFile | None
+    settings: dict[Line | None, Setting] = field(default_factory=dict)
+
+    def all(self, plan: list[tuple[str, Story]]) -> list[_Result]:
+        """What became of the stories, with what was played of them."""
+        return [self._one(file, story) for file, story in plan]
+
+    def _one(self, file: str, story: Story) -> _Result:
+        from ttr.stories import Outcome, StoryError
+
+        self.echo(f"--- {story.title}")
+        start = perf_counter()
+        try:
+            played = self._played(story)
+        except StoryError as error:
+            seconds = perf_counter() - start
+            return Outcome(file, story.title, seconds, error=error), None
+        seconds = perf_counter() - start
+        return Outcome(file, story.title, seconds, played.mismatch), played
+
+    def _played(self, story: Story) -> Played:
+        from ttr.stories import opening, play
+
+        setting = opening(story, self._setting(story))
+        if self.log is not None:
+            self.log.begin(setting, story.title)
+        return play(story, setting, echo=self.echo, witness=self._witness)
+
+    def _setting(self, story: Story) -> Setting:
+        """The setting that the story names, found once for all that name it so."""
+        from ttr.stories import setting_of
+
+        if story.game not in self.settings:
+            self.settings[story.game] = setting_of(story)
+        return self.settings[story.game]
+
+    def _witness(self, one: Moment) -> None:
+        if self.log is not None:
+            self.log.write(one)
+        for step in one.turn.trace if self.trace else ():
+            self.echo("\n".join(f"   {line}" for line in str(step).splitlines()))
+
+
+# --- reports -------------------------------------------------------------------------
+
+
+def _write_reports(
+    options: argparse.Namespace, unread: list[Outcome], results: list[_Result]
+) -> None:
+    from ttr.stories import junit
+    from ttr.transcripts import Dialogue, transcript
+
+    if options.junit is not None:
+        outcomes = [*unread, *(one for one, _ in results)]
+        write_whole(options.junit, f"{junit(outcomes)}\n")
+    if options.html is not None:
+        shown = [
+            Dialogue(one.story.title, one.setting, one.start, one.moments, str(about))
+            for about, one in results
+            if one is not None
+        ]
+        title = ", ".join(file.name for file in options.files)
+        write_whole(options.html, transcript(title, shown))
+
+
+def _sum_up(options: argparse.Namespace, results: list[_Result]) -> None:
+    """Says what differs, and how many stories of each file do."""
+    from ttr.stories import facts, summary
+
+    if options.json:
+        about = [facts(one) for one, _ in results]
+        say(json.dumps(about, ensure_ascii=False, indent=2))
+        return
+    files: dict[str, list[Outcome]] = {}
+    for one, _ in results:
+        files.setdefault(one.file, []).append(one)
+    for file, outcomes in files.items():
+        for one in outcomes:
+            if not one.as_written:
+                say(str(one))
+        say(summary(file, outcomes))

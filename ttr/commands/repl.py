@@ -1,0 +1,40 @@
+"""`ttr repl`: a session in which a theory grows line by line."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ttr.commands.output import FAILED, FINE, Commands, complain, say
+from ttr.errors import TTRError
+
+__all__ = ["add"]
+
+
+def add(commands: Commands) -> None:
+    """Declares the command."""
+    repl = commands.add_parser(
+        "repl",
+        help="type statements and questions, and get answers",
+        description="A session in which a theory grows line by line.",
+    )
+    repl.add_argument("file", nargs="?", metavar="FILE", help="a theory to start from")
+    repl.set_defaults(command=_repl)
+
+
+def _repl(options: argparse.Namespace) -> int:
+    from ttr.interactive.sessions import Session, loaded
+    from ttr.interactive.terminal import talk
+    from ttr.notation.loading import Unreadable
+
+    session = Session()
+    try:
+        if options.file is not None:
+            session, _ = loaded(session, Path(options.file))
+    except Unreadable as error:
+        return complain(error.message)
+    except TTRError as error:
+        say(f"error: {error}")
+        return FAILED
+    talk(session)
+    return FINE

@@ -1,0 +1,296 @@
+"""`ttr test`: plays many dialogues with the games of a file, and says what breaks."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import signal
+import sys
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING, Any
+
+from ttr.commands.output import FAILED, FINE, INTERRUPTED, Commands, complain, say
+from ttr.errors import TTRError
+
+if TYPE_CHECKING:
+    from ttr.stories import Setting
+    from ttr.testing import Coverage, Report
+    from ttr.updates import Game
+
+__all__ = ["add"]
+
+EXAMPLES = 1000
+PROCESSED = 20
+"""How many dialogues are played once more in processes of their own."""
+
+PATIENCE = 2.0
+"""After how many seconds a terminal is told how far it has come."""
+
+REFRESH = 0.1
+WIDTH = 30
+
+
+def add(commands: Commands) -> None:
+    """Declares the command."""
+    test = commands.add_parser(
+        "test",
+        help="play many dialogues, and find the shortest that breaks",
+        description="Checks the rules of games before they run, then plays dialogues "
+        "and checks what dialogues should be like; exits with 1 if something breaks.",
+    )
+    test.add_argument(
+        "rules", metavar="RULES", help="FILE.ttr, FILE.py:GAME or MODULE:GAME"
+    )
+    test.add_argument("--game", metavar="NAME", help="only this game of the file")
+    test.add_argument(
+        "--examples",
+        type=_count,
+        default=EXAMPLES,
+        metavar="N",
+        help=f"how many dialogues (default: {EXAMPLES})",
+    )
+    test.add_argument(
+        "--turns", type=_count, default=10, metavar="N", help="of how many turns"
+    )
+    test.add_argument(
+        "--seed", type=int, default=0, metavar="S", help="draws other dialogues"
+    )
+    test.add_argument("--json", action="store_true", help="report for machines")
+    test.set_defaults(command=_test)
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"expected 1, 2, 3 or so, found {text}")
+    return int(text)
+
+
+def _test(options: argparse.Namespace) -> int:
+    try:
+        import ttr.testing  # noqa: F401
+    except ImportError as error:
+        return complain(str(error))
+    try:
+        places = _places(options.rules, options.game)
+    except TTRError as error:
+        return complain(str(error))
+    outcomes = []
+    for place in places:
+        outcome = _outcome(place, options)
+        outcomes.append(outcome)
+        if not options.json:
+            say(outcome.told())
+        if outcome.interrupted:
+            break
+    if options.json:
+        facts = [one.facts() for one in outcomes]
+        say(json.dumps(facts, ensure_ascii=False, indent=2))
+    return max(one.code for one in outcomes)
+
+
+# --- which games ---------------------------------------------------------------------
+
+
+def _places(rules: str, game: str | None) -> list[Setting]:
+    """The games that are named, with where they are."""
+    from ttr.stories import setting
+
+    if not rules.endswith(".ttr"):
+        named = rules if ":" in Path(rules).name else f"{rules}:{game or 'game'}"
+        return [setting(named, Path())]
+    if game is not None:
+        return [setting(f"{rules} {game}", Path())]
+    from ttr.theories import load
+
+    if not Path(rules).is_file():
+        raise TTRError(f"{rules} is not there")
+    names = load(rules).openings
+    if not names:
+        raise TTRError(f"{rules} has no game: write `game NAME(START : TYPE) := …`")
+    return [setting(f"{rules} {name}", Path()) for name in names]
+
+
+# --- testing one ---------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    """What became of one game."""
+
+    place: Setting
+    coverage: Coverage
+    report: Report | None
+    across: str
+    """How the processes differ."""
+    seconds: float
+
+    @property
+    def interrupted(self) -> bool:
+        return self.report is None
+
+    @property
+    def code(self) -> int:
+        if self.report is None:
+            return INTERRUPTED
+        return FINE if self.report.holds and not self.across else FAILED
+
+    def told(self) -> str:
+        """For reading: what went wrong, and what was covered."""
+        parts = [self._wrong(), self.coverage.table(), self._skipped(), self._summary()]
+        return "\n\n".join(filter(None, parts)) + "\n"
+
+    def _wrong(self) -> str:
+        told = self.report.told(self.place) if self.report else ""
+        return "\n\n".join(filter(None, [told.rstrip(), self._across()]))
+
+    def _across(self) -> str:
+        from ttr.testing.repeating import DETERMINISTIC
+
+        if not self.across:
+            return ""
+        return f"{DETERMINISTIC}: {DETERMINISTIC.says}\n{self.across}"
+
+    def _skipped(self) -> str:
+        if self.report is None or not self.report.skipped:
+            return ""
+        told = [f"{one.name} (no {', '.join(no)})" for one, no in self.report.skipped]
+        return f"not checked: {'; '.join(told)}"
+
+    def _summary(self) -> str:
+        name, count = self.place.game.name, self.coverage.dialogues
+        took = f"{count} dialogues in {self.seconds:.1f} s"
+        if self.report is None:
+            return f"{name}: stopped after {took}"
+        return f"{name}: {'holds' if self.code == FINE else 'breaks'}, {took}"
+
+    def facts(self) -> dict[str, Any]:
+        """For machines."""
+        report = self.report
+        facts: dict[str, Any] = {
+            "game": self.place.game.name,
+            "holds": self.code == FINE,
+            "interrupted": self.interrupted,
+            "seconds": round(self.seconds, 3),
+            "coverage": self.coverage.facts(),
+            "across_processes": self.across or None,
+        }
+        if report is not None:
+            facts["faults"] = [str(fault) for fault in report.faults]
+            facts["broken"] = _broken(report, self.place)
+            facts["overall"] = [
+                {"property": one.name, "why": why} for one, why in report.overall
+            ]
+            facts["not_checked"] = [one.name for one, _ in report.skipped]
+        return facts
+
+
+def _broken(report: Report, place: Setting) -> dict[str, Any] | None:
+    from ttr.testing.telling import story
+
+    if report.broken is None:
+        return None
+    breach = report.broken.why
+    return {
+        "property": breach.property.name,
+        "says": breach.property.says,
+        "turn": breach.turn,
+        "why": breach.why,
+        "story": story(report.broken.dialogue, str(breach.property), place),
+    }
+
+
+def _outcome(place: Setting, options: argparse.Namespace) -> _Outcome:
+    from ttr.testing import Suite
+    from ttr.testing.companions import roles_of, tutor_of
+    from ttr.testing.processes import differing
+
+    watch = _Watch(place.game, options.examples)
+    suite = Suite(
+        place.game,
+        tutor_of(place.game),
+        roles=roles_of(place.game),
+        turns=options.turns,
+        examples=options.examples,
+        seed=options.seed,
+        after_each=watch.see,
+    )
+    report, across = None, ""
+    with watch:
+        try:
+            report = suite.run()
+            if report.holds and place.reference:
+                across = differing(
+                    place.reference,
+                    place.folder,
+                    examples=PROCESSED,
+                    start=options.seed,
+                )
+        except KeyboardInterrupt:
+            report = None
+        except TTRError as error:
+            across = error.message
+    return _Outcome(place, watch.coverage, report, across, watch.seconds)
+
+
+class _Watch:
+    """Keeps what was covered so far, and tells a terminal how far it has come.
+
+    Ctrl-C takes effect between two dialogues: an interrupt that comes while something
+    is let go of would be lost. A second one takes effect at once.
+    """
+
+    def __init__(self, game: Game, total: int) -> None:
+        from ttr.testing import Coverage
+
+        self.coverage = Coverage(game)
+        self._total = total
+        self._began = self._told = monotonic()
+        self._shows = self._stops = False
+
+    def __enter__(self) -> None:
+        self._usual = signal.getsignal(signal.SIGINT)
+        with suppress(ValueError):  # only the main thread may
+            signal.signal(signal.SIGINT, self._stop)
+
+    def __exit__(self, *_: object) -> None:
+        with suppress(ValueError):
+            signal.signal(signal.SIGINT, self._usual)
+        self._clear()
+
+    def _stop(self, *_: object) -> None:
+        if self._stops:
+            raise KeyboardInterrupt
+        self._stops = True
+
+    @property
+    def seconds(self) -> float:
+        """How long it has been."""
+        return monotonic() - self._began
+
+    def see(self, coverage: Coverage) -> None:
+        """Takes note of what was covered after one more dialogue."""
+        self.coverage = coverage
+        if self._stops:
+            raise KeyboardInterrupt
+        now = monotonic()
+        if now - self._began < PATIENCE or now - self._told < REFRESH:
+            return
+        self._told = now
+        if sys.stderr.isatty():
+            self._shows = True
+            sys.stderr.write(f"\r{_bar(coverage.dialogues, self._total)}")
+            sys.stderr.flush()
+
+    def _clear(self) -> None:
+        if self._shows:
+            sys.stderr.write("\r\x1b[K")
+            self._shows = False
+
+
+def _bar(done: int, total: int) -> str:
+    share = min(1.0, done / total)
+    filled = round(WIDTH * share)
+    return f"{'█' * filled}{'░' * (WIDTH - filled)} {done} of {total} dialogues"

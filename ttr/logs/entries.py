@@ -1,0 +1,186 @@
+"""The lines of a log: a dialogue begins with a header, and has an entry for each turn.
+
+Each line is an object of JSON. Values are written in the notation; every name in them
+is declared in the line where it is first used, or in one before it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ttr.errors import TTRError
+
+__all__ = [
+    "FORMAT",
+    "VERSION",
+    "Entry",
+    "Fault",
+    "Header",
+    "LogError",
+    "entry",
+    "header",
+]
+
+FORMAT, VERSION = "ttr", 1
+
+
+class LogError(TTRError):
+    """A log that cannot be written, read or replayed: where, and why."""
+
+
+class Fault(Exception):
+    """What is wrong with a line, without its place."""
+
+
+@dataclass(frozen=True)
+class Header:
+    """How a dialogue begins: the game that is played, and the state at the start."""
+
+    game: str
+    title: str
+    start: str
+    declares: tuple[str, ...]
+    objects: tuple[str, ...]
+
+    def text(self) -> str:
+        """The line of the log."""
+        begun = {"log": FORMAT, "version": VERSION}
+        return _line({**begun, **vars(self)})
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A turn: what happened, what was said, which rules ran, the state after it.
+
+    `line` is the turn's line in a story. `event` is what the game was given, a value, a
+    list of values with probabilities, or None. `said` has for each own move its type
+    and its words, `rules` for each rule its name, event, bindings and changes. `judged`
+    are the facts that the model gained, and `names` how many names it has given out;
+    `whole` is false if the turn has changed the model by more than facts.
+    """
+
+    turn: int
+    line: str
+    event: str | list[list[Any]] | None
+    said: tuple[tuple[str, str], ...]
+    rules: tuple[Mapping[str, Any], ...]
+    state: str
+    judged: tuple[tuple[str, str, float, float], ...]
+    names: int
+    whole: bool
+    declares: tuple[str, ...]
+    objects: tuple[str, ...]
+
+    def text(self) -> str:
+        """The line of the log."""
+        return _line(vars(self))
+
+
+def _line(facts: Mapping[str, Any]) -> str:
+    return json.dumps(facts, ensure_ascii=False)
+
+
+# --- reading -------------------------------------------------------------------------
+
+
+def header(facts: object) -> Header | None:
+    """The header that a line is, None if it is none; raises `Fault`."""
+    if not isinstance(facts, dict) or "log" not in facts:
+        return None
+    if facts["log"] != FORMAT:
+        raise Fault(f"a log of another kind: {facts['log']}")
+    if facts.get("version") != VERSION:
+        raise Fault(
+            f"a log of version {facts.get('version')}, but {VERSION} is read here"
+        )
+    return Header(
+        _text(facts, "game"),
+        _text(facts, "title"),
+        _text(facts, "start"),
+        _texts(facts, "declares"),
+        _texts(facts, "objects"),
+    )
+
+
+def entry(facts: object) -> Entry:
+    """The turn that a line is; raises `Fault`."""
+    if not isinstance(facts, dict):
+        raise Fault("no turn of a log")
+    return Entry(
+        _of(facts, "turn", int),
+        _text(facts, "line"),
+        _event(facts),
+        tuple((_at(one, 0, str), _at(one, 1, str)) for one in _list(facts, "said")),
+        tuple(_rule(one) for one in _list(facts, "rules")),
+        _text(facts, "state"),
+        tuple(map(_judged, _list(facts, "judged"))),
+        _of(facts, "names", int),
+        _of(facts, "whole", bool),
+        _texts(facts, "declares"),
+        _texts(facts, "objects"),
+    )
+
+
+def _of(facts: dict[str, Any], key: str, kind: type) -> Any:
+    if key not in facts:
+        raise Fault(f"no turn of a log: {key} is missing")
+    if type(facts[key]) is not kind:
+        raise Fault(f"{key} should be {_named(kind)}, found {json.dumps(facts[key])}")
+    return facts[key]
+
+
+def _named(kind: type) -> str:
+    names = {int: "a whole number", str: "a text", bool: "true or false"}
+    return names.get(kind, "a list" if kind is list else "an object")
+
+
+def _text(facts: dict[str, Any], key: str) -> str:
+    text: str = _of(facts, key, str)
+    return text
+
+
+def _list(facts: dict[str, Any], key: str) -> list[Any]:
+    found: list[Any] = _of(facts, key, list)
+    return found
+
+
+def _texts(facts: dict[str, Any], key: str) -> tuple[str, ...]:
+    found = _list(facts, key)
+    if not all(isinstance(one, str) for one in found):
+        raise Fault(f"{key} should be a list of texts")
+    return tuple(found)
+
+
+def _at(one: object, index: int, *kinds: type) -> Any:
+    """An element of a list inside a turn."""
+    if isinstance(one, list) and index < len(one) and type(one[index]) in kinds:
+        return one[index]
+    raise Fault(f"no turn of a log: {json.dumps(one)} is not expected in it")
+
+
+def _event(facts: dict[str, Any]) -> str | list[list[Any]] | None:
+    event = facts.get("event")
+    if event is None or isinstance(event, str):
+        return event
+    if not isinstance(event, list):
+        raise Fault(f"event should be a text or a list, found {json.dumps(event)}")
+    return [[_at(one, 0, str), _at(one, 1, float, int)] for one in event]
+
+
+def _rule(one: object) -> Mapping[str, Any]:
+    if not isinstance(one, dict):
+        raise Fault(f"no turn of a log: {json.dumps(one)} is no rule")
+    return {
+        "rule": _text(one, "rule"),
+        "event": _text(one, "event"),
+        "with": _of(one, "with", dict),
+        "changes": _list(one, "changes"),
+    }
+
+
+def _judged(one: object) -> tuple[str, str, float, float]:
+    lo, hi = _at(one, 2, float, int), _at(one, 3, float, int)
+    return _at(one, 0, str), _at(one, 1, str), lo, hi

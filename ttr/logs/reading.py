@@ -1,0 +1,113 @@
+"""Reading logs, up to the last whole turn."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from ttr.errors import TTRError
+from ttr.logs.declaring import Declared
+from ttr.logs.entries import Entry, Fault, Header, LogError, entry, header
+
+__all__ = ["Log", "read_logs"]
+
+
+@dataclass(frozen=True)
+class Log:
+    """A dialogue in a log: its header and turns, and where they are.
+
+    `number` is the line of the header. `cut` says that the turn after the last one is
+    there in part only, as where a process was killed; it is empty otherwise.
+    """
+
+    file: str
+    number: int
+    header: Header
+    entries: tuple[Entry, ...] = ()
+    cut: str = ""
+
+    @cached_property
+    def declared(self) -> Declared:
+        """The names that are used in it; raises `LogError`."""
+        lines: list[Header | Entry] = [self.header, *self.entries]
+        statements = [text for line in lines for text in line.declares]
+        objects = [name for line in lines for name in line.objects]
+        try:
+            return Declared().together_with(statements, objects)
+        except TTRError as error:
+            raise LogError(
+                f"{self.file}:{self.number}: the names declared here and below cannot "
+                f"be read: {error.message}"
+            ) from error
+
+    def place(self, turn: int) -> str:
+        """The file, the line and the number of a turn; the start is turn 0."""
+        where = f"{self.file}:{self.number + turn}"
+        return f"{where}: turn {turn}" if turn else f"{where}: the start"
+
+    def until(self, turn: int) -> Log:
+        """The log as it was after a turn."""
+        return replace(self, entries=self.entries[:turn], cut="")
+
+
+def read_logs(path: Path) -> tuple[Log, ...]:
+    """The dialogues in a file. Raises `LogError` for a line that has been damaged.
+
+    The last line may be cut off: what is before it is given.
+    """
+    try:
+        text = path.read_bytes()
+    except FileNotFoundError:
+        raise LogError(f"{path} is not there") from None
+    except IsADirectoryError:
+        raise LogError(f"{path} is a folder: name a log in it") from None
+    except OSError as error:
+        raise LogError(f"{path} cannot be read: {error.strerror}") from None
+    *lines, rest = text.split(b"\n")
+    logs = _dialogues(path, lines)
+    if rest and logs:
+        after = f"after turn {len(logs[-1].entries)}" if logs[-1].entries else "at once"
+        told = f"{path}:{len(lines) + 1}: the log is cut off {after}"
+        logs[-1] = replace(logs[-1], cut=told)
+    if not logs:
+        raise LogError(f"{path} is no log: it should begin with a header")
+    return tuple(logs)
+
+
+def _dialogues(path: Path, lines: list[bytes]) -> list[Log]:
+    logs: list[Log] = []
+    entries: list[Entry] = []
+    for number, line in enumerate(_parsed(path, lines), start=1):
+        if isinstance(line, Header):
+            if logs:
+                logs[-1] = replace(logs[-1], entries=tuple(entries))
+            logs.append(Log(str(path), number, line))
+            entries = []
+            continue
+        if not logs:
+            raise LogError(f"{path} is no log: it should begin with a header")
+        if line.turn != len(entries) + 1:
+            raise LogError(
+                f"{path}:{number}: expected turn {len(entries) + 1}, found turn "
+                f"{line.turn}: lines have been moved, put in or taken out"
+            )
+        entries.append(line)
+    if logs:
+        logs[-1] = replace(logs[-1], entries=tuple(entries))
+    return logs
+
+
+def _parsed(path: Path, lines: list[bytes]) -> Iterator[Header | Entry]:
+    for number, line in enumerate(lines, start=1):
+        try:
+            facts = json.loads(line.decode("utf-8"))
+            yield header(facts) or entry(facts)
+        except Fault as fault:
+            raise LogError(f"{path}:{number}: {fault}") from None
+        except UnicodeDecodeError:
+            raise LogError(f"{path}:{number}: this is not a text in UTF-8") from None
+        except (ValueError, RecursionError):
+            raise LogError(f"{path}:{number}: this is no JSON") from None
