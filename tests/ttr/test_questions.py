@@ -1,0 +1,251 @@
+"""Questions, what is about them, what resolves them, and what is under discussion."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ttr import (
+    Basic,
+    FiniteSet,
+    Ind,
+    Model,
+    Pred,
+    Rec,
+    TTRError,
+    fun,
+    outer,
+    record,
+    rectype,
+    subtype,
+    this,
+)
+from ttr.questions import (
+    Question,
+    asked_of,
+    combine,
+    downdate,
+    is_polar,
+    is_question,
+    pop,
+    push,
+    relevant,
+    resolves,
+    resolving,
+    top,
+    whether,
+    which,
+    which_of,
+    with_questions,
+)
+
+City, Month = Basic("City"), Basic("Month")
+dest, depart, month = Pred("dest", City), Pred("depart", City), Pred("month", Month)
+back, fly = Pred("back", ()), Pred("fly", City, City)
+M = Model().given("may", Month)
+for city in ("paris", "london"):
+    M = M.given(city, City)
+
+TO, FROM, WHEN = which(dest), which(depart), which(month)
+BACK = rectype(e=back())
+RETURN = whether(BACK)
+ECONOMY, BUSINESS = rectype(c=Pred("economy", ())()), rectype(c=Pred("business", ())())
+CLASS = which_of(ECONOMY, BUSINESS)
+ROUTE = fun(r=rectype(x=City, y=City))(rectype(e=fly(outer.r.x, outer.r.y)))
+TO_PARIS, TO_LONDON = rectype(e=dest("paris")), rectype(e=dest("london"))
+
+
+# --- what is a question --------------------------------------------------------------
+
+
+@pytest.mark.parametrize("question", [TO, RETURN, CLASS, ROUTE, whether(Rec)])
+def test_questions_are_functions_to_types_or_sets_of_them(question):
+    assert is_question(question)
+    assert with_questions(M).judge(question, Question).holds
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        "paris",
+        TO_PARIS,
+        record(),
+        FiniteSet(),
+        FiniteSet(RETURN),
+        FiniteSet(RETURN, TO),
+        fun(x=Ind)(TO_PARIS),
+        fun(r=Rec)("paris"),
+        None,
+    ],
+)
+def test_what_is_no_question(value):
+    assert not is_question(value)
+    assert with_questions(M).judge(value, Question).holds is False
+
+
+def test_only_questions_whether_are_polar():
+    assert is_polar(RETURN)
+    assert not is_polar(TO)
+    assert not is_polar(CLASS)
+
+
+def test_what_asks_for_nothing_is_refused():
+    with pytest.raises(TTRError, match="fly has no place that a question could ask"):
+        which(fly)
+    with pytest.raises(TTRError, match="two alternatives at least"):
+        which_of(BACK)
+    with pytest.raises(TTRError, match="this is no question: the object 'paris'"):
+        relevant("yes", "paris", M)
+
+
+# --- answers -------------------------------------------------------------------------
+
+ABOUT = [
+    # question, answer, what it comes to, whether it resolves the question
+    (RETURN, "yes", BACK, True),
+    (RETURN, "no", ~BACK, True),
+    (RETURN, BACK, BACK, True),
+    (RETURN, ~BACK, ~BACK, True),
+    (TO, "paris", TO_PARIS, True),
+    (TO, record(x="paris"), TO_PARIS, True),
+    (TO, TO_PARIS, TO_PARIS, True),
+    (TO, ~TO_PARIS, ~TO_PARIS, False),
+    (CLASS, ECONOMY, ECONOMY, True),
+    (CLASS, ~ECONOMY, ~ECONOMY, False),
+    (ROUTE, record(x="paris", y="london"), rectype(e=fly("paris", "london")), True),
+]
+
+
+@pytest.mark.parametrize(("question", "answer", "proposition", "resolved"), ABOUT)
+def test_what_an_answer_comes_to(question, answer, proposition, resolved):
+    assert relevant(answer, question, M)
+    assert combine(question, answer, M) is proposition
+    assert resolves(answer, question, M) is resolved
+
+
+@pytest.mark.parametrize(
+    ("question", "answer"),
+    [
+        (RETURN, "paris"),
+        (RETURN, TO_PARIS),
+        (RETURN, ~TO_PARIS),
+        (TO, "yes"),
+        (TO, "no"),
+        (TO, "may"),
+        (TO, "nowhere"),
+        (TO, 5),
+        (TO, record(x="may")),
+        (TO, record(y="paris")),
+        (TO, rectype(e=depart("paris"))),
+        (TO, rectype(f=dest("paris"))),
+        (TO, rectype(e=dest("may"))),
+        (TO, ~rectype(e=dest("paris"), f=back())),
+        (TO, Rec),
+        (CLASS, "yes"),
+        (CLASS, BACK),
+        (ROUTE, "paris"),
+    ],
+)
+def test_what_is_not_about_a_question(question, answer):
+    assert not relevant(answer, question, M)
+    assert not resolves(answer, question, M)
+    with pytest.raises(TTRError, match="is no answer to the question"):
+        combine(question, answer, M)
+
+
+def test_a_more_specific_proposition_resolves_a_question():
+    more = rectype(e=dest("paris"), m=month("may"))
+    assert resolves(more, TO, M)
+    assert combine(TO, more, M) is more
+
+
+def test_a_manifest_field_is_what_it_is_set_to():
+    set_to = rectype(x=City @ "paris", e=dest(this.x))
+    assert asked_of(TO, set_to, M) == record(x="paris")
+    assert not relevant(rectype(x=City, e=dest(this.x)), TO, M)
+
+
+def test_one_object_for_one_variable():
+    round_trip = fun(r=rectype(x=City))(rectype(e=fly(outer.r.x, outer.r.x)))
+    assert relevant(rectype(e=fly("paris", "paris")), round_trip, M)
+    assert not relevant(rectype(e=fly("paris", "london")), round_trip, M)
+
+
+def test_the_first_that_resolves():
+    known = [BACK, ~TO_LONDON, TO_PARIS]
+    assert resolving(TO, known, M) is TO_PARIS
+    assert resolving(FROM, known, M) is None
+
+
+propositions = st.sampled_from(
+    [
+        p
+        for base in (BACK, TO_PARIS, TO_LONDON, rectype(e=depart("london")), ECONOMY)
+        for p in (base, ~base, rectype(**dict(base.fields), more=City))
+    ]
+)
+questions = st.sampled_from([TO, FROM, WHEN, RETURN])
+
+
+@given(propositions, questions)
+def test_what_is_about_a_question_is_an_instance_of_it_or_denies_one(p, q):
+    found = asked_of(q, p, M)
+    if found is not None:
+        assert relevant(p, q, M)
+        assert subtype(p, M.apply(q, found)).yes
+    elif relevant(p, q, M):
+        assert M.apply(q, asked_of(q, p.body, M)) is p.body
+
+
+@given(st.sampled_from(["paris", "london", "may", "yes", "no", "else"]), questions)
+def test_what_an_answer_comes_to_is_an_answer_as_well(a, q):
+    if not relevant(a, q, M):
+        return
+    p = combine(q, a, M)
+    assert combine(q, p, M) is p
+    assert resolves(p, q, M) == resolves(a, q, M)
+
+
+# --- questions under discussion ------------------------------------------------------
+
+many = st.lists(st.sampled_from([TO, FROM, WHEN, RETURN, CLASS]))
+
+
+@given(many)
+def test_no_question_is_twice_under_discussion(asked):
+    qud = ()
+    for question in asked:
+        qud = push(qud, question)
+        assert top(qud) is question
+    assert len(set(qud)) == len(qud)
+    assert set(qud) == set(asked)
+
+
+@given(many, many)
+def test_what_was_under_discussion_keeps_its_order(before, asked):
+    qud = ()
+    for question in before:
+        qud = push(qud, question)
+    after = qud
+    for question in asked:
+        after = push(after, question)
+    kept = [question for question in after if question not in asked]
+    assert kept == [question for question in qud if question not in asked]
+
+
+@given(many, st.lists(propositions))
+def test_downdating_leaves_just_what_is_open(asked, facts):
+    qud = tuple(dict.fromkeys(asked))
+    left = downdate(qud, facts, M)
+    assert left == tuple(q for q in qud if resolving(q, facts, M) is None)
+    assert downdate(left, facts, M) == left
+
+
+def test_what_is_dropped_is_gone():
+    assert pop((TO, FROM), TO) == (FROM,)
+    assert pop((TO, FROM), WHEN) == (TO, FROM)
+    assert top(()) is None
+
+
+def test_only_questions_are_under_discussion():
+    with pytest.raises(TTRError, match="only questions are under discussion, not"):
+        push((), TO_PARIS)
