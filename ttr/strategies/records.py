@@ -1,18 +1,4 @@
-"""Hypothesis strategies for property tests: types, objects, records and models.
-
-They draw from few names, so that clashes happen, and reach every constructor: ptypes of
-several arities, record types with dependent, manifest and nested fields, paths outwards
-and circles, functions, lists, sets, strings, and what is computed from them. What they
-draw is well-formed and shrinks to what is small.
-
->>> from hypothesis import given, settings
->>> from ttr import subtype
->>> @settings(max_examples=10, database=None)
-... @given(types())
-... def subtyping_is_reflexive(T):
-...     assert subtype(T, T).yes
->>> subtyping_is_reflexive()
-"""
+"""Strategies for records of a type."""
 
 from __future__ import annotations
 
@@ -20,18 +6,14 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any
 
-try:
-    from hypothesis import strategies as st
-except ImportError as missing:
-    raise ImportError(
-        "ttr.strategies needs hypothesis: pip install 'kille[test]'"
-    ) from missing
+from hypothesis import strategies as st
 
 from ttr import arbitrary
 from ttr.arbitrary import Words
 from ttr.errors import IllFormed, Refused, TTRError
 from ttr.models import Model
 from ttr.objects import Unresolved
+from ttr.strategies.models import facts
 from ttr.strings.forms import string_of
 from ttr.substitution import grounded
 from ttr.syntax import (
@@ -57,102 +39,7 @@ from ttr.syntax import (
 )
 from ttr.theories import Theory
 
-__all__ = ["models", "objects", "record_types", "records", "types"]
-
-DEPTH = 3
-"""How deep what is drawn nests, if nothing else is asked for."""
-
-
-# --- types and objects ---------------------------------------------------------------
-
-
-def types(
-    theory: Theory | None = None, *, depth: int = DEPTH
-) -> st.SearchStrategy[TypeNode]:
-    """Well-formed types of every constructor, over what a theory declares.
-
-    Without a theory there are the basic types A, B and C, and predicates p, q and r of
-    several arities. Constructors nest at most so deep. Raises `TTRError` for what is no
-    theory or no depth.
-
-    >>> from hypothesis import find
-    >>> print(find(types(), lambda T: isinstance(T, RecordType) and len(T.labels) == 2))
-    [x : A, y : A]
-    """
-    return arbitrary.types(Words.of(theory), (), _checked(depth))
-
-
-def record_types(
-    theory: Theory | None = None, *, depth: int = DEPTH
-) -> st.SearchStrategy[RecordType]:
-    """Well-formed record types, drawn as `types` does."""
-    return arbitrary.record_types(Words.of(theory), (), _checked(depth))
-
-
-def objects(
-    theory: Theory | None = None, *, depth: int = DEPTH
-) -> st.SearchStrategy[Object]:
-    """Objects of every kind that has a notation, over what a theory declares.
-
-    They are names, numbers, records, lists, sets, strings of events, functions, types.
-    """
-    return arbitrary.objects(Words.of(theory), (), _checked(depth))
-
-
-def _checked(depth: object) -> int:
-    if type(depth) is not int or depth < 0:
-        raise TTRError(f"a depth is a whole number, 0 or more, found {depth!r}")
-    return depth
-
-
-# --- models --------------------------------------------------------------------------
-
-
-def models(
-    theory: Theory | None = None, *, degrees: st.SearchStrategy[Any] | None = None
-) -> st.SearchStrategy[Model]:
-    """Models of a theory with random facts about few objects.
-
-    `degrees` draws how probable they are, as numbers or intervals; else all are
-    certain.
-    """
-    if degrees is None:
-        degrees = st.just(1.0)
-    if not isinstance(degrees, st.SearchStrategy):
-        raise TTRError(
-            f"degrees are drawn by a strategy, as in st.floats(0, 1), found {degrees!r}"
-        )
-    return _models(Words.of(theory), theory, degrees)
-
-
-@st.composite
-def _models(
-    draw: st.DrawFn,
-    words: Words,
-    theory: Theory | None,
-    degrees: st.SearchStrategy[Any],
-) -> Model:
-    M = Model(theory)
-    for T in words.basics:
-        for name in draw(st.lists(st.sampled_from(words.names), unique=True)):
-            M = _with_fact(M, name, T, draw(degrees))
-    facts = st.tuples(st.sampled_from(words.names), arbitrary.ptypes(words, (), 0))
-    for sit, ptype in draw(st.lists(facts, max_size=8)):
-        M = _with_fact(M, sit, ptype, draw(degrees))
-    return M
-
-
-def _with_fact(M: Model, sit: Object, T: TypeNode, degree: object) -> Model:
-    """The model with the fact, or without it where an axiom speaks against it."""
-    if not isinstance(T, Basic | PType):
-        return M
-    try:
-        return M.given(sit, T, degree)
-    except Refused:
-        return M
-
-
-# --- records -------------------------------------------------------------------------
+__all__ = ["records", "shaped", "told_of"]
 
 
 def records(T: TypeNode, model: Model | None = None) -> st.SearchStrategy[Any]:
@@ -171,34 +58,34 @@ def records(T: TypeNode, model: Model | None = None) -> st.SearchStrategy[Any]:
     >>> M.judge(r, T).holds
     True
     """
-    if not _is_of_records(as_type(T)):
+    if not is_of_records(as_type(T)):
         raise IllFormed(f"records are drawn for a record type, found {kind_of(T)}")
     if model is None:
         return _witnesses(T)
     if not isinstance(model, Model):
         raise TTRError(f"records are drawn over a model, found {kind_of(model)}")
-    return _shaped(T, model)
+    return shaped(T, model)
 
 
-def _is_of_records(T: TypeNode) -> bool:
+def is_of_records(T: TypeNode) -> bool:
     """Whether by its form only records are of it."""
     match T:
         case RecordType():
             return True
         case Singleton(base, _):
-            return _is_of_records(base)
+            return is_of_records(base)
         case Meet(parts):
-            return any(map(_is_of_records, parts))
+            return any(map(is_of_records, parts))
         case Join(parts):
-            return all(map(_is_of_records, parts))
+            return all(map(is_of_records, parts))
     return False
 
 
 @st.composite
 def _witnesses(draw: st.DrawFn, T: TypeNode) -> tuple[Object, Model]:
     """A record of the shape of T that a model is told is of T; else one made up."""
-    M = draw(_models(Words.of(Theory.of(T)), None, st.just(1.0)))
-    told = _told(M, draw(_shaped(T, M)), T)
+    M = draw(facts(Words.of(Theory.of(T)), None, st.just(1.0)))
+    told = told_of(M, draw(shaped(T, M)), T)
     if told is not None and draw(st.booleans()):
         return told
     for model in (M, Model()):
@@ -207,7 +94,7 @@ def _witnesses(draw: st.DrawFn, T: TypeNode) -> tuple[Object, Model]:
     return told or Model().create(T)
 
 
-def _told(M: Model, r: Object, T: TypeNode) -> tuple[Object, Model] | None:
+def told_of(M: Model, r: Object, T: TypeNode) -> tuple[Object, Model] | None:
     """The record with the model in which it is of T, if it can be."""
     try:
         M = M.given(r, T)
@@ -216,7 +103,7 @@ def _told(M: Model, r: Object, T: TypeNode) -> tuple[Object, Model] | None:
         return None
 
 
-def _shaped(T: TypeNode, M: Model) -> st.SearchStrategy[Object]:
+def shaped(T: TypeNode, M: Model) -> st.SearchStrategy[Object]:
     """Objects of the shape of T, over the names that the model knows and new ones."""
     known = [name for name in M.facts.known if isinstance(name, str)]
     names = [*sorted(known), *(f"new{number}" for number in range(1, 4))]
@@ -232,7 +119,7 @@ def _shapes(draw: st.DrawFn, T: TypeNode, M: Model, names: tuple[str, ...]) -> O
             for label, field in kinds:
                 fields[label] = draw(_shapes_in(fields, field, M, names))
             return Record(fields)
-        case Meet(parts) if _is_of_records(T):
+        case Meet(parts) if is_of_records(T):
             whole = [draw(_shapes(part, M, names)) for part in parts]
             several = [r for r in whole if isinstance(r, Record)]
             return Record({k: v for r in several for k, v in r._fields.items()})

@@ -1,0 +1,77 @@
+"""Property tests find the faults of the mutants, and none in the correct games."""
+
+from __future__ import annotations
+
+import pytest
+from mutants import GAMES, MUTANTS, Mutant
+
+from ttr.testing import Suite
+from ttr.updates.checks import faults_of
+
+DIALOGUES = 150
+
+RARE = {
+    "tutoring-never-guesses": 600,
+    "fetch-skips-a-move": 600,
+    "travel-no-is-yes": 300,
+}
+"""How many dialogues it takes where the fault is that something never happens."""
+
+
+def found_in(mutant: Mutant) -> str:
+    """The property that a mutant breaks."""
+    beside = GAMES[mutant.game]
+    count = RARE.get(str(mutant), DIALOGUES)
+    suite = Suite(mutant.made, beside.tutor, roles=beside.roles, examples=count)
+    report = suite.played()
+    if report.broken is not None:
+        return report.broken.why.property.name
+    return report.overall[0][0].name if report.overall else ""
+
+
+def test_there_are_many_mutants_of_every_game():
+    assert len(MUTANTS) >= 40
+    assert {mutant.game for mutant in MUTANTS} == set(GAMES)
+    assert len({str(mutant) for mutant in MUTANTS}) == len(MUTANTS)
+
+
+def parameter(mutant: Mutant):
+    marks = [pytest.mark.slow] if str(mutant) in RARE else []
+    return pytest.param(mutant, id=str(mutant), marks=marks)
+
+
+@pytest.mark.parametrize("mutant", [*map(parameter, MUTANTS)])
+def test_a_mutant_is_found_by_playing(mutant):
+    assert found_in(mutant)
+
+
+@pytest.mark.parametrize("name", GAMES)
+def test_a_correct_game_is_left_alone(name):
+    beside = GAMES[name]
+    suite = Suite(beside.game, beside.tutor, roles=beside.roles, examples=100)
+    assert faults_of(beside.game) == ()
+    assert suite.run().told() == ""
+
+
+EXPECTED = {
+    "asking-careless-downdate": "P8",
+    "asking-forgetful": "P10",
+    "asking-gullible": "P9",
+    "asking-order-matters": "P5",
+    "asking-greets-always": "P13",
+    "asking-counted-twice": "P18",
+    "fetch-brings-for-ever": "P4",
+    "fetch-scribbles": "P2",
+    "tutoring-latest-is-text": "P1",
+    "tutoring-wrong-polarity": "P13",
+    "tutoring-misspelt-path": "P7",
+    "tutoring-looks-at-nothing": "P17",
+    "tutoring-says-it-twice": "P14",
+    "travel-no-is-yes": "P16",
+}
+
+
+@pytest.mark.parametrize(("name", "found"), EXPECTED.items())
+def test_it_is_the_property_that_says_what_is_wrong(name, found):
+    mutant = next(one for one in MUTANTS if str(one) == name)
+    assert found_in(mutant) == found

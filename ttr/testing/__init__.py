@@ -1,0 +1,49 @@
+"""Property tests of update rules: `check_rules` plays thousands of dialogues.
+
+Rules are tested by properties that any dialogue theory should have, P1 to P20, on
+dialogues that a state-aware tutor plays. What goes wrong is told with the shortest
+dialogue that shows it, as a story that reproduces it.
+
+>>> for one in sorted(ALL, key=lambda one: int(one.name[1:]))[:3]:
+...     print(one.name, one.says)
+P1 after every rule the state is of the type that it, and the rule, declare.
+P2 a rule, applied or not, leaves the state that it is given as it was.
+P3 the same events lead to the same states, by the same rules.
+"""
+
+from __future__ import annotations
+
+try:
+    import hypothesis  # noqa: F401
+except ImportError as missing:
+    raise ImportError(
+        "ttr.testing needs hypothesis: pip install 'kille[test]'"
+    ) from missing
+
+from ttr.strategies.playing import Dialogue, Moment, play
+from ttr.strategies.roles import Roles
+from ttr.strategies.tutors import Tutor
+from ttr.testing.catalogue import ALL
+from ttr.testing.coverage import Coverage
+from ttr.testing.decorating import on_dialogues
+from ttr.testing.machines import machine
+from ttr.testing.properties import Breach, Property
+from ttr.testing.suites import Report, Suite, check_rule, check_rules
+
+__all__ = [
+    "ALL",
+    "Breach",
+    "Coverage",
+    "Dialogue",
+    "Moment",
+    "Property",
+    "Report",
+    "Roles",
+    "Suite",
+    "Tutor",
+    "check_rule",
+    "check_rules",
+    "machine",
+    "on_dialogues",
+    "play",
+]

@@ -1,0 +1,104 @@
+"""What dialogues covered: which rules were applied, and which right after which."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import pairwise, product
+
+from ttr.strategies.playing import Dialogue
+from ttr.updates.games import Game
+
+__all__ = ["Coverage"]
+
+
+@dataclass
+class Coverage:
+    """Counts of dialogues, turns, rules and pairs of rules of one game.
+
+    A pair (r, s) is that s was applied right after r in a turn. It is added to as
+    dialogues are played; `table` is for reading, `facts` for machines.
+    """
+
+    game: Game
+    dialogues: int = 0
+    turns: int = 0
+    rules: Counter[str] = field(default_factory=Counter)
+    pairs: Counter[tuple[str, str]] = field(default_factory=Counter)
+
+    def add(self, dialogue: Dialogue) -> None:
+        """Counts a dialogue."""
+        self.dialogues += 1
+        self.turns += len(dialogue.moments)
+        for moment in dialogue.moments:
+            names = [step.rule.name for step in moment.steps]
+            self.rules.update(names)
+            self.pairs.update(pairwise(names))
+
+    @property
+    def missed(self) -> tuple[str, ...]:
+        """The rules that no dialogue applied, in the order of the game."""
+        names = dict.fromkeys(rule.name for rule in self.game.rules)
+        return tuple(name for name in names if not self.rules[name])
+
+    @property
+    def missed_pairs(self) -> tuple[tuple[str, str], ...]:
+        """The pairs that no dialogue had, of rules that were applied."""
+        applied = [name for name in self.names if self.rules[name]]
+        return tuple(
+            (first, then)
+            for first, then in product(applied, applied)
+            if not self.pairs[first, then]
+        )
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the game's rules, in its order."""
+        return tuple(dict.fromkeys(rule.name for rule in self.game.rules))
+
+    def table(self) -> str:
+        """The rules with how often they were applied, and which came next most often.
+
+        >>> from ttr.constructors import rectype
+        >>> from ttr.updates import rule
+        >>> @rule(when=rectype())
+        ... def rest(s):
+        ...     return s
+        >>> print(Coverage(Game("idle", rectype(), {}, rest)).table())
+        rule  applied  most often followed by
+        rest        0  never applied
+        0 of 1 rules applied, 0 pairs of rules, in 0 turns of 0 dialogues
+        """
+        width = max(map(len, [*self.names, "rule"]))
+        count = max(len("applied"), *(len(f"{n}") for n in [*self.rules.values(), 0]))
+        lines = [f"{'rule':{width}}  {'applied':>{count}}  most often followed by"]
+        for name in self.names:
+            n = self.rules[name]
+            lines.append(f"{name:{width}}  {n:>{count}}  {self._following(name)}")
+        applied = len(self.names) - len(self.missed)
+        pairs = sum(1 for n in self.pairs.values() if n)
+        lines.append(
+            f"{applied} of {len(self.names)} rules applied, {pairs} pairs of rules, "
+            f"in {self.turns} turns of {self.dialogues} dialogues"
+        )
+        return "\n".join(line.rstrip() for line in lines)
+
+    def _following(self, name: str) -> str:
+        if not self.rules[name]:
+            return "never applied"
+        after = {then: n for (first, then), n in self.pairs.items() if first == name}
+        most = sorted(after, key=lambda then: (-after[then], then))[:3]
+        rest = f" and {len(after) - 3} more" if len(after) > 3 else ""
+        return ", ".join(f"{then} {after[then]}" for then in most) + rest
+
+    def facts(self) -> Mapping[str, object]:
+        """The counts as plain data."""
+        pairs = sorted(self.pairs.items())
+        return {
+            "dialogues": self.dialogues,
+            "turns": self.turns,
+            "rules": {name: self.rules[name] for name in self.names},
+            "never_applied": list(self.missed),
+            "pairs": [{"rule": a, "then": b, "times": n} for (a, b), n in pairs],
+        }

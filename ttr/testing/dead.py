@@ -1,0 +1,27 @@
+"""Every rule is of some use: P6, asked of all dialogues together."""
+
+from __future__ import annotations
+
+from ttr.testing.coverage import Coverage
+from ttr.testing.properties import Property
+
+__all__ = ["NO_DEAD_RULE"]
+
+ENOUGH = 5000
+"""Turns after which a rule that was never applied counts as dead."""
+
+
+def _dead(coverage: Coverage) -> str:
+    if coverage.turns < ENOUGH or not coverage.missed:
+        return ""
+    names = ", ".join(coverage.missed)
+    verb = "is" if len(coverage.missed) == 1 else "are"
+    return f"{names} {verb} never applied in {coverage.turns} turns"
+
+
+NO_DEAD_RULE = Property(
+    "P6",
+    "no dead rule",
+    "every rule is applied in some dialogue.",
+    overall=_dead,
+)

@@ -1,0 +1,88 @@
+"""A property of one's own, as a test that pytest runs on many dialogues."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from functools import wraps
+
+from hypothesis import settings
+
+from ttr.errors import TTRError
+from ttr.strategies.dialogues import TURNS, dialogues
+from ttr.strategies.playing import Dialogue
+from ttr.strategies.tutors import Speaker, Tutor
+from ttr.testing.searching import search
+from ttr.testing.telling import story
+from ttr.updates.games import Game
+
+__all__ = ["on_dialogues"]
+
+Test = Callable[[Dialogue], object]
+
+
+def on_dialogues(
+    game: Game,
+    tutor: Tutor | Speaker | None = None,
+    *,
+    turns: int = TURNS,
+    examples: int | None = None,
+    seed: int = 0,
+) -> Callable[[Test], Callable[[], None]]:
+    """Makes a test of a function of a dialogue: it is run on many, drawn by a tutor.
+
+    What it raises on the shortest dialogue found is raised, with the story added.
+
+    >>> from ttr.constructors import rectype
+    >>> from ttr.records import replace
+    >>> from ttr.syntax import Ind, ListOf
+    >>> from ttr.updates import rule
+    >>> Board = rectype(heard=ListOf(Ind))
+    >>> @rule(when=Board, on=Ind)
+    ... def note(s, e):
+    ...     return replace(s, heard=[*s.heard, e])
+    >>> @on_dialogues(Game("notes", Board, {"heard": []}, note), examples=50)
+    ... def test_nothing_is_forgotten(dialogue):
+    ...     for before, after in zip(dialogue.states, dialogue.states[1:]):
+    ...         assert set(before.heard) <= set(after.heard)
+    >>> test_nothing_is_forgotten()
+    """
+    if not isinstance(game, Game):
+        raise TTRError(
+            "dialogues are drawn of a game: @on_dialogues(game), "
+            f"found {type(game).__name__}"
+        )
+    drawn = dialogues(game, tutor, turns=turns)
+
+    def decorate(test: Test) -> Callable[[], None]:
+        asked = list(inspect.signature(test).parameters)
+        if len(asked) != 1:
+            raise TTRError(
+                f"the test {test.__name__} takes one dialogue, "
+                f"but its parameters are ({', '.join(asked)})"
+            )
+
+        def verdict(dialogue: Dialogue) -> Exception | None:
+            try:
+                test(dialogue)
+            except Exception as error:
+                return error
+            return None
+
+        @wraps(test)
+        def play_many() -> None:
+            __tracebackhide__ = True
+            count = examples or settings().max_examples
+            broken = search(drawn, verdict, verdict, examples=count, start=seed)
+            if broken is None:
+                return
+            title = test.__name__.removeprefix("test_").replace("_", " ")
+            shown = story(broken.dialogue, title)
+            broken.why.add_note(f"The shortest dialogue found:\n\n{shown}")
+            raise broken.why
+
+        # pytest takes the parameters of a test for fixtures: this one has none.
+        del play_many.__dict__["__wrapped__"]
+        return play_many
+
+    return decorate

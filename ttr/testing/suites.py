@@ -1,0 +1,274 @@
+"""Testing a rule set: static faults first, then the properties on many dialogues."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+from hypothesis import settings
+from hypothesis import strategies as st
+
+from ttr.errors import TTRError
+from ttr.merging import merge
+from ttr.models import Model, as_model
+from ttr.stories import Setting
+from ttr.strategies.dialogues import TURNS, dialogues
+from ttr.strategies.playing import Dialogue
+from ttr.strategies.roles import Roles
+from ttr.strategies.states import states
+from ttr.strategies.tutors import Speaker, Tutor
+from ttr.syntax import Record, RecordType, kind_of
+from ttr.testing.catalogue import ALL, OF_ONE_RULE
+from ttr.testing.coverage import Coverage
+from ttr.testing.properties import Breach, Property, chosen
+from ttr.testing.repeating import DETERMINISTIC
+from ttr.testing.searching import DRAWN, DRAWN_AND_SHRUNK, Unsteady, search
+from ttr.testing.shortening import Broken
+from ttr.testing.telling import story
+from ttr.testing.turns import TAKES_TURNS
+from ttr.updates.algorithms import Algorithm, first
+from ttr.updates.checks import Fault, faults, faults_of
+from ttr.updates.games import Game
+from ttr.updates.rules import Rule
+
+__all__ = ["Report", "Suite", "check_rule", "check_rules"]
+
+Starts = st.SearchStrategy[tuple[Record, Model]]
+
+
+@dataclass(frozen=True)
+class Report:
+    """What came of testing: static faults, or the shortest dialogue that went wrong.
+
+    `coverage` is what the dialogues covered; `skipped` are the properties that nothing
+    in the state could be checked for, with the roles that nothing plays.
+    """
+
+    coverage: Coverage
+    faults: tuple[Fault, ...] = ()
+    broken: Broken[Breach] | None = None
+    overall: tuple[tuple[Property, str], ...] = ()
+    skipped: tuple[tuple[Property, tuple[str, ...]], ...] = ()
+
+    @property
+    def holds(self) -> bool:
+        """Whether nothing went wrong."""
+        return not (self.faults or self.broken or self.overall)
+
+    def told(self, place: Setting | None = None) -> str:
+        """What went wrong, with the story that shows it; an empty text if nothing."""
+        parts = [f"{fault.severity}: {fault}" for fault in self.faults]
+        if self.broken is not None:
+            parts.append(_told(self.broken, place))
+        parts += [f"{one}: {one.says}\n{why}" for one, why in self.overall]
+        return "\n\n".join(parts)
+
+
+def _told(broken: Broken[Breach], place: Setting | None) -> str:
+    breach, count = broken.why, len(broken.dialogue.moments)
+    turns = "one turn" if count == 1 else f"{count} turns"
+    shown = story(broken.dialogue, str(breach.property), place)
+    return f"{breach}\nThe shortest dialogue found, of {turns}:\n\n{shown}"
+
+
+@dataclass(frozen=True)
+class Suite:
+    """How a game is tested: with which tutor, for which properties, how long.
+
+    `after_each` is told of the coverage so far after every dialogue.
+    """
+
+    game: Game
+    tutor: Tutor | Speaker | None = None
+    properties: tuple[Property, ...] = ALL
+    roles: Roles | None = None
+    turns: int = TURNS
+    examples: int | None = None
+    seed: int = 0
+    starts: Starts | None = None
+    after_each: Callable[[Coverage], object] | None = None
+
+    def run(self) -> Report:
+        """The static faults, or else what the dialogues came to."""
+        if found := self.faults():
+            return Report(Coverage(self.game), found)
+        return self.played()
+
+    def faults(self) -> tuple[Fault, ...]:
+        """What is certainly wrong before anything runs; a warning may be meant."""
+        game = self.game
+        if self.starts is None:
+            found = faults_of(game)
+        else:
+            found = faults(game.algorithm, game.type, model=game.model)
+        return tuple(fault for fault in found if fault.severity == "error")
+
+    def played(self) -> Report:
+        """What the dialogues came to, whatever the static checks say."""
+        coverage = Coverage(self.game)
+        roles = self._roles()
+
+        def verdict(dialogue: Dialogue) -> Breach | None:
+            breaches = (one.breach(dialogue, roles) for one in self.properties)
+            return next((one for one in breaches if one is not None), None)
+
+        def counted(dialogue: Dialogue) -> Breach | None:
+            coverage.add(dialogue)
+            if self.after_each is not None:
+                self.after_each(coverage)
+            return verdict(dialogue)
+
+        drawn = dialogues(self.game, self.tutor, turns=self.turns, starts=self.starts)
+        examples = self.examples or settings().max_examples
+        try:
+            broken = search(
+                drawn,
+                counted,
+                verdict,
+                examples=examples,
+                start=self.seed,
+                phases=DRAWN if self.starts is None else DRAWN_AND_SHRUNK,
+            )
+        except Unsteady as error:
+            broken = Broken(error.dialogue, _unsteady(error))
+        skipped = [(one, one.lacks(roles)) for one in self.properties]
+        return Report(
+            coverage,
+            broken=broken,
+            overall=() if broken else tuple(self._overall(coverage)),
+            skipped=tuple((one, lacking) for one, lacking in skipped if lacking),
+        )
+
+    def _roles(self) -> Roles:
+        """The roles, with what the tutor may do."""
+        roles = self.roles or Roles.of(self.game.type)
+        if roles.acts or not isinstance(self.tutor, Tutor):
+            return roles
+        return replace(roles, acts=self.tutor.moves)
+
+    def _overall(self, coverage: Coverage) -> Iterable[tuple[Property, str]]:
+        for one in self.properties:
+            if one.overall is not None and (why := one.overall(coverage)):
+                yield one, why
+
+
+def _unsteady(error: Unsteady) -> Breach:
+    turn = len(error.dialogue.moments)
+    return Breach(DETERMINISTIC, turn, f"{error}, after the same moves as before")
+
+
+def check_rules(
+    rules: Game | Algorithm | Iterable[Rule],
+    type: RecordType | None = None,
+    *,
+    model: Model | None = None,
+    tutor: Tutor | Speaker | None = None,
+    properties: Iterable[Property | str] = ALL,
+    roles: Roles | None = None,
+    turns: int = TURNS,
+    examples: int | None = None,
+    seed: int = 0,
+) -> Report:
+    """Tests a game, or rules over states of a type; what is wrong is raised.
+
+    The static faults come first. Then a tutor plays dialogues, as many as `examples`
+    says or the Hypothesis profile, and each is checked for the properties. What fails
+    is an `AssertionError` with its property, the reason, and the shortest dialogue
+    that shows it, as a story. A list of rules is played as `first` of them, from
+    states drawn of the type, and is not asked for a way on from there (P14). The same
+    `seed` draws the same dialogues. Raises `TTRError` for what is no rule set.
+
+    >>> from ttr.constructors import rectype
+    >>> from ttr.records import replace
+    >>> from ttr.syntax import Ind, ListOf
+    >>> from ttr.updates import rule
+    >>> Board = rectype(heard=ListOf(Ind))
+    >>> @rule(when=Board, on=Ind)
+    ... def note(s, e):
+    ...     return replace(s, heard=[*s.heard, e])
+    >>> print(check_rules([note], Board, examples=20).coverage.table())
+    ... # doctest: +ELLIPSIS
+    rule  applied  most often followed by
+    note      ...
+    1 of 1 rules applied, 0 pairs of rules, in ... turns of 20 dialogues
+    """
+    __tracebackhide__ = True  # pytest shows what is wrong, and not where it is raised
+    found = chosen(properties, ALL)
+    if isinstance(rules, Game):
+        suite = Suite(rules, tutor, found, roles, turns, examples, seed)
+    else:
+        game, starts = _bare(rules, type, model)
+        found = tuple(one for one in found if one is not TAKES_TURNS)
+        suite = Suite(game, tutor, found, roles, turns, examples, seed, starts)
+    report = suite.run()
+    if not report.holds:
+        raise AssertionError(report.told())
+    return report
+
+
+def check_rule(
+    rule: Rule,
+    type: RecordType,
+    *,
+    model: Model | None = None,
+    examples: int | None = None,
+    seed: int = 0,
+) -> Report:
+    """Tests one rule on states drawn of its condition, and events of its type.
+
+    It keeps the type, leaves the state that it is given as it was, gives the same every
+    time, and finds what it names. Raises as `check_rules` does.
+    """
+    __tracebackhide__ = True
+    if not isinstance(rule, Rule):
+        raise TTRError(f"one rule is checked, found {kind_of(rule)}")
+    return check_rules(
+        [rule],
+        type,
+        model=model,
+        tutor=Tutor(answers=1.0, wanders=0, contradicts=0, repeats=0, silent=0),
+        properties=OF_ONE_RULE,
+        turns=1,
+        examples=examples,
+        seed=seed,
+    )
+
+
+# --- rules without a game ------------------------------------------------------------
+
+
+def _bare(rules: object, type: object, model: Model | None) -> tuple[Game, Starts]:
+    """A game of the rules, and the states that dialogues in it begin with."""
+    if not isinstance(type, RecordType):
+        raise TTRError(
+            f"rules are tested over states of a record type, found {kind_of(type)}",
+            hint="check_rules(rules, InfoState), or check_rules(game)",
+        )
+    algorithm = _algorithm(rules)
+    M = Model() if model is None else as_model(model)
+    start, begun = M.create(type)
+    game = Game("the rules", type, start, algorithm, begun)
+    kinds = [type, *_conditions(game, M)]
+    return game, st.sampled_from(kinds).flatmap(lambda T: states(T, model))
+
+
+def _algorithm(rules: object) -> Algorithm:
+    if isinstance(rules, Algorithm):
+        return rules
+    if not isinstance(rules, Iterable) or isinstance(rules, str):
+        raise TTRError(f"what is tested are rules or a game, found {kind_of(rules)}")
+    parts = tuple(rules)
+    if not parts:
+        raise TTRError("what is tested has one rule at least")
+    return first(*parts)
+
+
+def _conditions(game: Game, M: Model) -> Iterable[RecordType]:
+    """The states in which each rule's condition holds, where there are any."""
+    for rule in game.rules:
+        with suppress(TTRError):
+            T = merge(game.type, rule.when, M.theory)
+            M.create(T)
+            if isinstance(T, RecordType) and T is not game.type:
+                yield T
