@@ -10,7 +10,7 @@ from ttr.acts import Create, Query, performed
 from ttr.encounters import Participant, meeting
 from ttr.updates import run
 
-# The theory says what there is, what happens, what an information state is, and by which
+# The theory says what there is, what happens, what an information state is, and by what
 # rules it changes (Cooper 2023, chapter 2). A rule is an update function: from a state
 # and an event to a type, which the next state is of.
 
@@ -24,8 +24,8 @@ state, model = fetch.start, fetch.model
 state, model, trace = run(fetch.algorithm, state, type=fetch.type, model=model)
 print(trace[0])
 
-# Type acts: what is on the agenda is a type; an agent may create something of it, or ask
-# whether what it sees is of it.
+# Type acts: what is on the agenda is a type; an agent may create something of it, or
+# ask whether what it sees is of it.
 
 planned = state.agenda[0]
 made = performed(Create(planned), model)
@@ -48,8 +48,8 @@ print("\n" + str(game))
 
 print("\nboards agree:", game.agree)
 
-# What does not fit changes nothing. The dog cannot be told that its own board is a list
-# of stones: a state that leaves its type is refused, with the path and the reason.
+# A state that is not of its type is refused, with the path and the reason: a board with
+# a stone on its agenda is none.
 
 try:
     run(fetch.algorithm, {"agenda": ["stone"]}, type=fetch.type, model=model)

@@ -36,6 +36,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 SAME = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 PROGRAMS = {"kille": "kille.interfaces.cli", "ttr": "ttr.cli"}
+RUNS = PROGRAMS | {"pytest": "pytest"}
 
 
 def named(page: Path) -> str:
@@ -163,7 +164,7 @@ class Stage:
         return done.returncode, done.stdout
 
     def program(self, name: str, *arguments: str, typed: str = "") -> tuple[int, str]:
-        return self.run([sys.executable, "-m", PROGRAMS[name], *arguments], typed)
+        return self.run([sys.executable, "-m", RUNS[name], *arguments], typed)
 
     def rehearse(self, block: Block, number: int) -> None:
         """Does what the block shows, and compares."""
@@ -183,7 +184,7 @@ class Stage:
 
     def type(self, command: Command) -> None:
         name, *arguments = shlex.split(command.line.replace("make talk", "kille talk"))
-        assert name in PROGRAMS, f"nobody knows how to rehearse: {command.line}"
+        assert name in RUNS, f"nobody knows how to rehearse: {command.line}"
         _, printed = self.program(name, *arguments, typed=command.typed)
         shown, printed = timeless(command.shown), timeless(printed)
         if not doctest.OutputChecker().check_output(shown, printed, SAME):
@@ -243,6 +244,43 @@ def public(value: object) -> set[str]:
     return {name for name in dir(value) if not name.startswith("_")}
 
 
+def rules() -> dict[str, set[str]]:
+    """The public names of what is done with single rules."""
+    named = ("ttr.updates.stepping", "ttr.updates.writing")
+    return {name: set(importlib.import_module(name).__all__) for name in named}
+
+
+def playing() -> dict[str, set[str]]:
+    """The public names of games, of acts and of those who act."""
+    named = ("ttr.acts", "ttr.encounters", "ttr.updates.checks")
+    found = {name: set(importlib.import_module(name).__all__) for name in named}
+    door = ttr.load(ROOT / "tests" / "games" / "door.ttr").games
+    return found | {"ttr.updates.Game": public(*door.values())}
+
+
+def dialogues() -> dict[str, set[str]]:
+    """The public names of stories, logs and transcripts."""
+    named = ("ttr.stories", "ttr.logs", "ttr.transcripts")
+    return {name: set(importlib.import_module(name).__all__) for name in named}
+
+
+def gameboards() -> dict[str, set[str]]:
+    """The public names of questions and of the boards of the literature."""
+    boards = [f"ttr.gameboards.{name}" for name in ("cooper", "kos", "ibis")]
+    named = ("ttr.questions", *boards)
+    return {name: set(importlib.import_module(name).__all__) for name in named}
+
+
+def property_tests() -> dict[str, set[str]]:
+    """The public names of property tests; what both modules have is told once."""
+    strategies = importlib.import_module("ttr.strategies")
+    tests = importlib.import_module("ttr.testing")
+    return {
+        "ttr.strategies": set(strategies.__all__),
+        "ttr.testing": set(tests.__all__) - set(strategies.__all__),
+    }
+
+
 def strings() -> dict[str, set[str]]:
     """The public names of courses of strings of events."""
     courses = importlib.import_module("ttr.courses")
@@ -269,6 +307,11 @@ def test_the_python_reference_names_what_is_public() -> None:
             **modality_and_learning(),
             **quantification(),
             **strings(),
+            **playing(),
+            **dialogues(),
+            **rules(),
+            **property_tests(),
+            **gameboards(),
             "kille": set(kille.__all__),
             "ttr.Model": public(ttr.Model()),
             "ttr.Judgement": public(ttr.Model().judge("a", ttr.Ind)),

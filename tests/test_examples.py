@@ -120,6 +120,30 @@ KEY_LINES = {
         "before the first rule the state is not of its type, at agenda: "
         "stone : RecType, it is no type",
     ],
+    "10_your_own_gameboard.py": [
+        "Board: [agreed : list(RecType), claimed : list(RecType), "
+        "qud : list(Question)]",
+        "asked: What is asked is the maximal question under discussion.",
+        "  with question = \\r:[x : Ind]. [e : leave(r.x)]",
+        "  claimed: + [e : leave(kim)]",
+        "  qud: − \\r:[x : Ind]. [e : leave(r.x)]",
+        "an answer first: True",
+        "the rule forget replaces s.agred, but s has no agred",
+        "help: did you mean agreed?",
+        "after parrot the state is not of its type, at agreed: kim : RecType, "
+        "it is no type",
+    ],
+    "11_test_your_theory.py": [
+        "own one at a time: a guest cancels one dish at a time.",
+        "turn 3: strike takes back 2 dishes",
+        "U> Order",
+        "U> Cancel",
+        "P17 no crash: whatever happens gives a state; no rule, move or text raises an "
+        "error.",
+        "turn 1: the rule strike failed: ValueError: list.remove(x): x not in list",
+        "all is well: True, never applied: ()",
+        "what was not covered: ()",
+    ],
     "12_first_words.py": [
         "S> OK, I learned a cup.",
         "S> OK, I learned a book.",

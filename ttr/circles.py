@@ -9,7 +9,7 @@ from ttr.constructors import ordered
 from ttr.paths import escaping, occurring, rebuilt
 from ttr.syntax import Object, RecordType, Singleton, TypeNode
 
-__all__ = ["circle", "in_order", "straightened"]
+__all__ = ["circle", "in_order", "round_about", "straightened"]
 
 Address = tuple[str, ...]
 """A field of a record type or of one nested in it: the labels that lead to it."""
@@ -28,6 +28,17 @@ def circle(T: TypeNode) -> str:
     >>> circle(rectype(x=Ind, y=Ind @ this.x))
     ''
     """
+    return " → ".join(round_about(T))
+
+
+def round_about(T: TypeNode) -> tuple[str, ...]:
+    """The paths of the fields in a circle, the first of them once more at the end.
+
+    >>> from ttr.constructors import rectype
+    >>> from ttr.syntax import Ind, this
+    >>> round_about(rectype(x=Ind @ this.x)), round_about(rectype(x=Ind))
+    (('x', 'x'), ())
+    """
     leaves = dict(_leaves(T, ()))
     inner: dict[Address, list[Address]] = {}
     for leaf in leaves:
@@ -42,8 +53,8 @@ def circle(T: TypeNode) -> str:
     try:
         TopologicalSorter(needs).prepare()
     except CycleError as error:
-        return " → ".join(".".join(leaf) for leaf in reversed(error.args[1]))
-    return ""
+        return tuple(".".join(leaf) for leaf in reversed(error.args[1]))
+    return ()
 
 
 def in_order(T: TypeNode) -> bool:

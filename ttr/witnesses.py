@@ -31,7 +31,7 @@ from ttr.syntax import (
     identity,
 )
 
-__all__ = ["candidates", "witnesses"]
+__all__ = ["can_be_listed", "candidates", "witnesses"]
 
 
 def witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:
@@ -46,6 +46,30 @@ def witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:
 def candidates(facts: Assignment, T: TypeNode) -> Iterator[Object]:
     """The known objects that were told to be of T, or perhaps to be, as `witnesses`."""
     yield from _Listing(facts, 0.0).of(T)
+
+
+def can_be_listed(T: TypeNode) -> bool:
+    """Whether what is known of T has an end, as far as T alone tells.
+
+    >>> from ttr.constructors import rectype
+    >>> from ttr.syntax import Ind, ListOf
+    >>> can_be_listed(rectype(x=Ind)), can_be_listed(rectype(x=ListOf(Ind)))
+    (True, False)
+    """
+    waiting = [T]
+    while waiting:
+        match waiting.pop():
+            case Basic() | PType() | Singleton() | Application():
+                pass
+            case Join(parts) | Str(parts):
+                waiting += parts
+            case Meet(parts):
+                waiting.append(_listed_part(parts))
+            case RecordType(fields):
+                waiting += (field for _, field in fields)
+            case _:
+                return False
+    return True
 
 
 @dataclass(frozen=True)

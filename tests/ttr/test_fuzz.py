@@ -56,6 +56,8 @@ SIGNS = (
     *("list(", "nelist(", "set(", "str(", "plus(", "fst(", "rst(", "dog(", "(x)"),
     *("Type", "RecType^1", "Rec", "1", "-2.5", "1e9", "1e999", "'a b'", '"', "x.y"),
     *("basic ", "pred ", "object ", "given ", "check ", "import ", "open ", "rule "),
+    *("rule r(s : Dog) := ", "strategy ", "game g({} : Rec) := ", "where [", " of "),
+    *("acts on ", "first(", "repeat(", "by_class(", "s.x", "s.", "e : Dog"),
     *("not ", "unknown ", "error ", "in ", "P(", "merge(", "create(", "wellformed("),
     *("\n  ", "\r\n", "\x00", "\x07", "\x1f", "\u2028", "\u202e", "\u200f", "\ufeff"),
 )
@@ -235,6 +237,20 @@ GROWING: dict[str, Callable[[int], str]] = {
     "mistake at the end": lambda n: f"[{', '.join(['fido'] * n)}",
     "unknown at the end": lambda n: f"[{', '.join(['fido'] * n)}, fdio]",
     "statements": lambda n: "A" + "".join(f"\nX{i} := list(A)" for i in range(n)),
+    "rules": lambda n: (
+        "A" + "".join(f"\nrule r{i}(s : Dog) := [x = s.x : Ind]" for i in range(n))
+    ),
+    "bindings": lambda n: (
+        "A\nrule r(s : Dog) where ["
+        + ", ".join(f"x{i} = s.x : Ind" for i in range(n))
+        + f"] := [l = [{', '.join(['s.x'] * n)}] : list(Ind)]"
+    ),
+    "lost paths": lambda n: (
+        f"A\nrule r(s : Dog) := [l = [{', '.join(['s.x'] * n)}, s.y] : list(Ind)]"
+    ),
+    "parts": lambda n: (
+        f"A\nrule r(s : Dog) := Dog\nstrategy t := all({', '.join(['maybe(r)'] * n)})"
+    ),
     "mistakes": lambda n: "A" + "\nY := list(B)" * n,
 }
 
