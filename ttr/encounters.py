@@ -12,12 +12,12 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from ttr.acts import Create, performed
-from ttr.errors import UpdateError, suggestion
+from ttr.errors import TTRError, UpdateError, suggestion
 from ttr.judgements import Judgement
 from ttr.models import Model
 from ttr.printing import notation
 from ttr.subtyping import subtype
-from ttr.syntax import Record, TypeNode, kind_of
+from ttr.syntax import Object, Record, TypeNode, as_type, kind_of
 from ttr.updates.games import Game
 from ttr.updates.running import Run, Step, run
 
@@ -37,6 +37,9 @@ class Participant:
     does: TypeNode
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise UpdateError(f"a participant has a name, found {kind_of(self.name)}")
+        as_type(self.does)
         if not isinstance(self.game, Game):
             raise UpdateError(f"a participant plays a game, found {kind_of(self.game)}")
         if self.game.agenda is None:
@@ -152,8 +155,9 @@ class Encounter:
         for number, (one, board) in enumerate(
             zip(self.participants, self.boards, strict=True)
         ):
-            mine = number == index
-            model = made.model if mine else board.model.given(event, T)
+            model = made.model
+            if number != index:
+                model = _witnessing(one, board.model, event, T, by)
             boards.append(_played(one, board._replace(model=model), (event,)))
         return self._with(boards, by.name, made.answer)
 
@@ -207,12 +211,28 @@ def meeting(*participants: Participant) -> Encounter:
     >>> after.agree, after.is_idle
     (True, True)
     """
+    for one in participants:
+        if not isinstance(one, Participant):
+            raise UpdateError(f"a meeting is of participants, found {kind_of(one)}")
     names = [one.name for one in participants]
     if not names or len(set(names)) < len(names):
         raise UpdateError(
             f"participants have names of their own, found {', '.join(names) or 'none'}"
         )
     return Encounter(participants, tuple(one.game.begin() for one in participants))
+
+
+def _witnessing(
+    one: Participant, model: Model, event: Object, T: TypeNode, by: Participant
+) -> Model:
+    """The model of one who has seen another do something."""
+    try:
+        return model.given(event, T)
+    except TTRError as error:
+        raise UpdateError(
+            f"{one.name} cannot take {notation(event)} : {T}, which {by.name} did: "
+            f"{error.message}"
+        ) from error
 
 
 def _played(one: Participant, board: Run, events: Sequence[object]) -> Run:

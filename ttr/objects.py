@@ -10,6 +10,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterator, Mapping
 from itertools import chain, groupby
+from types import NoneType
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from ttr.display.notebooks import Drawn
@@ -32,6 +33,7 @@ __all__ = [
     "fst",
     "in_print",
     "labelled",
+    "lasts",
     "outer",
     "record",
     "rst",
@@ -338,10 +340,11 @@ class Record(Drawn):
     ('fido', 3, True)
     """
 
-    __slots__ = ("__weakref__", "_fields", "_hash")
+    __slots__ = ("__weakref__", "_fields", "_hash", "_lasts")
 
     _fields: dict[str, Object]
     _hash: int | None
+    _lasts: bool  # once `lasts` was asked
 
     def __init__(self, fields: Mapping[str, object]) -> None:
         for label in fields:
@@ -425,6 +428,30 @@ def record(fields: Mapping[str, object] | None = None, /, **labels: object) -> R
     {c = s1, x = fido}
     """
     return Record(labelled("record", fields, labels))
+
+
+def lasts(value: Object) -> bool:
+    """Whether nothing inside an object can change: other people's objects may.
+
+    >>> lasts(record(x=("a", 1))), lasts(record(x=bytearray()))
+    (True, False)
+    """
+    if isinstance(value, _LASTING):
+        return True
+    if isinstance(value, tuple):
+        return all(map(lasts, value))
+    if not isinstance(value, Record):
+        return False
+    try:
+        return value._lasts
+    except AttributeError:
+        found = all(map(lasts, value._fields.values()))
+    object.__setattr__(value, "_lasts", found)
+    return found
+
+
+_LASTING = (str, int, float, complex, bytes, NoneType, Node)
+"""The kinds of objects that never change."""
 
 
 def labelled(

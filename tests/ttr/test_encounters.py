@@ -1,10 +1,11 @@
 """Participants with boards of their own, who act in turn or in step."""
 
+import dataclasses
 from pathlib import Path
 
 import pytest
 
-from ttr import RecType, UpdateError, load, rectype
+from ttr import IllFormed, RecType, UpdateError, load, rectype
 from ttr.encounters import Participant, meeting
 from ttr.updates import Game
 
@@ -68,6 +69,16 @@ def test_boards_are_asked_for_by_name(players):
         game.board("dgo")
 
 
+def test_what_contradicts_somebody_is_told_by_name(theory, players):
+    human, dog = players
+    blind = dog.game.model.witnessed(theory.pick_up, by=lambda x, y: False)
+    game = dataclasses.replace(dog.game, model=blind)
+    with pytest.raises(
+        UpdateError, match=r"dog cannot take \{e = s1\} : .*, which human did: .* refus"
+    ):
+        meeting(human, dataclasses.replace(dog, game=game)).in_turn()
+
+
 def test_an_encounter_is_told_step_by_step(players):
     told = str(meeting(*players).in_turn())
     assert told.startswith("nothing happens\n  human | begin: Nothing is going on")
@@ -80,6 +91,12 @@ def test_what_is_no_meeting(theory, players):
         meeting(human, human)
     with pytest.raises(UpdateError, match="found none"):
         meeting()
+    with pytest.raises(UpdateError, match="a meeting is of participants, found int 5"):
+        meeting(5)
+    with pytest.raises(UpdateError, match="a participant has a name, found None"):
+        Participant(None, theory.games["fetch"], theory.Dog)
+    with pytest.raises(IllFormed, match="expected a type, found int 5"):
+        Participant("cat", theory.games["fetch"], 5)
     with pytest.raises(UpdateError, match="a participant plays a game, found"):
         Participant("cat", 3, theory.Dog)
     fetch = theory.games["fetch"]

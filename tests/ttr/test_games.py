@@ -11,6 +11,7 @@ from ttr import (
     Model,
     NotHeard,
     RecType,
+    TTRError,
     UpdateError,
     record,
     rectype,
@@ -91,8 +92,23 @@ def test_a_move_that_cannot_be_made():
         raise OSError("the arm is stuck")
 
     game = talk(act=act)
-    with pytest.raises(UpdateError, match="cannot be made: OSError: the arm is stuck"):
+    with pytest.raises(UpdateError, match="failed: OSError: the arm is stuck"):
         game.take(game.begin(), {"by": "a"})
+
+
+@pytest.mark.parametrize("made", [5, ("x", 5), None])
+def test_an_act_gives_an_event_and_a_model(made):
+    game = talk(act=lambda planned, model: made)
+    with pytest.raises(UpdateError, match="gives an event and a model, but it gave"):
+        game.take(game.begin(), {"by": "a"})
+
+
+def test_what_a_turn_cannot_go_on_from():
+    with pytest.raises(UpdateError, match=r"a turn goes on from a run, as begin\(\) g"):
+        talk().take(None, {"by": "a"})
+    for events in (None, 5, "ab", record(by="a"), Act):
+        with pytest.raises(UpdateError, match="events are a list of them, found"):
+            talk().play(events)
 
 
 @pytest.mark.parametrize(
@@ -102,11 +118,14 @@ def test_a_move_that_cannot_be_made():
         ({"agenda": "paln"}, "did you mean plan?"),
         ({"agenda": "heard", "start": {"plan": [], "heard": ["a"]}}, "a list of types"),
         ({"start": {"plan": []}}, "at the start the state is not of its type, at hear"),
+        ({"agenda": 5}, "an agenda is named by its path, found 5"),
+        ({"hears": 5}, "a game hears events of a list of types, found 5"),
+        ({"hears": ("x",)}, "expected a type, found the object 'x'"),
         ({"algorithm": 3}, "a game takes rules and strategies, found 3"),
     ],
 )
 def test_what_is_no_game(changes, message):
     options = {"algorithm": reply, "agenda": "plan", "start": {"plan": [], "heard": []}}
-    with pytest.raises(UpdateError) as caught:
+    with pytest.raises(TTRError) as caught:
         Game("talk", Talk, model=M, **options | changes)
     assert message in str(caught.value)

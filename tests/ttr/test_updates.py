@@ -545,8 +545,14 @@ def test_a_measure_gets_smaller_and_is_never_negative():
         play(repeat(up, measure="n"))
     with pytest.raises(Endless, match="from 0 to -1"):
         play(repeat(up, measure=lambda s: -s.n))
-    with pytest.raises(UpdateError, match="a measure is a list or a number, found Non"):
+    with pytest.raises(UpdateError, match="a list or a whole number, found None"):
         play(repeat(up, measure=lambda s: None))
+    with pytest.raises(UpdateError, match=r"a whole number, found 1\.0"):
+        play(repeat(up, measure=lambda s: 1 / (s.n + 1)))
+    with pytest.raises(UpdateError, match="the measure m is no path of the state"):
+        play(repeat(up, measure="m"))
+    with pytest.raises(RuleFailed, match="the measure failed: ZeroDivisionError"):
+        play(repeat(up, measure=lambda s: 1 / 0))
 
 
 def test_strategies_print_as_they_are_written():
@@ -560,6 +566,126 @@ def test_a_rule_is_replaced_by_its_name():
     after = replaced(algorithm, {"up": other})
     assert rules_of(after) == (other, at_three, never)
     assert replaced(after, {"up": up}) == algorithm
+
+
+def test_all_applies_where_a_part_does():
+    assert play(first(all_(maybe(at_three)), up)).trace == ()
+    assert len(play(first(all_(at_three), up)).trace) == 1
+
+
+def test_a_choice_that_fails():
+    with pytest.raises(RuleFailed, match="what chooses failed: ZeroDivisionError"):
+        play(ask(up, choose=lambda names, s: 1 / 0))
+
+
+# --- rules that do what they should not -----------------------------------------------
+
+
+class Box:
+    """Somebody's own object, which can change."""
+
+    def __init__(self, size):
+        self.size = size
+
+
+class Silent:
+    """Somebody's own object, which cannot print itself."""
+
+    def __repr__(self):
+        raise OSError("no")
+
+
+BoxT = Basic("Box")
+Small = M.witnessed(BoxT, by=lambda b: b.size < 5)
+
+
+@pytest.mark.parametrize("state", [record(b=Box(1), l=[]), record(b={"in": Box(1)})])
+def test_an_object_that_was_changed_in_place_is_judged_again(state):
+    inside = rectype({"in": BoxT}) if isinstance(state.b, Record) else BoxT
+    T = rectype(b=inside)
+
+    @rule(when=T)
+    def swell(s):
+        (s["b.in"] if isinstance(s.b, Record) else s.b).size = 9
+        return replace(s, b=s.b)
+
+    with pytest.raises(NoState, match="after swell the state is not of its type, at b"):
+        run(swell, state, type=T, model=Small)
+
+
+def test_a_list_of_objects_that_were_changed_in_place():
+    T = rectype(l=ListOf(BoxT))
+
+    @rule(when=T)
+    def swell(s):
+        s.l[0].size = 9
+        return replace(s, l=[*s.l, Box(1)])
+
+    with pytest.raises(NoState, match="at l: <Box"):
+        run(swell, record(l=[Box(1)]), type=T, model=Small)
+
+
+def giving(value):
+    return lambda s: value
+
+
+def test_what_a_rule_gives_is_told_on_one_short_line():
+    for junk in (["a"] * 10**5, Silent(), "a\nb" * 100):
+        with pytest.raises(RuleFailed) as caught:
+            play(rule(when=Counter)(giving(junk)))
+        assert len(str(caught.value)) < 400
+        assert "\n" not in str(caught.value)
+
+    def complain(s):
+        raise ValueError("one\ntwo" * 1000)
+
+    with pytest.raises(RuleFailed, match="complain failed: ValueError: one twoone tw"):
+        play(rule(when=Counter)(complain))
+
+
+def test_a_rule_is_a_plain_function_of_the_state():
+    async def later(s):
+        return s
+
+    def bit_by_bit(s):
+        yield s
+
+    for effect in (later, bit_by_bit):
+        with pytest.raises(
+            UpdateError, match="gives its state later: write a plain fu"
+        ):
+            rule(when=Rec)(effect)
+    for effect in (lambda *, s: s, lambda **s: s, lambda *s: s):
+        with pytest.raises(
+            UpdateError, match="takes the state, and model by that name"
+        ):
+            rule(when=Rec)(effect)
+    with pytest.raises(UpdateError, match="the parameters of type are not known"):
+        rule(when=Rec)(type)
+
+
+@pytest.mark.parametrize("events", [record(a=1), {"a": 1}, b"ab"])
+def test_one_event_is_no_list_of_events(events):
+    with pytest.raises(
+        UpdateError, match="events are a list of objects, found the one"
+    ):
+        play(up, events=events)
+
+
+def test_what_cannot_be_is_seen_before_more_is_tried():
+    asked = []
+
+    def never_likes(x, y):
+        asked.append((x, y))
+        return False
+
+    model = Model().witnessed(likes, by=never_likes)
+    for number in range(12):
+        model = model.given(f"a{number}", Ind)
+    where = rectype(x=Ind, y=Ind, z=Ind, v=Ind, c=likes(this.x, this.x))
+    state = record(topic="a1")
+    assert bound(where, lambda s: s, state, model).trace == ()
+    assert len(asked) <= 4 * 12
 
 
 # --- uncertain events -----------------------------------------------------------------

@@ -17,12 +17,22 @@ from ttr.judgements import Judgement
 from ttr.models import Model, as_model
 from ttr.printing import notation
 from ttr.probability import REFUTED
-from ttr.syntax import Object, Record, RecordType, TypeNode, freeze, kind_of
+from ttr.syntax import (
+    Object,
+    Record,
+    RecordType,
+    TypeNode,
+    as_type,
+    freeze,
+    kind_of,
+)
 from ttr.theories import Theory
 from ttr.updates.algorithms import Algorithm, checked, rules_of
+from ttr.updates.failing import failing, in_short
 from ttr.updates.nbest import NBest
 from ttr.updates.rules import Rule
-from ttr.updates.running import Run, Step, check_state, continued
+from ttr.updates.running import Run, Step, continued
+from ttr.updates.states import check_state
 
 __all__ = ["Act", "Game", "Turn"]
 
@@ -119,6 +129,15 @@ class Game:
     def __post_init__(self) -> None:
         checked("a game", (self.algorithm,))
         as_model(self.model)
+        if self.agenda is not None and not isinstance(self.agenda, str):
+            raise UpdateError(
+                f"an agenda is named by its path, found {in_short(self.agenda)}"
+            )
+        if not isinstance(self.hears, tuple | list):
+            raise UpdateError(
+                f"a game hears events of a list of types, found {in_short(self.hears)}"
+            )
+        object.__setattr__(self, "hears", tuple(map(as_type, self.hears)))
         object.__setattr__(self, "start", freeze(self.start))
         check_state(self.start, self.type, self.model, "at the start")
         if self.agenda is not None:
@@ -144,6 +163,11 @@ class Game:
         event of which no rule could take anything, and as `run` does; then nothing is
         changed.
         """
+        if not isinstance(so_far, Run):
+            raise UpdateError(
+                f"a turn goes on from a run, as begin() gives one, found "
+                f"{in_short(so_far)}"
+            )
         happened, model = self._event(event, so_far.model)
         after = self._run(Run(so_far.state, model, ()), happened, None)
         said: list[Judgement] = []
@@ -164,6 +188,10 @@ class Game:
 
     def play(self, events: Iterable[object]) -> tuple[Turn, ...]:
         """The turns of a dialogue from the start."""
+        if isinstance(
+            events, str | bytes | Record | NBest | TypeNode
+        ) or not isinstance(events, Iterable):
+            raise UpdateError(f"events are a list of them, found {in_short(events)}")
         turns: list[Turn] = []
         so_far = self.begin()
         for event in events:
@@ -241,13 +269,15 @@ class Game:
     def _made(self, planned: TypeNode, model: Model) -> tuple[Object, Model]:
         if self.act is None:
             return model.create(planned)
-        try:
-            return self.act(planned, model)
-        except TTRError:
-            raise
-        except Exception as error:
-            fault = f"{error.__class__.__name__}: {error}"
-            raise UpdateError(f"the move {planned} cannot be made: {fault}") from error
+        with failing(f"to make the move {planned}"):
+            made = self.act(planned, model)
+        match made:
+            case (event, Model() as after):
+                return freeze(event), after
+        raise UpdateError(
+            f"the act of the game {self.name} gives an event and a model, but it gave "
+            f"{in_short(made)}"
+        )
 
 
 def _shown(event: Object | NBest) -> str:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 
 from ttr.certainty import certainly
 from ttr.errors import Refused
 from ttr.judging import reduced
 from ttr.models import Model
 from ttr.objects import Unresolved
+from ttr.paths import escaping
 from ttr.substitution import grounded
 from ttr.syntax import Object, PType, RecordType, Singleton, TypeNode
 
@@ -24,10 +26,37 @@ def found(
     """What the fields of `where` are bound to, so that each is certainly of its type.
 
     A manifest field is worked out; another one is the first known object of its type
-    with which the later fields come out, too. What a witness function says yes to, and
+    with which the other fields come out, too. What a witness function says yes to, and
     nothing is known to be, gets a fresh situation.
     """
-    return _found(where.fields, {}, variables, model)
+    whole = _found(_in_order(where), {}, variables, model)
+    if whole is None:
+        return None
+    bound, extended = whole
+    return {label: bound[label] for label in where}, extended
+
+
+@lru_cache
+def _in_order(where: RecordType) -> tuple[tuple[str, TypeNode], ...]:
+    """The fields, each claim as soon as what it is about is bound.
+
+    So what cannot be is seen before more objects are tried. What claims are about comes
+    before the rest, what the claim that needs least is about before that of others.
+    """
+    waiting, ordered = dict(where.fields), dict[str, TypeNode]()
+    while waiting:
+        needs = {k: _needs(T) & waiting.keys() for k, T in waiting.items()}
+        claims = [k for k, T in waiting.items() if isinstance(T, Singleton | PType)]
+        label = min(claims, key=lambda k: len(needs[k]), default=next(iter(waiting)))
+        for _ in waiting:  # more steps than there are would go round in a circle
+            label = min(needs[label], default=label)
+        ordered[label] = waiting.pop(label)
+    return tuple(ordered.items())
+
+
+def _needs(T: TypeNode) -> set[str]:
+    """The labels of the bindings that a field mentions."""
+    return {path.labels[0] for path in escaping(T) if path.up == 0}
 
 
 def _found(

@@ -13,6 +13,7 @@ from ttr.models import Model
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.syntax import Object, TypeNode, freeze
+from ttr.updates.failing import in_short
 
 __all__ = ["Heard", "NBest", "heard", "nbest"]
 
@@ -24,10 +25,28 @@ TOLERANCE = 1e-9
 class NBest:
     """Alternatives of which at most one happened, each with its probability.
 
-    What is missing to 1 is the probability that it was something else.
+    What is missing to 1 is the probability that it was something else. Built by
+    `nbest`, which says what is refused.
     """
 
     alternatives: tuple[tuple[Object, float], ...]
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.alternatives, tuple | list):
+            raise UpdateError(
+                "an uncertain event is a list of alternatives, found "
+                f"{in_short(self.alternatives)}"
+            )
+        pairs = [_pair(one) for one in self.alternatives]
+        total = math.fsum(p for _, p in pairs)
+        if total > 1.0 + TOLERANCE:
+            raise UpdateError(
+                f"the probabilities of alternatives come to at most 1, found {total:g}"
+            )
+        if not pairs:
+            raise UpdateError("an uncertain event has one alternative at least")
+        best_first = tuple(sorted(pairs, key=lambda pair: -pair[1]))
+        object.__setattr__(self, "alternatives", best_first)
 
     def __iter__(self) -> Iterator[tuple[Object, float]]:
         return iter(self.alternatives)
@@ -47,15 +66,7 @@ def nbest(*alternatives: tuple[object, float]) -> NBest:
     Traceback (most recent call last):
     ttr.errors.UpdateError: the probabilities of alternatives come to at most 1, ...
     """
-    pairs = [_pair(one) for one in alternatives]
-    total = math.fsum(p for _, p in pairs)
-    if total > 1.0 + TOLERANCE:
-        raise UpdateError(
-            f"the probabilities of alternatives come to at most 1, found {total:g}"
-        )
-    if not pairs:
-        raise UpdateError("an uncertain event has one alternative at least")
-    return NBest(tuple(sorted(pairs, key=lambda pair: -pair[1])))
+    return NBest(alternatives)
 
 
 def _pair(one: object) -> tuple[Object, float]:
@@ -63,7 +74,7 @@ def _pair(one: object) -> tuple[Object, float]:
         case (event, float() | int() as p) if 0.0 < p <= 1.0:
             return freeze(event), float(p)
     raise UpdateError(
-        f"an alternative is an event and a probability above 0, found {one!r}"
+        f"an alternative is an event and a probability above 0, found {in_short(one)}"
     )
 
 

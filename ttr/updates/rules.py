@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -141,6 +141,10 @@ def rule(
         if not callable(effect):
             raise UpdateError(f"a rule is made of a function, found {effect!r}")
         name = getattr(effect, "__name__", "rule")
+        if any(kind(effect) for kind in _LATER):
+            raise UpdateError(
+                f"the rule {name} gives its state later: write a plain function"
+            )
         names, takes = _parameters(name, effect, on is not None, where)
         return Rule(
             name,
@@ -160,6 +164,25 @@ def rule(
     return made
 
 
+def _bare(parameters: Iterable[inspect.Parameter]) -> inspect.Signature:
+    """The parameters without their defaults and types, for an error."""
+    empty = inspect.Parameter.empty
+    bare = [one.replace(default=empty, annotation=empty) for one in parameters]
+    return inspect.Signature(bare)
+
+
+_LATER = (
+    inspect.iscoroutinefunction,
+    inspect.isgeneratorfunction,
+    inspect.isasyncgenfunction,
+)
+
+_BY_PLACE = (
+    inspect.Parameter.POSITIONAL_ONLY,
+    inspect.Parameter.POSITIONAL_OR_KEYWORD,
+)
+
+
 def _certainty(p: object) -> Degree:
     """A number as how probable at least, a pair as an interval."""
     try:
@@ -174,15 +197,20 @@ def _parameters(
     name: str, effect: Effect, has_event: bool, where: RecordType | None
 ) -> tuple[tuple[str, ...], frozenset[str]]:
     """The names of state and event, and what the effect asks for besides."""
-    asked = list(inspect.signature(effect).parameters)
+    try:
+        asked = inspect.signature(effect).parameters
+    except ValueError:
+        raise UpdateError(
+            f"the parameters of {name} are not known: write def {name}(s): …"
+        ) from None
     extras = {*EXTRAS, *(where or ())}
     plain = tuple(parameter for parameter in asked if parameter not in extras)
     wanted = 1 + has_event
-    if len(plain) != wanted:
+    if len(plain) != wanted or any(asked[one].kind not in _BY_PLACE for one in plain):
         roles = "the state and the event" if has_event else "the state"
         raise UpdateError(
             f"the rule {name} takes {roles}, and model by that name, "
-            f"but its parameters are ({', '.join(asked)})"
+            f"but its parameters are {_bare(asked.values())}"
         )
     return plain, frozenset(asked).difference(plain)
 

@@ -6,25 +6,22 @@ fails, or a state that leaves its type, changes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
 from time import perf_counter
 from typing import NamedTuple
 
-from ttr.certainty import certainly, certainly_also
-from ttr.errors import Endless, NoState, RuleFailed, TTRError, UpdateError
+from ttr.certainty import certainly_also
+from ttr.errors import Endless, UpdateError
 from ttr.judgements import Judgement
 from ttr.models import Model
-from ttr.paths import escaping
 from ttr.printing import notation
 from ttr.probability import CERTAIN, Degree
 from ttr.records import differences
 from ttr.syntax import (
     FiniteSet,
-    ListOf,
     Object,
     Record,
     RecordType,
@@ -44,12 +41,14 @@ from ttr.updates.algorithms import (
     Seq,
     checked,
 )
+from ttr.updates.failing import failing, in_short
 from ttr.updates.matching import found
 from ttr.updates.nbest import Heard, NBest, heard
 from ttr.updates.rules import Rule
 from ttr.updates.settling import settled
+from ttr.updates.states import check_state, still_of
 
-__all__ = ["Run", "Step", "check_state", "continued", "run"]
+__all__ = ["Run", "Step", "continued", "run"]
 
 ROUNDS = 1000
 """How often anything is repeated at most, where neither times nor measure are given."""
@@ -125,8 +124,10 @@ def run(
     caller's state and model stay what they were.
     """
     checked("run", (algorithm,))
-    if isinstance(events, str | NBest):
-        raise UpdateError(f"events are a list of objects, found the one {events!r}")
+    if isinstance(events, str | NBest | Record | Mapping | bytes):
+        raise UpdateError(
+            f"events are a list of objects, found the one {in_short(events)}"
+        )
     if not isinstance(events, Iterable):
         raise UpdateError(f"events are a list of objects, found {kind_of(events)}")
     if not isinstance(model, Model):
@@ -150,53 +151,6 @@ def continued(
     The state so far has to be of the type; it is not checked again.
     """
     return _Player(type, event).play(algorithm, so_far) or so_far
-
-
-# --- states --------------------------------------------------------------------------
-
-
-def check_state(state: Object, type: RecordType, model: Model, when: str) -> None:
-    """Refuses what is not certainly a state of its type, and says where it fails."""
-    if not isinstance(type, RecordType):
-        raise UpdateError(f"the type of a state is a record type, found {type!r}")
-    if not isinstance(state, Record):
-        raise NoState(f"{when} the state is no record, but {notation(state)}")
-    if certainly(model.facts, state, type):
-        return
-    why = model.judge(state, type).why
-    failed = why.failure()
-    if failed is not None:
-        claim = f"{notation(failed.sit)} : {failed.type}, {failed.because}"
-        raise NoState(f"{when} the state is not of its type, at {why.path()}: {claim}")
-
-
-def _still_of(before: Record, after: Record, T: RecordType, model: Model) -> bool:
-    """Whether a record is of T where another one is, in the same model.
-
-    What is the same object in both, and of a type that mentions nothing else, need not
-    be judged again.
-    """
-    was, found = before._fields, after._fields
-    for label, field in T.fields:
-        if label not in found or escaping(field):
-            return False
-        value, old = found[label], was[label]
-        if value is old:
-            continue
-        if not _part_still_of(old, value, field, model):
-            return False
-    return True
-
-
-def _part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> bool:
-    match was, found, T:
-        case Record(), Record(), RecordType():
-            return _still_of(was, found, T, model)
-        case tuple(), tuple(), ListOf(item):
-            old = set(map(id, was))
-            new = (element for element in found if id(element) not in old)
-            return all(certainly(model.facts, element, item) for element in new)
-    return certainly(model.facts, found, T)
 
 
 # --- playing -------------------------------------------------------------------------
@@ -230,10 +184,12 @@ class _Player:
                 return self._chosen(algorithm, so_far)
 
     def _each(self, parts: Sequence[Algorithm], so_far: Run) -> Run | None:
-        current = so_far
+        current, applied = so_far, False
         for part in parts:
-            current = self.play(part, current) or current
-        return None if current is so_far else current
+            after = self.play(part, current)
+            if after is not None:
+                current, applied = after, True
+        return current if applied else None
 
     def _in_turn(self, parts: Sequence[Algorithm], so_far: Run) -> Run | None:
         current: Run | None = so_far
@@ -248,13 +204,14 @@ class _Player:
         able = [(str(part), after) for part, after in tried if after is not None]
         if not able:
             return None
-        index = asked.choose([name for name, _ in able], so_far.state)
+        with failing("what chooses"):
+            index = asked.choose([name for name, _ in able], so_far.state)
         if index is None:
             return None
         if type(index) is not int or not 0 <= index < len(able):
             raise UpdateError(
                 f"what chooses gives an index below {len(able)}, or None, but gave "
-                f"{index!r}"
+                f"{in_short(index)}"
             )
         return able[index][1]
 
@@ -290,7 +247,7 @@ class _Player:
             named = repeat.measure if isinstance(repeat.measure, str) else "the measure"
             raise Endless(
                 f"{named} should get smaller each time {repeat.part} is repeated, but "
-                f"{after.trace[-1].rule} took it from {had:g} to {has:g}"
+                f"{after.trace[-1].rule} took it from {had} to {has}"
             )
 
     def _refuse_return(self, before: Run, after: Run, seen: dict[Record, int]) -> None:
@@ -370,7 +327,7 @@ class _Player:
         if rule.where is None:
             return {}, model
         variables = dict(zip(rule.names, (state, event.event), strict=False))
-        with _failing(rule):
+        with failing(f"the rule {rule}"):
             return found(rule.where, variables, model)
 
     def _effect(
@@ -384,34 +341,32 @@ class _Player:
         args = (state,) if rule.on is None else (state, event.event)
         extras = {"model": model, "p": event.p, "nbest": self.event, **bindings}
         asked = {name: extras[name] for name in rule.takes}
-        with _failing(rule):
+        with failing(f"the rule {rule}"):
             return rule.effect(*args, **asked)
 
     def _check(self, rule: Rule, so_far: Run, after: Record, model: Model) -> None:
         same = model is so_far.model
-        if not same or not _still_of(so_far.state, after, self.type, model):
+        if not same or not still_of(so_far.state, after, self.type, model):
             check_state(after, self.type, model, f"after {rule}")
         if rule.gives is not None:
             check_state(after, rule.gives, model, f"after {rule}, by what it gives,")
 
 
-@contextmanager
-def _failing(rule: Rule) -> Iterator[None]:
-    """Turns what goes wrong inside into one line about the rule."""
-    try:
-        yield
-    except TTRError as error:
-        raise RuleFailed(f"the rule {rule} failed: {error}") from error
-    except Exception as error:
-        fault = f"{error.__class__.__name__}: {error}"
-        raise RuleFailed(f"the rule {rule} failed: {fault}") from error
-
-
-def _measured(measure: Measure, state: Record) -> float:
-    """The number that a measure is of a state: a list's length, or a number."""
-    value = state[measure] if isinstance(measure, str) else measure(state)
+def _measured(measure: Measure, state: Record) -> int:
+    """The number that a measure is of a state: a list's length, or a whole number."""
+    value: object
+    if isinstance(measure, str):
+        try:
+            value = state[measure]
+        except KeyError:
+            raise UpdateError(
+                f"the measure {measure} is no path of the state {in_short(state, str)}"
+            ) from None
+    else:
+        with failing("the measure"):
+            value = measure(state)
     if isinstance(value, list | tuple | FiniteSet):
         return len(value)
-    if isinstance(value, int | float):
+    if type(value) is int:
         return value
-    raise UpdateError(f"a measure is a list or a number, found {kind_of(value)}")
+    raise UpdateError(f"a measure is a list or a whole number, found {in_short(value)}")

@@ -16,6 +16,7 @@ from ttr.models import Model
 from ttr.printing import notation
 from ttr.substitution import Around, grounded
 from ttr.syntax import Object, Record, RecordType, Singleton, TypeNode
+from ttr.updates.failing import in_short
 from ttr.updates.rules import Rule
 
 __all__ = ["Settled", "settled"]
@@ -47,7 +48,7 @@ def settled(rule: Rule, effect: object, state: Record, model: Model) -> Settled:
                 ) from error
     raise RuleFailed(
         f"the rule {rule} gives a state, a state and a model, a record type or None, "
-        f"but it gave {effect!r}"
+        f"but it gave {in_short(effect)}"
     )
 
 

@@ -1,0 +1,45 @@
+"""What a user's own function did wrong, as one line that names it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from ttr.errors import RuleFailed, TTRError
+
+__all__ = ["failing", "in_short"]
+
+LONGEST = 200
+"""How many characters of a value or of somebody else's error a line repeats."""
+
+
+@contextmanager
+def failing(what: str) -> Iterator[None]:
+    """Turns what goes wrong inside into one line about what failed.
+
+    >>> with failing("the rule hear"):
+    ...     1 / 0
+    Traceback (most recent call last):
+    ttr.errors.RuleFailed: the rule hear failed: ZeroDivisionError: division by zero
+    """
+    try:
+        yield
+    except TTRError as error:
+        raise RuleFailed(f"{what} failed: {error}") from error
+    except Exception as error:
+        told = in_short(error, str)
+        fault = f"{type(error).__name__}: {told}" if told else type(error).__name__
+        raise RuleFailed(f"{what} failed: {fault}") from error
+
+
+def in_short(value: object, shown: Callable[[object], str] = repr) -> str:
+    """A value on one line, cut where it is long, even if it cannot print itself.
+
+    >>> in_short([1, 2]), in_short("a\\nb"), len(in_short("a" * 1000))
+    ('[1, 2]', "'a\\\\nb'", 201)
+    """
+    try:
+        text = " ".join(shown(value).split())
+    except Exception:
+        return f"a {type(value).__name__}"
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}…"

@@ -1,0 +1,79 @@
+"""Whether something is an information state, and still is one after a change."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from operator import is_
+
+from ttr.certainty import certainly
+from ttr.errors import NoState, UpdateError
+from ttr.models import Model
+from ttr.objects import lasts
+from ttr.paths import escaping
+from ttr.printing import notation
+from ttr.syntax import ListOf, Object, Record, RecordType, TypeNode
+
+__all__ = ["check_state", "still_of"]
+
+
+def check_state(state: Object, type: RecordType, model: Model, when: str) -> None:
+    """Refuses what is not certainly a state of its type, and says where it fails."""
+    if not isinstance(type, RecordType):
+        raise UpdateError(f"the type of a state is a record type, found {type!r}")
+    if not isinstance(state, Record):
+        raise NoState(f"{when} the state is no record, but {notation(state)}")
+    if certainly(model.facts, state, type):
+        return
+    why = model.judge(state, type).why
+    failed = why.failure()
+    if failed is not None:
+        claim = f"{notation(failed.sit)} : {failed.type}, {failed.because}"
+        raise NoState(f"{when} the state is not of its type, at {why.path()}: {claim}")
+
+
+def still_of(before: Record, after: Record, T: RecordType, model: Model) -> bool:
+    """Whether a record is of T where another one is, in the same model.
+
+    What is the same object in both, cannot have changed inside, and is of a type that
+    mentions nothing else, need not be judged again.
+    """
+    was, found = before._fields, after._fields
+    for label, field in T.fields:
+        if label not in found or escaping(field):
+            return False
+        if not _part_still_of(was[label], found[label], field, model):
+            return False
+    return True
+
+
+def _part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> bool:
+    if was is found and _keeps(found, model):
+        return True
+    match was, found, T:
+        case Record(), Record(), RecordType():
+            return still_of(was, found, T, model)
+        case tuple(), tuple(), ListOf(item) if _keeps(was, model):
+            new = _new_in(found, was)
+            return all(certainly(model.facts, element, item) for element in new)
+    return certainly(model.facts, found, T)
+
+
+def _keeps(value: Object, model: Model) -> bool:
+    """Whether what a value is of cannot change while it is the same object.
+
+    Facts are about objects as such; only witness functions look into them.
+    """
+    return not model.facts.functions or lasts(value)
+
+
+def _new_in(found: tuple[Object, ...], was: tuple[Object, ...]) -> Sequence[Object]:
+    """The elements of a list that another one does not have, and perhaps some more.
+
+    A list is mostly longer or shorter at one end.
+    """
+    if all(map(is_, found, was)):
+        return found[len(was) :]
+    if all(map(is_, reversed(found), reversed(was))):
+        return found[: max(0, len(found) - len(was))]
+    known = set(map(id, was))
+    return [element for element in found if id(element) not in known]
