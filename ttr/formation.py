@@ -270,6 +270,13 @@ def _misfit(
         if not isinstance(arg, Path) or arg.up != up:
             continue
         found = target(arg, scope)
-        if found is not wanted and subtype(found, wanted, theory).no:
+        if _bare(found) is not wanted and subtype(found, wanted, theory).no:
             return arg, wanted, found
     return None
+
+
+def _bare(T: TypeNode) -> TypeNode:
+    """The type without what it is restricted to: T for T@a."""
+    while isinstance(T, Singleton):
+        T = T.base
+    return T

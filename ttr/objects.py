@@ -344,13 +344,14 @@ class Record(Drawn):
 
     _fields: dict[str, Object]
     _hash: int | None
-    _lasts: bool  # once `lasts` was asked
+    _lasts: bool | None
 
     def __init__(self, fields: Mapping[str, object]) -> None:
         for label in fields:
             check_label(label)
         object.__setattr__(self, "_fields", {k: freeze(v) for k, v in fields.items()})
         object.__setattr__(self, "_hash", None)
+        object.__setattr__(self, "_lasts", None)
 
     def __getattr__(self, label: str) -> Object:
         if not label.startswith("_") and label in self._fields:
@@ -442,12 +443,11 @@ def lasts(value: Object) -> bool:
         return all(map(lasts, value))
     if not isinstance(value, Record):
         return False
-    try:
-        return value._lasts
-    except AttributeError:
+    if value._lasts is None:
         found = all(map(lasts, value._fields.values()))
-    object.__setattr__(value, "_lasts", found)
-    return found
+        object.__setattr__(value, "_lasts", found)
+        return found
+    return value._lasts
 
 
 _LASTING = (str, int, float, complex, bytes, NoneType, Node)

@@ -49,6 +49,7 @@ def _with(r: Record, label: str, value: Object) -> Record:
     changed = object.__new__(Record)
     object.__setattr__(changed, "_fields", {**r._fields, label: value})
     object.__setattr__(changed, "_hash", None)
+    object.__setattr__(changed, "_lasts", None)
     return changed
 
 
