@@ -772,9 +772,7 @@ MORE_MISTAKES = {
     "the target of a rule are a record type, found": lambda: rule(when=Rec, gives=3),
     "the probability of a rule's event is a number": lambda: rule(when=Rec, p=7),
     "by_class takes rules, found": lambda: by_class(first(up), order=["x"]),
-    "is of the class none, which is not in the order x": lambda: by_class(
-        up, order=["x"]
-    ),
+    "the rule up has no class; the order is x": lambda: by_class(up, order=["x"]),
     "did you mean early?": lambda: by_class(
         renamed(up, "up", kind="erly"), order=["early"]
     ),

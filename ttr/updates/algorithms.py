@@ -184,9 +184,9 @@ def by_class(*rules: Rule, order: Sequence[str]) -> ByClass:
             raise UpdateError(f"by_class takes rules, found {kind_of(one)}")
         if one.kind not in order:
             known = suggestion(one.kind, order)
+            found = f"is of the class {one.kind}" if one.kind else "has no class"
             raise UpdateError(
-                f"the rule {one} is of the class {one.kind or 'none'}, which is not in "
-                f"the order {', '.join(order)}",
+                f"the rule {one} {found}; the order is {', '.join(order)}",
                 hint=known or "give it a class by kind=",
             )
     classes = {kind: tuple(r for r in rules if r.kind == kind) for kind in order}

@@ -76,7 +76,7 @@ class Body:
     value: Object
     names: tuple[str, ...]
 
-    def __call__(self, *args: Object, model: Model, **bound: Object) -> Object:
+    def __call__(self, /, *args: Object, model: Model, **bound: Object) -> Object:
         """The type or record for a state, an event and bindings."""
         around = {**dict(zip(self.names, args, strict=False)), **bound}
         return reduced(model.facts, grounded(self.value, (around,)))

@@ -82,7 +82,10 @@ def faults_of(game: Game) -> tuple[Fault, ...]:
 
 
 def faults_alone(rule: Rule) -> tuple[Fault, ...]:
-    """What is wrong with a rule whatever the states are that it is meant for."""
+    """What is wrong with a rule whatever the states are that it is meant for.
+
+    Raises `UpdateError` for what is no rule.
+    """
     if not isinstance(rule, Rule):
         raise UpdateError(f"faults_alone takes a rule, found {rule!r}")
     return _found(RuleSet(rule, rule.when, None, Model(), ()), ALONE)

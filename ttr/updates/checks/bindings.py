@@ -23,13 +23,12 @@ def unlisted(rules: RuleSet) -> Iterator[Fault]:
             if isinstance(field, Singleton) or can_be_listed(field):
                 continue
             message = (
-                f"the rule {rule} looks for {label}, but what is of {field} cannot be "
+                f"the rule {rule} looks for {label}, but what is of its type cannot be "
                 "listed, as there may be no end of it"
             )
             hint = f"say what {label} is, as in {label} = s.x : T, or leave it out"
-            yield Fault(
-                rule, "unbound", message, hint, place(rule, label, (label,), "where")
-            )
+            span = place(rule, label, (label,), "where")
+            yield Fault(rule, "unbound", message, hint, span)
 
 
 def circular(rules: RuleSet) -> Iterator[Fault]:
@@ -40,12 +39,12 @@ def circular(rules: RuleSet) -> Iterator[Fault]:
     """
     for rule in rules.rules:
         if isinstance(rule.effect, Body):
-            yield from _circles(rule, rule.effect.value)
+            yield from _circles(rule, rule.effect.value, "")
         if rule.where is not None:
-            yield from _circles(rule, rule.where)
+            yield from _circles(rule, rule.where, "where")
 
 
-def _circles(rule: Rule, value: Object) -> Iterator[Fault]:
+def _circles(rule: Rule, value: Object, role: str) -> Iterator[Fault]:
     types = (part for part in occurring([value]) if isinstance(part, RecordType))
     around = next(filter(None, map(round_about, types)), ())
     if not around:
@@ -57,4 +56,5 @@ def _circles(rule: Rule, value: Object) -> Iterator[Fault]:
     else:
         message = f"in the rule {rule} fields go in a circle: {told}"
         hint = "no witness of such a type can be made: let one field not be manifest"
-    yield Fault(rule, "unbound", message, hint, rule.span, "warning")
+    span = place(rule, around[0].rpartition(".")[2], (), role)
+    yield Fault(rule, "unbound", message, hint, span, "warning")

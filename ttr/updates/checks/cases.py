@@ -49,7 +49,12 @@ def dead(rules: RuleSet) -> Iterator[Fault]:
 
 def _impossible(rules: RuleSet, rule: Rule) -> Fault | None:
     """That nothing can be what a rule asks of state, event or bindings."""
-    ways = (_of_state(rules, rule), _of_event(rules, rule), _of_bindings(rules, rule))
+    ways = (
+        _of_state(rules, rule),
+        _of_event(rules, rule),
+        _of_bindings(rules, rule),
+        _of_effect(rules, rule),
+    )
     return next(chain(*ways), None)
 
 
@@ -89,6 +94,13 @@ def _of_bindings(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
             source = ".".join((variable, *labels))
             why = f"it takes {source} to be of {base}, but that is of {types[0]}"
             yield _never(rule, why, (label,), "where")
+
+
+def _of_effect(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
+    """That the effect gives nothing in any case, as where a `return` is forgotten."""
+    told = rules.accounts[rule]
+    if told.whole and not told.outcomes:
+        yield _never(rule, "it gives no next state, as nothing is returned")
 
 
 def _never(rule: Rule, why: str, path: Labels = (), role: str = "when") -> Fault:

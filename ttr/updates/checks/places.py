@@ -17,11 +17,12 @@ __all__ = ["place"]
 def place(rule: Rule, label: str, path: Labels = (), role: str = "") -> Span | None:
     """The place of a label in a rule, as part of a path if it is written so.
 
-    In Python it is looked for where the `role` is given to the decorator. Where it is
-    not written in the rule itself, it is the place of the rule.
+    In Python it is looked for where the `role` is given to the decorator; in a file,
+    without a role, in the body first. Where it is not written in the rule itself, it is
+    the place of the rule.
     """
     if isinstance(rule.effect, Body):
-        return _in_text(rule, label, path) or rule.span
+        return _in_text(rule, label, path, role) or rule.span
     source = source_of(rule.effect)
     found = None if source is None else _in_decorator(source, label, role)
     return found or rule.span
@@ -30,17 +31,19 @@ def place(rule: Rule, label: str, path: Labels = (), role: str = "") -> Span | N
 # --- in files of rules ---------------------------------------------------------------
 
 
-def _in_text(rule: Rule, label: str, path: Labels) -> Span | None:
+def _in_text(rule: Rule, label: str, path: Labels, role: str) -> Span | None:
     """The label in the text of the rule: as the end of the path, as a field, or so."""
     if rule.span is None:
         return None
     dotted = r"\s*\.\s*".join(map(re.escape, path))
     field, word = rf"\b{label}(?=\s*[:=])", rf"\b{label}\b"
     plain = re.sub(r"#.*", _blank, rule.text)
+    starts = (0,) if role else (max(0, plain.rfind(":=")), 0)
     for pattern in (rf"(?<![\w.]){dotted}\b", field, word)[not path :]:
-        found = re.search(pattern, plain)
-        if found:
-            return _within(rule, rule.span, found.end() - len(label), found.end())
+        for start in starts:
+            found = re.compile(pattern).search(plain, start)
+            if found:
+                return _within(rule, rule.span, found.end() - len(label), found.end())
     return None
 
 

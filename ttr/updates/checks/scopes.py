@@ -65,7 +65,11 @@ class Scope:
         values: dict[str, ast.expr] = {}
         for node in nodes(self.source.body):
             match node:
-                case ast.Assign([ast.Name(name)], value):
+                case (
+                    ast.Assign([ast.Name(name)], value)
+                    | ast.AnnAssign(ast.Name(name), value=ast.expr() as value)
+                    | ast.NamedExpr(ast.Name(name), value)
+                ):
                     values[name] = value
         often = Counter(stored(self.source.node))
         return {name: v for name, v in values.items() if often[name] == 1}
@@ -155,19 +159,38 @@ class Scope:
 
     def changes(self, node: ast.Call) -> list[Change] | None:
         """What a call of `replace` or `rectype` sets, and to what; None if not told."""
-        found: list[Change] = []
         first = 0 if self.is_rectype(node) else 1
-        for mapping in map(self.followed, node.args[first:]):
-            if not isinstance(mapping, ast.Dict):
+        found = [self._changed(self.followed(one)) for one in node.args[first:]]
+        found.append(self._named(node.keywords))
+        if any(one is None for one in found):
+            return None
+        return [change for some in found for change in some or ()]
+
+    def _changed(self, mapping: ast.expr) -> list[Change] | None:
+        """What a mapping sets: {"x": …}, or dict(x=…)."""
+        if isinstance(mapping, ast.Call):
+            plain = not mapping.args and self.source.meant(mapping.func) is dict
+            return self._named(mapping.keywords) if plain else None
+        if not isinstance(mapping, ast.Dict):
+            return None
+        found: list[Change] = []
+        for key, value in zip(mapping.keys, mapping.values, strict=True):
+            if not isinstance(key, ast.Constant) or not isinstance(key.value, str):
                 return None
-            for key, value in zip(mapping.keys, mapping.values, strict=True):
-                if not isinstance(key, ast.Constant) or not isinstance(key.value, str):
-                    return None
-                path = tuple(key.value.split("."))
-                found.append(Change(path, self.source.span(key), value))
-        for keyword in node.keywords:
+            path = tuple(key.value.split("."))
+            found.append(Change(path, self.source.span(key), value))
+        return found
+
+    def _named(self, keywords: list[ast.keyword]) -> list[Change] | None:
+        """What keyword arguments set: x=…, or **{"x": …}."""
+        found: list[Change] = []
+        for keyword in keywords:
             if keyword.arg is None:
-                return None
+                inner = self._changed(self.followed(keyword.value))
+                if inner is None:
+                    return None
+                found += inner
+                continue
             span = self.source.opening(keyword, keyword.arg)
             found.append(Change((keyword.arg,), span, keyword.value))
         return found

@@ -80,7 +80,7 @@ class Source:
 
     def undefined(self) -> Iterator[str]:
         """The names that neither the function, its file nor Python knows."""
-        bound = _bound_in(self.module)
+        bound = _bound_in(self.module, self.node.lineno)
         if bound is None:
             return
         for name in _globals_of(self.function.__code__):
@@ -113,8 +113,12 @@ def _globals_of(code: CodeType) -> Iterator[str]:
 
 
 @lru_cache(maxsize=64)
-def _bound_in(module: ast.Module) -> frozenset[str] | None:
-    """The names bound anywhere in a file; None where it imports all of another's."""
+def _bound_in(module: ast.Module, line: int) -> frozenset[str] | None:
+    """The names bound anywhere in a file.
+
+    None where after this line it imports all of another's: what it has imported before
+    is known.
+    """
     found: set[str] = set()
     for node in ast.walk(module):
         match node:
@@ -122,6 +126,8 @@ def _bound_in(module: ast.Module) -> frozenset[str] | None:
                 found.add(name)
             case ast.ClassDef(name) | ast.AsyncFunctionDef(name):
                 found.add(name)
+            case ast.ImportFrom(names=[ast.alias("*")]) if node.lineno < line:
+                continue
             case ast.Import(names) | ast.ImportFrom(names=names):
                 found |= {(a.asname or a.name).split(".")[0] for a in names}
     return None if "*" in found else frozenset(found)
@@ -137,6 +143,8 @@ def source_of(effect: object) -> Source | None:
     if module is None:
         return None
     found = [node for node in _functions(module) if _is_of(node, code)]
+    if len(found) > 1:
+        found = [node for node in found if _is_at(node, code)]
     if len(found) != 1:
         return None
     return Source(effect, found[0], code.co_filename, module)
@@ -154,6 +162,17 @@ def _parsed(text: str) -> ast.Module | None:
 def _functions(module: ast.Module) -> tuple[FunctionNode, ...]:
     kinds = (ast.FunctionDef, ast.Lambda)
     return tuple(node for node in ast.walk(module) if isinstance(node, kinds))
+
+
+def _is_at(node: FunctionNode, code: CodeType) -> bool:
+    """Whether the code is of just this place, where several share a line."""
+    body = node.body[0] if isinstance(node, ast.FunctionDef) else node.body
+    start, end = (body.lineno, body.col_offset), (node.end_lineno, node.end_col_offset)
+    places = [p for p in code.co_positions() if None not in p and p[2] != p[3]]
+    return bool(places) and all(
+        start <= (first, column) and (last, stop) <= end
+        for first, last, column, stop in places
+    )
 
 
 def _is_of(node: FunctionNode, code: CodeType) -> bool:
