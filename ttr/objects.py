@@ -61,12 +61,19 @@ def freeze(value: object) -> Object:
     """
     kind = type(value)
     if kind is list or kind is tuple:
-        return tuple(map(freeze, value))  # type: ignore[call-overload]
+        return _frozen(tuple(value))  # type: ignore[arg-type]
     if kind is dict:
         return Record(value)  # type: ignore[arg-type]
     if kind is set or kind is frozenset:
         return FiniteSet(*value)  # type: ignore[misc]
     return value._path() if isinstance(value, PathTo) else value
+
+
+def _frozen(values: tuple[object, ...]) -> tuple[Object, ...]:
+    """The values as objects: the same tuple where all of them are objects already."""
+    if _TAKEN_FOR_NOTATION.isdisjoint(map(type, values)):
+        return values
+    return tuple(map(freeze, values))
 
 
 # --- paths ---------------------------------------------------------------------------
@@ -159,6 +166,10 @@ outer = PathTo(1)
 
 
 # --- sets, strings of events and what is computed -------------------------------------
+
+
+_TAKEN_FOR_NOTATION = frozenset((list, tuple, dict, set, frozenset, PathTo))
+"""What Python has its own way of writing for; other objects stay what they are."""
 
 
 @node
