@@ -67,7 +67,7 @@ def check(theory: Theory) -> Report:
 
 
 def asked(theory: Theory) -> Report:
-    """Asks the theory's checks, and looks at no rule."""
+    """Asks the theory's checks, and looks at no rule; raises as `check` does."""
     if not isinstance(theory, Theory):
         raise TTRError(f"check takes a theory, found {kind_of(theory)}")
     model = model_of(theory)

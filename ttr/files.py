@@ -1,19 +1,48 @@
-"""Files that are there in full, or as they were before."""
+"""Files: why one cannot be read, and writing one in full or not at all."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
+from errno import EISDIR
 from pathlib import Path
 
 from ttr.errors import TTRError
 
-__all__ = ["write_whole"]
+__all__ = ["check_outputs", "why_unread", "why_unwritten", "write_whole"]
+
+
+def why_unread(path: object, error: OSError | UnicodeDecodeError) -> str:
+    """Why a text file could not be read, as a sentence.
+
+    >>> why_unread("a.ttr", FileNotFoundError())
+    'there is no file a.ttr'
+    """
+    match error:
+        case FileNotFoundError():
+            return f"there is no file {path}"
+        case IsADirectoryError():
+            return f"{path} is a folder, not a file"
+        case UnicodeDecodeError():
+            return f"{path} is no text: it must be UTF-8"
+    return f"{path} cannot be read: {_reason(error)}"
+
+
+def why_unwritten(path: object, error: OSError) -> str:
+    """Why a file could not be written, as a sentence."""
+    return f"{path} cannot be written: {_reason(error)}"
+
+
+def _reason(error: OSError) -> str:
+    return (error.strerror or "it cannot be opened").lower()
 
 
 def write_whole(path: Path, text: str) -> None:
     """Writes a text file, by way of a draft beside it that then takes its place.
 
-    Raises `TTRError` where it cannot be written; what was there is there still.
+    A link goes on leading where it leads, and to what is no file, such as a device, it
+    is written as it is. Raises `TTRError` where it cannot be written; what was there is
+    there still.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -21,10 +50,44 @@ def write_whole(path: Path, text: str) -> None:
     ...     print(*(file.name for file in Path(folder).iterdir()))
     a.txt
     """
-    draft = path.with_name(f".{path.name}.{os.getpid()}.part")
+    data = text.encode("utf-8", "replace")
     try:
-        draft.write_text(text, encoding="utf-8")
-        draft.replace(path)
+        target = path.resolve()
+        if target.is_dir():
+            raise IsADirectoryError(EISDIR, "is a folder")
+        if target.exists() and not target.is_file():
+            target.write_bytes(data)
+        else:
+            _by_a_draft(target, data)
     except OSError as error:
+        raise TTRError(why_unwritten(path, error)) from None
+
+
+def _by_a_draft(target: Path, data: bytes) -> None:
+    draft = target.with_name(f".{target.name}.{os.getpid()}.part")
+    try:
+        draft.write_bytes(data)
+        draft.replace(target)
+    except BaseException:
         draft.unlink(missing_ok=True)
-        raise TTRError(f"{path} cannot be written: {error.strerror}") from None
+        raise
+
+
+def check_outputs(inputs: Iterable[Path], outputs: Iterable[Path | None]) -> None:
+    """Refuses to write over what is read, or two things into one file.
+
+    >>> check_outputs([Path("a.dlg")], [Path("a.html"), None])
+    >>> check_outputs([Path("a.dlg")], [Path("./a.dlg")])
+    Traceback (most recent call last):
+    ttr.errors.TTRError: a.dlg would be written over: name another file
+    """
+    taken = {path.resolve() for path in inputs}
+    for path in filter(None, outputs):
+        if path.resolve() in taken and not _is_special(path):
+            raise TTRError(f"{path} would be written over: name another file")
+        taken.add(path.resolve())
+
+
+def _is_special(path: Path) -> bool:
+    """Whether it is a device or the like, which loses nothing when written to."""
+    return path.exists() and not path.is_file()

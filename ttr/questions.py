@@ -14,11 +14,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from functools import reduce
 from typing import TypeGuard
 
 from ttr.certainty import certainly
 from ttr.constructors import fun, rectype
 from ttr.errors import TTRError
+from ttr.merging import merge
 from ttr.models import Model
 from ttr.objects import Unresolved
 from ttr.paths import escaping
@@ -28,6 +30,7 @@ from ttr.syntax import (
     Basic,
     FiniteSet,
     Function,
+    Meet,
     Negation,
     Object,
     Path,
@@ -88,9 +91,13 @@ def whether(T: TypeNode) -> Function:
 def which(pred: Pred) -> Function:
     r"""The question which object a predicate holds of: λr:[x : S]. [e : p(r.x)].
 
+    Raises `TTRError` for a predicate that takes no single object.
+
     >>> print(which(Pred("leave", Basic("Ind"))))
     \r:[x : Ind]. [e : leave(r.x)]
     """
+    if not isinstance(pred, Pred):
+        raise TTRError(f"a question which asks for a predicate, found {kind_of(pred)}")
     places = [arity for arity in pred.arities if len(arity) == 1]
     if not places:
         raise TTRError(
@@ -102,6 +109,8 @@ def which(pred: Pred) -> Function:
 
 def which_of(*types: TypeNode) -> FiniteSet:
     """The alternative question which of these is the case: the questions whether.
+
+    Raises `TTRError` for less than two alternatives.
 
     >>> leave = Pred("leave", Basic("Ind"))
     >>> len(which_of(rectype(e=leave("kim")), rectype(e=leave("sam"))))
@@ -175,7 +184,9 @@ def resolves(answer: Object, question: Object, model: Model) -> bool:
     False
     """
     found = _combined(answer, question, model)
-    return found is not None and (is_polar(question) or not isinstance(found, Negation))
+    if found is None:
+        return False
+    return is_polar(question) or not isinstance(_affirmed(found), Negation)
 
 
 def combine(question: Object, answer: Object, model: Model) -> TypeNode:
@@ -209,7 +220,7 @@ def resolving(
     >>> print(resolving(whether(rectype(e=back())), known, Model()))
     ~[e : return_trip()]
     """
-    for one in propositions:
+    for one in _several(propositions):
         if isinstance(one, TypeNode) and resolves(one, question, model):
             return one
     return None
@@ -224,6 +235,8 @@ def asked_of(question: Function, P: TypeNode, model: Model) -> Record | None:
     >>> print(asked_of(which(dest), rectype(e=dest("paris")), M))
     {x = paris}
     """
+    if not isinstance(question, Function) or not is_question(question):
+        raise TTRError(f"nothing is asked for by {kind_of(question)}")
     bound: dict[str, Object] = {}
     if not _matches(question.body, _plain(P), 0, bound):
         return None
@@ -267,12 +280,19 @@ def _applied(question: Function, argument: Record) -> TypeNode:
 
 def _is_instance(P: TypeNode, question: Function, model: Model) -> bool:
     """Whether P ⊑ q(r), or P is ¬q(r), for an r that the question can be applied to."""
+    P = _affirmed(P)
     if asked_of(question, P, model) is not None:
         return True
-    if not isinstance(P, Negation):
-        return False
-    denied = asked_of(question, P.body, model)
-    return denied is not None and _applied(question, denied) is P.body
+    denied = P.body if isinstance(P, Negation) else ~P
+    about = asked_of(question, denied, model)
+    return about is not None and _applied(question, about) is denied
+
+
+def _affirmed(P: TypeNode) -> TypeNode:
+    """The type without negations that cancel one another: ¬¬T is T."""
+    while isinstance(P, Negation) and isinstance(P.body, Negation):
+        P = P.body.body
+    return P
 
 
 def _plain(P: TypeNode) -> TypeNode:
@@ -280,6 +300,7 @@ def _plain(P: TypeNode) -> TypeNode:
 
     So [x = paris : City, e : dest_city(x)] is matched as [e : dest_city(paris)] is.
     """
+    P = _merged(P)
     if not isinstance(P, RecordType) or not any(map(escaping, P._types.values())):
         return P
     fields: dict[str, TypeNode] = {}
@@ -291,6 +312,13 @@ def _plain(P: TypeNode) -> TypeNode:
         if isinstance(field, Singleton):
             known[label] = field.value
     return RecordType(tuple(fields.items()))
+
+
+def _merged(P: TypeNode) -> TypeNode:
+    """The one record type that a meet of record types is."""
+    if isinstance(P, Meet) and all(isinstance(part, RecordType) for part in P.parts):
+        return reduce(merge, P.parts)
+    return P
 
 
 def _matches(
@@ -343,17 +371,17 @@ def push(qud: Iterable[Object], question: Object) -> tuple[Object, ...]:
     """
     if not is_question(question):
         raise TTRError(f"only questions are under discussion, not {kind_of(question)}")
-    return question, *_without(qud, question)
+    return question, *_without(_several(qud), question)
 
 
 def top(qud: Iterable[Object]) -> Object | None:
     """The maximal question under discussion, or None where there is none."""
-    return next(iter(qud), None)
+    return next(iter(_several(qud)), None)
 
 
 def pop(qud: Iterable[Object], question: Object) -> tuple[Object, ...]:
     """The questions without this one, which was dropped or resolved."""
-    return tuple(_without(qud, question))
+    return tuple(_without(_several(qud), question))
 
 
 def downdate(
@@ -365,8 +393,16 @@ def downdate(
     >>> downdate([whether(back), whether(Rec)], [~back], Model()) == (whether(Rec),)
     True
     """
-    known = tuple(facts)
-    return tuple(q for q in qud if resolving(q, known, model) is None)
+    known = _several(facts)
+    return tuple(q for q in _several(qud) if resolving(q, known, model) is None)
+
+
+def _several(found: Iterable[Object]) -> tuple[Object, ...]:
+    """A list of questions or propositions; raises `TTRError` for one alone."""
+    with suppress(TypeError):
+        if not isinstance(found, str | bytes):
+            return tuple(found)
+    raise TTRError(f"a list is expected here, found {kind_of(found)}")
 
 
 def _without(qud: Iterable[Object], question: Object) -> Iterator[Object]:

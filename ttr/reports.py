@@ -69,9 +69,17 @@ class Report:
             told = [f"{len(self.failures)} of {self.asked} checks failed"]
         if self.rules:
             rules = _counted(self.rules, "rule", "rules")
-            count = _counted(len(self.faults), "fault", "faults")
-            told.append(f"{count if self.faults else 'no fault'} in {rules}")
+            told.append(f"{self._found} in {rules}")
         return ", ".join(told)
+
+    @property
+    def _found(self) -> str:
+        """How many faults and warnings there are."""
+        warnings = sum(fault.severity == "warning" for fault in self.faults)
+        wrong = len(self.faults) - warnings
+        count = _counted(wrong, "fault", "faults") if wrong else "no fault"
+        more = f" and {_counted(warnings, 'warning', 'warnings')}" if warnings else ""
+        return count + more
 
     @property
     def told(self) -> tuple[str, ...]:

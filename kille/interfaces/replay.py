@@ -15,7 +15,7 @@ from kille.memory import MemoryFileError
 from kille.replay import Echo, play
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
-from ttr.files import write_whole
+from ttr.files import check_outputs, write_whole
 from ttr.stories import Outcome, Story, facts, junit, read_stories, summary
 
 __all__ = ["as_json", "in_brief", "in_full", "replay"]
@@ -32,6 +32,7 @@ def replay(files: Sequence[Path], report: Report, report_file: Path | None) -> i
     With a report file, what became of them is also written for CI, as JUnit does.
     """
     try:
+        check_outputs(files, [report_file])
         plan = [(file, read_stories(file)) for file in files]
         outcomes = list(report(plan))
         if report_file is not None:

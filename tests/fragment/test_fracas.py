@@ -152,4 +152,4 @@ def test_a_file_that_is_not_there(
     assert main(["fracas", str(tmp_path / "none.xml")]) == 2
     assert "there is no file" in capsys.readouterr().err
     assert main(["fracas", str(tmp_path)]) == 2
-    assert "cannot be read: is a directory\n" in capsys.readouterr().err
+    assert "is a folder, not a file\n" in capsys.readouterr().err

@@ -398,9 +398,9 @@ def test_what_no_search_can_find(T):
         where [d = e.dish : Dish, sit : {T}] := [agenda = [] : list(RecType)]
     """).rules["missing"]
     (fault,) = faults(one, one.when)
-    assert fault.sort == "unbound" and fault.span.column == 35
-    assert "missing looks for sit, but what is of " in fault.message
-    assert "cannot be listed" in fault.message
+    assert fault.sort == "unbound"
+    assert fault.span.column == 35
+    assert "missing looks for sit, but what is of its type cannot be" in fault.message
 
 
 @pytest.mark.parametrize(
@@ -422,9 +422,22 @@ def test_a_label_that_hides_what_it_should_be_set_to():
         := [agenda = [[dish = dish : Dish, c : serve(ann, dish)]] : list(RecType)]
     """).rules["plan"]
     (fault,) = faults(one, one.when)
-    assert fault.severity == "warning" and fault.sort == "unbound"
+    assert fault.severity == "warning"
+    assert fault.sort == "unbound"
     assert fault.message == "in the rule plan dish is set to itself: dish → dish"
     assert fault.hint == "call what where binds differently from the label"
+    assert fault.span.text[fault.span.column - 1 :].startswith("dish = dish : Dish,")
+
+
+def test_a_write_is_underlined_where_it_is_written():
+    one = Theory.parse("""
+        basic Ind
+        object ann : Ind
+        Board := [x : list(Ind)]
+        rule wrong(s : Board /\\ [x = [] : list(Ind)]) := [x = ann : list(Ind)]
+    """).rules["wrong"]
+    (fault,) = faults(one, one.when)
+    assert fault.span.text[fault.span.column - 1 :].startswith("x = ann")
 
 
 def test_a_type_that_goes_in_a_circle():
@@ -707,10 +720,92 @@ def test_effects_that_cannot_be_read():
         def method(self, s):
             return s.nowhere
 
-    one, other = rule(when=Board)(lambda s: s.a), rule(when=Board)(lambda s: s.n)
     by_object = rule(when=Board)(Callable())
     by_method = rule(when=Board)(Callable().method)
-    assert messages(all_(one, other, by_object, by_method), model=M) == []
+    assert messages(all_(by_object, by_method), model=M) == []
+
+
+def test_functions_on_one_line_are_told_apart():
+    one, other = rule(when=Board)(lambda s: s.a), rule(when=Board)(lambda s: s)
+    assert messages(one) == ["the rule <lambda> reads s.a, but s has no a"]
+    assert messages(other) == []
+
+
+def test_names_that_are_set_where_they_are_declared_or_used():
+    @rule(when=Board)
+    def declared(s):
+        shared: object = s.shared
+        return replace(s, n=shared.nn)
+
+    @rule(when=Board)
+    def used(s):
+        if shared := s.shared:
+            return replace(s, n=shared.nn)
+
+    for one in (declared, used):
+        assert messages(one) == [
+            f"the rule {one} reads s.shared.nn, but s.shared has no nn"
+        ]
+
+
+def test_changes_that_are_written_as_keywords_of_a_dict():
+    @rule(when=Board)
+    def called(s):
+        return replace(s, dict(m=0))  # noqa: C408
+
+    @rule(when=Board)
+    def spread(s):
+        return replace(s, **{"m": 0})
+
+    @rule(when=Board)
+    def open_ended(s):
+        return replace(s, **dict(s.shared, m=0))
+
+    for one in (called, spread):
+        assert messages(one) == [f"the rule {one} replaces s.m, but s has no m"]
+    assert messages(open_ended) == []
+
+
+def test_an_effect_that_returns_nothing():
+    @rule(when=Board)
+    def forgets(s):
+        replace(s, n=0)
+
+    @rule(when=Board)
+    def leaves(s):
+        if s.n:
+            return None
+
+    @rule(when=Board)
+    def may(s):
+        if s.n:
+            return replace(s, n=0)
+
+    for one in (forgets, leaves):
+        assert messages(one) == [
+            f"the rule {one} can never fire: it gives no next state, as nothing is "
+            "returned"
+        ]
+    assert messages(may) == []
+
+
+def test_an_undefined_name_below_a_star_import(tmp_path):
+    file = tmp_path / "starred.py"
+    file.write_text(
+        "from ttr import *\n"
+        "from ttr.updates import rule\n"
+        "Board = rectype(x=Ind)\n"
+        "@rule(when=Board)\n"
+        "def fine(s): return replace(s, x=s.x)\n"
+        "@rule(when=Board)\n"
+        "def lost(s): return replace(s, x=nobody)\n"
+    )
+    names = {}
+    exec(compile(file.read_text(), str(file), "exec"), names)
+    assert messages(names["fine"], names["Board"]) == []
+    assert messages(names["lost"], names["Board"]) == [
+        "the rule lost uses nobody, which nothing binds"
+    ]
 
 
 def test_either_of_two_record_types():

@@ -177,6 +177,19 @@ def test_rules_are_looked_at_and_faults_exit_with_1(
     assert out.startswith("fault: ")
     assert "┌─ faulty.ttr:8:6\n8 │ rule never(s : Board)" in out
     assert out.endswith("faulty.ttr: 1 check holds, 1 fault in 2 rules\n")
+    both = (
+        "rule one(s : Board) := [spkr = a : Ind]\n"
+        "rule two(s : Board) := [spkr = b : Ind]\n"
+    )
+    (folder / "doubtful.ttr").write_text(
+        RULES.replace("strategy", f"{both}strategy").replace(
+            "maybe(turn)", "all(turn, one, two)"
+        )
+    )
+    assert main(["check", "doubtful.ttr"]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("warning: the rules one and two")
+    assert out.endswith("1 check holds, no fault and 1 warning in 3 rules\n")
     assert main(["check", "--json", "faulty.ttr", "start.ttr"]) == 1
     faulty, start = json.loads(capsys.readouterr().out)
     assert (faulty["rules"], faulty["holds"], faulty["failures"]) == (2, False, [])
@@ -308,6 +321,5 @@ def test_a_file_of_another_encoding_or_a_folder_is_told(
     (folder / "latin.ttr").write_bytes(b"\xff\xfe\x00")
     assert main(["check", "latin.ttr", "."]) == 2
     assert capsys.readouterr().err == (
-        "ttr: latin.ttr is no text: it must be UTF-8\n"
-        "ttr: . cannot be read: is a directory\n"
+        "ttr: latin.ttr is no text: it must be UTF-8\nttr: . is a folder, not a file\n"
     )

@@ -15,6 +15,7 @@ from ttr import (
     Pred,
     Record,
     RecordType,
+    Theory,
     TypeNode,
     record,
     rectype,
@@ -94,6 +95,23 @@ def test_events_are_such_as_the_game_hears():
         assert event <= Ask or event <= Tell
         turn = game.take(game.begin(), event)
         assert isinstance(turn.heard, Record)
+
+
+def test_events_that_the_theory_defines_are_drawn():
+    """A rule may wait for one question among those that can be asked."""
+    theory = Theory.parse("""
+        basic Ind
+        pred rain(), ask(RecType)
+        Rain := [e : rain()]
+        Ask := [q : RecType, e : ask(q)]
+        AskRain := [q = Rain : RecType, e : ask(q)]
+        Board := [open : list(RecType)]
+        rule hear(s : Board, e : Ask) := [open = [e.q] : list(RecType)]
+        game talk({open = []} : Board) := hear
+    """)
+    game = theory.games["talk"]
+    drawn = find(tst.events(game), lambda event: event is theory.AskRain, settings=few)
+    assert game.take(game.begin(), drawn).state.open == (theory.Rain,)
 
 
 def test_events_are_about_what_is_known_and_what_is_new():

@@ -394,6 +394,56 @@ def test_what_cannot_be_read_is_told_with_its_turn(
     assert told in caught.value.message
 
 
+EDITED: dict[str, tuple[Edit, str]] = {
+    "the event of a rule": (
+        lambda facts: facts["rules"][0].update(event="{e = s9}"),
+        "what greeted took",
+    ),
+    "a binding": (
+        lambda facts: facts["rules"][0]["with"].update(x="guest"),
+        "what greeted bound",
+    ),
+    "how probable a fact is": (
+        lambda facts: facts["judged"][0].__setitem__(2, 0.5),
+        "what was judged",
+    ),
+    "no fact": (lambda facts: facts.update(judged=[]), "what was judged"),
+    "how many names there are": (
+        lambda facts: facts.update(names=7),
+        "how many names were given",
+    ),
+}
+
+
+@pytest.mark.parametrize(("edit", "what"), EDITED.values(), ids=EDITED)
+def test_whatever_is_edited_is_told(
+    log: Log, door: Setting, edit: Edit, what: str
+) -> None:
+    divergence = replay(edited(log, 1, edit), door).divergence
+    assert divergence is not None
+    assert divergence.what == what
+
+
+@pytest.mark.parametrize("change", [1, None, ["a"]])
+def test_a_change_that_is_no_text_is_told(log: Log, change: object) -> None:
+    edit: Edit = lambda facts: facts["rules"][0].update(changes=[change])  # noqa: E731
+    with pytest.raises(LogError, match="2: changes should be a list of texts"):
+        edited(log, 1, edit)
+
+
+def test_what_is_said_of_a_damaged_log_is_one_line(log: Log, door: Setting) -> None:
+    path = Path(log.file)
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace('"ttr"', '"a\\nb"', 1), encoding="utf-8")
+    with pytest.raises(LogError) as other:
+        read_logs(path)
+    assert "\n" not in other.value.message
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(LogError) as several:
+        replay(edited(log, 1, lambda facts: facts.update(declares=[])), door)
+    assert "\n" not in several.value.message
+
+
 def test_names_that_cannot_be_declared_are_told(log: Log, door: Setting) -> None:
     edit: Edit = lambda it: it.update(declares=["basic"])  # noqa: E731
     with pytest.raises(LogError, match=r"visit.jsonl:1: the names declared here"):
@@ -405,7 +455,7 @@ def test_files_that_are_no_logs(tmp_path: Path) -> None:
     for content, told in (
         (b"", "is no log"),
         (b"hello\n", "a.jsonl:1: this is no JSON"),
-        (b"\xff\xfe\n", "a.jsonl:1: this is not a text in UTF-8"),
+        (b"\xff\xfe\n", "a.jsonl:1: this is no text in UTF-8"),
         (b"[" * 100_000 + b"\n", "a.jsonl:1: this is no JSON"),
         (b"3\n", "a.jsonl:1: no turn of a log"),
     ):
@@ -456,17 +506,34 @@ def test_replaying_after_the_rules_have_changed(
     assert "a.jsonl: the door is opened: differs\n" in out
     (folder / "door.ttr").unlink()
     assert main(["replay", "a.jsonl"]) == 1
-    assert capsys.readouterr().out == "a.jsonl:1: door.ttr is not there\n"
+    assert capsys.readouterr().out == "a.jsonl:1: there is no file door.ttr\n"
 
 
 def test_a_log_that_is_not_there_or_damaged(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["replay", "gone.jsonl"]) == 2
-    assert capsys.readouterr().err == "ttr: gone.jsonl is not there\n"
+    assert capsys.readouterr().err == "ttr: there is no file gone.jsonl\n"
+    assert main(["replay", "."]) == 2
+    assert capsys.readouterr().err == "ttr: . is a folder, not a file\n"
     (folder / "no.jsonl").write_text("hello\n")
     assert main(["replay", "no.jsonl"]) == 1
     assert capsys.readouterr().out == "no.jsonl:1: this is no JSON\n"
+
+
+@pytest.mark.parametrize("option", ["--story", "--html"])
+def test_what_a_replay_cannot_write_is_told(
+    folder: Path, capsys: pytest.CaptureFixture[str], option: str
+) -> None:
+    assert main(["play", "--quiet", "door.dlg", "--log", "a.jsonl"]) == 0
+    capsys.readouterr()
+    for place in (".", "/", str(folder)):
+        assert main(["replay", "a.jsonl", option, place]) == 2
+        told = capsys.readouterr().err
+        assert told == f"ttr: {place} cannot be written: is a folder\n"
+    assert main(["replay", "a.jsonl", option, "no/such/folder"]) == 2
+    told = capsys.readouterr().err
+    assert told == "ttr: no/such/folder cannot be written: no such file or directory\n"
 
 
 def test_a_log_of_a_game_without_a_name_is_replayed_from_python(
@@ -488,7 +555,7 @@ def test_a_log_that_was_cut_off_is_told_and_replayed(
     whole = (folder / "a.jsonl").read_bytes()
     (folder / "a.jsonl").write_bytes(whole[: whole.index(b"\n") + 20])
     capsys.readouterr()
-    assert main(["replay", "a.jsonl"]) == 0
+    assert main(["replay", "a.jsonl"]) == 1
     assert capsys.readouterr().out.splitlines() == [
         "a.jsonl:2: the log is cut off at once",
         "a.jsonl: the door is opened: 0 turns, all the same",

@@ -249,3 +249,49 @@ def test_what_is_dropped_is_gone():
 def test_only_questions_are_under_discussion():
     with pytest.raises(TTRError, match="only questions are under discussion, not"):
         push((), TO_PARIS)
+
+
+def test_what_is_denied_twice_is_said() -> None:
+    dest = Pred("dest_city", Basic("City"))
+    M = Model().given("paris", Basic("City"))
+    there = rectype(e=dest("paris"))
+    assert relevant(~~there, which(dest), M)
+    assert resolves(~~there, which(dest), M)
+    assert not resolves(~~~there, which(dest), M)
+
+
+def test_a_question_whether_not_is_answered_by_what_it_denies() -> None:
+    back = rectype(e=Pred("return_trip", ())())
+    for answer in (back, ~back, ~~back):
+        assert resolves(answer, whether(~back), Model())
+
+
+def test_a_meet_of_propositions_answers_what_one_of_them_does() -> None:
+    City = Basic("City")
+    dest, start = Pred("dest_city", City), Pred("from_city", City)
+    M = Model().given("paris", City).given("oslo", City)
+    both = rectype(e=dest("paris")) & rectype(f=start("oslo"))
+    assert resolves(both, which(dest), M)
+    assert asked_of(which(dest), both, M) == record(x="paris")
+
+
+@pytest.mark.parametrize("junk", [None, 5, Ind, "ab", b"ab", this.x, Pred("p", Ind)])
+def test_what_is_no_list_of_questions_is_refused(junk: object) -> None:
+    question = whether(Rec)
+    for wrong in (
+        lambda: top(junk),
+        lambda: pop(junk, question),
+        lambda: push(junk, question),
+        lambda: downdate(junk, [], Model()),
+        lambda: downdate([question], junk, Model()),
+        lambda: resolving(question, junk, Model()),
+    ):
+        with pytest.raises(TTRError, match="a list is expected here"):
+            wrong()
+    with pytest.raises(TTRError):
+        asked_of(junk, Rec, Model())
+
+
+def test_which_asks_for_a_predicate() -> None:
+    with pytest.raises(TTRError, match="asks for a predicate"):
+        which(5)

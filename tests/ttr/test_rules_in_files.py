@@ -411,6 +411,16 @@ MISTAKES = {
         "the path x.dep leads nowhere: [deep : Ind] has no dep",
         "did you mean deep?",
     ),
+    "rule r(s : State, spkr : Ind) := [spkr = spkr : Ind]": (
+        42,
+        "the field spkr is set by itself: spkr is a label here",
+        "spkr of the rule cannot be seen here: call it another way",
+    ),
+    "rule r(s : State) := [spkr = spkr : Ind]": (
+        30,
+        "the field spkr is set by itself: spkr is a label here",
+        "say what it is set to",
+    ),
     "rule r(s : State) := [spkr = e.act : Ind]": (
         30,
         "nothing is called e here",

@@ -9,7 +9,17 @@ from xml.etree import ElementTree
 
 import pytest
 
-from ttr import TTRError, record
+from ttr import (
+    Basic,
+    ListOf,
+    Model,
+    Record,
+    RecType,
+    TTRError,
+    record,
+    rectype,
+    replace,
+)
 from ttr.cli import main
 from ttr.stories import (
     Line,
@@ -26,7 +36,7 @@ from ttr.stories import (
     written,
 )
 from ttr.theories import Theory
-from ttr.updates import Game, nbest, rule
+from ttr.updates import Game, first, nbest, rule
 
 DOOR = (Path(__file__).parent.parent / "games" / "door.ttr").read_text("utf-8")
 
@@ -112,7 +122,7 @@ def test_a_file_without_a_story(file: Path, text: str) -> None:
 
 
 def test_files_that_cannot_be_read(tmp_path: Path) -> None:
-    assert "is not there" in error_of(tmp_path / "nowhere.dlg")
+    assert "there is no file" in error_of(tmp_path / "nowhere.dlg")
     assert "is a folder" in error_of(tmp_path)
     latin = tmp_path / "latin.dlg"
     latin.write_bytes("U> Grüße".encode("latin-1"))
@@ -296,15 +306,15 @@ def test_a_start_that_is_none(file: Path, door: Setting, start: str, told: str) 
 
 REFERENCES = {
     "door.ttr dor": "door.ttr has no game dor: did you mean door?",
-    "dor.ttr door": "dor.ttr is not there: did you mean door.ttr?",
-    "nowhere/door.ttr door": "nowhere/door.ttr is not there",
+    "dor.ttr door": "there is no file dor.ttr: did you mean door.ttr?",
+    "nowhere/door.ttr door": "there is no file nowhere/door.ttr",
     "broken.ttr door": "broken.ttr:1: ",
     "empty.ttr": "name a game of empty.ttr: there is none in it",
-    "door": "a game is named as `@ game FILE.ttr NAME`",
+    "door": "a game is named as FILE.ttr NAME",
     "game.py:dor": "game.py has no game dor",
-    "gone.py:door": "gone.py is not there",
+    "gone.py:door": "there is no file gone.py",
     "raising.py:door": "raising.py cannot be run: ZeroDivisionError",
-    "no.such.module:door": "no.such.module cannot be run: ModuleNotFoundError",
+    "no.such.module:door": "there is no module no.such.module: name a game as",
     "json:dumps": "json has no game dumps: there is none in it",
 }
 
@@ -327,7 +337,10 @@ def test_a_story_of_a_game_that_is_not_there(
 
 def test_a_story_without_a_game_says_how_to_name_one(file: Path) -> None:
     file.write_text("--- one\nU>\n")
-    with pytest.raises(StoryError, match=r":2: the story names no game"):
+    with pytest.raises(StoryError, match=r":2: the story names no game: begin"):
+        play(read_stories(file)[0])
+    file.write_text("@ gmae door.ttr\nU>\n")
+    with pytest.raises(StoryError, match=r"names no game: did you mean game\?"):
         play(read_stories(file)[0])
 
 
@@ -420,7 +433,7 @@ def test_a_rule_that_fails_is_a_difference(file: Path) -> None:
     file.write_text("U>\nS>\n")
     found = play(read_stories(file)[0], Setting.of(game, theory)).mismatch
     assert found is not None
-    assert (found.line.number, found.expected) == (1, "a turn")
+    assert (found.line.number, found.expected) == (1, "a turn without an error")
     assert found.found == "the rule broken failed: ValueError: oh"
 
 
@@ -534,7 +547,7 @@ def test_a_file_that_is_not_there_is_wrong_use(
 ) -> None:
     assert main(["play", "--quiet", "gone.dlg", "good.dlg"]) == 2
     printed = capsys.readouterr()
-    assert printed.err == "ttr: gone.dlg is not there\n"
+    assert printed.err == "ttr: there is no file gone.dlg\n"
     assert printed.out == "good.dlg: 1 story as written\n"
     assert main(["play", "gone.dlg", "--junit", "report.xml"]) == 2
     root = ElementTree.parse(folder / "report.xml").getroot()
@@ -547,7 +560,7 @@ def test_a_report_that_cannot_be_written_is_told(
 ) -> None:
     assert main(["play", "--quiet", "good.dlg", option, "no/such/folder"]) == 2
     told = capsys.readouterr().err
-    assert told == "ttr: no/such/folder cannot be written: No such file or directory\n"
+    assert told == "ttr: no/such/folder cannot be written: no such file or directory\n"
 
 
 ALLOWED = {
@@ -589,3 +602,64 @@ def test_moments_are_shown_to_a_witness_as_they_come(file: Path, door: Setting) 
     assert tuple(seen) == result.moments
     assert [one.line for one in seen] == ["U> Greet", "U> Answer"]
     assert seen[0].said == ("GreetBack", "Ask")
+
+
+# --- words that look like something else ----------------------------------------------
+
+
+def parrot(words: str | None = None) -> Setting:
+    """A game that says what it hears, or always the same."""
+    T = Basic("Text")
+    board = rectype(said=ListOf(T), agenda=ListOf(RecType))
+    move = rectype(words=T)
+
+    @rule(when=board, on=T)
+    def repeats(s: Record, e: str) -> Record:
+        return replace(s, agenda=[rectype(words=T @ e)])
+
+    @rule(when=board, on=move)
+    def has_said(s: Record, e: Record) -> Record:
+        return replace(s, agenda=[])
+
+    game = Game(
+        "parrot",
+        board,
+        record(said=[], agenda=[]),
+        first(has_said, repeats),
+        Model().witnessed(T, by=lambda one: isinstance(one, str)),
+        "agenda",
+        hear=str,
+        say=lambda told: str(told.type["words"].value) if words is None else words,
+    )
+    return Setting.of(game)
+
+
+@pytest.mark.parametrize(
+    "words", ["a # b", "# a", "a #", r"a \# b", r"\\#", "#2", "S> a", "--- a", r"\n"]
+)
+def test_a_story_written_with_any_words_plays(file: Path, words: str) -> None:
+    setting = parrot()
+    turns = [
+        moment(turn, setting, f"U> {words}") for turn in setting.game.play([words])
+    ]
+    file.write_text(written(f"of\n{words}", turns, setting), encoding="utf-8")
+    (story,) = read_stories(file)
+    assert play(story, setting).mismatch is None
+    assert story.lines[0].text == words
+
+
+def test_a_move_without_words_is_silence(file: Path) -> None:
+    setting = parrot("")
+    turns = [moment(turn, setting, "U> a") for turn in setting.game.play(["a"])]
+    text = written("silence", turns, setting)
+    assert "S>" not in text
+    file.write_text(f"{text}S>\n", encoding="utf-8")
+    (story,) = read_stories(file)
+    assert play(story, setting).mismatch is None
+
+
+def test_a_line_of_a_story_is_one_line() -> None:
+    setting = parrot()
+    turns = [moment(turn, setting, "U> a\u2028b") for turn in setting.game.play(["a"])]
+    with pytest.raises(StoryError, match="has a line break in it"):
+        written("two lines", turns, setting)

@@ -104,11 +104,12 @@ def test_the_same_seed_tells_the_same(capsys):
 @pytest.mark.parametrize(
     ("rules", "told"),
     [
-        (["missing.ttr"], "missing.ttr is not there"),
+        (["missing.ttr"], "there is no file missing.ttr"),
         (["none.ttr"], "none.ttr has no game"),
         (["good.ttr", "--game", "tlak"], "did you mean talk?"),
         (["beside.py:gaem"], "did you mean game?"),
-        (["nowhere:game"], "nowhere cannot be run"),
+        (["nowhere:game"], "there is no module nowhere: name a game as FILE.ttr NAME"),
+        (["talk.dlg"], "there is no module talk.dlg: name a game as FILE.ttr NAME"),
     ],
 )
 def test_what_is_not_there_is_told_in_a_line(rules, told, capsys):

@@ -395,8 +395,13 @@ def test_one_rule_is_tested_by_itself():
         (lambda: testing.check_rules("note", Board), "are rules or a game"),
         (lambda: testing.check_rules(7, Board), "are rules or a game"),
         (lambda: testing.check_rules(["note"], Board), "first takes rules"),
-        (lambda: testing.check_rules(GOOD, properties=["P99"]), "found 'P99'"),
+        (
+            lambda: testing.check_rules(GOOD, properties=["P99"]),
+            "is one of P1, P2, .*, P20, or one's own, found 'P99'",
+        ),
         (lambda: testing.check_rules(GOOD, tutor=3), "a tutor is a Tutor"),
+        (lambda: testing.check_rules(GOOD, examples=0), "a number from 1 on, found 0"),
+        (lambda: testing.on_dialogues(GOOD, examples=0)(print), "a number from 1 on"),
         (lambda: testing.check_rule(GOOD, Board), "one rule is checked"),
         (lambda: testing.machine(3), "a machine is made of a game"),
         (lambda: testing.on_dialogues(3), "dialogues are drawn of a game"),
@@ -416,6 +421,11 @@ def test_wrong_use_is_told_in_a_line(wrong, told):
     with pytest.raises(TTRError, match=told) as caught:
         wrong()
     assert "\n" not in caught.value.message
+
+
+def test_a_report_prints_what_was_covered():
+    report = testing.check_rules(GOOD, examples=5)
+    assert str(report) == report.coverage.table()
 
 
 # --- pytest and Hypothesis -----------------------------------------------------------

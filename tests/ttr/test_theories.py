@@ -257,7 +257,7 @@ def test_what_cannot_be_read_is_told(tmp_path: Path) -> None:
     for name, said in (
         ("none.ttr", "there is no file"),
         ("latin.ttr", "is no text: it must be UTF-8"),
-        (".", "cannot be read"),
+        (".", "is a folder, not a file"),
         ("\0", "is no path of a file"),
     ):
         with pytest.raises(Unreadable, match=said):

@@ -100,6 +100,21 @@ def test_no_is_the_negation_of_what_was_asked():
     assert THEORY["Return"].body in talk(*asked, "yes").state.shared.com
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("not paris", "not to paris", "not from paris", "not may", "not in may"),
+        *("not back in may", "not train", "not by train", "not economy"),
+    ],
+)
+def test_not_is_never_passed_over(text):
+    said = BOOK.hear(text)
+    plain = BOOK.hear(text.replace("not ", ""))
+    assert str(said) != str(plain)
+    turn = talk("price", text)
+    assert not any(str(fact) in str(plain) for fact in turn.state.shared.com)
+
+
 def test_no_is_no_answer_to_a_question_which():
     turn = talk("price", "no")
     assert "integrate_useless" in rules(turn)

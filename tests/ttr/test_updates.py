@@ -664,7 +664,7 @@ def test_a_rule_is_a_plain_function_of_the_state():
         rule(when=Rec)(type)
 
 
-@pytest.mark.parametrize("events", [record(a=1), {"a": 1}, b"ab"])
+@pytest.mark.parametrize("events", [record(a=1), {"a": 1}, b"ab", rectype(a=Ind)])
 def test_one_event_is_no_list_of_events(events):
     with pytest.raises(
         UpdateError, match="events are a list of objects, found the one"

@@ -20,7 +20,7 @@ from ttr.commands.output import (
     say,
 )
 from ttr.errors import TTRError
-from ttr.files import write_whole
+from ttr.files import check_outputs, write_whole
 
 if TYPE_CHECKING:
     from ttr.logs import LogFile
@@ -56,6 +56,11 @@ def _play(options: argparse.Namespace) -> int:
     from ttr.logs import LogFile
     from ttr.stories import Outcome, StoryError, read_stories
 
+    outputs = (options.log, options.html, options.junit)
+    try:
+        check_outputs(options.files, outputs)
+    except TTRError as error:
+        return complain(str(error))
     plan: list[tuple[str, Story]] = []
     unread: list[Outcome] = []
     for file in options.files:

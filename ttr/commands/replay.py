@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ttr.commands.output import FAILED, FINE, Commands, complain, say
 from ttr.errors import TTRError
-from ttr.files import write_whole
+from ttr.files import check_outputs, write_whole
 
 if TYPE_CHECKING:
     from ttr.logs import Log, Replayed
@@ -23,7 +23,7 @@ def add(commands: Commands) -> None:
         "replay",
         help="play a log again, and say where it differs",
         description="Plays the dialogues of a log again; exits with 1 if anything "
-        "differs.",
+        "differs, or if the log is cut off.",
     )
     replay.add_argument("file", type=Path, metavar="FILE", help="a log (.jsonl)")
     replay.add_argument(
@@ -48,27 +48,25 @@ def _turn(text: str) -> int:
 
 
 def _replay(options: argparse.Namespace) -> int:
-    from ttr.logs import read_logs
+    from ttr.logs import UnreadableLog, read_logs
 
     try:
-        logs = read_logs(options.file)
+        check_outputs([options.file], [options.story, options.html])
     except TTRError as error:
-        return _told(error, options)
+        return complain(str(error))
     try:
+        logs = read_logs(options.file)
         played = [_again(log, options) for log in logs]
-        _write(options, played)
+    except UnreadableLog as error:
+        return complain(str(error))
     except TTRError as error:
         say(str(error))
         return FAILED
-    return max(_report(log, again, options.turn) for log, _, again in played)
-
-
-def _told(error: TTRError, options: argparse.Namespace) -> int:
-    """A file that is not there is wrong use; one that is damaged has failed."""
-    if not options.file.is_file():
+    try:
+        _write(options, played)
+    except TTRError as error:
         return complain(str(error))
-    say(str(error))
-    return FAILED
+    return max(_report(log, again, options.turn) for log, _, again in played)
 
 
 def _again(log: Log, options: argparse.Namespace) -> tuple[Log, Setting, Replayed]:
@@ -99,7 +97,7 @@ def _report(log: Log, again: Replayed, start: int) -> int:
     after = f" after turn {start}" if start else ""
     same = "all the same" if start < count or not start else "none"
     say(f"{name}: {turns}, {same}{after}")
-    return FINE
+    return FAILED if log.cut else FINE
 
 
 def _write(

@@ -64,7 +64,7 @@ def add(commands: Commands) -> None:
 
 def _count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"expected 1, 2, 3 or so, found {text}")
+        raise argparse.ArgumentTypeError(f"expected a number from 1 on, found {text}")
     return int(text)
 
 
@@ -106,7 +106,7 @@ def _places(rules: str, game: str | None) -> list[Setting]:
     from ttr.theories import load
 
     if not Path(rules).is_file():
-        raise TTRError(f"{rules} is not there")
+        raise TTRError(f"there is no file {rules}")
     names = load(rules).openings
     if not names:
         raise TTRError(f"{rules} has no game: write `game NAME(START : TYPE) := …`")
@@ -161,7 +161,7 @@ class _Outcome:
 
     def _summary(self) -> str:
         name, count = self.place.game.name, self.coverage.dialogues
-        took = f"{count} dialogues in {self.seconds:.1f} s"
+        took = f"{count} dialogue{'s' * (count != 1)} in {self.seconds:.1f} s"
         if self.report is None:
             return f"{name}: stopped after {took}"
         return f"{name}: {'holds' if self.code == FINE else 'breaks'}, {took}"

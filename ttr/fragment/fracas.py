@@ -16,6 +16,7 @@ from typing import Literal, NoReturn, TypeAlias
 from xml.parsers import expat
 
 from ttr.errors import TTRError
+from ttr.files import why_unread
 from ttr.fragment.inference import follows
 from ttr.fragment.lexicon import Lexicon
 from ttr.fragment.reading import OutsideFragment
@@ -85,11 +86,8 @@ def problems(path: str | os.PathLike[str]) -> tuple[Problem, ...]:
 def _parsed(path: str | os.PathLike[str]) -> ET.Element:
     try:
         data = Path(path).read_bytes()
-    except FileNotFoundError:
-        raise Unreadable(f"there is no file {path}") from None
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise Unreadable(f"{path} cannot be read: {reason}") from None
+        raise Unreadable(why_unread(path, error)) from None
     except ValueError:
         raise Unreadable(f"{path!r} is no name of a file") from None
     if len(data) > LARGEST:

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from ttr.errors import NotationError, TTRError, Unsupported, following_nesting
+from ttr.files import write_whole
 from ttr.judgements import Judgement, Why
 from ttr.models import Model
 from ttr.notation import trees
@@ -417,15 +418,16 @@ def _entries(path: Path) -> Iterator[Entry]:
 def saved(session: Session, path: Path) -> None:
     """Writes the statements into a file that loads again, imports too.
 
-    Raises `Unsupported` where the file cannot be written.
+    Raises `TTRError` where the file cannot be written.
     """
     folder = path.resolve().parent
     text = "".join(f"{_relative(entry.text, folder)}\n" for entry in session.entries)
     try:
-        path.write_text(text, encoding="utf-8")
-    except (OSError, ValueError) as error:
-        why = (getattr(error, "strerror", "") or "it is no path of a file").lower()
-        raise Unsupported(f"{path} cannot be written: {why}") from None
+        write_whole(path, text)
+    except ValueError:
+        raise Unsupported(
+            f"{path} cannot be written: it is no path of a file"
+        ) from None
 
 
 def _relative(text: str, folder: Path) -> str:

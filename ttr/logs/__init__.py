@@ -5,7 +5,7 @@ where anything differs, `continued` takes the dialogue up, `story_of` makes a st
 """
 
 from ttr.logs.entries import Entry, Header, LogError
-from ttr.logs.reading import Log, read_logs
+from ttr.logs.reading import Log, UnreadableLog, read_logs
 from ttr.logs.replaying import (
     Divergence,
     Replayed,
@@ -24,6 +24,7 @@ __all__ = [
     "LogError",
     "LogFile",
     "Replayed",
+    "UnreadableLog",
     "continued",
     "read_logs",
     "replay",

@@ -91,10 +91,11 @@ def header(facts: object) -> Header | None:
     if not isinstance(facts, dict) or "log" not in facts:
         return None
     if facts["log"] != FORMAT:
-        raise Fault(f"a log of another kind: {facts['log']}")
+        raise Fault(f"a log of another kind: {json.dumps(facts['log'])}")
     if facts.get("version") != VERSION:
         raise Fault(
-            f"a log of version {facts.get('version')}, but {VERSION} is read here"
+            f"a log of version {json.dumps(facts.get('version'))}, but {VERSION} is "
+            "read here"
         )
     return Header(
         _text(facts, "game"),
@@ -177,7 +178,7 @@ def _rule(one: object) -> Mapping[str, Any]:
         "rule": _text(one, "rule"),
         "event": _text(one, "event"),
         "with": _of(one, "with", dict),
-        "changes": _list(one, "changes"),
+        "changes": list(_texts(one, "changes")),
     }
 
 

@@ -9,10 +9,15 @@ from functools import cached_property
 from pathlib import Path
 
 from ttr.errors import TTRError
+from ttr.files import why_unread
 from ttr.logs.declaring import Declared
 from ttr.logs.entries import Entry, Fault, Header, LogError, entry, header
 
-__all__ = ["Log", "read_logs"]
+__all__ = ["Log", "UnreadableLog", "read_logs"]
+
+
+class UnreadableLog(LogError):
+    """A log that is not there, or that may not be read; it may well be a good one."""
 
 
 @dataclass(frozen=True)
@@ -38,9 +43,10 @@ class Log:
         try:
             return Declared().together_with(statements, objects)
         except TTRError as error:
+            why = error.message.partition("\n")[0]
             raise LogError(
                 f"{self.file}:{self.number}: the names declared here and below cannot "
-                f"be read: {error.message}"
+                f"be read: {why}"
             ) from error
 
     def place(self, turn: int) -> str:
@@ -56,16 +62,14 @@ class Log:
 def read_logs(path: Path) -> tuple[Log, ...]:
     """The dialogues in a file. Raises `LogError` for a line that has been damaged.
 
+    Of these, `UnreadableLog` is for a file that cannot be read at all.
+
     The last line may be cut off: what is before it is given.
     """
     try:
         text = path.read_bytes()
-    except FileNotFoundError:
-        raise LogError(f"{path} is not there") from None
-    except IsADirectoryError:
-        raise LogError(f"{path} is a folder: name a log in it") from None
     except OSError as error:
-        raise LogError(f"{path} cannot be read: {error.strerror}") from None
+        raise UnreadableLog(why_unread(path, error)) from None
     *lines, rest = text.split(b"\n")
     logs = _dialogues(path, lines)
     if rest and logs:
@@ -108,6 +112,6 @@ def _parsed(path: Path, lines: list[bytes]) -> Iterator[Header | Entry]:
         except Fault as fault:
             raise LogError(f"{path}:{number}: {fault}") from None
         except UnicodeDecodeError:
-            raise LogError(f"{path}:{number}: this is not a text in UTF-8") from None
+            raise LogError(f"{path}:{number}: this is no text in UTF-8") from None
         except (ValueError, RecursionError):
             raise LogError(f"{path}:{number}: this is no JSON") from None

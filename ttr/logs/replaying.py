@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from ttr.errors import TTRError
 from ttr.logs.entries import Entry, LogError
-from ttr.logs.facts import Fact, restored
+from ttr.logs.facts import Fact, gained, restored
 from ttr.logs.reading import Log
 from ttr.logs.writing import LogFile
 from ttr.printing import notation
 from ttr.probability import Degree
 from ttr.records import differences
 from ttr.stories import Moment, Setting, moment, written
+from ttr.stories.writing import turn_lines
 from ttr.syntax import Basic, Object, PType, Record
-from ttr.updates import Run, Turn, nbest
+from ttr.updates import Run, Step, Turn, nbest
 
 __all__ = ["Divergence", "Replayed", "continued", "replay", "run_after", "story_of"]
 
@@ -120,8 +122,8 @@ def story_of(log: Log, setting: Setting, folder: Path | None = None) -> str:
     start = None if usual else _state(log, 0, log.header.start)
     lines = [written(log.header.title or "a dialogue", [], setting, start=start)]
     for entry in log.entries:
-        lines.append(f"{entry.line}\n")
-        lines += [f"S> {words}\n" for _, words in entry.said]
+        said = [words for _, words in entry.said]
+        lines += [f"{line}\n" for line in turn_lines(entry.line, said)]
     return "".join(lines)
 
 
@@ -137,12 +139,14 @@ def _again(
         turn = setting.game.take(now, event)
     except TTRError as error:
         return None, Divergence(place, "the turn", "no error", error.message)
-    for what, logged, found in _compared(log, entry, turn):
+    for what, logged, found in _compared(log, entry, now, turn):
         return turn, Divergence(place, what, logged, found)
     return turn, None
 
 
-def _compared(log: Log, entry: Entry, turn: Turn) -> Iterator[tuple[str, str, str]]:
+def _compared(
+    log: Log, entry: Entry, now: Run, turn: Turn
+) -> Iterator[tuple[str, str, str]]:
     """What is different, as it is in the log and as it was found."""
     rules = [one["rule"] for one in entry.rules]
     ran = [step.rule.name for step in turn.trace]
@@ -159,9 +163,39 @@ def _compared(log: Log, entry: Entry, turn: Turn) -> Iterator[tuple[str, str, st
     if entry.state != notation(turn.state):
         yield _first_difference(_state(log, entry.turn, entry.state), turn.state)
     for one, step in zip(entry.rules, turn.trace, strict=True):
-        if one["changes"] != list(step.changes):
-            logged, found = ("; ".join(some) for some in (one["changes"], step.changes))
-            yield f"what {step.rule.name} changed", logged, found
+        yield from _step_compared(one, step)
+    facts = tuple(_fact(log, entry, *judged) for judged in entry.judged)
+    new = gained(now.model, turn.model)
+    if facts != new:
+        yield "what was judged", _listed(facts), _listed(new)
+    if entry.names != turn.model.facts.created:
+        count = turn.model.facts.created
+        yield "how many names were given", str(entry.names), str(count)
+
+
+def _step_compared(
+    one: Mapping[str, Any], step: Step
+) -> Iterator[tuple[str, str, str]]:
+    """What is different in what a rule did."""
+    name = step.rule.name
+    event = "" if step.event is None else notation(step.event)
+    if one["event"] != event:
+        yield f"what {name} took", str(one["event"]), event
+    bound = {label: notation(value) for label, value in step.bindings.items()}
+    if one["with"] != bound:
+        yield f"what {name} bound", _bindings(one["with"]), _bindings(bound)
+    if one["changes"] != list(step.changes):
+        logged, found = ("; ".join(some) for some in (one["changes"], step.changes))
+        yield f"what {name} changed", logged, found
+
+
+def _bindings(bound: Mapping[str, object]) -> str:
+    return ", ".join(f"{label} = {value}" for label, value in bound.items()) or "none"
+
+
+def _listed(facts: Iterable[Fact]) -> str:
+    told = (f"{notation(one.sit)} : {one.type} {one.p}" for one in facts)
+    return ", ".join(told) or "nothing"
 
 
 def _first_difference(logged: Record, found: Record) -> tuple[str, str, str]:
@@ -208,10 +242,14 @@ def _state(log: Log, turn: int, text: str) -> Record:
     raise LogError(f"{log.place(turn)}: the state is no record, but {text[:60]}")
 
 
+def _first_line(error: TTRError) -> str:
+    return error.message.partition("\n")[0]
+
+
 def _value(log: Log, turn: int, what: str, text: str) -> Object:
     try:
         return log.declared.read(text, log.file)
     except TTRError as error:
         raise LogError(
-            f"{log.place(turn)}: {what} cannot be read: {error.message}"
+            f"{log.place(turn)}: {what} cannot be read: {_first_line(error)}"
         ) from error

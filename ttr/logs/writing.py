@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from io import FileIO
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
 from ttr.errors import TTRError
+from ttr.files import why_unwritten
 from ttr.logs.declaring import Declared
 from ttr.logs.entries import Entry, Header, LogError
 from ttr.logs.facts import Fact, gained, only_facts
@@ -61,10 +63,9 @@ class LogFile:
     """
 
     def __init__(self, path: Path) -> None:
-        """Begins a new log; raises `LogError` where none can be written."""
+        """A new log, which is there as soon as a dialogue begins."""
         self.path = path
-        with _failing(path):
-            self._file = path.open("wb", buffering=0)
+        self._file: FileIO | None = None
         self._now: _Now | None = None
 
     @classmethod
@@ -75,17 +76,20 @@ class LogFile:
         log = cls.__new__(cls)
         log.path = path
         with _failing(path):
-            log._file = path.open("r+b", buffering=0)
-            whole = log._file.read().rfind(b"\n") + 1  # the rest was cut off
-            log._file.seek(whole)
-            log._file.truncate()
+            log._file = file = FileIO(path, "r+")
+            whole = file.readall().rfind(b"\n") + 1  # the rest was cut off
+            file.seek(whole)
+            file.truncate()
         log._now = _Now(setting, turn, run.model, declared)
         return log
 
     def begin(
         self, setting: Setting, title: str = "", start: Run | None = None
     ) -> None:
-        """Begins a dialogue, at the start of the game if nothing else is said."""
+        """Begins a dialogue, at the start of the game if nothing else is said.
+
+        Raises `LogError` where the log cannot be written.
+        """
         run = start or setting.game.begin()
         statements, objects = Declared().missing([run.state])
         declared = _declared(Declared(), statements, objects)
@@ -113,14 +117,17 @@ class LogFile:
         self._now = _Now(now.setting, entry.turn, one.turn.model, declared)
 
     def _write(self, line: Header | Entry) -> None:
-        waiting = memoryview(f"{line.text()}\n".encode())
+        waiting = memoryview(_encoded(f"{line.text()}\n"))
         with _failing(self.path):
+            if self._file is None:
+                self._file = FileIO(self.path, "w")
             while waiting:  # in one piece, unless the disk is nearly full
                 waiting = waiting[self._file.write(waiting) :]
 
     def close(self) -> None:
         """Lets go of the file."""
-        self._file.close()
+        if self._file is not None:
+            self._file.close()
 
     def __enter__(self) -> Self:
         return self
@@ -139,7 +146,15 @@ def _failing(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        raise LogError(f"{path} cannot be written: {error.strerror}") from None
+        raise LogError(why_unwritten(path, error)) from None
+
+
+def _encoded(text: str) -> bytes:
+    try:
+        return text.encode()
+    except UnicodeEncodeError as error:
+        found = ascii(text[error.start : error.end])
+        raise LogError(f"no log can keep the character {found}") from None
 
 
 def _unwritable(what: str, value: object) -> LogError:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ttr.errors import NotationError, Span, TTRError
+from ttr.files import why_unread
 from ttr.interning import identity
 from ttr.notation import trees
 from ttr.notation.drafts import Draft, Names, is_declared, meaning
@@ -110,13 +111,8 @@ def _contents(path: Path) -> tuple[Path, str]:
     """A file's one true path and its text; raises `Unreadable`."""
     try:
         return path.resolve(), path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise Unreadable(f"there is no file {path}") from None
-    except OSError as error:
-        why = (error.strerror or "it cannot be opened").lower()
-        raise Unreadable(f"{path} cannot be read: {why}") from None
-    except UnicodeDecodeError:
-        raise Unreadable(f"{path} is no text: it must be UTF-8") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise Unreadable(why_unread(path, error)) from None
     except (ValueError, RuntimeError):
         raise Unreadable(f"{str(path)!r} is no path of a file") from None
 

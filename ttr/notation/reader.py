@@ -138,7 +138,7 @@ def _listed(using: Iterable[object]) -> tuple[object, ...]:
 
 
 def read(text: str, theory: Theory, source: str = "<text>") -> Object:
-    """The type or object that a text stands for in a theory."""
+    """The type or object that a text stands for in a theory; else `NotationError`."""
     from ttr.notation import grammar
 
     place = Source.of(text, source)

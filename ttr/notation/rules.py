@@ -207,6 +207,7 @@ class _Ruling:
                 "write what is new: [x = a : T] changes x and leaves the rest",
             )
         self._check_fits(term, found, around)
+        self._check_makes(term, found, around)
         return found
 
     # --- paths ---
@@ -229,6 +230,20 @@ class _Ruling:
             wrong = culprit(term, value, is_wrong)
             raise error.at(self.reader.source.span(wrong)) from None
 
+    def _check_makes(self, term: Term, value: Object, around: RecordType) -> None:
+        """Refuses a field that is set by itself, as nothing can be made of that.
+
+        So it is where a label hides what the rule calls by the same name.
+        """
+        for path in _by_themselves(value):
+            label = path.labels[0]
+            hidden = f"{label} of the rule cannot be seen here: call it another way"
+            self.reader.refuse(
+                _place(term, path),
+                f"the field {label} is set by itself: {label} is a label here",
+                hidden if label in around else "say what it is set to",
+            )
+
     def _refuse_path(self, term: Term, path: Path, error: TTRError) -> NoReturn:
         """Underlines the path where it is written, and says who tells what is there."""
         variable = path.labels[0]
@@ -236,6 +251,18 @@ class _Ruling:
             hint = f"what {variable} has is said in the brackets: {variable} : [x : T]"
             error = type(error)(error.message, hint=hint)
         raise error.at(self.reader.source.span(_place(term, path))) from None
+
+
+def _by_themselves(value: Object) -> Iterator[Path]:
+    """The paths from a field of a record type to this field."""
+    if not isinstance(value, RecordType):
+        return
+    for label, field in value.fields:
+        if isinstance(field, RecordType):
+            yield from _by_themselves(field)
+        for path in sorted(escaping(field), key=lambda one: one.labels):
+            if (path.up, path.labels[0]) == (0, label):
+                yield path
 
 
 def _place(term: Term, path: Path) -> Part:

@@ -44,7 +44,7 @@ def value(setting: Setting, now: Run, line: Line, text: str, begin: int) -> Obje
 
 
 def type_of(setting: Setting, now: Run, line: Line, text: str, begin: int) -> TypeNode:
-    """The type that a part of a line stands for."""
+    """The type that a part of a line stands for; raises `StoryError` for another."""
     T = value(setting, now, line, text, begin)
     if isinstance(T, TypeNode):
         return T

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from ttr.errors import TTRError
+from ttr.errors import TTRError, suggestion
 from ttr.stories.hearing import value
 from ttr.stories.reading import Line, Story, StoryError
 from ttr.stories.settings import Setting, setting
@@ -17,9 +17,12 @@ __all__ = ["opening", "setting_of", "turns_of"]
 def setting_of(story: Story) -> Setting:
     """The setting that a story names; raises `StoryError`."""
     if story.game is None:
-        raise story.lines[0].wrong(
-            "the story names no game: begin the file with `@ game FILE.ttr NAME`"
+        first = story.lines[0]
+        verb = first.text.partition(" ")[0] if first.mark == "@" else ""
+        near = suggestion(verb, ("game",)) or "begin the file with " + (
+            "`@ game FILE.ttr NAME`"
         )
+        raise first.wrong(f"the story names no game: {near}")
     reference = story.game.text.partition(" ")[2].strip()
     try:
         return setting(reference, Path(story.game.file).parent)
@@ -28,7 +31,10 @@ def setting_of(story: Story) -> Setting:
 
 
 def opening(story: Story, setting: Setting) -> Setting:
-    """The setting, with the start that the story says, if it says one."""
+    """The setting, with the start that the story says, if it says one.
+
+    Raises `StoryError` for a start that no state of the game can be.
+    """
     first = story.lines[0]
     if not _says_start(first):
         return setting

@@ -99,12 +99,13 @@ class _Playing:
             raise line.wrong(error.message) from error
         except TTRError as error:
             self._said = []
-            return Mismatch(line, "a turn", error.message)
+            return Mismatch(line, "a turn without an error", error.message)
         self._now = turn.run
-        self._said = list(zip(turn.said, done.said, strict=True))
+        said = zip(turn.said, done.said, strict=True)
+        self._said = [(move, words) for move, words in said if words]
         self.moments.append(done)
         self._witness(done)
-        for words in done.said:
+        for _, words in self._said:
             self._echo(f"S> {words}")
         return None
 
@@ -167,7 +168,13 @@ class _Playing:
 
 
 def fits(line: Line, words: str) -> bool:
-    """Whether words are as the regular expression of a line says."""
+    """Whether words are as the regular expression of a line says.
+
+    Raises `StoryError` for what is no regular expression.
+
+    >>> fits(Line("a.dlg", 1, "S~", "Hello.*"), "Hello, you.")
+    True
+    """
     try:
         return re.fullmatch(line.text, words) is not None
     except re.error as error:

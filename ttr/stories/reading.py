@@ -16,8 +16,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ttr.errors import Span, TTRError
+from ttr.files import why_unread
 
-__all__ = ["Line", "Story", "StoryError", "read_stories"]
+__all__ = ["Line", "Story", "StoryError", "line_of", "read_stories"]
 
 _MARKS = ("---", "@", "U>", "U~", "S>", "S~", "=")
 
@@ -80,14 +81,8 @@ def read_stories(path: Path) -> tuple[Story, ...]:
     """
     try:
         text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise StoryError(f"{path} is not there") from None
-    except IsADirectoryError:
-        raise StoryError(f"{path} is a folder: name a .dlg file in it") from None
-    except UnicodeDecodeError:
-        raise StoryError(f"{path} is not a text in UTF-8") from None
-    except OSError as error:
-        raise StoryError(f"{path} cannot be read: {error.strerror}") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise StoryError(why_unread(path, error)) from None
     stories = tuple(_stories(path.stem, _lines(path, text)))
     if not stories:
         raise StoryError(f"{path} has no story: write lines such as `U> Hello.`")
@@ -112,8 +107,23 @@ def _lines(path: Path, text: str) -> Iterator[Line]:
 
 
 def _content(text: str) -> str:
-    """The text of a line without the comment at its end; `#2` points and is none."""
-    return re.split(r"\s#\s", f" {text}", maxsplit=1)[0].strip()
+    """The text of a line without the comment at its end; `#2` points and is none.
+
+    A `#` that stands alone, but begins no comment, has a backslash before it.
+    """
+    plain = re.split(r"\s#(?:\s|$)", f" {text}", maxsplit=1)[0].strip()
+    return re.sub(r"(?<!\S)\\(\\*#)(?!\S)", r"\1", plain)
+
+
+def line_of(text: str) -> str:
+    """What is read as this text, as a line of a story; raises `StoryError`.
+
+    >>> line_of("U> no # comment")
+    'U> no \\\\# comment'
+    """
+    if len(text.splitlines()) > 1:
+        raise StoryError(f"no line of a story has a line break in it: {text!r}")
+    return re.sub(r"(?<!\S)(\\*#)(?!\S)", r"\\\1", text)
 
 
 def _stories(title: str, lines: Iterator[Line]) -> Iterator[Story]:

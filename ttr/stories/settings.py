@@ -14,8 +14,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Self
 
-from ttr.errors import NotationError, TTRError, suggestion
+from ttr.errors import TTRError, suggestion
 from ttr.models import Model
+from ttr.notation.loading import Unreadable
 from ttr.notation.reader import read
 from ttr.stories.reading import StoryError
 from ttr.syntax import Basic, Object, Rec, TypeNode, Universe
@@ -24,7 +25,7 @@ from ttr.updates import Game
 
 __all__ = ["Setting", "setting"]
 
-_WRITTEN = "`@ game FILE.ttr NAME`, `@ game FILE.py:NAME` or `@ game MODULE:NAME`"
+_WRITTEN = "FILE.ttr NAME, FILE.py:NAME or MODULE:NAME"
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,11 +90,11 @@ def _of_theory(file: str, name: str, folder: Path) -> Setting:
     try:
         theory = load(folder / file)
         games = theory.games
-    except NotationError as error:
+    except Unreadable as error:
+        raise StoryError(error.message) from error
+    except TTRError as error:
         place = f"{error.span.source}:{error.span.line}: " if error.span else ""
         raise StoryError(f"{file} cannot be read: {place}{error.message}") from error
-    except TTRError as error:
-        raise StoryError(f"{file} cannot be read: {error.message}") from error
     if not name and len(games) == 1:
         (name,) = games
     if name not in games:
@@ -117,7 +118,7 @@ def _check_there(file: str, folder: Path) -> None:
         return
     beside = [one.name for one in path.parent.glob(f"*{path.suffix}")]
     near = suggestion(path.name, beside)
-    raise StoryError(f"{file} is not there" + f": {near}" * bool(near))
+    raise StoryError(f"there is no file {file}" + f": {near}" * bool(near))
 
 
 def _no_game(file: str, name: str, known: tuple[str, ...]) -> str:
@@ -132,16 +133,27 @@ def _no_game(file: str, name: str, known: tuple[str, ...]) -> str:
 
 def _module(path: str, folder: Path) -> ModuleType:
     """The module of a file or a dotted name, run if it has not been."""
-    try:
-        if not path.endswith(".py"):
-            return importlib.import_module(path)
+    is_file = path.endswith(".py")
+    if is_file:
         _check_there(path, folder)
-        return _run(folder / path, path)
+    try:
+        return _run(folder / path, path) if is_file else importlib.import_module(path)
     except StoryError:
         raise
     except Exception as error:
-        fault = f"{type(error).__name__}: {error}".splitlines()[0]
-        raise StoryError(f"{path} cannot be run: {fault}") from error
+        raise StoryError(_not_run(path, error)) from error
+
+
+def _not_run(path: str, error: Exception) -> str:
+    if isinstance(error, ModuleNotFoundError) and error.name in _with_parents(path):
+        return f"there is no module {path}: name a game as {_WRITTEN}"
+    fault = f"{type(error).__name__}: {error}".splitlines()[0]
+    return f"{path} cannot be run: {fault}"
+
+
+def _with_parents(module: str) -> list[str]:
+    """A dotted name and those of the packages that it is in: a.b.c, a.b and a."""
+    return [".".join(module.split(".")[: n + 1]) for n in range(module.count(".") + 1)]
 
 
 def _run(file: Path, shown: str) -> ModuleType:

@@ -9,11 +9,12 @@ from ttr.display.folding import folding
 from ttr.errors import UpdateError
 from ttr.judgements import Judgement
 from ttr.printing import notation
+from ttr.stories.reading import line_of
 from ttr.stories.settings import Setting
 from ttr.syntax import Object, Record
 from ttr.updates import NBest, Turn
 
-__all__ = ["Moment", "moment", "worded", "written"]
+__all__ = ["Moment", "moment", "turn_lines", "worded", "written"]
 
 
 @dataclass(frozen=True)
@@ -77,14 +78,19 @@ def written(
     U>
     <BLANKLINE>
     """
-    lines = [f"--- {title}"]
+    lines = [f"--- {line_of(' '.join(title.split()))}"]
     if setting.reference:
         lines.append(f"@ game {setting.reference}")
     if start is not None:
         lines.append(f"@ start {notation(start)}")
     for one in moments:
-        lines += [one.line, *(f"S> {words}" for words in one.said)]
+        lines += turn_lines(one.line, one.said)
     return "\n".join([*lines, ""])
+
+
+def turn_lines(line: str, said: Iterable[str]) -> list[str]:
+    """The lines of a turn; a move without words is none of them."""
+    return [line_of(line), *(line_of(f"S> {words}") for words in said if words)]
 
 
 def _line(event: object, setting: Setting) -> str:

@@ -22,7 +22,7 @@ def models(
     """Models of a theory with random facts about few objects.
 
     `degrees` draws how probable they are, as numbers or intervals; else all are
-    certain.
+    certain. Raises `TTRError` for degrees that no strategy draws.
     """
     if degrees is None:
         degrees = st.just(1.0)

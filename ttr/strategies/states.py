@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import prod
 from typing import Self
 
@@ -15,6 +15,7 @@ from ttr.errors import IllFormed, TTRError
 from ttr.models import Model, as_model
 from ttr.paths import escaping
 from ttr.strategies.records import records, shaped, told_of
+from ttr.subtyping import subtype
 from ttr.syntax import (
     Basic,
     Object,
@@ -96,10 +97,26 @@ def events(
     return st.one_of([event_of(T, model) for T in kinds])
 
 
+@lru_cache(maxsize=64)
 def heard_by(game: Game) -> tuple[TypeNode, ...]:
-    """The types of the events that a game hears: by default, what any rule takes."""
-    types = (rule.on for rule in game.rules if rule.on is not None)
-    return game.hears or tuple(dict.fromkeys(types))
+    """The types of the events that a game hears: by default, what any rule takes.
+
+    What the game's theory defines as more specific ones is among them, such as asking
+    whether it rains among asking.
+    """
+    taken = tuple(rule.on for rule in game.rules if rule.on is not None)
+    defined = game.theory.definitions.values() if game.theory else ()
+    special = (
+        T
+        for T in defined
+        if isinstance(T, RecordType) and any(_is_below(T, on, game) for on in taken)
+    )
+    return game.hears or tuple(dict.fromkeys((*taken, *special)))
+
+
+def _is_below(T: RecordType, on: TypeNode, game: Game) -> bool:
+    """Whether T asks for all that another record type does, and for more."""
+    return isinstance(on, RecordType) and subtype(T, on, game.theory).yes
 
 
 def event_of(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from itertools import pairwise, product
+from itertools import pairwise
 
 from ttr.strategies.playing import Dialogue
 from ttr.updates.games import Game
@@ -39,18 +39,7 @@ class Coverage:
     @property
     def missed(self) -> tuple[str, ...]:
         """The rules that no dialogue applied, in the order of the game."""
-        names = dict.fromkeys(rule.name for rule in self.game.rules)
-        return tuple(name for name in names if not self.rules[name])
-
-    @property
-    def missed_pairs(self) -> tuple[tuple[str, str], ...]:
-        """The pairs that no dialogue had, of rules that were applied."""
-        applied = [name for name in self.names if self.rules[name]]
-        return tuple(
-            (first, then)
-            for first, then in product(applied, applied)
-            if not self.pairs[first, then]
-        )
+        return tuple(name for name in self.names if not self.rules[name])
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -79,8 +68,10 @@ class Coverage:
         applied = len(self.names) - len(self.missed)
         pairs = sum(1 for n in self.pairs.values() if n)
         lines.append(
-            f"{applied} of {len(self.names)} rules applied, {pairs} pairs of rules, "
-            f"in {self.turns} turns of {self.dialogues} dialogues"
+            f"{applied} of {len(self.names)} rules applied, "
+            f"{pairs} pair{'s' * (pairs != 1)} of rules, "
+            f"in {self.turns} turn{'s' * (self.turns != 1)} "
+            f"of {self.dialogues} dialogue{'s' * (self.dialogues != 1)}"
         )
         return "\n".join(line.rstrip() for line in lines)
 

@@ -6,13 +6,11 @@ import inspect
 from collections.abc import Callable
 from functools import wraps
 
-from hypothesis import settings
-
 from ttr.errors import TTRError
 from ttr.strategies.dialogues import TURNS, dialogues
 from ttr.strategies.playing import Dialogue
 from ttr.strategies.tutors import Speaker, Tutor
-from ttr.testing.searching import search
+from ttr.testing.searching import how_many, search
 from ttr.testing.telling import story
 from ttr.updates.games import Game
 
@@ -52,7 +50,7 @@ def on_dialogues(
             "dialogues are drawn of a game: @on_dialogues(game), "
             f"found {type(game).__name__}"
         )
-    drawn = dialogues(game, tutor, turns=turns)
+    drawn, count = dialogues(game, tutor, turns=turns), how_many(examples)
 
     def decorate(test: Test) -> Callable[[], None]:
         asked = list(inspect.signature(test).parameters)
@@ -72,7 +70,6 @@ def on_dialogues(
         @wraps(test)
         def play_many() -> None:
             __tracebackhide__ = True
-            count = examples or settings().max_examples
             broken = search(drawn, verdict, verdict, examples=count, start=seed)
             if broken is None:
                 return

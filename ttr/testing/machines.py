@@ -31,7 +31,8 @@ def machine(
 
     Its rules are one for each type of event, and the empty turn; `self.dialogue` is
     what was played. `machine(game).TestCase` is a test that pytest runs; rules and
-    invariants of one's own are added in a subclass.
+    invariants of one's own are added in a subclass. Raises `TTRError` for what is no
+    game, and for properties of other names.
 
     >>> from hypothesis import settings
     >>> from hypothesis.stateful import run_state_machine_as_test

@@ -73,6 +73,6 @@ def chosen(properties: object, known: tuple[Property, ...]) -> tuple[Property, .
         elif isinstance(one, Property):
             found.append(one)
         else:
-            names = ", ".join(by_name)
+            names = ", ".join(sorted(by_name, key=lambda name: int(name[1:])))
             raise TTRError(f"a property is one of {names}, or one's own, found {one!r}")
     return tuple(found)

@@ -87,12 +87,12 @@ def _depends_on_order(dialogue: Dialogue, roles: Roles) -> Checked:
         return
     for number, moment in enumerate(dialogue.moments, start=1):
         for step in moment.steps:
-            for kind, members in classes:
-                if step.rule not in members:
-                    continue
-                if why := _order_matters(dialogue.game, members, step):
-                    yield number, f"in the class {kind}, {why}"
-                    return
+            yield from (
+                (number, f"in the class {kind}, {why}")
+                for kind, members in classes
+                if step.rule in members
+                and (why := _order_matters(dialogue.game, members, step))
+            )
 
 
 def _classes(algorithm: Algorithm) -> Iterator[tuple[str, tuple[Rule, ...]]]:

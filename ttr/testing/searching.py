@@ -9,10 +9,11 @@ from hypothesis import HealthCheck, Phase, Verbosity, given, seed, settings
 from hypothesis import strategies as st
 from hypothesis.errors import Flaky
 
+from ttr.errors import TTRError
 from ttr.strategies.playing import Dialogue
 from ttr.testing.shortening import Broken, Verdict, shortest
 
-__all__ = ["DRAWN", "DRAWN_AND_SHRUNK", "Unsteady", "search"]
+__all__ = ["DRAWN", "DRAWN_AND_SHRUNK", "Unsteady", "how_many", "search"]
 
 Why = TypeVar("Why")
 
@@ -21,6 +22,20 @@ DRAWN = (Phase.generate,)
 
 DRAWN_AND_SHRUNK = (Phase.generate, Phase.shrink)
 """Dialogues of which more is drawn, as where they begin: Hypothesis shrinks that."""
+
+
+def how_many(examples: int | None) -> int:
+    """As many as are asked for, else as the Hypothesis profile says; from 1 on.
+
+    >>> how_many(20)
+    20
+    """
+    if examples is None:
+        count: int = settings().max_examples
+        return count
+    if not isinstance(examples, int) or examples < 1:
+        raise TTRError(f"examples= is a number from 1 on, found {examples!r}")
+    return examples
 
 
 class _Stop(Exception):

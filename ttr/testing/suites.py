@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
-from hypothesis import settings
 from hypothesis import strategies as st
 
 from ttr.errors import TTRError
@@ -23,7 +22,7 @@ from ttr.testing.catalogue import ALL, OF_ONE_RULE
 from ttr.testing.coverage import Coverage
 from ttr.testing.properties import Breach, Property, chosen
 from ttr.testing.repeating import DETERMINISTIC
-from ttr.testing.searching import DRAWN, DRAWN_AND_SHRUNK, Unsteady, search
+from ttr.testing.searching import DRAWN, DRAWN_AND_SHRUNK, Unsteady, how_many, search
 from ttr.testing.shortening import Broken
 from ttr.testing.telling import story
 from ttr.testing.turns import TAKES_TURNS
@@ -55,6 +54,10 @@ class Report:
     def holds(self) -> bool:
         """Whether nothing went wrong."""
         return not (self.faults or self.broken or self.overall)
+
+    def __str__(self) -> str:
+        """What went wrong, or else what was covered."""
+        return self.told() or self.coverage.table()
 
     def told(self, place: Setting | None = None) -> str:
         """What went wrong, with the story that shows it; an empty text if nothing."""
@@ -120,13 +123,12 @@ class Suite:
             return verdict(dialogue)
 
         drawn = dialogues(self.game, self.tutor, turns=self.turns, starts=self.starts)
-        examples = self.examples or settings().max_examples
         try:
             broken = search(
                 drawn,
                 counted,
                 verdict,
-                examples=examples,
+                examples=how_many(self.examples),
                 start=self.seed,
                 phases=DRAWN if self.starts is None else DRAWN_AND_SHRUNK,
             )

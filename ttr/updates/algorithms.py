@@ -30,6 +30,7 @@ __all__ = [
     "by_class",
     "first",
     "maybe",
+    "places_of",
     "repeat",
     "replaced",
     "rules_of",
@@ -220,21 +221,22 @@ def checked(name: str, parts: tuple[object, ...]) -> tuple[Algorithm, ...]:
 
 def rules_of(algorithm: Algorithm) -> tuple[Rule, ...]:
     """The rules in a strategy, each once, in the order in which they stand."""
-    return tuple(dict.fromkeys(_rules(algorithm)))
+    return tuple(dict.fromkeys(places_of(algorithm)))
 
 
-def _rules(algorithm: Algorithm) -> Iterator[Rule]:
+def places_of(algorithm: Algorithm) -> Iterator[Rule]:
+    """The rules in a strategy, as often as they stand in it."""
     match algorithm:
         case Rule():
             yield algorithm
         case Maybe(part) | Repeat(part):
-            yield from _rules(part)
+            yield from places_of(part)
         case ByClass(classes):
             for _, members in classes:
                 yield from members
         case First(parts) | All(parts) | Seq(parts) | Ask(parts):
             for part in parts:
-                yield from _rules(part)
+                yield from places_of(part)
 
 
 def replaced(algorithm: Algorithm, rules: Mapping[str, Rule]) -> Algorithm:

@@ -124,7 +124,7 @@ def run(
     caller's state and model stay what they were.
     """
     checked("run", (algorithm,))
-    if isinstance(events, str | NBest | Record | Mapping | bytes):
+    if isinstance(events, str | bytes | NBest | Record | Mapping | TypeNode):
         raise UpdateError(
             f"events are a list of objects, found the one {in_short(events)}"
         )

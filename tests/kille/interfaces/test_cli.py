@@ -420,11 +420,11 @@ def test_a_story_with_a_mistake(
 def test_a_story_that_is_not_there(kille: Run, fine: Path) -> None:
     outcome = kille("replay", str(fine), "nowhere.dlg")
     assert outcome.code == 2
-    assert outcome.complaint == "kille: nowhere.dlg is not there"
+    assert outcome.complaint == "kille: there is no file nowhere.dlg"
 
 
 def test_a_story_that_may_not_be_read(program: Run, fine: Path) -> None:
     fine.chmod(0)
     outcome = program("replay", str(fine))
     assert outcome.code == 2
-    assert "Permission denied" in outcome.complaint
+    assert "permission denied" in outcome.complaint

@@ -20,6 +20,7 @@ from ttr.updates.algorithms import (
     Maybe,
     Repeat,
     Seq,
+    places_of,
 )
 from ttr.updates.checks.layouts import Labels, Missing, Term, leaves
 from ttr.updates.checks.places import place
@@ -38,7 +39,7 @@ def dead(rules: RuleSet) -> Iterator[Fault]:
     late: dict[Rule, list[Fault]] = {}
     for rule, fault in _forestalled(rules, rules.algorithm):
         late.setdefault(rule, []).append(fault)
-    places = Counter(_places(rules.algorithm))
+    places = Counter(places_of(rules.algorithm))
     for rule, told in late.items():
         if impossible[rule] is None and len(told) == places[rule]:
             yield told[0]
@@ -113,21 +114,6 @@ def _never(rule: Rule, why: str, path: Labels = (), role: str = "when") -> Fault
 
 Late = tuple[Rule, Fault]
 """A rule that comes too late in one of the places where it stands, and why."""
-
-
-def _places(algorithm: Algorithm) -> Iterator[Rule]:
-    """The rules, as often as they stand in a strategy."""
-    match algorithm:
-        case Rule():
-            yield algorithm
-        case Maybe(part) | Repeat(part):
-            yield from _places(part)
-        case ByClass(classes):
-            for _, members in classes:
-                yield from members
-        case First(parts) | All(parts) | Seq(parts) | Ask(parts):
-            for part in parts:
-                yield from _places(part)
 
 
 def _forestalled(rules: RuleSet, algorithm: Algorithm) -> Iterator[Late]:
