@@ -1,5 +1,6 @@
 """Static checks: what they see, what they leave alone, and that they raise no alarm."""
 
+import dataclasses
 import runpy
 import time
 from pathlib import Path
@@ -852,3 +853,35 @@ def fifty_rules(number: int = 50) -> str:
         game g({{phase = p0, private = {{{empty}}},
                  shared = {{latest = {{}}, {empty}}}}} : Board) := first({names})
     """
+
+
+BRACKETS = """
+    basic Ind, P
+    object ann : Ind
+    object p0 : P
+    pred says(Ind, P)
+    Say := [p : P, e : says(ann, p)]
+    Board := [qud : list(P), last : P]
+    rule hear(s : Board, e : Say) := [qud = e.p : list(P)]
+    rule keep(s : Board, e : Say) := [last = s.qud : P]
+    rule fine(s : Board, e : Say) := [qud = [e.p] : list(P), last = fst([e.p]) : P]
+    game talk({qud = [], last = p0} : Board) := first(seq(hear, keep), fine)
+"""
+
+
+def test_what_lacks_brackets_is_a_warning():
+    found = faults_of(Theory.parse(BRACKETS).games["talk"])
+    told = [(fault.severity, fault.rule.name, fault.hint) for fault in found]
+    assert told == [
+        ("warning", "hear", "a list of one is written in brackets: [a]"),
+        ("warning", "keep", "the first of a list a is fst(a)"),
+    ]
+    assert found[0].message == (
+        "the rule hear sets qud to something of P, where list(P) is due"
+    )
+
+
+def test_a_type_that_a_witness_function_judges_may_have_lists():
+    game = Theory.parse(BRACKETS).games["talk"]
+    seeing = game.model.witnessed(game.theory.P, by=lambda a: True)
+    assert faults_of(dataclasses.replace(game, model=seeing)) == ()

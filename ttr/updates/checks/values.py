@@ -15,9 +15,11 @@ from ttr.syntax import (
     Object,
     Record,
     RecordType,
+    SetOf,
     Singleton,
     TypeNode,
 )
+from ttr.updates.checks.accounts import Write
 from ttr.updates.checks.layouts import Labels, Term, View, leaves
 from ttr.updates.checks.places import place
 from ttr.updates.checks.rulesets import RuleSet
@@ -58,6 +60,29 @@ def _written(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
         if all(misfit(rules, view, wanted) for view in brought):
             found = _told(write.term, brought[0])
             yield _misfit(rule, "sets", write.path, found, wanted, write.span)
+        elif all(_is_odd(rules, view, wanted) for view in brought):
+            yield _odd(rule, write, brought[0], wanted)
+
+
+def _is_odd(rules: RuleSet, view: View, wanted: TypeNode) -> bool:
+    """Whether a list would have to be of a basic type that nobody can see it is of."""
+    match view, wanted:
+        case (Basic() as T, ListOf() | NonEmpty() | SetOf()):
+            return T not in rules.model.facts.functions
+        case (ListOf() | NonEmpty() | SetOf(), Basic() as T):
+            return T not in rules.model.facts.functions
+    return False
+
+
+def _odd(rule: Rule, write: Write, found: View, wanted: TypeNode) -> Fault:
+    path = ".".join(write.path)
+    message = (
+        f"the rule {rule} sets {path} to something of {found}, where {wanted} is due"
+    )
+    hint = "a list of one is written in brackets: [a]"
+    if isinstance(wanted, Basic):
+        hint = "the first of a list a is fst(a)"
+    return Fault(rule, "misfit", message, hint, write.span, "warning")
 
 
 def _promised(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
