@@ -56,8 +56,8 @@ def restaurant(*rules):
 
 def cancels_one(dialogue, roles):
     """Where in a dialogue more than one dish is taken back, and why."""
-    for number, moment in enumerate(dialogue.moments, start=1):
-        for step in moment.steps:
+    for number, trial in enumerate(dialogue.trials, start=1):
+        for step in trial.steps:
             gone = len(step.before.commitments) - len(step.after.commitments)
             if gone > 1:
                 yield number, f"{step.rule} takes back {gone} dishes"

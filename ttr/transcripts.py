@@ -20,11 +20,11 @@ from ttr.stories import Moment, Setting
 from ttr.syntax import Object
 from ttr.updates import Run, Step
 
-__all__ = ["Dialogue", "transcript"]
+__all__ = ["Transcribed", "transcript"]
 
 
 @dataclass(frozen=True)
-class Dialogue:
+class Transcribed:
     """What a transcript shows: from where a game was played, its turns, and the end.
 
     `ending` is what there is to say at the end, as where a story differs.
@@ -38,7 +38,7 @@ class Dialogue:
 
 
 @following_nesting
-def transcript(title: str, dialogues: Iterable[Dialogue]) -> str:
+def transcript(title: str, dialogues: Iterable[Transcribed]) -> str:
     """The page, as HTML.
 
     What the theory of the game defines is shown by its name.
@@ -51,7 +51,7 @@ def transcript(title: str, dialogues: Iterable[Dialogue]) -> str:
     return page(title, f"<main>{''.join(parts)}</main>", STYLE + _STYLE)
 
 
-def _contents(dialogues: list[Dialogue]) -> str:
+def _contents(dialogues: list[Transcribed]) -> str:
     items = [
         f'<li><a href="#d{number}">{escape(one.title)}</a>{_mark(one)}</li>'
         for number, one in enumerate(dialogues, start=1)
@@ -59,11 +59,11 @@ def _contents(dialogues: list[Dialogue]) -> str:
     return f"<nav><ol>{''.join(items)}</ol></nav>"
 
 
-def _mark(one: Dialogue) -> str:
+def _mark(one: Transcribed) -> str:
     return ' <span class="differs">differs</span>' if one.ending else ""
 
 
-def _dialogue(number: int, one: Dialogue) -> str:
+def _dialogue(number: int, one: Transcribed) -> str:
     fold = folding(one.setting.theory, 0)
     before: Object = fold(one.start.state)
     start = _turn(f"d{number}t0", "", "<p>the start</p>", before, before)

@@ -143,11 +143,11 @@ def test_dialogues_are_played_as_they_were_drawn():
     for dialogue in drawn(tst.dialogues(game), few):
         again = tst.play(game, dialogue.given)
         assert again.states == dialogue.states
-        assert len(dialogue.moments) <= 10
+        assert len(dialogue.trials) <= 10
 
 
 def test_most_dialogues_have_all_their_turns():
-    lengths = Counter(len(d.moments) for d in drawn(tst.dialogues(game, turns=6)))
+    lengths = Counter(len(d.trials) for d in drawn(tst.dialogues(game, turns=6)))
     assert max(lengths) == 6
     assert lengths[6] > 50
 
@@ -159,8 +159,8 @@ def test_a_dialogue_ends_with_what_goes_wrong_in_it():
 
     faulty = Game("faulty", Board, START, broken, M)
     dialogue = find(tst.dialogues(faulty), lambda d: d.fault is not None)
-    assert len(dialogue.moments) == 2
-    assert dialogue.moments[-1].turn is None
+    assert len(dialogue.trials) == 2
+    assert dialogue.trials[-1].turn is None
     assert "broken" in str(dialogue.fault)
 
 
@@ -177,9 +177,9 @@ def moves_of(tutor, turns=8):
     """What is given after a question, and how often, over many dialogues."""
     found = Counter()
     for dialogue in drawn(tst.dialogues(game, tutor, turns=turns)):
-        for moment in dialogue.moments:
-            asked = bool(moment.before.state.asked)
-            given_ = moment.given
+        for trial in dialogue.trials:
+            asked = bool(trial.before.state.asked)
+            given_ = trial.given
             kind = "nothing" if given_ is None else "ask" if given_ <= Ask else "tell"
             found[asked, kind] += 1
     return found

@@ -198,8 +198,8 @@ def test_roles_are_found_by_the_names_of_the_literature():
 
 def test_a_property_of_ones_own_is_checked_as_the_others_are():
     def grows_by_one(dialogue, roles):
-        for number, moment in enumerate(dialogue.moments, start=1):
-            more = len(moment.after.state.heard) - len(moment.before.state.heard)
+        for number, trial in enumerate(dialogue.trials, start=1):
+            more = len(trial.after.state.heard) - len(trial.before.state.heard)
             if more > 1:
                 yield number, f"{more} words more"
 
@@ -313,8 +313,8 @@ def test_questions_go_when_they_are_answered():
 
 
 def at_most_three(dialogue, roles):
-    for number, moment in enumerate(dialogue.moments, start=1):
-        if len(moment.after.state.heard) > 3:
+    for number, trial in enumerate(dialogue.trials, start=1):
+        if len(trial.after.state.heard) > 3:
             yield number, "too many"
 
 
@@ -323,7 +323,7 @@ SHORT = Property("short", "short", "three words are enough.", at_most_three)
 
 def test_the_dialogue_is_the_shortest_that_fails():
     report = Suite(GOOD, properties=(SHORT,), examples=50).played()
-    assert [moment.given is not None for moment in report.broken.dialogue.moments] == (
+    assert [trial.given is not None for trial in report.broken.dialogue.trials] == (
         [True] * 4
     )
     assert report.broken.why == Breach(SHORT, 4, "too many")
@@ -433,7 +433,7 @@ def test_a_report_prints_what_was_covered():
 
 @testing.on_dialogues(GOOD, examples=20)
 def test_a_decorated_test_is_given_each_dialogue(dialogue):
-    assert len(dialogue.states) == len(dialogue.moments) + 1
+    assert len(dialogue.states) == len(dialogue.trials) + 1
 
 
 def test_a_decorated_test_that_fails_tells_the_shortest_story():

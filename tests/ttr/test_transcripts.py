@@ -13,7 +13,7 @@ from ttr.cli import main
 from ttr.display.comparing import compared
 from ttr.display.layout import Matrix
 from ttr.stories import Setting, moment, setting
-from ttr.transcripts import Dialogue, transcript
+from ttr.transcripts import Transcribed, transcript
 
 GAMES = Path(__file__).parent.parent / "games"
 VOID = {"meta", "br", "hr"}
@@ -53,10 +53,10 @@ def door() -> Setting:
     return setting("door.ttr door", GAMES)
 
 
-def dialogue(door: Setting, *names: str, ending: str = "") -> Dialogue:
+def dialogue(door: Setting, *names: str, ending: str = "") -> Transcribed:
     turns = door.game.play([door.theory[name] for name in names])
     moments = tuple(moment(turn, door) for turn in turns)
-    return Dialogue("a <visit>", door, door.game.begin(), moments, ending)
+    return Transcribed("a <visit>", door, door.game.begin(), moments, ending)
 
 
 def test_a_page_has_what_was_said_with_rules_and_docstrings(door: Setting) -> None:

@@ -142,14 +142,16 @@ def _write_reports(
     options: argparse.Namespace, unread: list[Outcome], results: list[_Result]
 ) -> None:
     from ttr.stories import junit
-    from ttr.transcripts import Dialogue, transcript
+    from ttr.transcripts import Transcribed, transcript
 
     if options.junit is not None:
         outcomes = [*unread, *(one for one, _ in results)]
         write_whole(options.junit, f"{junit(outcomes)}\n")
     if options.html is not None:
         shown = [
-            Dialogue(one.story.title, one.setting, one.start, one.moments, str(about))
+            Transcribed(
+                one.story.title, one.setting, one.start, one.moments, str(about)
+            )
             for about, one in results
             if one is not None
         ]

@@ -104,7 +104,7 @@ def _write(
     options: argparse.Namespace, played: list[tuple[Log, Setting, Replayed]]
 ) -> None:
     from ttr.logs import story_of
-    from ttr.transcripts import Dialogue, transcript
+    from ttr.transcripts import Transcribed, transcript
 
     if options.story is not None:
         stories = [
@@ -113,7 +113,7 @@ def _write(
         write_whole(options.story, "\n".join(stories))
     if options.html is not None:
         shown = [
-            Dialogue(
+            Transcribed(
                 log.header.title or "a dialogue",
                 found,
                 again.start,

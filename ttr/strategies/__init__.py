@@ -26,7 +26,7 @@ except ImportError as missing:
 
 from ttr.strategies.dialogues import dialogues
 from ttr.strategies.models import models
-from ttr.strategies.playing import Dialogue, Moment, play
+from ttr.strategies.playing import Dialogue, Trial, play
 from ttr.strategies.records import records
 from ttr.strategies.roles import Roles
 from ttr.strategies.states import events, states
@@ -35,7 +35,7 @@ from ttr.strategies.tutors import Tutor
 
 __all__ = [
     "Dialogue",
-    "Moment",
+    "Trial",
     "Roles",
     "Tutor",
     "dialogues",

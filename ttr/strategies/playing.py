@@ -14,11 +14,11 @@ from ttr.syntax import Object, Record, TypeNode
 from ttr.updates.games import Game, Turn
 from ttr.updates.running import Run, Step
 
-__all__ = ["Dialogue", "Moment", "play", "taken"]
+__all__ = ["Dialogue", "Trial", "play", "taken"]
 
 
 @dataclass(frozen=True, eq=False)
-class Moment:
+class Trial:
     """What was given to the game, the run before it, and the turn that came of it.
 
     There is no turn where the game did not take what was given; `fault` is what went
@@ -45,50 +45,50 @@ class Moment:
 
 @dataclass(frozen=True, eq=False)
 class Dialogue:
-    """A game with the moments of one dialogue in it; the last one may have a fault."""
+    """A game with the trials of one dialogue in it; the last one may have a fault."""
 
     game: Game
-    moments: tuple[Moment, ...] = ()
+    trials: tuple[Trial, ...] = ()
 
     @property
     def given(self) -> tuple[Object, ...]:
         """What was given to the game: events, types of events, texts, None."""
-        return tuple(moment.given for moment in self.moments)
+        return tuple(trial.given for trial in self.trials)
 
     @property
     def turns(self) -> tuple[Turn, ...]:
         """The turns, of all that the game took."""
-        return tuple(m.turn for m in self.moments if m.turn is not None)
+        return tuple(m.turn for m in self.trials if m.turn is not None)
 
     @property
     def states(self) -> tuple[Record, ...]:
         """The states, from the start on."""
-        return (self.game.start, *(moment.after.state for moment in self.moments))
+        return (self.game.start, *(trial.after.state for trial in self.trials))
 
     @property
     def steps(self) -> tuple[Step, ...]:
         """Every rule that was applied, in order."""
-        return tuple(chain.from_iterable(moment.steps for moment in self.moments))
+        return tuple(chain.from_iterable(trial.steps for trial in self.trials))
 
     @property
     def fault(self) -> Exception | None:
         """What went wrong at the end, if anything did."""
-        return self.moments[-1].fault if self.moments else None
+        return self.trials[-1].fault if self.trials else None
 
     @property
     def now(self) -> Run:
-        """The run after the last moment."""
-        if self.moments:
-            return self.moments[-1].after
+        """The run after the last trial."""
+        if self.trials:
+            return self.trials[-1].after
         begun = self.game.begin()
         return begun._replace(state=copied(begun.state))
 
     def then(self, given: object) -> Dialogue:
-        """The dialogue with one more moment."""
-        return Dialogue(self.game, (*self.moments, taken(self.game, self.now, given)))
+        """The dialogue with one more trial."""
+        return Dialogue(self.game, (*self.trials, taken(self.game, self.now, given)))
 
     def __repr__(self) -> str:
-        return f"<Dialogue of {len(self.moments)} turns in {self.game.name}>"
+        return f"<Dialogue of {len(self.trials)} turns in {self.game.name}>"
 
     def _repr_pretty_(self, printer: Any, cycle: bool) -> None:
         """How Hypothesis and notebooks print it: in a line, not with all its states."""
@@ -118,12 +118,12 @@ def play(game: Game, given: Iterable[object]) -> Dialogue:
     return dialogue
 
 
-def taken(game: Game, before: Run, given: object) -> Moment:
+def taken(game: Game, before: Run, given: object) -> Trial:
     """What comes of one thing that is given to the game after a run."""
     before = before._replace(trace=())
     looked = snapshot(before.state)
     turn, fault = _turn(game, before, given)
-    return Moment(given, before, turn, fault, changed_since(looked, before.state))
+    return Trial(given, before, turn, fault, changed_since(looked, before.state))
 
 
 def _turn(

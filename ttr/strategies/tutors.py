@@ -115,13 +115,13 @@ class _Talk:
         way = draw(self.tutor.ways)
         if way == "silent":
             return None
-        if way == "repeats" and so_far.moments:
-            return so_far.moments[-1].given
+        if way == "repeats" and so_far.trials:
+            return so_far.trials[-1].given
         if way == "wanders":
             return self._one(draw, self._moves(state, model), model, None)
         options: Sequence[object] = ()
-        if way == "contradicts" and so_far.moments:
-            last = so_far.moments[-1]
+        if way == "contradicts" and so_far.trials:
+            last = so_far.trials[-1]
             answers = self._replies(last.before.state, last.before.model)
             options = [one for one in answers if one != last.given]
         options = options or self._replies(state, model) or self._moves(state, model)

@@ -20,7 +20,7 @@ except ImportError as missing:
         "ttr.testing needs hypothesis: pip install 'kille[test]'"
     ) from missing
 
-from ttr.strategies.playing import Dialogue, Moment, play
+from ttr.strategies.playing import Dialogue, Trial, play
 from ttr.strategies.roles import Roles
 from ttr.strategies.tutors import Tutor
 from ttr.testing.catalogue import ALL
@@ -35,7 +35,7 @@ __all__ = [
     "Breach",
     "Coverage",
     "Dialogue",
-    "Moment",
+    "Trial",
     "Property",
     "Report",
     "Roles",

@@ -30,9 +30,9 @@ class Coverage:
     def add(self, dialogue: Dialogue) -> None:
         """Counts a dialogue."""
         self.dialogues += 1
-        self.turns += len(dialogue.moments)
-        for moment in dialogue.moments:
-            names = [step.rule.name for step in moment.steps]
+        self.turns += len(dialogue.trials)
+        for trial in dialogue.trials:
+            names = [step.rule.name for step in trial.steps]
             self.rules.update(names)
             self.pairs.update(pairwise(names))
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ttr.printing import notation
-from ttr.strategies.playing import Dialogue, Moment, taken
+from ttr.strategies.playing import Dialogue, Trial, taken
 from ttr.strategies.roles import Roles, at
 from ttr.subtyping import subtype
 from ttr.syntax import FiniteSet, Object, Record, TypeNode, identity
@@ -47,15 +47,15 @@ def _gone(before: Sequence[Object], after: Sequence[Object]) -> list[Object]:
 
 
 def _careless(dialogue: Dialogue, roles: Roles) -> Checked:
-    for number, moment in enumerate(dialogue.moments, start=1):
-        for step in moment.steps:
-            if why := _careless_step(step, moment, roles):
+    for number, trial in enumerate(dialogue.trials, start=1):
+        for step in trial.steps:
+            if why := _careless_step(step, trial, roles):
                 yield number, why
-        if why := _still_asked(moment, roles):
+        if why := _still_asked(trial, roles):
             yield number, why
 
 
-def _careless_step(step: Step, moment: Moment, roles: Roles) -> str:
+def _careless_step(step: Step, trial: Trial, roles: Roles) -> str:
     qud = _items(step.after, roles.qud)
     before = _items(step.before, roles.qud)
     if qud is before:
@@ -65,16 +65,16 @@ def _careless_step(step: Step, moment: Moment, roles: Roles) -> str:
     if step.rule.name in roles.drops:
         return ""
     for question in _gone(before, qud):
-        if not _settled(question, step, moment, roles):
+        if not _settled(question, step, trial, roles):
             return f"{step.rule} drops {notation(question)}, which nothing resolves"
     return ""
 
 
-def _settled(question: Object, step: Step, moment: Moment, roles: Roles) -> bool:
+def _settled(question: Object, step: Step, trial: Trial, roles: Roles) -> bool:
     """Whether something answers or resolves a question; if nobody can tell, whether
     anything was said or agreed on."""
     agreed = _items(step.after, roles.commitments)
-    events = _events(moment)
+    events = _events(trial)
     if roles.resolves is None and roles.answers is None:
         return bool(events) or bool(
             _gone(agreed, _items(step.before, roles.commitments))
@@ -85,14 +85,14 @@ def _settled(question: Object, step: Step, moment: Moment, roles: Roles) -> bool
     return answers is not None and any(answers(one, question) for one in events)
 
 
-def _still_asked(moment: Moment, roles: Roles) -> str:
+def _still_asked(trial: Trial, roles: Roles) -> str:
     """Whether a question that was answered is still there when all has been said."""
-    qud = _items(moment.before.state, roles.qud)
-    if moment.turn is None or not roles.answers or not qud:
+    qud = _items(trial.before.state, roles.qud)
+    if trial.turn is None or not roles.answers or not qud:
         return ""
-    after = _items(moment.after.state, roles.qud)
+    after = _items(trial.after.state, roles.qud)
     top = qud[0]
-    answered = any(roles.answers(event, top) for event in _heard(moment))
+    answered = any(roles.answers(event, top) for event in _heard(trial))
     if answered and not _gone((top,), after):
         return f"{notation(top)} was answered, but is still on {roles.qud}"
     return ""
@@ -102,22 +102,22 @@ def _still_asked(moment: Moment, roles: Roles) -> str:
 
 
 def _downdates_twice(dialogue: Dialogue, roles: Roles) -> Checked:
-    for number, moment in enumerate(dialogue.moments, start=1):
-        if moment.turn is None:
+    for number, trial in enumerate(dialogue.trials, start=1):
+        if trial.turn is None:
             continue
-        gone = _resolved(moment, roles)
-        new = _agreed(moment, roles)
+        gone = _resolved(trial, roles)
+        new = _agreed(trial, roles)
         if len(gone) > max(1, len(new)):
             yield number, f"one answer takes away {len(gone)} questions: {_shown(gone)}"
-        if why := _counts_again(dialogue, moment, roles):
+        if why := _counts_again(dialogue, trial, roles):
             yield number, why
 
 
-def _resolved(moment: Moment, roles: Roles) -> list[Object]:
+def _resolved(trial: Trial, roles: Roles) -> list[Object]:
     """The questions that the rules took away in a turn, but for those that may drop."""
     return [
         question
-        for step in moment.steps
+        for step in trial.steps
         if step.rule.name not in roles.drops
         for question in _gone(
             _items(step.before, roles.qud), _items(step.after, roles.qud)
@@ -125,22 +125,22 @@ def _resolved(moment: Moment, roles: Roles) -> list[Object]:
     ]
 
 
-def _agreed(moment: Moment, roles: Roles) -> list[Object]:
+def _agreed(trial: Trial, roles: Roles) -> list[Object]:
     """What became agreed on in a turn."""
-    before = _items(moment.before.state, roles.commitments)
-    return _gone(_items(moment.after.state, roles.commitments), before)
+    before = _items(trial.before.state, roles.commitments)
+    return _gone(_items(trial.after.state, roles.commitments), before)
 
 
-def _counts_again(dialogue: Dialogue, moment: Moment, roles: Roles) -> str:
+def _counts_again(dialogue: Dialogue, trial: Trial, roles: Roles) -> str:
     """What an answer resolves or adds twice when it is given once more.
 
     It may be taken for the answer to another question that was planned.
     """
-    state = moment.after.state
-    answered = _is_answer(moment, moment.before.state, roles)
-    if not answered or _is_answer(moment, state, roles):
+    state = trial.after.state
+    answered = _is_answer(trial, trial.before.state, roles)
+    if not answered or _is_answer(trial, state, roles):
         return ""
-    again = taken(dialogue.game, moment.after, moment.given).after.state
+    again = taken(dialogue.game, trial.after, trial.given).after.state
     gone = _gone(_items(state, roles.qud), _items(again, roles.qud))
     if gone:
         return f"the same answer once more takes away {_shown(gone)}"
@@ -150,12 +150,12 @@ def _counts_again(dialogue: Dialogue, moment: Moment, roles: Roles) -> str:
     return ""
 
 
-def _is_answer(moment: Moment, state: Record, roles: Roles) -> bool:
+def _is_answer(trial: Trial, state: Record, roles: Roles) -> bool:
     """Whether what was heard answers a question that is under discussion."""
     answers = roles.answers
     return answers is not None and any(
         answers(event, question)
-        for event in _heard(moment)
+        for event in _heard(trial)
         for question in _items(state, roles.qud)
     )
 
@@ -164,8 +164,8 @@ def _is_answer(moment: Moment, state: Record, roles: Roles) -> bool:
 
 
 def _forgets(dialogue: Dialogue, roles: Roles) -> Checked:
-    for number, moment in enumerate(dialogue.moments, start=1):
-        for step in moment.steps:
+    for number, trial in enumerate(dialogue.trials, start=1):
+        for step in trial.steps:
             if step.rule.name in roles.retracts:
                 continue
             if why := _forgotten(step, str(roles.commitments)):
@@ -187,22 +187,22 @@ def _forgotten(step: Step, path: str) -> str:
 # --- what happened -------------------------------------------------------------------
 
 
-def _heard(moment: Moment) -> Sequence[Object]:
+def _heard(trial: Trial) -> Sequence[Object]:
     """The event of the turn, if it is certain what it was."""
-    if moment.turn is None or moment.turn.heard is None:
+    if trial.turn is None or trial.turn.heard is None:
         return ()
-    event = moment.turn.heard
+    event = trial.turn.heard
     return () if isinstance(event, NBest) else (event,)
 
 
-def _events(moment: Moment) -> Sequence[Object]:
+def _events(trial: Trial) -> Sequence[Object]:
     """What was heard, or may have been, and what the system said."""
-    if moment.turn is None:
+    if trial.turn is None:
         return ()
-    event = moment.turn.heard
+    event = trial.turn.heard
     perhaps = [one for one, _ in event] if isinstance(event, NBest) else ()
-    said = [move.sit for move in moment.turn.said]
-    return (*_heard(moment), *perhaps, *said)
+    said = [move.sit for move in trial.turn.said]
+    return (*_heard(trial), *perhaps, *said)
 
 
 def _shown(objects: Iterable[Object]) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from ttr.models import Model
 from ttr.printing import notation
 from ttr.records import differences
-from ttr.strategies.playing import Dialogue, Moment, play, taken
+from ttr.strategies.playing import Dialogue, Trial, play, taken
 from ttr.strategies.roles import Roles
 from ttr.testing.properties import Checked, Property
 from ttr.testing.stepping import applied
@@ -37,38 +37,38 @@ __all__ = ["CONFLUENT", "DETERMINISTIC", "REPLAYS"]
 
 
 def _differs(dialogue: Dialogue, roles: Roles) -> Checked:
-    again = play(dialogue.game, dialogue.given[: len(dialogue.moments) // 2 + 1])
-    pairs = zip(dialogue.moments, again.moments, strict=False)
-    for number, (moment, other) in enumerate(pairs, start=1):
-        if what := _difference(moment, other):
+    again = play(dialogue.game, dialogue.given[: len(dialogue.trials) // 2 + 1])
+    pairs = zip(dialogue.trials, again.trials, strict=False)
+    for number, (trial, other) in enumerate(pairs, start=1):
+        if what := _difference(trial, other):
             yield number, f"played once more, {what}"
             return
 
 
 def _cannot_go_on(dialogue: Dialogue, roles: Roles) -> Checked:
     """Goes on from the middle with nothing but the state and the model there."""
-    middle = len(dialogue.moments) // 2
-    rest = dialogue.moments[middle:]
+    middle = len(dialogue.trials) // 2
+    rest = dialogue.trials[middle:]
     if not rest:
         return
     so_far = rest[0].before
-    for number, moment in enumerate(rest, start=middle + 1):
-        other = taken(dialogue.game, so_far, moment.given)
-        if what := _difference(moment, other):
+    for number, trial in enumerate(rest, start=middle + 1):
+        other = taken(dialogue.game, so_far, trial.given)
+        if what := _difference(trial, other):
             yield number, f"continued from turn {middle}, {what}"
             return
         so_far = other.after
 
 
-def _difference(moment: Moment, other: Moment) -> str:
-    """What two moments in which the same was given do not have in common."""
-    if str(moment.fault) != str(other.fault):
-        return f"it ends with {other.fault}, not with {moment.fault}"
-    rules = [step.rule.name for step in moment.steps]
+def _difference(trial: Trial, other: Trial) -> str:
+    """What two trials in which the same was given do not have in common."""
+    if str(trial.fault) != str(other.fault):
+        return f"it ends with {other.fault}, not with {trial.fault}"
+    rules = [step.rule.name for step in trial.steps]
     others = [step.rule.name for step in other.steps]
     if rules != others:
         return f"the rules are {_listed(others)}, not {_listed(rules)}"
-    was, now = moment.after.state, other.after.state
+    was, now = trial.after.state, other.after.state
     if was != now:
         return f"the state is another: {next(differences(was, now), '')}"
     return ""
@@ -85,8 +85,8 @@ def _depends_on_order(dialogue: Dialogue, roles: Roles) -> Checked:
     classes = tuple(_classes(dialogue.game.algorithm))
     if not classes:
         return
-    for number, moment in enumerate(dialogue.moments, start=1):
-        for step in moment.steps:
+    for number, trial in enumerate(dialogue.trials, start=1):
+        for step in trial.steps:
             yield from (
                 (number, f"in the class {kind}, {why}")
                 for kind, members in classes

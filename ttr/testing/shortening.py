@@ -75,14 +75,14 @@ def _shorter(broken: Broken[Why], verdict: Verdict[Why]) -> Iterator[Broken[Why]
     """Dialogues of fewer turns that go wrong so, those of the fewest first."""
     level = [Dialogue(broken.dialogue.game)]
     left = PLAYED
-    for _ in range(len(broken.dialogue.moments) - 1):
+    for _ in range(len(broken.dialogue.trials) - 1):
         ways = chain.from_iterable(_onwards(one, broken) for one in level)
         level = []
         for dialogue in islice(ways, left):
             left -= 1
             if found := _same(dialogue, broken, verdict):
                 yield found
-            if dialogue.fault is None and dialogue.moments[-1].steps:
+            if dialogue.fault is None and dialogue.trials[-1].steps:
                 level.append(dialogue)
 
 

@@ -33,17 +33,17 @@ def _missing_name(fault: Exception) -> bool:
 
 def _leaves_type(dialogue: Dialogue, roles: Roles) -> Checked:
     if isinstance(dialogue.fault, NoState):
-        yield len(dialogue.moments), str(dialogue.fault)
+        yield len(dialogue.trials), str(dialogue.fault)
 
 
 def _is_endless(dialogue: Dialogue, roles: Roles) -> Checked:
     if isinstance(dialogue.fault, Endless):
-        yield len(dialogue.moments), str(dialogue.fault)
+        yield len(dialogue.trials), str(dialogue.fault)
 
 
 def _names_nothing(dialogue: Dialogue, roles: Roles) -> Checked:
     if dialogue.fault is not None and _missing_name(dialogue.fault):
-        yield len(dialogue.moments), str(dialogue.fault)
+        yield len(dialogue.trials), str(dialogue.fault)
 
 
 def _breaks(dialogue: Dialogue, roles: Roles) -> Checked:
@@ -52,17 +52,17 @@ def _breaks(dialogue: Dialogue, roles: Roles) -> Checked:
         return
     text = str(fault)
     named = text if isinstance(fault, TTRError) else f"{type(fault).__name__}: {text}"
-    yield len(dialogue.moments), named
+    yield len(dialogue.trials), named
 
 
 def _mutates(dialogue: Dialogue, roles: Roles) -> Checked:
-    for number, moment in enumerate(dialogue.moments, start=1):
-        if moment.tampered:
-            yield number, f"a rule changed the state it was given, at {moment.tampered}"
-    # To apply rules once more takes time, so that not all moments are looked at.
-    count = len(dialogue.moments)
+    for number, trial in enumerate(dialogue.trials, start=1):
+        if trial.tampered:
+            yield number, f"a rule changed the state it was given, at {trial.tampered}"
+    # To apply rules once more takes time, so that not all trials are looked at.
+    count = len(dialogue.trials)
     for number in sorted({(count + 1) // 2, count} - {0}):
-        steps = dialogue.moments[number - 1].steps
+        steps = dialogue.trials[number - 1].steps
         yield from ((number, why) for why in _tampered(steps, dialogue))
 
 

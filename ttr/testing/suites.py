@@ -69,7 +69,7 @@ class Report:
 
 
 def _told(broken: Broken[Breach], place: Setting | None) -> str:
-    breach, count = broken.why, len(broken.dialogue.moments)
+    breach, count = broken.why, len(broken.dialogue.trials)
     turns = "one turn" if count == 1 else f"{count} turns"
     shown = story(broken.dialogue, str(breach.property), place)
     return f"{breach}\nThe shortest dialogue found, of {turns}:\n\n{shown}"
@@ -156,7 +156,7 @@ class Suite:
 
 
 def _unsteady(error: Unsteady) -> Breach:
-    turn = len(error.dialogue.moments)
+    turn = len(error.dialogue.trials)
     return Breach(DETERMINISTIC, turn, f"{error}, after the same moves as before")
 
 

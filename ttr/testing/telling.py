@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ttr.stories import Setting, StoryError, moment, setting, written
-from ttr.strategies.playing import Dialogue, Moment
+from ttr.strategies.playing import Dialogue, Trial
 from ttr.testing.companions import named_in
 from ttr.updates.games import Game, Turn
 
@@ -34,18 +34,18 @@ def story(dialogue: Dialogue, title: str, place: Setting | None = None) -> str:
     """
     game = dialogue.game
     place = place or place_of(game)
-    lines = [moment(_turn(one), place, _words(one, game)) for one in dialogue.moments]
+    lines = [moment(_turn(one), place, _words(one, game)) for one in dialogue.trials]
     start = game.start
     as_named = place.reference and start == place.game.start
     return written(title, lines, place, start=None if as_named else start)
 
 
-def _turn(one: Moment) -> Turn:
+def _turn(one: Trial) -> Turn:
     """The turn; where nothing came of what was given, one in which nothing was said."""
     return one.turn or Turn(one.given, None, (), one.before)
 
 
-def _words(one: Moment, game: Game) -> str:
+def _words(one: Trial, game: Game) -> str:
     """The line for what was given, if it was given in words."""
     in_words = isinstance(one.given, str) and game.hear is not None
     return f"U> {one.given}" if in_words else ""

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from ttr.judgements import Judgement
 from ttr.printing import notation
-from ttr.strategies.playing import Dialogue, Moment, taken
+from ttr.strategies.playing import Dialogue, Trial, taken
 from ttr.strategies.roles import Roles, acts_in, at
 from ttr.strategies.states import heard_by, variants
 from ttr.syntax import Object, Rec, Record, TypeNode, freeze, identity
@@ -22,13 +22,13 @@ __all__ = ["EVENTS_ONCE", "FRESH_ANSWERS", "ROUND_TRIP", "TAKES_TURNS"]
 
 
 def _stale(dialogue: Dialogue, roles: Roles) -> Checked:
-    for number, moment in enumerate(dialogue.moments, start=1):
-        if moment.turn is None:
+    for number, trial in enumerate(dialogue.trials, start=1):
+        if trial.turn is None:
             continue
         why = ""
-        if _talks(moment.given, moment.turn, roles):
-            why = _unheeded(moment, moment.turn, roles) or _old_latest(moment, roles)
-        if why := why or _unfitting(dialogue.game, moment.turn, roles):
+        if _talks(trial.given, trial.turn, roles):
+            why = _unheeded(trial, trial.turn, roles) or _old_latest(trial, roles)
+        if why := why or _unfitting(dialogue.game, trial.turn, roles):
             yield number, why
 
 
@@ -44,9 +44,9 @@ def _talks(given: Object, turn: Turn, roles: Roles) -> bool:
     return spoken is not None and turn.model.judge(turn.heard, spoken).at_least(1.0)
 
 
-def _unheeded(moment: Moment, turn: Turn, roles: Roles) -> str:
+def _unheeded(trial: Trial, turn: Turn, roles: Roles) -> str:
     """A move of the tutor's of which nothing is made."""
-    if turn.trace or _is_over(moment.before, roles):
+    if turn.trace or _is_over(trial.before, roles):
         return ""
     return f"nothing is made of {_given(turn.heard)}"
 
@@ -56,13 +56,13 @@ def _is_over(now: Run, roles: Roles) -> bool:
     return over is not None and now.model.judge(now.state, over).at_least(1.0)
 
 
-def _old_latest(moment: Moment, roles: Roles) -> str:
+def _old_latest(trial: Trial, roles: Roles) -> str:
     """Whether the latest move is one of an earlier turn, though there was a new one."""
-    events = [step.event for step in moment.steps if step.rule.on is not None]
+    events = [step.event for step in trial.steps if step.rule.on is not None]
     if roles.latest is None or not events:
         return ""
-    latest = at(moment.after.state, roles.latest)
-    if latest is not at(moment.before.state, roles.latest):
+    latest = at(trial.after.state, roles.latest)
+    if latest is not at(trial.before.state, roles.latest):
         return ""
     if any(_is_part(latest, one) or _is_part(one, latest) for one in events):
         return ""
@@ -105,13 +105,13 @@ def _judged(game: Game, turn: Turn) -> Judgement:
 
 
 def _out_of_turn(dialogue: Dialogue, roles: Roles) -> Checked:
-    for number, moment in enumerate(dialogue.moments, start=1):
-        said = _said(moment)
+    for number, trial in enumerate(dialogue.trials, start=1):
+        said = _said(trial)
         if roles.moves is not None and len(said) > roles.moves:
             yield number, f"the system makes {len(said)} moves: {_listed(said)}"
-    if dialogue.moments and dialogue.fault is None and _is_stuck(dialogue, roles):
+    if dialogue.trials and dialogue.fault is None and _is_stuck(dialogue, roles):
         yield (
-            len(dialogue.moments),
+            len(dialogue.trials),
             "nothing that the tutor could do leads on from here",
         )
 
@@ -122,7 +122,7 @@ def _is_stuck(dialogue: Dialogue, roles: Roles) -> bool:
         return False
     acts = _acts(dialogue, roles)
     tried = (taken(dialogue.game, now, one) for one in acts)
-    return not any(moment.steps or moment.fault is not None for moment in tried)
+    return not any(trial.steps or trial.fault is not None for trial in tried)
 
 
 def _acts(dialogue: Dialogue, roles: Roles) -> Iterator[Object]:
@@ -138,10 +138,10 @@ def _acts(dialogue: Dialogue, roles: Roles) -> Iterator[Object]:
 
 
 def _misread(dialogue: Dialogue, roles: Roles) -> Checked:
-    for number, moment in enumerate(dialogue.moments, start=1):
-        if moment.turn is None or isinstance(moment.turn.heard, NBest):
+    for number, trial in enumerate(dialogue.trials, start=1):
+        if trial.turn is None or isinstance(trial.turn.heard, NBest):
             continue
-        if why := _misread_turn(dialogue.game, moment.turn, roles):
+        if why := _misread_turn(dialogue.game, trial.turn, roles):
             yield number, why
 
 
@@ -170,12 +170,12 @@ def _is_same(read: object, turn: Turn) -> bool:
 
 
 def _out_of_order(dialogue: Dialogue, roles: Roles) -> Checked:
-    for number, moment in enumerate(dialogue.moments, start=1):
-        if moment.turn is None:
+    for number, trial in enumerate(dialogue.trials, start=1):
+        if trial.turn is None:
             continue
-        expected = [moment.turn.heard, *_said(moment)]
-        took = [step.event for step in moment.steps if step.rule.on is not None]
-        if why := _mixed_up(expected, took) or _misremembered(moment, took, roles):
+        expected = [trial.turn.heard, *_said(trial)]
+        took = [step.event for step in trial.steps if step.rule.on is not None]
+        if why := _mixed_up(expected, took) or _misremembered(trial, took, roles):
             yield number, why
 
 
@@ -193,12 +193,12 @@ def _mixed_up(expected: Sequence[Object], took: Sequence[Object]) -> str:
     return ""
 
 
-def _misremembered(moment: Moment, took: Sequence[Object], roles: Roles) -> str:
+def _misremembered(trial: Trial, took: Sequence[Object], roles: Roles) -> str:
     """Whether the history has not just got longer by what happened in the turn."""
     if roles.history is None:
         return ""
-    before = at(moment.before.state, roles.history) or ()
-    after = at(moment.after.state, roles.history) or ()
+    before = at(trial.before.state, roles.history) or ()
+    after = at(trial.after.state, roles.history) or ()
     events = tuple({identity(event): event for event in took}.values())
     if identity(after) in (
         identity((*before, *events)),
@@ -217,9 +217,9 @@ def _is_of(event: Object, happened: Object) -> bool:
     return identity(event) == identity(happened)
 
 
-def _said(moment: Moment) -> tuple[Object, ...]:
+def _said(trial: Trial) -> tuple[Object, ...]:
     """The moves that the system made in a turn."""
-    return () if moment.turn is None else tuple(m.sit for m in moment.turn.said)
+    return () if trial.turn is None else tuple(m.sit for m in trial.turn.said)
 
 
 def _given(event: object) -> str:
