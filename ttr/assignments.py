@@ -82,10 +82,10 @@ class Assignment:
     def degree_of(self, sit: Object, T: Atom) -> tuple[Degree, str]:
         """How probable it is that sit is of T, and what says so."""
         facts = self.known.get(identity(sit), _EMPTY)
-        perceptual = head(T) in self.functions
         told = facts.get(T)
-        if told in (CERTAIN, REFUTED):
+        if told is not None and told in (CERTAIN, REFUTED):
             return told, "given"
+        perceptual = head(T) in self.functions
         if told is None and perceptual and isinstance(T, Basic):
             seen = self.perceived(sit, T) or UNKNOWN
             within = self._within(sit, T, seen, *self._bounds(facts, sit, T))

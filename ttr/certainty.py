@@ -7,6 +7,8 @@ of the type. Law: `certainly(facts, a, T)` iff the derivation of a : T ends in [
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
+from typing import TypeAlias
 
 from ttr.assignments import Assignment
 from ttr.errors import Refused
@@ -60,7 +62,54 @@ def certainly_also(
     >>> certainly_also(M.facts, ("a", "a"), NonEmpty(Ind), ListOf(Ind))
     True
     """
-    return _also(facts, sit, T, known, ())
+    if T is known:
+        return True
+    claims = _claims(T, known)
+    if claims is None:
+        return _also(facts, sit, T, known, ())
+    for labels, claim, given in claims:
+        value = sit
+        for label in labels:
+            value = value._fields.get(label, _NOTHING)
+        if value is _NOTHING:
+            return False
+        if given is None:
+            if not _certain(facts, value, claim, ()):
+                return False
+        elif not _also(facts, value, claim, given, ()):
+            return False
+    return True
+
+
+_NOTHING = object()
+"""What is at a label that a record lacks."""
+
+Claims: TypeAlias = tuple[tuple[tuple[str, ...], TypeNode, TypeNode | None], ...]
+"""What is claimed at which path, and what is known of what is there."""
+
+
+@lru_cache(4096)
+def _claims(T: TypeNode, known: TypeNode) -> Claims | None:
+    """What T says that the known type does not, path by path.
+
+    None where it is no matter of paths: one of the two is no record type, or a field of
+    T depends on what is around it.
+    """
+    if not isinstance(T, RecordType) or not isinstance(known, RecordType):
+        return None
+    found: list[tuple[tuple[str, ...], TypeNode, TypeNode | None]] = []
+    for label, field in T.fields:
+        given = known.get(label)
+        if given is field:
+            continue
+        if escaping(field):
+            return None
+        inner = None if given is None else _claims(field, given)
+        if inner is None:
+            found.append(((label,), field, given))
+        else:
+            found += [((label, *path), claim, of) for path, claim, of in inner]
+    return tuple(found)
 
 
 def _also(

@@ -448,17 +448,14 @@ def lasts(value: Object) -> bool:
     >>> lasts(record(x=("a", 1))), lasts(record(x=bytearray()))
     (True, False)
     """
-    if isinstance(value, _LASTING):
-        return True
+    if isinstance(value, Record):
+        if value._lasts is None:
+            found = all(map(lasts, value._fields.values()))
+            object.__setattr__(value, "_lasts", found)
+        return value._lasts  # type: ignore[return-value]
     if isinstance(value, tuple):
         return all(map(lasts, value))
-    if not isinstance(value, Record):
-        return False
-    if value._lasts is None:
-        found = all(map(lasts, value._fields.values()))
-        object.__setattr__(value, "_lasts", found)
-        return found
-    return value._lasts
+    return isinstance(value, _LASTING)
 
 
 _LASTING = (str, int, float, complex, bytes, NoneType, Node)

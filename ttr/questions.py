@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from functools import reduce
+from functools import lru_cache, reduce
 from typing import TypeGuard
 
 from ttr.certainty import certainly
@@ -67,6 +67,9 @@ __all__ = [
     "which_of",
     "with_questions",
 ]
+
+MATCHES = 4096
+"""Of how many propositions it is kept which argument of a question they are about."""
 
 YES, NO = "yes", "no"
 """The short answers to questions whether."""
@@ -235,13 +238,19 @@ def asked_of(question: Function, P: TypeNode, model: Model) -> Record | None:
     >>> print(asked_of(which(dest), rectype(e=dest("paris")), M))
     {x = paris}
     """
+    found = _argument_of(question, P)
+    if found is None or not certainly(model.facts, found, question.domain):
+        return None
+    return found
+
+
+@lru_cache(MATCHES)
+def _argument_of(question: Function, P: TypeNode) -> Record | None:
+    """The r with P ⊑ q(r), by their forms alone; `TTRError` for no question."""
     if not isinstance(question, Function) or not is_question(question):
         raise TTRError(f"nothing is asked for by {kind_of(question)}")
     bound: dict[str, Object] = {}
-    if not _matches(question.body, _plain(P), 0, bound):
-        return None
-    found = Record(bound)
-    return found if certainly(model.facts, found, question.domain) else None
+    return Record(bound) if _matches(question.body, _plain(P), 0, bound) else None
 
 
 def _combined(answer: Object, question: Object, model: Model) -> TypeNode | None:

@@ -339,8 +339,10 @@ class _Player:
         model: Model,
     ) -> object:
         args = (state,) if rule.on is None else (state, event.event)
-        extras = {"model": model, "p": event.p, "nbest": self.event, **bindings}
-        asked = {name: extras[name] for name in rule.takes}
+        asked = {}
+        if rule.takes:
+            extras = {"model": model, "p": event.p, "nbest": self.event, **bindings}
+            asked = {name: extras[name] for name in rule.takes}
         with failing(f"the rule {rule}"):
             return rule.effect(*args, **asked)
 

@@ -47,14 +47,14 @@ def still_of(before: Record, after: Record, T: RecordType, model: Model) -> bool
 
 
 def _part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> bool:
-    if was is found and _keeps(found, model):
-        return True
-    match was, found, T:
-        case Record(), Record(), RecordType():
+    if was is found:
+        return _keeps(found, model) or certainly(model.facts, found, T)
+    if isinstance(T, RecordType):
+        if isinstance(was, Record) and isinstance(found, Record):
             return still_of(was, found, T, model)
-        case tuple(), tuple(), ListOf(item) if _keeps(was, model):
-            new = _new_in(found, was)
-            return all(certainly(model.facts, element, item) for element in new)
+    elif isinstance(T, ListOf) and isinstance(found, tuple) and _keeps(was, model):
+        new = _new_in(found, was)
+        return all(certainly(model.facts, element, T.item) for element in new)
     return certainly(model.facts, found, T)
 
 
