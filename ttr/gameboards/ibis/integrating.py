@@ -232,6 +232,7 @@ def integration(domain: Domain) -> Algorithm:
     def correct_answer(s: Record, m: PType) -> Record | None:
         """The user answers a question in another way than before: that holds now.
 
+        What could correct several answers corrects that to the question just asked.
         What was agreed on because of the earlier answer is open again.
         Larsson 2002, chapter 4: reaccommodation.
         """
@@ -240,9 +241,10 @@ def integration(domain: Domain) -> Algorithm:
             for question, P in _said(s, m)
             if (opposed := domain.opposed(P, question, s.shared.com))
         ]
-        if len(corrected) != 1:
+        asked = [one for one in corrected if one[0] is top(s.shared.qud)]
+        if len(asked or corrected) != 1:
             return None
-        ((question, P, opposed),) = corrected
+        ((question, P, opposed),) = asked or corrected
         issues = domain.resting_on(question)
         answered = [Q for Q in _held(s) for q in issues if domain.about(Q, [q])]
         stale = [*answered, *map(without_answer, issues)]
