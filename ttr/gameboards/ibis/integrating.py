@@ -224,9 +224,14 @@ def integration(domain: Domain) -> Algorithm:
 
     @rule(when=heard_from(USR), where=move_of(Answer), kind="integrate")
     def integrate_known(s: Record, m: PType) -> Record | None:
-        """What the user says is agreed on already: nothing changes."""
-        known = any(P in s.shared.com for _, P in _said(s, m))
-        return _taken(s) if known else None
+        """What the user says is agreed on already: nothing changes.
+
+        Unless it answers the question just asked, and in another way than before.
+        """
+        said, asked = _said(s, m), top(s.shared.qud)
+        if any(q is asked and domain.opposed(P, q, s.shared.com) for q, P in said):
+            return None
+        return _taken(s) if any(P in s.shared.com for _, P in said) else None
 
     @rule(when=heard_from(USR), where=move_of(Answer), kind="correct")
     def correct_answer(s: Record, m: PType) -> Record | None:
