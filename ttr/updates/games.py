@@ -159,9 +159,8 @@ class Game:
         """One turn: the event, then the moves on the agenda.
 
         The event is an object, an `NBest`, or a type, of which one is created; None if
-        nothing happens. Raises `NotHeard` for an
-        event of which no rule could take anything, and as `run` does; then nothing is
-        changed.
+        nothing happens. Raises `NotHeard` for an event of which no rule could take
+        anything, and as `run` does; then nothing is changed.
         """
         if not isinstance(so_far, Run):
             raise UpdateError(
