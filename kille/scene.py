@@ -18,6 +18,16 @@ from numpy.typing import NDArray
 Colour = NDArray[np.uint8]
 Depth = NDArray[np.float32]
 Mask = NDArray[np.bool_]
+Vector = NDArray[np.float32]
+Direction = tuple[float, float, float]
+"""Metres along three axes; where axes are level: right, away, up."""
+
+Traits = Mapping[str, Vector]
+"""What a thing looks like as a whole, by the name of the cue that tells it.
+
+What could not be told is missing. Two vectors of one cue are the farther apart, the
+less two things are alike in it.
+"""
 
 
 class Point(NamedTuple):
@@ -90,32 +100,18 @@ class Features:
 
 
 @dataclass(frozen=True, eq=False)
-class Traits:
-    """What a thing looks like as a whole; None for what cannot be told.
-
-    colour (k,) float32 of length 1, the roots of a histogram; size (3,) float32, how
-    far what is visible of it reaches in metres, longest first.
-    """
-
-    colour: NDArray[np.float32] | None = None
-    size: NDArray[np.float32] | None = None
-
-
-UNMEASURED = Traits()
-"""The traits of what was only described by features."""
-
-
-@dataclass(frozen=True, eq=False)
 class Percept:
     """One thing as seen in one look: its region in the first frame, its scans.
 
     The scans are of consecutive frames, ten of them where the sensor has as many; they
     may be extracted only when they are asked for, and so are the traits measured.
+    `frame` is the first of them, None for what was not seen but described.
     """
 
     region: Region
     scans: Sequence[Features]
-    measure: Callable[[], Traits] = Traits
+    measure: Callable[[], Traits] = dict
+    frame: Frame | None = None
 
     @cached_property
     def traits(self) -> Traits:
@@ -130,3 +126,30 @@ class Look:
     frame: Frame
     percepts: tuple[Percept, ...]
     up: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Configuration:
+    """How a target stands to a landmark: all that a spatial word is judged of.
+
+    Directions are in metres on the level axes of the viewer: right, away, up. What is
+    unknown is None.
+    """
+
+    offset: Direction
+    """From the landmark to the target."""
+    viewed: Direction | None = None
+    """From the viewer to the landmark: the viewer's ray."""
+    target_size: float | None = None
+    """Metres from end to end."""
+    landmark_size: float | None = None
+    others: tuple[Direction, ...] = ()
+    """From the landmark to each of the other things."""
+    heading: float | None = None
+    """The landmark's own front: radians counter-clockwise from right."""
+    contact: float | None = None
+    """The share of the target that touches the landmark, in [0, 1]."""
+    support: float | None = None
+    """How far the landmark bears the target, in [0, 1]."""
+    containment: float | None = None
+    """The share of the target within the landmark's bounds, in [0, 1]."""

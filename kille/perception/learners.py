@@ -7,7 +7,8 @@ not been taught.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
+from itertools import count
 from typing import Protocol, TypeVar
 
 Key = int | str
@@ -22,8 +23,11 @@ _SLACK = 1e-6
 class Learner(Protocol[X_contra]):
     """Learns words from one observation at a time, and says how well each fits."""
 
-    def learn_one(self, x: X_contra, label: str, *, key: Key) -> None:
-        """Take x as an instance of the word; ValueError if the key is taken."""
+    def learn_one(self, x: X_contra, label: str, *, key: Key | None = None) -> None:
+        """Take x as an instance of the word; ValueError if the key is taken.
+
+        Without a key it gets one of its own.
+        """
         ...
 
     def predict_proba_one(self, x: X_contra) -> dict[str, float]:
@@ -33,6 +37,15 @@ class Learner(Protocol[X_contra]):
     def forget(self, key: Key) -> None:
         """Be as if this had never been learned; KeyError if it was not."""
         ...
+
+
+def own_key(taken: Collection[Key]) -> Key:
+    """A key that is not taken.
+
+    >>> own_key({0, 3, "a"})
+    4
+    """
+    return next(key for key in count(len(taken)) if key not in taken)
 
 
 def check_learner(
@@ -71,9 +84,9 @@ def _check_nothing_learned(
 def _check_degrees(
     make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
 ) -> None:
-    for count in range(1, len(examples) + 1):
-        learner = _taught(make, examples[:count])
-        words = {label for _, label in examples[:count]}
+    for some in range(1, len(examples) + 1):
+        learner = _taught(make, examples[:some])
+        words = {label for _, label in examples[:some]}
         for x, _ in examples:
             degrees = learner.predict_proba_one(x)
             _law(set(degrees) <= words, "only learned words have a degree")
@@ -117,6 +130,11 @@ def _check_keys(
     x, label = examples[0]
     _law(_raises(ValueError, lambda: learner.learn_one(x, label, key=0)), "keys differ")
     _law(_raises(KeyError, lambda: learner.forget("no such key")), "no key, KeyError")
+    before = learner.predict_proba_one(x)
+    learner.learn_one(x, label, key="a key")
+    learner.forget("a key")
+    _law(_close(learner.predict_proba_one(x), before), "what is forgotten is gone")
+    learner.learn_one(x, label)
 
 
 def _law(holds: bool, law: str) -> None:
