@@ -22,11 +22,14 @@ _SAME = 0.5  # overlap of a thing with itself in another look
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """A look whose things are numbered by nearness, from 1, and the one in focus.
+    """A look whose things are numbered from 1, and the one in focus.
 
-    Numbers stay as long as the same things are in view, even if noise in the depth
-    makes one of two the nearer now and then. `focus` is the number of what the tutor
-    points at, else of the nearest thing; None when nothing is in view.
+    At first the nearest has the lowest number. From look to look a thing keeps its
+    number while it is in view; what is new gets the number of what went, or the next.
+    Only when more goes than comes do the later ones move up. `focus` is the number of
+    what the tutor points at, else of the nearest thing, which stays while the same
+    things are in view, even if noise in the depth makes another one the nearer now and
+    then; None when nothing is in view.
     """
 
     look: Look
@@ -57,10 +60,9 @@ class Gaze:
         """Look at the scene as it is now. SensorError as the sensor raises it."""
         pointed = self.attention.pointed
         seen = look(self.sensor, self._scans, pointed)
-        order = _in_order(seen.percepts, self.attention.view)
-        # A look puts what is pointed at first.
-        first = order if pointed is None else seen.percepts
-        focus = order.index(first[0]) + 1 if order else None
+        before = self.attention.view
+        order = _in_order(seen.percepts, before)
+        focus = _focus(order, before) if pointed is None else _first(order, seen)
         view = View(replace(seen, percepts=tuple(order)), focus)
         self.attention = Attention(pointed, view)
         return view
@@ -111,15 +113,39 @@ class Gaze:
 
 
 def _in_order(percepts: Sequence[Percept], before: View | None) -> list[Percept]:
-    """The things as they were numbered before, if they are the same, or by nearness."""
-    earlier = () if before is None else before.look.percepts
-    again = [
-        next((now for now in percepts if _same(now, then)), None) for then in earlier
-    ]
-    found = [percept for percept in again if percept is not None]
-    if len({id(percept) for percept in found}) == len(percepts) == len(earlier):
-        return found
-    return sorted(percepts, key=_nearness)
+    """The things in the places they had before; what is new where something went."""
+    places = _found_again(percepts, before)
+    known = {id(percept) for percept in places}
+    new = iter(sorted((it for it in percepts if id(it) not in known), key=_nearness))
+    kept = (next(new, None) if percept is None else percept for percept in places)
+    return [percept for percept in kept if percept is not None] + list(new)
+
+
+def _found_again(
+    percepts: Sequence[Percept], before: View | None
+) -> list[Percept | None]:
+    """For each thing that was seen before, the one that it is now, if it is in view."""
+    left = list(percepts)
+    found = []
+    for then in () if before is None else before.look.percepts:
+        again = next((now for now in left if _same(now, then)), None)
+        left = [percept for percept in left if percept is not again]
+        found.append(again)
+    return found
+
+
+def _focus(order: Sequence[Percept], before: View | None) -> int | None:
+    """The number of the nearest thing; that of before if the things are the same."""
+    found = _found_again(order, before)
+    if before is not None and len(found) == len(order) and None not in found:
+        return before.focus
+    nearest = min(order, key=_nearness, default=None)
+    return None if nearest is None else order.index(nearest) + 1
+
+
+def _first(order: Sequence[Percept], seen: Look) -> int | None:
+    """The number of what is pointed at, which a look puts first."""
+    return order.index(seen.percepts[0]) + 1 if order else None
 
 
 def _same(one: Percept, other: Percept) -> bool:

@@ -8,13 +8,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.scene import Box, Depth, Frame, Intrinsics, Mask, Point
+from kille.scene import Box, Depth, Direction, Frame, Intrinsics, Mask, Point
 
 Array = NDArray[np.float32]
-Direction = tuple[float, float, float]
 
 CAMERA_UP: Direction = (0.0, -1.0, 0.0)
 """What counts as up when no table is seen: a camera that is held level."""
+
+
+_NEAREST, _FARTHEST = 1e-3, 1e3  # metres: a number beyond them is no reading
 
 
 class Rays(NamedTuple):
@@ -37,23 +39,70 @@ def rays_of(lens: Intrinsics, shape: tuple[int, int], step: int = 1) -> Rays:
     return Rays(*np.meshgrid(right, down))
 
 
+def readings(frame: Frame) -> Depth | None:
+    """The frame's depth at the size of its picture, NaN for all that is no reading.
+
+    A reading is above 1 mm and below 1 km. Depth of another size is stretched over the
+    picture. None if there is no depth, or no camera model to make sense of it.
+
+    >>> depth = np.array([[0.0, np.inf, 0.8, np.nan]], np.float32)
+    >>> picture = np.zeros((1, 4, 3), np.uint8)
+    >>> readings(Frame(picture, depth, Intrinsics(500, 500, 2, 0), 0.0, {}))
+    array([[nan, nan, 0.8, nan]], dtype=float32)
+    """
+    depth = _registered(frame)
+    return None if depth is None else _read(depth)
+
+
 def points_at(frame: Frame, pixels: Array) -> Array:
     """The points (n, 3) in metres seen at pixels (n, 2), NaN where nothing was read."""
-    depth, lens = frame.depth, frame.intrinsics
+    depth, lens = _registered(frame), frame.intrinsics
     if depth is None or lens is None:
         return np.full((len(pixels), 3), np.nan, np.float32)
     height, width = depth.shape
     columns = np.clip(np.rint(pixels[:, 0]).astype(int), 0, width - 1)
     rows = np.clip(np.rint(pixels[:, 1]).astype(int), 0, height - 1)
-    z = depth[rows, columns]
+    z = _read(depth[rows, columns])
     x = (pixels[:, 0] - lens.cx) / lens.fx * z
     y = (pixels[:, 1] - lens.cy) / lens.fy * z
     return np.stack([x, y, z], axis=1).astype(np.float32)
 
 
+def _registered(frame: Frame) -> Depth | None:
+    """The depth, one number for each pixel of the picture, with what is no reading."""
+    depth, lens = frame.depth, frame.intrinsics
+    if depth is None or depth.size == 0 or lens is None or not _usable(lens):
+        return None
+    height, width = frame.colour.shape[:2]
+    return (
+        depth if depth.shape == (height, width) else _stretched(depth, (height, width))
+    )
+
+
+def _read(depth: Depth) -> Depth:
+    """The same depth, NaN for what is no reading."""
+    read = (depth > _NEAREST) & (depth < _FARTHEST)
+    return np.where(read, depth, np.float32(np.nan)).astype(np.float32, copy=False)
+
+
+def _usable(lens: Intrinsics) -> bool:
+    numbers = np.array(astuple(lens))
+    return bool(np.isfinite(numbers).all() and lens.fx > 0 and lens.fy > 0)
+
+
+def _stretched(depth: Depth, shape: tuple[int, int]) -> Depth:
+    """The depth at another size (H, W), each pixel from the reading nearest to it."""
+    rows, columns = (
+        np.arange(size) * have // size
+        for size, have in zip(shape, depth.shape, strict=True)
+    )
+    stretched: Depth = depth[rows[:, None], columns]
+    return stretched
+
+
 def points_under(depth: Depth, mask: Mask, lens: Intrinsics) -> Array:
     """The points (n, 3) in metres that were read under the mask (H, W)."""
-    vs, us = np.nonzero(mask & np.isfinite(depth))
+    vs, us = np.nonzero(mask & (depth > _NEAREST) & (depth < _FARTHEST))
     z = depth[vs, us]
     x = (us - lens.cx) / lens.fx * z
     y = (vs - lens.cy) / lens.fy * z
@@ -65,12 +114,13 @@ def points_in(frame: Frame, mask: Mask, box: Box) -> Array:
 
     There are none if the frame has no depth or no intrinsics.
     """
-    if frame.depth is None or frame.intrinsics is None:
+    depth = _registered(frame)
+    if depth is None or frame.intrinsics is None:
         return np.empty((0, 3), np.float32)
     fx, fy, cx, cy = astuple(frame.intrinsics)
     lens = Intrinsics(fx, fy, cx - box.left, cy - box.top)
     inside = np.s_[box.top : box.bottom, box.left : box.right]
-    return points_under(frame.depth[inside], mask[inside], lens)
+    return points_under(depth[inside], mask[inside], lens)
 
 
 def table_axes(up: Direction) -> NDArray[np.float64]:

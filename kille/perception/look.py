@@ -6,14 +6,14 @@ look costs what its segmentation costs and only what is attended to is described
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache, partial
 from typing import overload
 
 import cv2
 import numpy as np
 
-from kille.perception.appearance import traits_of
+from kille.perception.cues import measured
 from kille.perception.features import features_of
 from kille.perception.pointing import region_at
 from kille.perception.segment import Scene, overlap, region_of, segment
@@ -28,6 +28,9 @@ Sighting = tuple[Frame, Region]
 _SAME = 0.3  # overlap of a region with itself one frame later
 _LASTING = 0.5  # of the frames a thing must be in, or it is a flicker
 _HIDDEN = 0.5  # overlap with the pointed region: the same thing
+_DOUBTED = 3  # frames that are taken apart in any case
+_NOISE = 0.01  # metres at one metre: depth that differs by less is the same
+_STILL = 0.9  # of the pixels: enough to be sure that a thing is where it was
 _STRAY = 16  # pixels a thing may move in the picture between two frames
 
 
@@ -35,12 +38,12 @@ class Scans(Sequence[Features]):
     """The features of one thing in each frame, extracted when first asked for."""
 
     def __init__(self, sightings: Sequence[Sighting]) -> None:
-        self._sightings = tuple(sightings)
+        self.sightings = tuple(sightings)
         # Kept by no cycle of references: a look goes as soon as it is let go.
-        self._extracted = cache(partial(_extracted, self._sightings))
+        self._extracted = cache(partial(_extracted, self.sightings))
 
     def __len__(self) -> int:
-        return len(self._sightings)
+        return len(self.sightings)
 
     @overload
     def __getitem__(self, index: int) -> Features: ...
@@ -73,18 +76,19 @@ def look(
     if scans < 1:
         raise ValueError(f"a look takes at least one scan, not {scans}")
     frames = _distinct([sensor.frame() for _ in range(scans)])
-    scenes = [segment(frame) for frame in frames]
-    tracks = [_track(region, frames, scenes) for region in scenes[0].regions]
+    first = segment(frames[0])
+    scenes = cache(lambda number: segment(frames[number]))
+    tracks = [_track(region, frames, scenes) for region in first.regions]
     lasting = [track for track in tracks if len(track) >= _LASTING * len(frames)]
     focus = _focus(frames, pointed)
     others = [track for track in lasting if not _same_thing(focus, track)]
     percepts = tuple(_percept(track) for track in [*focus, *others])
-    return Look(frames[0], percepts, scenes[0].up)
+    return Look(frames[0], percepts, first.up)
 
 
 def _percept(track: Sequence[Sighting]) -> Percept:
     frame, region = track[0]
-    return Percept(region, Scans(track), partial(traits_of, frame, region))
+    return Percept(region, Scans(track), partial(measured, frame, region), frame)
 
 
 def _distinct(frames: Sequence[Frame]) -> list[Frame]:
@@ -93,16 +97,37 @@ def _distinct(frames: Sequence[Frame]) -> list[Frame]:
 
 
 def _track(
-    region: Region, frames: Sequence[Frame], scenes: Sequence[Scene]
+    region: Region, frames: Sequence[Frame], scenes: Callable[[int], Scene]
 ) -> list[Sighting]:
-    """The region and what it is in each later frame, where it is found again."""
+    """The region and what it is in each later frame, where it is found again.
+
+    Later frames are taken apart if something has moved there; what stays where it is
+    has not changed its outline either. The first few are, so that a flicker is found.
+    """
     track = [(frames[0], region)]
-    for frame, scene in zip(frames[1:], scenes[1:], strict=True):
-        last = track[-1][1]
-        again = max(scene.regions, key=lambda it: overlap(it, last), default=None)
+    for number, frame in enumerate(frames[1:], start=1):
+        before, last = track[-1]
+        if number >= _DOUBTED and _is_still(last, before, frame):
+            track.append((frame, region_of(frame, last.mask)))
+            continue
+        found = scenes(number).regions
+        again = max(found, key=lambda it: overlap(it, last), default=None)
         if again is not None and overlap(again, last) >= _SAME:
             track.append((frame, again))
     return track
+
+
+def _is_still(region: Region, before: Frame, after: Frame) -> bool:
+    """Whether the depth under the region is what it was."""
+    left, top, right, bottom = region.box
+    inside = region.mask[top:bottom, left:right]
+    window = np.s_[top:bottom, left:right]
+    if before.depth is None or after.depth is None:
+        return False
+    if not before.depth.shape == after.depth.shape == region.mask.shape:
+        return False
+    z, z2 = before.depth[window][inside], after.depth[window][inside]
+    return bool(np.mean(np.abs(z - z2) < _NOISE * z**2) > _STILL)
 
 
 def _focus(

@@ -13,8 +13,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.geometry import Array, Direction, Rays, table_axes
-from kille.scene import Mask
+from kille.perception.geometry import Array, Rays, table_axes
+from kille.scene import Direction, Mask
 
 Vectors = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ _SAMPLE = 1500
 _REFITS = 3
 _TOLERANCE = 0.006  # 1/m; one step of an 11-bit Kinect disparity is .0028
 _LEAST_SHARE = 0.15  # of the readings: fewer on a plane and it is no table
-_LEAST_UPRIGHT = 0.25  # cosine of the table's normal with the picture's up
+_LEAST_UPRIGHT = 0.1  # cosine of the normal with the picture's up: a wall has none
 
 _CELL = 0.01  # metres; of the grid the seen part of the table is drawn on
 _REACH = 3.0  # metres from the camera; no table is larger
@@ -42,6 +42,11 @@ class Plane:
         """The unit normal that points to the side of the camera."""
         x, y, z = -self.n / np.linalg.norm(self.n)
         return float(x), float(y), float(z)
+
+    @property
+    def distance(self) -> float:
+        """Metres from the camera to the plane."""
+        return float(1 / np.linalg.norm(self.n))
 
     def heights(self, rays: Rays, depth: Array) -> Array:
         """Metres above the plane (h, w), NaN where there is no depth (h, w)."""

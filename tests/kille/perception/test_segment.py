@@ -11,11 +11,25 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tabletop import LENS, SHAPE, UP, Card, frame_of, share
 
+from kille.experiments.fitting.piles import a_bowl, lifted, pile
+from kille.experiments.regions import Score, captures, score
 from kille.perception.geometry import CAMERA_UP, offset, table_axes
-from kille.perception.segment import overlap, region_of, segment
-from kille.scene import Frame, Point
+from kille.perception.segment import (
+    Segmentation,
+    overlap,
+    plainly,
+    region_of,
+    segment,
+)
+from kille.scene import Frame, Intrinsics, Point
 from kille.sensors.recordings import open_recording
 from kille.sensors.synthetic import open_synthetic
+from kille.sensors.synthetic.camera import Camera
+from kille.sensors.synthetic.catalogue import NAMES
+from kille.sensors.synthetic.faults import FAULTS, degraded_depth
+from kille.sensors.synthetic.model import Model, Part, assembled
+from kille.sensors.synthetic.render import Body, Pose, rendered
+from kille.sensors.synthetic.shapes import box, disc, lathe, moved
 
 THREE = (Card(-0.15, 0.75), Card(0.12, 0.65, width=0.08), Card(0.05, 1.0, seed=2))
 
@@ -67,11 +81,11 @@ def test_things_beyond_the_table_are_left_out() -> None:
     assert share(frame.outlines["0"], region) > 0.85
 
 
-def test_without_depth_the_whole_picture_is_one_region_somewhere() -> None:
+def test_without_depth_there_is_a_guess_and_it_is_somewhere() -> None:
     frame = replace(frame_of(Card(0, 0.8)), depth=None, intrinsics=None)
     scene = segment(frame)
     (region,) = scene.regions
-    assert region.mask.all()
+    assert region.mask[frame.outlines["0"]].mean() > 0.5
     assert region.place is None
     assert scene.up == CAMERA_UP
 
@@ -155,17 +169,13 @@ def test_nothing_is_level_when_up_is_to_the_right() -> None:
         table_axes((1.0, 0.0, 0.0))
 
 
-def test_most_boxes_of_real_scenes_are_found(data: Path) -> None:
-    found = total = 0
-    for name in ("learn00", "learn04", "learn08", "learn12", "learn16"):
-        frame = open_recording(str(data / "mosd_scenes" / name)).frame()
-        regions = segment(frame).regions
-        total += len(frame.outlines)
-        found += sum(
-            any(share(mask, region) > 0.5 for region in regions)
-            for mask in frame.outlines.values()
-        )
-    assert found == total
+def test_real_things_are_found(data: Path) -> None:
+    """None of these scenes was used to fit the merge."""
+    frames = [it.shot.read() for it in captures(data / "mosd_scenes")[::2]]
+    found = sum((score(segment(it).regions, it) for it in frames), Score())
+    assert found.f >= 0.9
+    assert np.median(found.errors) <= 0.005
+    assert np.quantile(found.errors, 0.9) <= 0.025
 
 
 def test_every_labelled_thing_of_a_real_scene_is_found(data: Path) -> None:
@@ -175,17 +185,165 @@ def test_every_labelled_thing_of_a_real_scene_is_found(data: Path) -> None:
         assert max(share(mask, region) for region in regions) > 0.5, name
 
 
-def test_a_thing_that_hides_a_part_of_itself_is_one_thing() -> None:
-    body, brim = Card(0, 0.83, height=0.12, seed=4), Card(0, 0.8, height=0.05, seed=4)
-    frame = frame_of(body, brim)
-    (region,) = segment(frame).regions
-    assert share(frame.outlines["0"] | frame.outlines["1"], region) > 0.85
+@pytest.mark.parametrize("way", [segment, plainly])
+def test_what_stands_apart_is_whole_either_way(way: Segmentation) -> None:
+    frame = frame_of(*THREE)
+    found = score(way(frame).regions, frame)
+    assert found.exact == 1
+    assert min(found.overlaps) > 0.85
 
 
-@pytest.mark.parametrize("thing", ["teddy bear", "car", "cup", "can of paint"])
+def test_things_that_lie_on_each_other_are_taken_apart() -> None:
+    book, tin = _lying(0.24, 0.18, 0.04), _standing(0.035, 0.1)
+    frame = seen(Body(book, Pose(0, 0, 20)), Body(lifted(tin, 0.04), Pose(0.03, 0)))
+    assert score(segment(frame).regions, frame).exact == 1
+    assert len(plainly(frame).regions) == 1
+
+
+def test_things_that_touch_are_taken_apart() -> None:
+    pack = _lying(0.1, 0.06, 0.18)
+    frame = seen(Body(pack, Pose(0, 0)), Body(_standing(0.04, 0.12), Pose(0.03, -0.07)))
+    assert score(segment(frame).regions, frame).exact == 1
+
+
+def test_a_thing_behind_a_narrow_one_is_one_thing() -> None:
+    wide, tall = _lying(0.26, 0.06, 0.12), _standing(0.025, 0.24)
+    frame = seen(Body(wide, Pose(0, 0.1)), Body(tall, Pose(0, -0.05)))
+    assert score(segment(frame).regions, frame).exact == 1
+    assert len(plainly(frame).regions) == 3
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_bowl_is_one_thing_with_its_inside(seed: int) -> None:
+    frame = seen(Body(a_bowl(np.random.default_rng(seed)), Pose(0, 0)))
+    assert score(segment(frame).regions, frame).exact == 1
+
+
+def test_more_things_in_heaps_are_found_than_plainly() -> None:
+    """Heaps of seeds that the merge was not fitted to; there are no meshes in them."""
+    frames = [pile(seed) for seed in range(5000, 5004)]
+    found = sum((score(segment(it).regions, it) for it in frames), Score())
+    plain = sum((score(plainly(it).regions, it) for it in frames), Score())
+    assert found.recall > 0.6
+    assert found.f > plain.f
+
+
+@pytest.mark.parametrize("tilt", [20.0, 35.0, 60.0, 80.0])
+def test_the_camera_may_be_tilted(tilt: float) -> None:
+    camera = Camera(0.9, tilt)
+    frame = seen(
+        Body(_lying(0.1, 0.1, 0.1), Pose(-0.12, 0)),
+        Body(_standing(0.04, 0.12), Pose(0.12, 0)),
+        camera=camera,
+    )
+    scene = segment(frame)
+    assert score(scene.regions, frame).exact == 1
+    assert np.dot(scene.up, camera.up) > 0.999
+
+
+def test_holes_in_the_depth_are_borne() -> None:
+    frame = frame_of(*THREE, noise=0.001)
+    assert frame.depth is not None
+    depth = frame.depth.copy()
+    lost = np.random.default_rng(0).random((60, 80)) < 0.1
+    depth[lost.repeat(8, axis=0).repeat(8, axis=1)] = np.nan
+    found = score(segment(replace(frame, depth=depth)).regions, frame)
+    assert found.found == found.there == 3
+
+
+def test_a_marker_pen_is_found() -> None:
+    frame = seen(Body(_lying(0.12, 0.015, 0.015), Pose(0, -0.1, 30)))
+    assert score(segment(frame).regions, frame).exact == 1
+
+
+@pytest.mark.parametrize("thing", NAMES)
 def test_a_synthetic_thing_is_one_region(thing: str) -> None:
     stage = open_synthetic("synthetic:empty?seed=11")
     stage.show(thing)
     frame = stage.frame()
     (region,) = segment(frame).regions
     assert share(frame.outlines[thing], region) > 0.8
+
+
+BAD_NUMBERS = {
+    "zero": 0.0,
+    "missing": np.nan,
+    "infinite": np.inf,
+    "below zero": -1.0,
+    "saturated": 65.535,
+    "tiny": 1e-30,
+}
+
+
+@pytest.mark.parametrize("number", BAD_NUMBERS.values(), ids=BAD_NUMBERS)
+def test_depth_that_is_none_is_nothing_in_view(number: float) -> None:
+    frame = replace(frame_of(), depth=np.full(SHAPE, number, np.float32))
+    assert segment(frame).regions == ()
+
+
+@pytest.mark.parametrize("number", BAD_NUMBERS.values(), ids=BAD_NUMBERS)
+def test_wrong_readings_here_and_there_are_borne(number: float) -> None:
+    frame = frame_of(*THREE)
+    assert frame.depth is not None
+    depth = frame.depth.copy()
+    depth[::9, ::7] = number
+    found = score(segment(replace(frame, depth=depth)).regions, frame)
+    assert found.found == found.there == 3
+    assert all(region.place is not None for region in segment(frame).regions)
+
+
+@pytest.mark.parametrize("step", [2, 3])
+def test_depth_may_be_coarser_than_colour(step: int) -> None:
+    frame = frame_of(*THREE)
+    assert frame.depth is not None
+    coarse = replace(frame, depth=frame.depth[::step, ::step])
+    assert score(segment(coarse).regions, coarse).exact == 1
+
+
+@pytest.mark.parametrize("lens", [Intrinsics(0, 0, 0, 0), Intrinsics(np.nan, 1, 1, 1)])
+def test_depth_through_an_impossible_lens_is_no_depth(lens: Intrinsics) -> None:
+    (region,) = segment(replace(frame_of(Card(0, 0.8)), intrinsics=lens)).regions
+    assert region.place is None
+
+
+@pytest.mark.parametrize("grey", [0, 255])
+def test_black_and_white_pictures_have_regions_by_their_depth(grey: int) -> None:
+    frame = frame_of(*THREE)
+    plain = replace(frame, colour=np.full_like(frame.colour, grey))
+    assert len(segment(plain).regions) == 3
+    (region,) = segment(replace(plain, depth=None)).regions
+    assert region.mask.any()
+
+
+def test_a_large_picture_has_the_same_regions() -> None:
+    frame = frame_of(*THREE)
+    assert frame.depth is not None
+    lens = Intrinsics(*(4 * np.array([LENS.fx, LENS.fy, LENS.cx, LENS.cy])))
+    large = Frame(
+        np.zeros((4 * SHAPE[0], 4 * SHAPE[1], 3), np.uint8),
+        frame.depth.repeat(4, axis=0).repeat(4, axis=1),
+        lens,
+        0.0,
+        {},
+    )
+    assert len(segment(large).regions) == 3
+
+
+def seen(*bodies: Body, camera: Camera = Camera()) -> Frame:  # noqa: B008
+    """What a Kinect sees of these bodies; `outlines` are by number from 0."""
+    image = rendered(camera, {str(i): body for i, body in enumerate(bodies)})
+    lens = camera.intrinsics
+    depth = degraded_depth(image.depth, lens.fx, FAULTS, (1,))
+    return Frame(image.colour, depth, lens, 0.0, image.outlines)
+
+
+def _lying(*size: float) -> Model:
+    return assembled([Part(face, _GREY) for face in box(*size).values()])
+
+
+def _standing(radius: float, height: float) -> Model:
+    sheets = lathe([(radius, height), (radius, 0)]), moved(disc(radius), z=height)
+    return assembled([Part(sheet, _GREY) for sheet in sheets])
+
+
+_GREY = np.full((4, 4, 3), 128, np.uint8)

@@ -1,0 +1,145 @@
+"""The learned merge: which patches are put together as one thing.
+
+Small networks say from a pair's features how likely the two belong to one thing. Their
+log-odds are the weights of a graph, whose edges are contracted greedily, the most
+certain first; the weights of parallel edges add up [1]. The networks were fitted by
+`kille.experiments.fitting.merge`, which says on what.
+
+[1] M. Keuper et al.: Efficient decomposition of image and mesh graphs by lifted
+multicuts. ICCV 2015 (greedy additive edge contraction).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.perception.surfaces.measures import Vectors, measured
+from kille.perception.surfaces.pairs import FEATURES, Pairs, pairs_of
+from kille.perception.surfaces.patches import Surface
+from kille.perception.surfaces.relief import Labels, Relief
+from kille.perception.table import Plane
+
+WEIGHTS = "merge.npz"
+_CERTAIN = 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class Committee:
+    """Networks with one hidden layer each, whose mean is the answer.
+
+    mean, scale (n,): of the features; hidden (m, n, h), hidden_bias (m, h), output
+    (m, h), output_bias (m,): of m networks with h hidden units.
+    """
+
+    mean: Vectors
+    scale: Vectors
+    hidden: Vectors
+    hidden_bias: Vectors
+    output: Vectors
+    output_bias: Vectors
+
+    def probabilities(self, features: Vectors) -> Vectors:
+        """How likely each row (k, n) is of one thing (k,)."""
+        inputs = (features - self.mean) / self.scale
+        units = np.maximum(inputs @ self.hidden + self.hidden_bias[:, None], 0)
+        score = np.einsum("mkh,mh->mk", units, self.output) + self.output_bias[:, None]
+        mean: Vectors = (1 / (1 + np.exp(-score))).mean(axis=0)
+        return mean
+
+
+@dataclass(frozen=True, eq=False)
+class Merger:
+    """What judges pairs that touch and pairs that are parted, and leans to parting.
+
+    `bias` is added to the log-odds of every pair: the evidence of parallel edges is not
+    independent, as their sum takes it to be.
+    """
+
+    touching: Committee
+    parted: Committee
+    bias: float
+
+    def log_odds(self, pairs: Pairs) -> Vectors:
+        """The log-odds of each pair (m,) to be of one thing."""
+        p = np.where(
+            pairs.touching,
+            self.touching.probabilities(pairs.features),
+            self.parted.probabilities(pairs.features),
+        ).clip(_CERTAIN, 1 - _CERTAIN)
+        odds: Vectors = np.log(p / (1 - p)) + self.bias
+        return odds
+
+
+@cache
+def fitted() -> Merger:
+    """The merger that is shipped."""
+    with (files(__package__) / WEIGHTS).open("rb") as file, np.load(file) as stored:
+        return unpacked(stored)
+
+
+def packed(merger: Merger) -> dict[str, NDArray[np.float32]]:
+    """The merger as named arrays, to be kept in a file."""
+    arrays = {
+        f"{kind} {name}": np.asarray(values, np.float32)
+        for kind in ("touching", "parted")
+        for name, values in vars(getattr(merger, kind)).items()
+    }
+    return {**arrays, "bias": np.array([merger.bias], np.float32)}
+
+
+def unpacked(stored: Mapping[str, NDArray[np.float32]]) -> Merger:
+    """The merger of these named arrays. ValueError if it judges other features."""
+    touching, parted = (
+        Committee(
+            **{
+                name: stored[f"{kind} {name}"].astype(np.float64)
+                for name in Committee.__dataclass_fields__
+            }
+        )
+        for kind in ("touching", "parted")
+    )
+    if touching.mean.shape != (len(FEATURES),):
+        raise ValueError(
+            f"the merger judges {touching.mean.size} features, not {len(FEATURES)}: "
+            "fit it anew by `python -m kille.experiments.fitting.merge`"
+        )
+    return Merger(touching, parted, float(stored["bias"][0]))
+
+
+def merged(
+    labels: Labels, relief: Relief, surface: Surface, table: Plane, merger: Merger
+) -> Labels:
+    """Labels (h, w) in which the patches of one thing have one label, from 1."""
+    number = int(labels.max())
+    if number < 2:
+        return labels
+    pairs = pairs_of(labels, relief, surface, measured(labels, relief, surface, table))
+    things = contracted(number, pairs, merger.log_odds(pairs))
+    together: Labels = np.concatenate([[0], things + 1]).astype(np.int32)[labels]
+    return together
+
+
+def contracted(number: int, pairs: Pairs, odds: Vectors) -> NDArray[np.intp]:
+    """For each of so many patches (k,) the first one that it is put together with.
+
+    The edge with the highest weight is contracted, as long as one is above 0.
+    """
+    weights = np.zeros((number, number))
+    weights[pairs.one, pairs.other] = weights[pairs.other, pairs.one] = odds
+    things = np.arange(number)
+    while True:
+        one, other = np.unravel_index(weights.argmax(), weights.shape)
+        if weights[one, other] <= 0:
+            return things
+        one, other = min(one, other), max(one, other)
+        weights[one] += weights[other]
+        weights[:, one] = weights[one]
+        weights[one, one] = 0
+        weights[other] = weights[:, other] = 0
+        things[things == other] = one
