@@ -25,11 +25,11 @@ NONE = Features(
 """No features at all."""
 
 
-def features_of(frame: Frame, region: Region) -> Features:
+def features_of(frame: Frame, region: Region, sift: cv2.SIFT | None = None) -> Features:
     """The SIFT features of the region; without texture there may be none.
 
     SIFT runs on the region's box and a margin, not on the frame: its cost is that of
-    the pixels it is given, mask or not.
+    the pixels it is given, mask or not. Another SIFT than the robot's may be given.
     """
     box = _widened(region.box, frame.colour.shape)
     crop = np.s_[box.top : box.bottom, box.left : box.right]
@@ -38,7 +38,7 @@ def features_of(frame: Frame, region: Region) -> Features:
     grey = cv2.cvtColor(frame.colour[crop], cv2.COLOR_RGB2GRAY)
     brim = np.ones((2 * _BRIM + 1,) * 2, np.uint8)
     mask = cv2.dilate(region.mask[crop].astype(np.uint8), brim)
-    keypoints, descriptors = _sift().detectAndCompute(grey, mask)
+    keypoints, descriptors = (sift or _sift()).detectAndCompute(grey, mask)
     if not keypoints:
         return NONE
     corner = np.array([box.left, box.top], np.float32)

@@ -1,0 +1,89 @@
+"""Cues: what a thing looks like as a whole, each cue a vector of its own.
+
+A cue is a pure function of a patch, that is, of a region in a frame. The Euclidean
+distance of two vectors says how unlike two things are in that cue.
+
+>>> " ".join(CUES)
+'colour hue size shape texture paint outline form pattern
+whole_texture whole_paint whole_form whole_pattern'
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from kille.perception.cues import (
+    colour,
+    embedding,
+    gradients,
+    pattern,
+    shape,
+    size,
+    texture,
+)
+from kille.perception.cues.embedding import MissingExtraError
+from kille.perception.cues.patch import Patch
+from kille.scene import Frame, Region, Traits, Vector
+
+__all__ = [
+    "CUES",
+    "EMBEDDING",
+    "Cue",
+    "MissingExtraError",
+    "Patch",
+    "measured",
+    "with_embedding",
+]
+
+
+@dataclass(frozen=True)
+class Cue:
+    """One way of comparing things.
+
+    `measure` gives `length` finite numbers, or None for what cannot be told.
+    """
+
+    name: str
+    length: int
+    measure: Callable[[Patch], Vector | None]
+
+
+CUES: Mapping[str, Cue] = MappingProxyType(
+    {
+        cue.name: cue
+        for cue in (
+            Cue("colour", colour.LENGTH, colour.colour),
+            Cue("hue", colour.HUE_LENGTH, colour.hue),
+            Cue("size", size.LENGTH, size.size),
+            Cue("shape", shape.LENGTH, shape.shape),
+            Cue("texture", texture.LENGTH, texture.texture),
+            Cue("paint", texture.LENGTH, texture.paint),
+            Cue("outline", gradients.LENGTH, gradients.outline),
+            Cue("form", gradients.LENGTH, gradients.form),
+            Cue("pattern", pattern.LENGTH, pattern.pattern),
+            Cue("whole_texture", texture.LENGTH, texture.whole_texture),
+            Cue("whole_paint", texture.LENGTH, texture.whole_paint),
+            Cue("whole_form", gradients.LENGTH, gradients.whole_form),
+            Cue("whole_pattern", pattern.WHOLE, pattern.whole_pattern),
+        )
+    }
+)
+"""The cues that need nothing but the picture and its depth."""
+
+EMBEDDING = Cue("embedding", embedding.LENGTH, embedding.embedding)
+"""What a pretrained network makes of a thing; it needs the extra `kille[embedding]`."""
+
+
+def with_embedding() -> Mapping[str, Cue]:
+    """The default cues and the embedding; MissingExtraError without its packages."""
+    embedding.network()
+    return MappingProxyType({**CUES, EMBEDDING.name: EMBEDDING})
+
+
+def measured(frame: Frame, region: Region, cues: Mapping[str, Cue] = CUES) -> Traits:
+    """What the cues tell of the region, by the name of the cue."""
+    patch = Patch(frame, region)
+    found = {name: cue.measure(patch) for name, cue in cues.items()}
+    return {name: vector for name, vector in found.items() if vector is not None}

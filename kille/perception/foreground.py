@@ -1,0 +1,195 @@
+"""What a picture without depth is of: a guess at which pixels belong to the thing.
+
+People put what they show in the middle, before something that goes on to the picture's
+edges. So what is not joined to the edges stands out (robust background detection), and
+GrabCut draws its outline.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.perception.geometry import Array
+from kille.scene import Frame, Mask
+
+_SIDE = 112  # pixels of a square picture at working size: the outline needs no more
+_PATCH = 8  # pixels across a superpixel: about 180 of them
+_ALIKE = 10.0  # units of Lab within which superpixels are one surface
+_GRAIN = 3.0  # units of Lab by which neighbours on one surface may differ for nothing
+_BOUND = 0.1  # how much unlike neighbours are smoothed at least
+_AROUND = 0.25  # of the picture: so far contrast with others counts
+_MIDDLE = (0.5, 0.55)  # of the picture's width and height: where things are put
+_SPREAD = 0.3
+_MILD = 0.7  # how far being in the middle counts
+_ROUNDS = 3  # of GrabCut
+# Saliency from which a pixel is taken for the thing: surely, if it is also near that of
+# the picture's most salient tenth; probably; and below which it surely is not.
+_SURE, _SURE_OF_TOP, _PROBABLE, _IMPROBABLE = 0.55, 0.8, 0.4, 0.08
+_LEAST, _MOST = 0.004, 0.75  # shares of the picture a thing may have
+_LARGE = 0.15  # of the largest piece: smaller ones are specks
+_ELLIPSE = 0.35  # half axes of the last resort, of the picture's sides
+
+
+def guess(frame: Frame) -> Mask:
+    """The pixels (H, W) that the picture is probably of; never none.
+
+    Source: saliency by Zhu, Liang, Wei & Sun 2014, "Saliency optimization from robust
+    background detection"; outline by Rother, Kolmogorov & Blake 2004, "GrabCut".
+    """
+    height, width = frame.colour.shape[:2]
+    small = _reduced(frame.colour)
+    if min(small.shape[:2]) < 2 * _PATCH:
+        return np.ones((height, width), bool)
+    found = _large(_outlined(small, saliency(small)))
+    if not _LEAST <= found.mean() <= _MOST:
+        found = _ellipse(found.shape)
+    size = (width, height)
+    full = cv2.resize(found.astype(np.float32), size, interpolation=cv2.INTER_LINEAR)
+    mask: Mask = full > 0.5
+    return mask if mask.any() else np.ones((height, width), bool)
+
+
+def saliency(colour: NDArray[np.uint8]) -> Array:
+    """How much each pixel (h, w) stands out of the background, from 0 to 1."""
+    light = colour.astype(np.float32) / np.float32(255)
+    lab = np.asarray(cv2.cvtColor(light, cv2.COLOR_RGB2LAB), np.float32)
+    labels = _superpixels(lab)
+    count = int(labels.max()) + 1
+    sizes = np.bincount(labels.ravel(), minlength=count)
+    means = np.stack([_sums(labels, lab[..., k], count) for k in range(3)], axis=1)
+    means /= sizes[:, None]
+    rows, columns = np.mgrid[: labels.shape[0], : labels.shape[1]]
+    places = np.stack(
+        [_sums(labels, columns, count), _sums(labels, rows, count)], axis=1
+    )
+    places = (places / sizes[:, None] + 0.5) / labels.shape[::-1]
+    apart = _distances(means)
+    joined = _neighbours(labels, count)
+    border = _at_border(labels, count)
+    background = _background(apart, joined, border)
+    near = np.exp(-(_distances(places) ** 2) / (2 * _AROUND**2))
+    contrast = (apart * near) @ background
+    contrast /= max(float(contrast.max()), 1e-9)
+    middle = np.exp(-(((places - _MIDDLE) / _SPREAD) ** 2).sum(axis=1) / 2)
+    salient = _smoothed(
+        apart, joined, background, contrast * (1 - _MILD + _MILD * middle)
+    )
+    salient -= salient.min()
+    salient /= max(float(salient.max()), 1e-9)
+    return salient.astype(np.float32)[labels]
+
+
+def _background(
+    apart: NDArray[np.float64], joined: Mask, border: Mask
+) -> NDArray[np.float64]:
+    """How probably each superpixel is background: how long its surface's edge is."""
+    linked = joined | np.logical_and.outer(border, border)
+    step = np.where(linked, np.maximum(apart - _GRAIN, 0), np.inf)
+    np.fill_diagonal(step, 0)
+    for via in range(len(step)):
+        np.minimum(step, step[:, via, None] + step[None, via], out=step)
+    same = np.exp(-(step**2) / (2 * _ALIKE**2))
+    connectivity = same[:, border].sum(axis=1) / np.sqrt(same.sum(axis=1))
+    background: NDArray[np.float64] = 1 - np.exp(-(connectivity**2) / 2)
+    return background
+
+
+def _smoothed(
+    apart: NDArray[np.float64],
+    joined: Mask,
+    background: NDArray[np.float64],
+    salient: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """The saliency that is low on background, high on contrast, alike in neighbours."""
+    alike = np.exp(-(apart**2) / (2 * _ALIKE**2)) + _BOUND
+    weights = np.where(joined, alike, 0)
+    smooth = np.diag(weights.sum(axis=1)) - weights
+    system = smooth + np.diag(background + salient + 1e-6)
+    return np.asarray(np.linalg.solve(system, salient), np.float64)
+
+
+def _outlined(colour: NDArray[np.uint8], salient: Array) -> Mask:
+    """Where GrabCut draws the line, if it starts from what is salient."""
+    sure = max(_SURE, _SURE_OF_TOP * float(np.quantile(salient, 0.9)))
+    labels: NDArray[np.uint8] = np.full(salient.shape, cv2.GC_PR_BGD, np.uint8)
+    labels[salient > _PROBABLE] = cv2.GC_PR_FGD
+    labels[salient > sure] = cv2.GC_FGD
+    labels[salient < _IMPROBABLE] = cv2.GC_BGD
+    labels[:2], labels[:, :2], labels[:, -2:] = (cv2.GC_BGD,) * 3
+    if not _foreground(labels).any():
+        return _foreground(labels)
+    nowhere, behind, before = (0, 0, 0, 0), np.zeros((1, 65)), np.zeros((1, 65))
+    cv2.setRNGSeed(0)
+    found = cv2.grabCut(
+        colour, labels, nowhere, behind, before, _ROUNDS, cv2.GC_INIT_WITH_MASK
+    )
+    return _foreground(np.asarray(found[0], np.uint8))
+
+
+def _foreground(labels: NDArray[np.uint8]) -> Mask:
+    return np.isin(labels, (cv2.GC_FGD, cv2.GC_PR_FGD))
+
+
+def _large(mask: Mask) -> Mask:
+    """The mask without its small pieces."""
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8))
+    if count < 2:
+        return mask
+    areas = stats[:, cv2.CC_STAT_AREA].copy()
+    areas[0] = 0
+    return np.asarray((areas >= _LARGE * areas.max())[labels], bool)
+
+
+def _ellipse(shape: tuple[int, ...]) -> Mask:
+    rows, columns = np.indices(shape[:2])
+    x = (columns + 0.5) / shape[1] - _MIDDLE[0]
+    y = (rows + 0.5) / shape[0] - _MIDDLE[1]
+    return np.asarray(x**2 + y**2 < _ELLIPSE**2, bool)
+
+
+def _reduced(colour: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    height, width = colour.shape[:2]
+    scale = _SIDE / np.sqrt(height * width)
+    size = max(1, round(width * scale)), max(1, round(height * scale))
+    smaller = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
+    return np.asarray(cv2.resize(colour, size, interpolation=smaller), np.uint8)
+
+
+def _superpixels(lab: Array) -> NDArray[np.intp]:
+    slic = cv2.ximgproc.createSuperpixelSLIC(lab, cv2.ximgproc.SLICO, _PATCH)
+    slic.iterate(5)
+    slic.enforceLabelConnectivity(10)
+    _, labels = np.unique(slic.getLabels(), return_inverse=True)
+    return labels.reshape(lab.shape[:2])
+
+
+def _sums(
+    labels: NDArray[np.intp], values: NDArray[Any], count: int
+) -> NDArray[np.float64]:
+    sums = np.bincount(labels.ravel(), values.ravel().astype(float), count)
+    return np.asarray(sums, np.float64)
+
+
+def _distances(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    squares = ((points[:, None] - points[None]) ** 2).sum(axis=2)
+    return np.asarray(np.sqrt(squares), np.float64)
+
+
+def _neighbours(labels: NDArray[np.intp], count: int) -> Mask:
+    joined = np.zeros((count, count), bool)
+    for one, other in ((labels[1:], labels[:-1]), (labels[:, 1:], labels[:, :-1])):
+        joined[one, other] = True
+        joined[other, one] = True
+    np.fill_diagonal(joined, False)
+    return joined
+
+
+def _at_border(labels: NDArray[np.intp], count: int) -> Mask:
+    border = np.zeros(count, bool)
+    for edge in (labels[0], labels[-1], labels[:, 0], labels[:, -1]):
+        border[edge] = True
+    return border
