@@ -1,0 +1,33 @@
+"""Nearest neighbours among all learned descriptors, whoever they belong to.
+
+There is one index over everything, never one for each learned view: large immutable
+parts, searched by kd-trees, and an exact search over the newest views. Parts are merged
+in the background, or when somebody asks.
+"""
+
+from kille.perception.index.building import AtOnce, Background, Builder
+from kille.perception.index.index import Index
+from kille.perception.index.parts import NOBODY, Neighbours
+from kille.perception.index.searches import SEARCHES
+from kille.perception.index.views import (
+    Descriptors,
+    Rows,
+    View,
+    distances,
+    rooted,
+)
+
+__all__ = [
+    "NOBODY",
+    "SEARCHES",
+    "AtOnce",
+    "Background",
+    "Builder",
+    "Descriptors",
+    "Index",
+    "Neighbours",
+    "Rows",
+    "View",
+    "distances",
+    "rooted",
+]

@@ -1,0 +1,134 @@
+"""Who builds the parts of an index, and when: at once, or behind the caller's back.
+
+`AtOnce` builds what is asked for when it is asked for, so that the same lessons and
+questions give the same answers whatever the machine does: for tests and evaluations.
+`Background` builds in threads, so that neither learning nor asking waits for trees: for
+a robot that talks. FLANN lets other threads run while it builds.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+import weakref
+from collections import deque
+from collections.abc import Sequence
+from typing import Protocol
+
+from kille.perception.index.parts import Part
+
+_QUICK = 200_000  # descriptors; trees over these take about a third of a second
+_PATIENCE = 20_000  # descriptors; trees over these take about .03 s
+_LONG = 1.0  # seconds
+
+
+class Builder(Protocol):
+    """Sees to it that parts get built."""
+
+    def begin(self, parts: Sequence[Part]) -> None:
+        """Take note that these parts will be needed."""
+        ...
+
+    def need(self, parts: Sequence[Part]) -> None:
+        """Take note that they are needed now; they may yet be unready afterwards."""
+        ...
+
+    def finish(self, parts: Sequence[Part]) -> None:
+        """Return when they are built, or one of them turned out not to be buildable."""
+        ...
+
+
+class AtOnce:
+    """Builds parts in the caller's thread when they are needed, and not before."""
+
+    def begin(self, parts: Sequence[Part]) -> None:
+        """Nothing is done before it is needed."""
+
+    def need(self, parts: Sequence[Part]) -> None:
+        """Build them; what that raises is raised."""
+        for part in parts:
+            part.build()
+
+    def finish(self, parts: Sequence[Part]) -> None:
+        """The same: build them."""
+        self.need(parts)
+
+
+class Background:
+    """Builds parts in two threads, one of which is kept free of large ones.
+
+    Small parts, which are ready in no time, are waited for when they are needed: up to
+    `patience` descriptors answers do not depend on the speed of the machine.
+    Threads live while there is something to build, and no part is begun when the
+    program is about to end or when nobody holds the part any more.
+    """
+
+    def __init__(self, patience: int = _PATIENCE) -> None:
+        self._patience = patience
+        self._small, self._large = _Lane(), _Lane()
+
+    def begin(self, parts: Sequence[Part]) -> None:
+        """Have them built, the small ones first."""
+        for part in sorted(parts, key=lambda part: part.size):
+            lane = self._small if part.size <= _QUICK else self._large
+            lane.add(part)
+
+    def need(self, parts: Sequence[Part]) -> None:
+        """Wait for the small ones, but not for ever."""
+        for part in parts:
+            if part.size <= self._patience:
+                part.wait(_LONG)
+
+    def finish(self, parts: Sequence[Part]) -> None:
+        """Wait for them; where no thread begins anything any more, build them here."""
+        for part in parts:
+            while not part.wait(_LONG):
+                if not _may_begin():
+                    part.build()
+
+
+class _Lane:
+    """A queue of parts, and a thread that builds them while there are any."""
+
+    def __init__(self) -> None:
+        self._queue: deque[weakref.ref[Part]] = deque()
+        self._lock = threading.Lock()
+        self._thread: threading.Thread | None = None
+
+    def add(self, part: Part) -> None:
+        with self._lock:
+            self._queue.append(weakref.ref(part))
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._work, name="kille-index")
+                self._thread.start()
+
+    def _work(self) -> None:
+        while (part := self._next()) is not None:
+            _build(part)
+            del part  # nobody else may hold it any more
+
+    def _next(self) -> Part | None:
+        with self._lock:
+            while self._queue and _may_begin():
+                part = self._queue.popleft()()
+                if part is not None:
+                    return part
+            self._thread = None
+            return None
+
+
+def _may_begin() -> bool:
+    """Not when the program is about to end: it would wait for what is begun."""
+    return threading.main_thread().is_alive()
+
+
+def _build(part: Part) -> None:
+    try:
+        part.build()
+    except Exception as error:
+        logging.getLogger(__name__).error(
+            "an index over %d descriptors could not be built (%r): "
+            "what it was to replace goes on answering",
+            part.size,
+            error,
+        )

@@ -1,0 +1,239 @@
+"""The index: all learned views, in parts that are replaced by larger ones in time."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from itertools import compress, islice
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.perception.index.building import AtOnce, Builder
+from kille.perception.index.parting import Parting, parting_of
+from kille.perception.index.parts import NOBODY, Exact, Neighbours, Part
+from kille.perception.index.searches import search_called
+from kille.perception.index.views import Rows, View, count, thinned
+from kille.perception.learners import Key
+
+_SKETCH = 200_000  # descriptors of a sketch: it is ready in a third of a second
+_SKETCHED = 3 * _SKETCH  # from here on a part is worth one
+_EXACT = 8_000  # descriptors that are compared one by one at most: about .01 s
+
+
+class Index:
+    """Who has descriptors like these, among all views learned and not forgotten.
+
+    Most views are in parts with trees; the newest, and those whose parts are still
+    being built, are in older parts or compared one by one. So what is learned counts
+    at once, and what is forgotten never again: which parts answer makes no difference
+    but that trees find only nearly all of the nearest. When all parts are built, they
+    are those of an index that was given the present views, however it came to them.
+    """
+
+    def __init__(
+        self,
+        views: Iterable[View] = (),
+        *,
+        builder: Builder | None = None,
+        search: str = "trees",
+    ) -> None:
+        """An index of the views; ValueError if two have one key.
+
+        `builder` decides when parts are built, at once if none is given; `search` is
+        one of SEARCHES, by which large parts are searched.
+        """
+        self._builder = builder or AtOnce()
+        self._make = search_called(search)
+        self._views: dict[Key, View] = {}
+        self._known: Counter[str] = Counter()  # the views of each word
+        self._sizes: Counter[str] = Counter()  # the descriptors of each word
+        self._columns: dict[str, int] = {}
+        self._exact: Exact | None = None
+        self._owners: list[NDArray[np.intp]] | None = None
+        for view in views:
+            self._take(view)
+        self._parting = Parting()
+        self._has_forgotten = False
+        self._wanted: tuple[Part, ...] = ()
+        self._others: tuple[Part, ...] = ()  # they answer while those wanted are built
+        self._sketches: tuple[Part, ...] = ()  # they do while nothing else can
+        self._serving: list[tuple[Part, NDArray[np.bool_]]] = []
+        self._tail: list[View] = []  # what no part serves
+        self._awaited: tuple[Part, ...] = ()
+        self._part_anew()
+
+    def copy(self) -> Index:
+        """Another index of the same views; either learns without the other."""
+        twin = object.__new__(Index)
+        twin.__dict__.update(self.__dict__)
+        twin._views, twin._tail = dict(self._views), list(self._tail)
+        twin._known, twin._sizes = self._known.copy(), self._sizes.copy()
+        return twin
+
+    @property
+    def views(self) -> Mapping[Key, View]:
+        """What was learned and not forgotten, by key, in the order of learning."""
+        return MappingProxyType(self._views)
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The words of the views in alphabetical order."""
+        return tuple(self._numbered())
+
+    @property
+    def sizes(self) -> NDArray[np.intp]:
+        """How many descriptors each word has, in the order of the labels."""
+        return np.array([self._sizes[label] for label in self._numbered()], np.intp)
+
+    def learn(self, view: View) -> None:
+        """Take a view; ValueError if its key is taken."""
+        self._take(view)
+        if self._has_forgotten:
+            return
+        self._tail.append(view)
+        self._exact = None
+        before = self._parting
+        self._parting = before.grown(len(view.descriptors))
+        if self._parting.runs != before.runs:
+            self._arrange()
+
+    def forget(self, key: Key) -> None:
+        """Be as if this view had never been learned; KeyError if it was not."""
+        view = self._views.pop(key)
+        self._known[view.label] -= 1
+        self._sizes[view.label] -= len(view.descriptors)
+        if not self._known[view.label]:
+            self._known.pop(view.label)
+            self._renumber()
+        self._has_forgotten = True
+
+    def settled(self) -> Index:
+        """This index, when all its parts are built; raises what building one raised."""
+        self._catch_up()
+        self._builder.finish(self._wanted)
+        for part in self._wanted:
+            if part.failure is not None:
+                raise part.failure
+        self._catch_up()
+        return self
+
+    def neighbours(self, query: Rows) -> Neighbours:
+        """The nearest descriptors to RootSIFT descriptors (n, 128), of all words.
+
+        The ten nearest of each part, and the nearest of each word among the newest.
+        """
+        self._catch_up()
+        columns = self._numbered()
+        if self._exact is None:
+            self._exact = Exact(thinned(self._tail, _EXACT), columns)
+        if self._owners is None:
+            self._owners = [self._words_of(*serving) for serving in self._serving]
+        found = [self._exact.neighbours(query)]
+        for (part, _), owners in zip(self._serving, self._owners, strict=True):
+            found.append(part.neighbours(query, owners))
+        return Neighbours(
+            np.concatenate([words for words, _ in found], axis=1),
+            np.concatenate([apart for _, apart in found], axis=1),
+        )
+
+    def nearest(self, query: Rows) -> Rows:
+        """The distance (n, labels) from each query to the nearest descriptor of a word.
+
+        It is infinite where none of that word is among the neighbours.
+        """
+        words, apart = self.neighbours(query)
+        nearest = np.full((len(query), len(self.labels)), np.inf, np.float32)
+        rows = np.broadcast_to(np.arange(len(query))[:, None], words.shape)
+        someone = words != NOBODY
+        np.minimum.at(nearest, (rows[someone], words[someone]), apart[someone])
+        return nearest
+
+    def _take(self, view: View) -> None:
+        if view.key in self._views:
+            raise ValueError(
+                f"the key {view.key!r} was learned before; forget it first"
+            )
+        self._views[view.key] = view
+        self._sizes[view.label] += len(view.descriptors)
+        self._known[view.label] += 1
+        if self._known[view.label] == 1:
+            self._renumber()
+
+    def _renumber(self) -> None:
+        self._columns = {}
+        self._exact = self._owners = None
+
+    def _numbered(self) -> Mapping[str, int]:
+        """The column of each word."""
+        if len(self._columns) != len(self._known):
+            self._columns = {word: i for i, word in enumerate(sorted(self._known))}
+        return self._columns
+
+    def _part_anew(self) -> None:
+        """Part the views as if they had been learned one after the other."""
+        sizes = (len(view.descriptors) for view in self._views.values())
+        self._parting = parting_of(sizes)
+        self._has_forgotten = False
+        self._arrange()
+
+    def _arrange(self) -> None:
+        """Have the parts built that are wanted and not there yet."""
+        order = tuple(self._views.values())
+        there = {part.views: part for part in (*self._wanted, *self._others)}
+        runs = [order[run.start : run.stop] for run in self._parting.runs]
+        self._others = tuple(there.values())
+        self._wanted = tuple(there.get(run) or Part(run, self._make) for run in runs)
+        self._serve()
+        newest = self._parting.views - self._parting.tail_start
+        bare = tuple(self._tail[: len(self._tail) - newest])
+        if (size := count(bare)) > _SKETCHED and not self._sketches:
+            self._sketches = (Part(bare, self._make, size // _SKETCH),)
+            self._awaited = (*self._sketches, *self._awaited)
+        new = [part for part in self._awaited if part.views not in there]
+        self._builder.begin(new)
+
+    def _serve(self) -> None:
+        """Choose the parts that answer: those wanted, or else others that are ready.
+
+        Each view is searched once. The newest, and those in no part that is ready, are
+        compared one by one. Parts that are of no use any more are let go.
+        """
+        self._awaited = tuple(
+            part for part in (*self._wanted, *self._sketches) if not part.is_ready
+        )
+        left = dict(islice(self._views.items(), self._parting.tail_start))
+        newest = islice(self._views.values(), self._parting.tail_start, None)
+        self._serving = []
+        others = sorted(self._others, key=lambda part: -part.size)
+        for part in dict.fromkeys((*self._wanted, *others, *self._sketches)):
+            if not part.is_ready:
+                continue
+            served = [left.get(view.key) is view for view in part.views]
+            if any(served):
+                self._serving.append((part, np.array(served)))
+                for view in compress(part.views, served):
+                    del left[view.key]
+        self._tail = [*left.values(), *newest]
+        used = {part for part, _ in self._serving}
+        self._others = tuple(part for part in self._others if part in used)
+        if all(part.is_ready for part in self._wanted):
+            self._sketches = ()
+        self._exact = self._owners = None
+
+    def _catch_up(self) -> None:
+        """Leave out what was forgotten, and answer by what has become ready."""
+        if self._has_forgotten:
+            self._part_anew()
+        if not self._awaited:
+            return
+        self._builder.need([part for part in self._wanted if not part.is_ready])
+        if any(part.is_ready for part in self._awaited):
+            self._serve()
+
+    def _words_of(self, part: Part, served: NDArray[np.bool_]) -> NDArray[np.intp]:
+        """The column of the word of each view of a part, or nobody's."""
+        columns = self._numbered()
+        words = [columns.get(view.label, NOBODY) for view in part.views]
+        return np.where(served, np.array(words, np.intp), NOBODY)

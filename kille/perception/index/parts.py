@@ -1,0 +1,160 @@
+"""Views that are searched together: exactly while they are few, by a search if many."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from threading import Event
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.perception.index.searches import Maker, Search
+from kille.perception.index.views import (
+    LENGTH,
+    Descriptors,
+    Rows,
+    View,
+    distances,
+    rooted,
+    stacked,
+)
+
+NEIGHBOURS = 10
+"""How many of the nearest descriptors are looked at in each part."""
+
+NOBODY = -1
+"""The column of a view that was forgotten."""
+
+_SPARE = 30  # neighbours more, where some of what is found may have been forgotten
+
+
+class Neighbours(NamedTuple):
+    """The nearest descriptors found: whose they are, and how far from each query.
+
+    Both (n, k); the number of a word is its column in `Index.labels`, or -1 with an
+    infinite distance where fewer were found.
+    """
+
+    words: NDArray[np.intp]
+    distances: Rows
+
+
+class Exact:
+    """A few views, every descriptor of which is compared."""
+
+    def __init__(self, views: Sequence[View], columns: Mapping[str, int]) -> None:
+        ordered = sorted(
+            (view for view in views if len(view.descriptors)),
+            key=lambda view: columns[view.label],
+        )
+        owners = np.repeat(
+            np.array([columns[view.label] for view in ordered], np.intp),
+            [len(view.descriptors) for view in ordered],
+        )
+        self._words, self._firsts = np.unique(owners, return_index=True)
+        self._rows = rooted(stacked(ordered))
+
+    def neighbours(self, query: Rows) -> Neighbours:
+        """The nearest descriptor of each word: one column a word."""
+        words = np.broadcast_to(self._words, (len(query), len(self._words)))
+        if not len(self._words):
+            return Neighbours(words, np.empty((len(query), 0), np.float32))
+        apart = distances(query, self._rows)
+        return Neighbours(words, np.minimum.reduceat(apart, self._firsts, axis=1))
+
+
+class Part:
+    """Many views, which are searched together once that has been prepared.
+
+    `step` takes only every so many descriptors: a sketch of the views, which is ready
+    early.
+    """
+
+    def __init__(self, views: tuple[View, ...], make: Maker, step: int = 1) -> None:
+        self.views = views
+        self.step = step
+        self.failure: Exception | None = None
+        self._make = make
+        self._search: Search | None = None
+        self._done = Event()
+
+    @cached_property
+    def size(self) -> int:
+        """How many descriptors it holds."""
+        return int(self._starts[-1])
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether it can be searched."""
+        return self._search is not None
+
+    def build(self) -> None:
+        """Prepare the search, however long that takes; once is enough."""
+        if self._done.is_set():
+            return
+        try:
+            self._search = self._make(self._blocks)
+        except Exception as error:
+            self.failure = error
+            raise
+        finally:
+            self._done.set()
+
+    def wait(self, seconds: float) -> bool:
+        """Wait until another thread has built it, or failed to; whether it has."""
+        return self._done.wait(seconds)
+
+    def neighbours(self, query: Rows, owners: NDArray[np.intp]) -> Neighbours:
+        """The nearest descriptors, by the column of each view's word: -1 is nobody's.
+
+        So what was forgotten is left out at once, though it still is in the trees.
+        """
+        if self._search is None:
+            raise RuntimeError("a part is searched before it was built")
+        if not len(query):
+            return Neighbours(np.empty((0, 0), np.intp), np.empty((0, 0), np.float32))
+        some_gone = bool((owners == NOBODY).any())
+        wanted = NEIGHBOURS + some_gone * _SPARE
+        rows = self._search.found(query, min(wanted, self.size))
+        some = np.maximum(rows, 0)
+        views = np.searchsorted(self._starts, some, side="right") - 1
+        words = np.where(rows < 0, NOBODY, owners[views])
+        near = rooted(self._descriptors(views.ravel(), some.ravel()))
+        near = near.reshape(*rows.shape, LENGTH)
+        alike = np.matmul(near, query[:, :, None])[:, :, 0]
+        apart = np.sqrt(np.maximum(2 - 2 * alike, 0))
+        apart[words == NOBODY] = np.inf
+        return Neighbours(words, apart)
+
+    @cached_property
+    def _blocks(self) -> list[Descriptors]:
+        return [view.descriptors[:: self.step] for view in self.views]
+
+    @cached_property
+    def _starts(self) -> NDArray[np.intp]:
+        """The row at which each view starts, and that after the last."""
+        sizes = [-(-len(view.descriptors) // self.step) for view in self.views]
+        return np.cumsum([0, *sizes])
+
+    @cached_property
+    def _bytes(self) -> list[memoryview]:
+        return [
+            np.ascontiguousarray(view.descriptors).reshape(-1).data
+            for view in self.views
+        ]
+
+    def _descriptors(
+        self, views: NDArray[np.intp], rows: NDArray[np.int32]
+    ) -> Descriptors:
+        """The descriptors of these rows, gathered from the views they belong to.
+
+        Slices of bytes are joined, since the descriptors are not kept in one array.
+        """
+        first = (rows - self._starts[views]) * (self.step * LENGTH)
+        gathered = b"".join(
+            self._bytes[view][start : start + LENGTH]
+            for view, start in zip(views.tolist(), first.tolist(), strict=True)
+        )
+        return np.frombuffer(gathered, np.uint8).reshape(-1, LENGTH)

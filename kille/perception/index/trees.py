@@ -1,0 +1,82 @@
+"""Randomised kd-trees: the nearest of many in a time that hardly grows with them.
+
+The trees are over 24 of the 128 dimensions, the principal ones of what they hold. That
+takes a quarter of the time to build and a fifth of the memory of trees over all, and as
+many of the nearest are found in the same time, once the true distances of the ten that
+were found are measured.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.perception.index.views import Descriptors, Rows, rooted
+
+_DIMENSIONS = 24
+_SAMPLE = 10_000  # descriptors whose principal directions are taken for those of all
+_BLOCK = 20_000  # descriptors that are projected at a time
+_TREES = 2
+_CHECKS = 32  # descriptors that are compared with a query
+_KD_TREE = 1  # FLANN's number for randomised kd-trees
+_SEED = 1
+
+
+class Trees:
+    """Randomised kd-trees over the principal dimensions of the descriptors."""
+
+    def __init__(self, blocks: Sequence[Descriptors]) -> None:
+        self._axes = _principal(_sampled(blocks))
+        rows = _projected(blocks, self._axes)  # OpenCV takes a copy of them
+        self._size = len(rows)
+        cv2.setRNGSeed(_SEED)  # the same views, the same trees; each thread has its own
+        self._trees = cv2.flann.Index(rows, {"algorithm": _KD_TREE, "trees": _TREES})
+
+    def found(self, query: Rows, count: int) -> NDArray[np.int32]:
+        """The rows (n, count) of descriptors near each query; -1 where too few are."""
+        rows, _ = self._trees.knnSearch(
+            query @ self._axes,
+            min(count, self._size),
+            params={"checks": max(_CHECKS, count)},
+        )
+        return np.asarray(rows, np.int32)
+
+
+def _sampled(blocks: Sequence[Descriptors]) -> Rows:
+    size = sum(map(len, blocks))
+    step = max(1, size // _SAMPLE)
+    return rooted(np.concatenate([block[::step] for block in blocks]))
+
+
+def _principal(rows: Rows) -> Rows:
+    """The directions (128, 24) in which the rows vary most."""
+    centred = rows - rows.mean(axis=0)
+    axes = np.linalg.eigh(centred.T @ centred)[1]
+    return np.ascontiguousarray(axes[:, : -_DIMENSIONS - 1 : -1], np.float32)
+
+
+def _projected(blocks: Sequence[Descriptors], axes: Rows) -> Rows:
+    """All rows along the axes, made a few at a time: they are never all floats."""
+    rows = np.empty((sum(map(len, blocks)), axes.shape[1]), np.float32)
+    done = 0
+    for some in _batches(blocks):
+        rows[done : done + len(some)] = rooted(some) @ axes
+        done += len(some)
+    return rows
+
+
+def _batches(blocks: Sequence[Descriptors]) -> Iterator[Descriptors]:
+    """The same descriptors in fewer, larger blocks."""
+    batch: list[Descriptors] = []
+    size = 0
+    for block in blocks:
+        batch.append(block)
+        size += len(block)
+        if size >= _BLOCK:
+            yield np.concatenate(batch)
+            batch, size = [], 0
+    if batch:
+        yield np.concatenate(batch)

@@ -1,0 +1,77 @@
+"""What is indexed: the descriptors of one lesson, compared as RootSIFT."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.perception.learners import Key
+from kille.scene import Traits
+
+Rows = NDArray[np.float32]
+Descriptors = NDArray[np.uint8]
+
+LENGTH = 128
+"""Numbers of a descriptor, each a byte."""
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """One lesson about one thing: its key, the word, its descriptors (n, 128) uint8.
+
+    The traits are those it had as a whole, as far as they were measured.
+    """
+
+    key: Key
+    label: str
+    descriptors: Descriptors
+    traits: Traits = field(default_factory=dict)
+
+
+def rooted(descriptors: Descriptors) -> Rows:
+    """RootSIFT, d -> sqrt(d / sum d): (n, 128) float32 of length 1 from uint8.
+
+    >>> float(np.linalg.norm(rooted(np.full((1, 128), 7, np.uint8))).round(3))
+    1.0
+    """
+    rows = descriptors.astype(np.float32)
+    rows /= np.maximum(rows.sum(axis=1, keepdims=True), 1)
+    return np.sqrt(rows, out=rows)
+
+
+def distances(query: Rows, others: Rows) -> Rows:
+    """The distances (n, m) between descriptors of length 1."""
+    return _apart(query @ others.T)
+
+
+def _apart(alike: Rows) -> Rows:
+    alike *= -2
+    alike += 2
+    return np.sqrt(np.maximum(alike, 0, out=alike), out=alike)
+
+
+def stacked(views: Sequence[View]) -> Descriptors:
+    """The descriptors of all the views, one below the other."""
+    blocks = [view.descriptors for view in views]
+    return np.concatenate([np.empty((0, LENGTH), np.uint8), *blocks])
+
+
+def count(views: Sequence[View]) -> int:
+    """How many descriptors the views have together."""
+    return sum(len(view.descriptors) for view in views)
+
+
+def thinned(views: Sequence[View], most: int) -> Sequence[View]:
+    """The views with so few descriptors of each that they have about `most` together.
+
+    >>> (few,) = thinned([View(0, "cup", np.zeros((10, 128), np.uint8))], 5)
+    >>> len(few.descriptors)
+    5
+    """
+    step = -(-count(views) // most)
+    if step <= 1:
+        return views
+    return [replace(view, descriptors=view.descriptors[::step]) for view in views]
