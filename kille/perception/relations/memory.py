@@ -1,0 +1,231 @@
+"""Spatial words learned from few examples: which template does each word mean?
+
+Nothing is known of a word beforehand but that it means one of many graded templates
+(see `kille.perception.relations.templates`); its name is never looked at. Each lesson
+makes some templates more and others less likely, and the degree of a word is the mean
+of what its templates say, by how likely they are.
+
+A word that was *said* of x is more likely meant narrowly (Tenenbaum's size principle):
+
+    p(x | word means h) = (h(x) + r z_h) / (mean of h where things stand + r z_h),
+
+with z_h the share of all places that h covers. r lets a lesson be grossly wrong: the
+tutor slipped, or the thing was not where it was seen. A word that was *judged* of x, as
+in "no, it is not near", says nothing about where things stand:
+
+    p(degree d | word means h) = (m h(x))^d (1 - m h(x))^(1 - d),
+
+m being how often a word that fits is said to fit: always, or of a rarer word half the
+time.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.perception.learners import Key, own_key
+from kille.perception.relations.space import space
+from kille.scene import Configuration
+
+Vector = NDArray[np.float64]
+
+_SLIPS = 0.1  # r: about a tenth of the lessons may be wrong
+_HELD = np.array([[1.0], [0.5]])  # m
+_HELD_PRIOR = np.log([[0.8], [0.2]])
+_TRUTH = 0.3  # how much of it is that what is said is true
+_DOUBTED = 0.1  # how far a judgement may be wrong
+_WEIGHT = 5.0  # of one judgement
+_BEFOREHAND = 16.0  # how many places the usual ones count for
+_FARTHER = 2.0  # times the farthest that was heard: there is no doubt yet
+_DOUBT = 0.35  # of the logarithm of the distance
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """A word said of a configuration, or judged of it: the degree then."""
+
+    x: Configuration
+    label: str
+    degree: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What the lessons of one word say of each template: how well what was said of it
+    fits, (h,), and what was judged, (m, h); how much of what was said it covers."""
+
+    said: Vector
+    judged: Vector
+    covered: Vector
+    times_said: int = 0
+    lessons: int = 0
+
+    def plus(self, lesson: Lesson, times: int) -> Evidence:
+        """With the lesson so many times more."""
+        degrees = space().degrees([lesson.x])[0].astype(np.float64)
+        lessons = self.lessons + times
+        if lesson.degree is not None:
+            judged = self.judged + times * _judged(degrees, lesson.degree)
+            return replace(self, judged=judged, lessons=lessons)
+        return Evidence(
+            self.said + times * _said(degrees),
+            self.judged,
+            self.covered + times * degrees,
+            self.times_said + times,
+            lessons,
+        )
+
+    def templates(self, elsewhere: Vector, count: int) -> Vector:
+        """How likely the word means each template and is said to fit, (h,).
+
+        `elsewhere` is what templates cover of so many places where other words were
+        said.
+        """
+        breadth = space().breadth
+        usual = (_BEFOREHAND * breadth + elsewhere) / (_BEFOREHAND + count)
+        fit = self.said - self.times_said * np.log(usual + _SLIPS * breadth)
+        scores = space().log_prior + fit + self.judged + _HELD_PRIOR
+        if self.times_said == self.lessons:
+            scores = scores[:1]
+        likely = np.exp(scores - scores.max())
+        held = _HELD[: len(likely)]
+        believed: Vector = (held * likely).sum(axis=0) / likely.sum()
+        return believed
+
+
+def _nothing() -> Evidence:
+    none = np.zeros(len(space().breadth))
+    return Evidence(none, np.zeros((len(_HELD), 1)), none)
+
+
+def _said(degrees: Vector) -> Vector:
+    """How well the templates (h,) fit what was said, but for where things stand."""
+    true = _DOUBTED + (1 - _DOUBTED) * degrees
+    fit: Vector = np.log(degrees + _SLIPS * space().breadth) + _TRUTH * np.log(true)
+    return fit
+
+
+def _judged(degrees: Vector, degree: float) -> Vector:
+    """How well the templates (h,) fit the judgement, for each m."""
+    surely = _DOUBTED / 2 + (1 - _DOUBTED) * _HELD * degrees
+    fit: Vector = degree * np.log(surely) + (1 - degree) * np.log(1 - surely)
+    return _WEIGHT * fit
+
+
+class RelationMemory:
+    """A learner of spatial words from configurations."""
+
+    def __init__(self) -> None:
+        self._heard: dict[Key, Lesson] = {}
+        self._evidence: dict[str, Evidence] = {}
+        self._believed: _Beliefs | None = None
+
+    def copy(self) -> RelationMemory:
+        """Another memory that knows the same; either learns without the other."""
+        twin = RelationMemory()
+        twin._heard, twin._evidence = dict(self._heard), dict(self._evidence)
+        twin._believed = self._believed
+        return twin
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The learned words in alphabetical order."""
+        return tuple(sorted(self._evidence))
+
+    def learn_one(
+        self, x: Configuration, label: str, *, key: Key | None = None
+    ) -> None:
+        """Take the word as said of x; ValueError if the key is taken."""
+        self._learn(Lesson(x, label, None), key)
+
+    def judge_one(
+        self, x: Configuration, label: str, degree: float, *, key: Key | None = None
+    ) -> None:
+        """Take the word as judged to fit x to a degree; 0 is "no, it is not".
+
+        ValueError if the key is taken or the degree is not in [0, 1].
+        """
+        if not 0 <= degree <= 1:
+            raise ValueError(f"a degree is in [0, 1], and {degree} is not")
+        self._learn(Lesson(x, label, degree), key)
+
+    def _learn(self, lesson: Lesson, key: Key | None) -> None:
+        if key in self._heard:
+            raise ValueError(f"the key {key!r} was learned before; forget it first")
+        self._count(lesson, 1)
+        self._heard[own_key(self._heard) if key is None else key] = lesson
+
+    def forget(self, key: Key) -> None:
+        """Be as if this had never been learned; KeyError if it was not."""
+        self._count(self._heard.pop(key), -1)
+
+    def _count(self, lesson: Lesson, times: int) -> None:
+        old = self._evidence.get(lesson.label) or _nothing()
+        self._evidence[lesson.label] = old.plus(lesson, times)
+        if not self._evidence[lesson.label].lessons:
+            del self._evidence[lesson.label]
+        self._believed = None
+
+    def degrees(self, x: Configuration) -> dict[str, float]:
+        """How well each learned word fits x by itself: several may hold at once."""
+        if not self._evidence:
+            return {}
+        return dict(zip(self.labels, self._degrees(x).tolist(), strict=True))
+
+    def predict_proba_one(self, x: Configuration) -> dict[str, float]:
+        """How likely each word is the one to be said of x; the rest is for no word.
+
+        Of the words that fit, those said oftener where they fit are likelier.
+        """
+        if not self._evidence:
+            return {}
+        degrees = self._degrees(x)
+        chosen = self._beliefs.usual * degrees
+        shares = degrees.max() * chosen / max(chosen.sum(), 1e-12)
+        return dict(zip(self.labels, shares.tolist(), strict=True))
+
+    def _degrees(self, x: Configuration) -> Vector:
+        found: Vector = self._beliefs.templates @ space().degrees([x])[0]
+        return np.clip(found, 0, 1) * self._confidence(x)
+
+    def _confidence(self, x: Configuration) -> float:
+        """1 as far as was heard, and down to 0 far beyond."""
+        far = math.hypot(*x.offset) / (_FARTHER * max(self._beliefs.farthest, 1e-6))
+        if not far > 1:
+            return 1.0
+        return math.exp(-0.5 * (math.log(far) / _DOUBT) ** 2)
+
+    @property
+    def _beliefs(self) -> _Beliefs:
+        if self._believed is None:
+            self._believed = self._concluded()
+        return self._believed
+
+    def _concluded(self) -> _Beliefs:
+        every = [self._evidence[word] for word in self.labels]
+        covered = np.sum([it.covered for it in every], axis=0)
+        counts = np.array([it.times_said for it in every])
+        templates = np.array(
+            [
+                it.templates(covered - it.covered, int(counts.sum()) - it.times_said)
+                for it in every
+            ]
+        )
+        distances = [math.hypot(*it.x.offset) for it in self._heard.values()]
+        known = [it for it in distances if math.isfinite(it)]
+        usual = (counts + 1) / (templates @ covered + 1)
+        return _Beliefs(templates, usual, max(known, default=math.inf))
+
+
+@dataclass(frozen=True, eq=False)
+class _Beliefs:
+    """How likely each word means each template (w, h); how usual each word is where it
+    fits (w,); and the farthest distance heard of, in metres."""
+
+    templates: Vector
+    usual: Vector
+    farthest: float

@@ -1,0 +1,262 @@
+"""The meanings a spatial word may have: families of graded spatial templates.
+
+A template gives each configuration a degree, the applicability of the word. Those of
+directions follow the attention vector sum of Regier and Carlson 2001,
+
+    sigmoid(2 k (c - c0) - a gap), made 1 in the middle,
+
+c the cosine of how far the target is off the direction, the mean of that on the table
+and that against the viewer's ray. Those of distance are sigmoid(k (b - log d)), less
+where other things are nearer or between. Those of function are sigmoid(k (f - b)) of
+contact, support and containment.
+
+Each family is a grid of such templates with a prior over them. Which of them a word
+means is told by its examples alone (see `kille.perception.relations.evidence`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from kille.perception.relations.measures import Array, Measures
+
+_FUZZ = 0.1  # sizes: nearer to the vertical than this no direction is told on the table
+_TOUCHING = -0.3  # the logarithm of the distance, in sizes, of things that touch
+_STEEPEST = 30.0  # beyond this a sigmoid is 0 or 1
+
+
+@dataclass(frozen=True, eq=False)
+class Family:
+    """Templates of one kind: their prior (h,), and their degrees of n configurations.
+
+    `degrees` is (n, h) in [0, 1], NaN where what it depends on is unknown.
+    """
+
+    name: str
+    prior: NDArray[np.float64]
+    degrees: Callable[[Measures], Array]
+
+
+@dataclass(frozen=True)
+class Axis:
+    """The values of one parameter and how likely each is beforehand."""
+
+    values: Array
+    prior: NDArray[np.float64]
+
+
+def _axis(values: ArrayLike, mean: float, deviation: float) -> Axis:
+    """Values with a Gaussian prior."""
+    them = np.asarray(values, np.float32)
+    density = np.exp(-0.5 * ((them - mean) / deviation) ** 2).astype(np.float64)
+    return Axis(them, density / density.sum())
+
+
+def _grid(*axes: Axis) -> tuple[list[Array], NDArray[np.float64]]:
+    """Every combination of the axes' values, each (h,), and their prior (h,)."""
+    values = np.meshgrid(*[axis.values for axis in axes], indexing="ij")
+    priors = np.meshgrid(*[axis.prior for axis in axes], indexing="ij")
+    return [it.ravel() for it in values], np.prod(priors, axis=0).ravel()
+
+
+def _sigmoid(x: NDArray[np.floating]) -> Array:
+    degrees = 1 / (1 + np.exp(-np.clip(x, -_STEEPEST, _STEEPEST)))
+    return np.asarray(degrees, np.float32)
+
+
+# The means are those of the prior that was found on other people's judgements of blocks
+# (k 4, c0 .55, a .1; near: k 1.5, b 1); the widths let a word be twice as sharp or
+# as vague, and its border be 30 degrees elsewhere.
+SHARPNESS = _axis([2, 4, 8], 4, 3)
+BORDER = _axis([-0.05, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 0.95], 0.55, 0.3)
+FADING = _axis([0, 0.1, 0.4], 0.1, 0.15)
+STEEPNESS = _axis([0.8, 1.5, 3, 6], 1.5, 1.5)
+REACH = _axis([-0.5, 0, 0.5, 1, 1.5, 2, 2.5], 1, 0.7)
+CROWDED = _axis([0, 0.75, 1.5], 0, 1)
+PARTED = _axis([0, 0.7, 1.5], 0, 1)
+
+
+def _cones(cosines: Callable[[Measures], Array]) -> Callable[[Measures], Array]:
+    """Templates around each of m directions, from their cosines (n, m).
+
+    Each is made so high that it is 1 in the middle of its cone.
+    """
+    (k, c0, a), _ = _grid(SHARPNESS, BORDER, FADING)
+    highest = _sigmoid(2 * k * (1 - c0))
+
+    def degrees(of: Measures) -> Array:
+        c = cosines(of)[:, :, None]
+        off = 2 * k * (c - c0) - a * of.gap[:, None, None]
+        return (_sigmoid(off) / highest).reshape(len(c), -1)
+
+    return degrees
+
+
+def _cone_prior(of_directions: ArrayLike, share: float) -> NDArray[np.float64]:
+    weights = np.asarray(of_directions, np.float64)
+    _, prior = _grid(SHARPNESS, BORDER, FADING)
+    return share * np.outer(weights / weights.sum(), prior).ravel()
+
+
+def _levels(of: Measures) -> tuple[Array, Array]:
+    """How much of a direction is told on the table, (n,): all of it, or less where the
+    target is far above or below."""
+    told = of.across / np.sqrt(of.across**2 + _FUZZ**2)
+    steep = of.across / np.sqrt(of.across**2 + of.rise**2 + _FUZZ**2)
+    return told, steep
+
+
+def _both_levels(cosines: Array, of: Measures) -> Array:
+    """The cosines (n, m) with and without regard to height, (n, 2 m)."""
+    told, steep = _levels(of)
+    return np.concatenate([cosines * told[:, None], cosines * steep[:, None]], axis=1)
+
+
+def _viewers(of: Measures, directions: Array) -> Array:
+    """The mean cosine on the table and against the viewer's ray, (n, m)."""
+    on_table = np.cos(of.bearing[:, None] - directions)
+    against_ray = np.cos((of.bearing - of.turn)[:, None] - directions)
+    cosines: Array = 0.5 * (on_table + against_ray)
+    return cosines
+
+
+def _viewed(share: float) -> Family:
+    """On one side as the viewer sees it: left, behind, and 22 other directions."""
+    directions = np.radians(np.arange(0, 360, 15)).astype(np.float32)
+    weights = [20 if i % 6 == 0 else 2 if i % 3 == 0 else 1 for i in range(24)]
+
+    def cosines(of: Measures) -> Array:
+        return _both_levels(_viewers(of, directions), of)
+
+    return Family("viewed", _cone_prior(weights * 2, share), _cones(cosines))
+
+
+def _headed(share: float) -> Family:
+    """On one side of a landmark with a front of its own."""
+    directions = np.radians(np.arange(0, 360, 45)).astype(np.float32)
+    weights = [4, 1] * 4
+
+    def cosines(of: Measures) -> Array:
+        return _both_levels(np.cos((of.bearing - of.heading)[:, None] - directions), of)
+
+    return Family("headed", _cone_prior(weights * 2, share), _cones(cosines))
+
+
+def _flanking(share: float) -> Family:
+    """On either of two opposite sides."""
+    directions = np.radians([0.0, 90.0]).astype(np.float32)
+
+    def cosines(of: Measures) -> Array:
+        return _both_levels(np.abs(_viewers(of, directions)), of)
+
+    return Family("flanking", _cone_prior([1] * 4, share), _cones(cosines))
+
+
+def _vertical(share: float) -> Family:
+    """Above or below, in a wide or in a narrow cone."""
+
+    def cosines(of: Measures) -> Array:
+        wide = of.rise / np.sqrt(of.across**2 + of.rise**2 + _FUZZ**2)
+        narrow = of.rise / np.sqrt(4 * of.across**2 + of.rise**2 + _FUZZ**2)
+        return np.stack([wide, narrow, -wide, -narrow], axis=1)
+
+    return Family("vertical", _cone_prior([1] * 4, share), _cones(cosines))
+
+
+def _near(share: float) -> Family:
+    """At a small distance, for the sizes and for what else is there.
+
+    Each is made so high that it is 1 where the two touch.
+    """
+    (k, b, e, f), prior = _grid(STEEPNESS, REACH, CROWDED, PARTED)
+    highest = _sigmoid(k * (b - _TOUCHING))
+
+    def degrees(of: Measures) -> Array:
+        off = (
+            k * (b - of.apart[:, None])
+            - e * of.crowding[:, None]
+            - f * of.between[:, None]
+        )
+        near: Array = np.minimum(_sigmoid(off) / highest, 1)
+        return near
+
+    return Family("near", share * prior, degrees)
+
+
+def _beside(share: float) -> Family:
+    """At a small distance and on the same level."""
+    (k, b), prior = _grid(STEEPNESS, REACH)
+    highest = _sigmoid(k * (b - _TOUCHING))
+
+    def degrees(of: Measures) -> Array:
+        _, steep = _levels(of)
+        level = _sigmoid(8 * (steep - 0.7))
+        near = np.minimum(_sigmoid(k * (b - of.apart[:, None])) / highest, 1)
+        both: Array = level[:, None] * near
+        return both
+
+    return Family("beside", share * prior, degrees)
+
+
+def _far(share: float) -> Family:
+    """At a large distance."""
+    (k, b), prior = _grid(STEEPNESS, REACH)
+
+    def degrees(of: Measures) -> Array:
+        return _sigmoid(k * (of.apart[:, None] - b))
+
+    return Family("far", share * prior, degrees)
+
+
+def _between(share: float) -> Family:
+    """On the line from the landmark to another thing."""
+    (k, c0), prior = _grid(SHARPNESS, BORDER)
+
+    def degrees(of: Measures) -> Array:
+        return _sigmoid(2 * k * (of.flanked[:, None] - c0))
+
+    return Family("between", share * prior, degrees)
+
+
+def _functional(share: float) -> Family:
+    """Held in one way or another: touched, borne, contained."""
+    (k, b), prior = _grid(
+        _axis([6, 12], 8, 6), _axis([0.05, 0.2, 0.4, 0.6, 0.8], 0.4, 0.3)
+    )
+
+    def degrees(of: Measures) -> Array:
+        contact, support, containment = of.contact, of.support, of.containment
+        held = np.stack(
+            [
+                contact,
+                support,
+                containment,
+                np.maximum(support, containment),
+                np.maximum(contact, support),
+                contact * (1 - support),
+                contact * (1 - np.maximum(support, containment)),
+                support * (1 - containment),
+            ],
+            axis=1,
+        )
+        off = k * (held[:, :, None] - b)
+        return _sigmoid(off).reshape(len(held), -1)
+
+    return Family("functional", share * np.tile(prior / 8, 8), degrees)
+
+
+def families() -> Iterator[Family]:
+    """All families; the priors of all templates sum to 1."""
+    yield _viewed(0.4)
+    yield _headed(0.06)
+    yield _flanking(0.03)
+    yield _vertical(0.14)
+    yield _near(0.1)
+    yield _beside(0.03)
+    yield _far(0.07)
+    yield _between(0.02)
+    yield _functional(0.15)

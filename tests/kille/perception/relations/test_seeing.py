@@ -1,0 +1,81 @@
+"""From what is seen to a configuration: places, sizes, and how one holds another."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kille.perception.relations.bounds import Bounds, bounds_of, hold
+from kille.perception.relations.seeing import configuration
+from kille.perception.segment import region_of
+from kille.scene import Configuration
+from kille.sensors.sensor import At
+from kille.sensors.synthetic.sensor import open_synthetic
+
+corners = st.lists(st.floats(-1, 1), min_size=3, max_size=3)
+sides = st.lists(st.floats(0.01, 1), min_size=3, max_size=3)
+
+
+def box(low: list[float], size: list[float]) -> Bounds:
+    return Bounds(np.array(low), np.array(low) + np.array(size))
+
+
+@given(corners, sides, corners, sides)
+def test_a_hold_is_in_degrees(
+    low: list[float], size: list[float], other: list[float], its: list[float]
+) -> None:
+    held = hold(box(low, size), box(other, its))
+    for degree in (held.contact, held.support, held.containment):
+        assert 0 <= degree <= 1
+
+
+@given(corners, sides)
+def test_a_thing_contains_and_touches_itself(
+    low: list[float], size: list[float]
+) -> None:
+    held = hold(box(low, size), box(low, size))
+    assert held.contact == 1
+    assert held.containment == pytest.approx(1)
+
+
+def test_on_beside_and_over() -> None:
+    table = box([0, 0, 0], [1, 1, 0.2])
+    on = hold(box([0.4, 0.4, 0.2], [0.1, 0.1, 0.1]), table)
+    beside = hold(box([1.0, 0.4, 0], [0.1, 0.1, 0.1]), table)
+    over = hold(box([0.4, 0.4, 0.6], [0.1, 0.1, 0.1]), table)
+    assert (on.contact, on.support, on.containment) == (1, pytest.approx(1), 0)
+    assert (beside.contact, beside.support) == (1, 0)
+    assert (over.contact, over.support) == (0, 0)
+
+
+def test_bounds_leave_out_strays_and_what_was_not_read() -> None:
+    points = np.random.default_rng(0).uniform(0, 1, (500, 3))
+    points[0], points[1] = 50.0, np.nan
+    found = bounds_of(points, 0.02)
+    assert found is not None
+    assert found.high.max() < 1.01
+    assert bounds_of(np.full((3, 3), np.nan)) is None
+
+
+def seen(spot: At) -> Configuration:
+    stage = open_synthetic("synthetic:empty?seed=7")
+    stage.place("car", At(0.0, 0.1, 0.0))
+    stage.place("book", spot)
+    frame = stage.frame()
+    book, car = (region_of(frame, frame.outlines[it]) for it in ("book", "car"))
+    found = configuration(frame, book, car, [], stage.camera.up)
+    assert found is not None
+    return found
+
+
+def test_a_book_beside_a_car() -> None:
+    found = seen(At(-0.25, 0.1, 0.0))
+    assert found.offset == pytest.approx((-0.25, 0.0, 0.0), abs=0.03)
+    assert found.target_size == pytest.approx(0.22, abs=0.04)
+    assert found.landmark_size == pytest.approx(0.19, abs=0.04)
+    assert found.viewed is not None
+    assert found.viewed[1] > 0.4
+    assert found.viewed[2] < 0
+    assert found.support == 0
