@@ -8,6 +8,7 @@ from kille.memory.errors import MemoryFileError, NoSuchLessonError
 from kille.memory.files import default_path
 from kille.memory.lessons import (
     Arrangement,
+    Dialogue,
     Kind,
     Lesson,
     ObjectLesson,
@@ -18,6 +19,7 @@ from kille.memory.lessons import (
     Word,
 )
 from kille.memory.memory import Memory, MemoryReader
+from kille.memory.pictures import Crop, Picture
 
 __all__ = [
     "Memory",
@@ -25,10 +27,13 @@ __all__ = [
     "default_path",
     "Word",
     "Kind",
+    "Dialogue",
     "Turn",
     "Scan",
     "Sighting",
     "Arrangement",
+    "Picture",
+    "Crop",
     "Lesson",
     "ObjectLesson",
     "RelationLesson",

@@ -59,6 +59,17 @@ def explained(place: str) -> Iterator[None]:
         raise MemoryFileError(f"{place} {explanation}") from error
 
 
+@contextmanager
+def content_explained(place: str) -> Iterator[None]:
+    """The same where lessons are read: what is none was damaged on its disk."""
+    try:
+        with explained(place):
+            yield
+    except (ValueError, TypeError, KeyError) as error:
+        damage = EXPLANATIONS[sqlite3.SQLITE_CORRUPT]
+        raise MemoryFileError(f"{place} {damage}") from error
+
+
 def primary_code(error: sqlite3.Error) -> int:
     """The primary result code of an error: the low byte of the extended one.
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import astuple, dataclass, field
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.scene import Point
+from kille.memory.pictures import Picture
+from kille.scene import Configuration, Point, Traits, Vector
 
 Kind = Literal["object", "relation"]
-
-Size = tuple[float, float, float]
 
 DESCRIPTOR_LENGTH = 128
 
@@ -29,6 +29,14 @@ class Word:
     name: str
     surface: str
     kind: Kind
+
+
+@dataclass(frozen=True)
+class Dialogue:
+    """That a dialogue began, at a time as ISO 8601 text."""
+
+    number: int
+    began: str
 
 
 @dataclass(frozen=True)
@@ -70,43 +78,42 @@ class Sighting:
     """An object as it was seen when its word was taught.
 
     `time` is that of the first frame, in seconds of the sensor's clock; `place` is in
-    metres, None where the sensor has no depth. `colour` (k,) float32 and `size`, in
-    metres along three axes, are those of the object as a whole, None where they were
-    not measured. Raises ValueError for numbers that are not finite and for a colour of
-    another shape or type.
+    metres, None where the sensor has no depth. `traits` are those of the object as a
+    whole, vectors (k,) float32 by the name of the cue. Raises ValueError for numbers
+    that are not finite and for vectors of another shape or type.
     """
 
     sensor: str
     time: float
     scans: tuple[Scan, ...]
     place: Point | None
-    colour: NDArray[np.float32] | None = None
-    size: Size | None = None
+    traits: Traits = field(default_factory=dict)
+    picture: Picture | None = None
 
     def __post_init__(self) -> None:
-        numbers = *(self.place or ()), *(self.size or ())
-        _require_finite("a sighting", self.time, *numbers)
-        if self.colour is not None:
-            _require("colour", self.colour, "float32", (self.colour.size,))
-            _require_finite("a colour", *self.colour.tolist())
+        _require_finite("a sighting", self.time, *(self.place or ()))
+        for cue, vector in self.traits.items():
+            _require_trait(cue, vector)
 
 
 @dataclass(frozen=True)
 class Arrangement:
     """Two objects as they stood when the word for their relation was taught.
 
-    `target` and `landmark` are names of words; `offset` is the target's place relative
-    to the landmark, in metres. Raises ValueError for numbers that are not finite.
+    `target` and `landmark` are names of words; `configuration` says how the target
+    stands to the landmark. Raises ValueError for numbers that are not finite.
     """
 
     sensor: str
     time: float
     target: str
     landmark: str
-    offset: Point
+    configuration: Configuration
+    picture: Picture | None = None
 
     def __post_init__(self) -> None:
-        _require_finite("an arrangement", self.time, *self.offset)
+        numbers = _numbers(astuple(self.configuration))
+        _require_finite("an arrangement", self.time, *numbers)
 
 
 @dataclass(frozen=True)
@@ -141,6 +148,23 @@ def _require(
         )
 
 
+def _require_trait(cue: str, vector: Vector) -> None:
+    name = f"the trait {cue}"
+    _require(name, vector, "float32", (vector.size,))
+    if not np.isfinite(vector).all():
+        raise ValueError(f"{name} needs finite numbers, not {vector}")
+
+
 def _require_finite(owner: str, *numbers: float) -> None:
     if not all(map(math.isfinite, numbers)):
         raise ValueError(f"{owner} needs finite numbers, not {numbers}")
+
+
+def _numbers(value: object) -> Iterator[float]:
+    """All numbers in a value made of tuples."""
+    match value:
+        case tuple():
+            for part in value:
+                yield from _numbers(part)
+        case int() | float():
+            yield value

@@ -5,14 +5,16 @@ from __future__ import annotations
 import sqlite3
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
+from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from kille.memory import files, reading, writing
-from kille.memory.errors import NoSuchLessonError, explained
+from kille.memory import files, merging, reading, writing
+from kille.memory.errors import NoSuchLessonError, content_explained, explained
 from kille.memory.lessons import (
     Arrangement,
+    Dialogue,
     Lesson,
     ObjectLesson,
     RelationLesson,
@@ -20,6 +22,8 @@ from kille.memory.lessons import (
     Turn,
     Word,
 )
+from kille.memory.merging import Merged, Source
+from kille.memory.pictures import Picture
 
 Scope = Callable[[sqlite3.Connection], AbstractContextManager[None]]
 """How much is kept or undone at once."""
@@ -57,6 +61,11 @@ class MemoryReader:
         with explained(self.place):
             return reading.words(self._connection)
 
+    def dialogues(self) -> tuple[Dialogue, ...]:
+        """All dialogues, in the order in which they began."""
+        with explained(self.place):
+            return reading.dialogues(self._connection)
+
     def turns(self) -> tuple[Turn, ...]:
         """All that was said, dialogue by dialogue."""
         with explained(self.place):
@@ -68,14 +77,40 @@ class MemoryReader:
             return reading.lessons(self._connection)
 
     def objects(self) -> Iterator[ObjectLesson]:
-        """The lessons about objects, oldest first, each read as it is asked for."""
-        with explained(self.place):
+        """The lessons about objects, oldest first, without their pictures.
+
+        They are read some hundred at a time, as they are asked for.
+        """
+        with content_explained(self.place):
             yield from reading.objects(self._connection)
 
     def relations(self) -> Iterator[RelationLesson]:
-        """The lessons about relations, oldest first, each read as it is asked for."""
-        with explained(self.place):
+        """The lessons about relations, read like those about objects."""
+        with content_explained(self.place):
             yield from reading.relations(self._connection)
+
+    def lesson(self, key: int) -> ObjectLesson | RelationLesson:
+        """The lesson of this key with its picture. Raises NoSuchLessonError."""
+        with (
+            content_explained(self.place),
+            reading.at_one_moment(self._connection),
+        ):
+            found = reading.lesson(self._connection, key)
+            picture = reading.picture(self._connection, key)
+        if found is None:
+            raise _no_such(self.place, key)
+        return pictured(found, picture)
+
+    def picture(self, key: int) -> Picture | None:
+        """The picture of a lesson, None if none was kept or there is no lesson."""
+        with content_explained(self.place):
+            return reading.picture(self._connection, key)
+
+    @contextmanager
+    def at_one_moment(self) -> Iterator[Self]:
+        """All that is asked inside is answered as of one moment."""
+        with explained(self.place), reading.at_one_moment(self._connection):
+            yield self
 
 
 class Memory(MemoryReader):
@@ -137,7 +172,7 @@ class Memory(MemoryReader):
         The key of the lesson. Raises ValueError as `record_turn` does.
         """
         with self._transaction() as connection:
-            return writing.add_object_lesson(connection, turn, name, surface, seen)
+            return writing.add_lesson(connection, turn, name, surface, seen)
 
     def learn_relation(
         self, turn: Turn, name: str, surface: str, seen: Arrangement
@@ -147,7 +182,7 @@ class Memory(MemoryReader):
         The key of the lesson. Raises ValueError as `record_turn` does.
         """
         with self._transaction() as connection:
-            return writing.add_relation_lesson(connection, turn, name, surface, seen)
+            return writing.add_lesson(connection, turn, name, surface, seen)
 
     def forget(self, key: int) -> None:
         """Unlearn one lesson; what was said stays on record.
@@ -157,9 +192,16 @@ class Memory(MemoryReader):
         with self._transaction() as connection:
             found = writing.delete_lesson(connection, key)
         if not found:
-            raise NoSuchLessonError(
-                f"{self.place} has no lesson {key}: kille memory list shows them"
-            )
+            raise _no_such(self.place, key)
+
+    def merge(self, other: Source) -> Merged:
+        """Add what is new in another memory, all or nothing; what that was.
+
+        Nothing that is known is learned again: not a lesson in the same word from the
+        same turn of the same dialogue. An empty memory becomes the other.
+        """
+        with self._transaction() as connection:
+            return merging.merge(connection, other)
 
     @contextmanager
     def together(self) -> Iterator[None]:
@@ -176,6 +218,23 @@ class Memory(MemoryReader):
         """What happens inside is kept wholly, or none of it ever happened."""
         with explained(self.place), self._scope(self._connection):
             yield self._connection
+
+
+def pictured(
+    lesson: ObjectLesson | RelationLesson, picture: Picture | None
+) -> ObjectLesson | RelationLesson:
+    """The lesson with this picture of what was seen."""
+    match lesson:
+        case ObjectLesson():
+            return replace(lesson, seen=replace(lesson.seen, picture=picture))
+        case RelationLesson():
+            return replace(lesson, seen=replace(lesson.seen, picture=picture))
+
+
+def _no_such(place: str, key: int) -> NoSuchLessonError:
+    return NoSuchLessonError(
+        f"{place} has no lesson {key}: kille memory show WORD tells those in a word"
+    )
 
 
 @contextmanager

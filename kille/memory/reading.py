@@ -1,20 +1,25 @@
 """What a memory holds, as values: the questions asked of its tables.
 
-No cursor stays open between two answers: it would keep the file from being let go.
+Lessons are read some hundred at a time, by one statement a table. No cursor stays open
+between two answers: it would keep the file from being let go.
 """
 
 from __future__ import annotations
 
+import json
 import sqlite3
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from kille.memory.configurations import from_text
 from kille.memory.lessons import (
     DESCRIPTOR_LENGTH,
     Arrangement,
+    Dialogue,
     Kind,
     Lesson,
     ObjectLesson,
@@ -24,12 +29,18 @@ from kille.memory.lessons import (
     Turn,
     Word,
 )
-from kille.scene import Point
+from kille.memory.pictures import Crop, Picture
+from kille.scene import Box, Intrinsics, Point, Traits, Vector
+
+BATCH = 250
+"""How many lessons are read at once."""
 
 WORDS = """
     SELECT name, surface, kind FROM lessons
     WHERE id IN (SELECT min(id) FROM lessons GROUP BY kind, name) ORDER BY id
 """
+
+DIALOGUES = "SELECT id, began FROM dialogues ORDER BY id"
 
 TURNS = """
     SELECT dialogue, number, speaker, text, judgement, time FROM turns
@@ -47,27 +58,58 @@ LESSONS = f"""
     ORDER BY lessons.id
 """
 
-OBJECT_LESSON = f"""
-    SELECT {LESSON_COLUMNS}, sensor, lessons.time, x, y, z,
-        colour, length, breadth, thickness
+OBJECTS = f"""
+    SELECT {LESSON_COLUMNS}, sensor, lessons.time, x, y, z
     FROM lessons JOIN turns ON turns.id = turn JOIN sightings ON lesson = lessons.id
-    WHERE lessons.id = ?
+    WHERE lessons.id BETWEEN ? AND ? ORDER BY lessons.id
 """
 
-RELATION_LESSON = f"""
-    SELECT {LESSON_COLUMNS}, sensor, lessons.time, target, landmark, x, y, z
+RELATIONS = f"""
+    SELECT {LESSON_COLUMNS}, sensor, lessons.time, target, landmark, configuration
     FROM lessons JOIN turns ON turns.id = turn JOIN arrangements ON lesson = lessons.id
-    WHERE lessons.id = ?
+    WHERE lessons.id BETWEEN ? AND ? ORDER BY lessons.id
 """
 
 KEYS = "SELECT id FROM lessons WHERE kind = ? ORDER BY id"
 
-SCANS = "SELECT descriptors, points FROM scans WHERE lesson = ? ORDER BY id"
+SCANS = """
+    SELECT lesson, descriptors, points FROM scans
+    WHERE lesson BETWEEN ? AND ? ORDER BY lesson, id
+"""
+
+TRAITS = """
+    SELECT lesson, cue, vector FROM traits
+    WHERE lesson BETWEEN ? AND ? ORDER BY lesson, id
+"""
+
+PICTURE = """
+    SELECT frame, boxes, colour, mask, depth, intrinsics
+    FROM pictures LEFT JOIN crops ON crops.lesson = pictures.lesson
+    WHERE pictures.lesson = ?
+"""
+
+
+@contextmanager
+def at_one_moment(connection: sqlite3.Connection) -> Iterator[None]:
+    """What is read inside is as it was at one moment, whoever writes meanwhile."""
+    if connection.in_transaction:
+        yield
+        return
+    connection.execute("BEGIN")
+    try:
+        yield
+    finally:
+        connection.rollback()
 
 
 def words(connection: sqlite3.Connection) -> tuple[Word, ...]:
     """Every word that a lesson teaches, as it was said first, oldest first."""
     return tuple(Word(*row) for row in connection.execute(WORDS))
+
+
+def dialogues(connection: sqlite3.Connection) -> tuple[Dialogue, ...]:
+    """All dialogues, in the order in which they began."""
+    return tuple(Dialogue(*row) for row in connection.execute(DIALOGUES))
 
 
 def turns(connection: sqlite3.Connection) -> tuple[Turn, ...]:
@@ -81,28 +123,78 @@ def lessons(connection: sqlite3.Connection) -> tuple[Lesson, ...]:
 
 
 def objects(connection: sqlite3.Connection) -> Iterator[ObjectLesson]:
-    """The lessons about objects, oldest first.
+    """The lessons about objects, oldest first, without their pictures.
 
-    Each is read as it is asked for: one forgotten meanwhile is left out.
+    A batch is read when its first lesson is asked for: what was forgotten before is
+    left out.
     """
-    for key in _keys(connection, "object"):
-        for row in connection.execute(OBJECT_LESSON, (key,)).fetchall():
-            sensor, time, x, y, z, blob, *lengths = row[LESSON_WIDTH:]
-            place = None if x is None else Point(x, y, z)
-            colour = None if blob is None else floats(blob)
-            size = None if lengths[0] is None else (lengths[0], lengths[1], lengths[2])
-            scans = _scans(connection, key)
-            seen = Sighting(sensor, time, scans, place, colour, size)
-            yield ObjectLesson(*_lesson_fields(row), seen)
+    for first, last in _batches(connection, "object"):
+        with at_one_moment(connection):
+            batch = objects_between(connection, first, last)
+        yield from batch
 
 
 def relations(connection: sqlite3.Connection) -> Iterator[RelationLesson]:
     """The lessons about relations, oldest first, read like those about objects."""
-    for key in _keys(connection, "relation"):
-        for row in connection.execute(RELATION_LESSON, (key,)).fetchall():
-            sensor, time, target, landmark, *offset = row[LESSON_WIDTH:]
-            seen = Arrangement(sensor, time, target, landmark, Point(*offset))
-            yield RelationLesson(*_lesson_fields(row), seen)
+    for first, last in _batches(connection, "relation"):
+        with at_one_moment(connection):
+            batch = relations_between(connection, first, last)
+        yield from batch
+
+
+def lesson(
+    connection: sqlite3.Connection, key: int
+) -> ObjectLesson | RelationLesson | None:
+    """The lesson of this key without its picture, or None."""
+    with at_one_moment(connection):
+        for found in objects_between(connection, key, key):
+            return found
+        for stand in relations_between(connection, key, key):
+            return stand
+    return None
+
+
+def picture(connection: sqlite3.Connection, key: int) -> Picture | None:
+    """The picture of a lesson, None if it has none."""
+    row = connection.execute(PICTURE, (key,)).fetchone()
+    if row is None:
+        return None
+    frame, boxes, colour, mask, depth, intrinsics = row
+    placed = tuple(Box(*box) for box in json.loads(boxes))
+    if colour is None:
+        return Picture(frame, placed)
+    lens = None if intrinsics is None else Intrinsics(*json.loads(intrinsics))
+    return Picture(frame, placed, Crop(colour, mask, depth, lens))
+
+
+def objects_between(
+    connection: sqlite3.Connection, first: int, last: int
+) -> list[ObjectLesson]:
+    """The lessons about objects whose keys are from the first to the last of these."""
+    scans = _scans(connection, first, last)
+    traits = _traits(connection, first, last)
+    found = []
+    for row in connection.execute(OBJECTS, (first, last)).fetchall():
+        key = row[0]
+        sensor, time, x, y, z = row[LESSON_WIDTH:]
+        place = None if x is None else Point(x, y, z)
+        seen = Sighting(
+            sensor, time, tuple(scans.get(key, ())), place, traits.get(key, {})
+        )
+        found.append(ObjectLesson(*_lesson_fields(row), seen))
+    return found
+
+
+def relations_between(
+    connection: sqlite3.Connection, first: int, last: int
+) -> list[RelationLesson]:
+    """The lessons about relations with keys from the first to the last of these."""
+    found = []
+    for row in connection.execute(RELATIONS, (first, last)).fetchall():
+        sensor, time, target, landmark, text = row[LESSON_WIDTH:]
+        seen = Arrangement(sensor, time, target, landmark, from_text(text))
+        found.append(RelationLesson(*_lesson_fields(row), seen))
+    return found
 
 
 def scan(descriptors: bytes, points: bytes) -> Scan:
@@ -113,17 +205,35 @@ def scan(descriptors: bytes, points: bytes) -> Scan:
     )
 
 
-def floats(blob: bytes) -> NDArray[np.float32]:
-    """The numbers (n,) whose little-endian bytes these are."""
+def floats(blob: bytes) -> Vector:
+    """The numbers (n,) whose little-endian bytes these are; not copied."""
     return np.frombuffer(blob, "<f4").astype(np.float32, copy=False)
 
 
-def _scans(connection: sqlite3.Connection, key: int) -> tuple[Scan, ...]:
-    return tuple(scan(*row) for row in connection.execute(SCANS, (key,)))
+def _scans(
+    connection: sqlite3.Connection, first: int, last: int
+) -> Mapping[int, list[Scan]]:
+    found = defaultdict[int, list[Scan]](list)
+    for key, *arrays in connection.execute(SCANS, (first, last)):
+        found[key].append(scan(*arrays))
+    return found
 
 
-def _keys(connection: sqlite3.Connection, kind: Kind) -> list[int]:
-    return [key for (key,) in connection.execute(KEYS, (kind,))]
+def _traits(
+    connection: sqlite3.Connection, first: int, last: int
+) -> Mapping[int, Traits]:
+    found = defaultdict[int, dict[str, Vector]](dict)
+    for key, cue, vector in connection.execute(TRAITS, (first, last)):
+        found[key][cue] = floats(vector)
+    return found
+
+
+def _batches(connection: sqlite3.Connection, kind: Kind) -> Iterator[tuple[int, int]]:
+    """The first and last key of each batch of lessons of a kind."""
+    keys = [key for (key,) in connection.execute(KEYS, (kind,))]
+    for at in range(0, len(keys), BATCH):
+        batch = keys[at : at + BATCH]
+        yield batch[0], batch[-1]
 
 
 def _lesson_fields(row: tuple[Any, ...]) -> tuple[int, Word, Turn]:

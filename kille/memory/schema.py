@@ -6,13 +6,17 @@ that forgetting a lesson leaves nothing behind.
 
 from __future__ import annotations
 
+import json
+import math
 import sqlite3
-from collections.abc import Sequence
+import struct
+from collections.abc import Callable, Sequence
 
 # "KILL" in ASCII: tells our files from any other SQLite database.
 APPLICATION_ID = 0x4B494C4C
 
-Migration = tuple[str, ...]
+Migration = tuple[str | Callable[[sqlite3.Connection], None], ...]
+"""Statements, and what no statement can say."""
 
 TABLES: Migration = (
     """
@@ -73,9 +77,100 @@ TABLES: Migration = (
     """,
 )
 
+# Version 1 kept a histogram of colours and three lengths in metres of every sighting.
+NEARLY_NOTHING = 0.01  # metres added to a length before its logarithm is taken
+
+
+def move_traits(connection: sqlite3.Connection) -> None:
+    """What version 1 knew of things as a whole, as vectors of the cues it became."""
+    looks = connection.execute(
+        "SELECT lesson, colour, length, breadth, thickness FROM older_sightings "
+        "ORDER BY lesson"
+    ).fetchall()
+    for lesson, colour, *lengths in looks:
+        if colour is not None:
+            _add_trait(connection, lesson, "colour", colour)
+        if None not in lengths and all(x > -NEARLY_NOTHING for x in lengths):
+            longest_first = sorted(lengths, reverse=True)
+            size = [math.log(x + NEARLY_NOTHING) for x in longest_first]
+            _add_trait(connection, lesson, "size", struct.pack("<3f", *size))
+
+
+def move_offsets(connection: sqlite3.Connection) -> None:
+    """Offsets as configurations of which nothing else is known."""
+    offsets = connection.execute(
+        "SELECT lesson, target, landmark, x, y, z FROM older_arrangements "
+        "ORDER BY lesson"
+    ).fetchall()
+    for lesson, target, landmark, *offset in offsets:
+        connection.execute(
+            "INSERT INTO arrangements VALUES (?, ?, ?, ?)",
+            (lesson, target, landmark, json.dumps({"offset": offset})),
+        )
+
+
+def _add_trait(
+    connection: sqlite3.Connection, lesson: int, cue: str, vector: bytes
+) -> None:
+    connection.execute(
+        "INSERT INTO traits (lesson, cue, vector) VALUES (?, ?, ?)",
+        (lesson, cue, vector),
+    )
+
+
+EVIDENCE: Migration = (
+    """
+    CREATE TABLE traits (
+        id INTEGER PRIMARY KEY,
+        lesson INTEGER NOT NULL REFERENCES lessons ON DELETE CASCADE,
+        cue TEXT NOT NULL,
+        vector BLOB NOT NULL,
+        UNIQUE (lesson, cue)
+    )
+    """,
+    "ALTER TABLE sightings RENAME TO older_sightings",
+    """
+    CREATE TABLE sightings (
+        lesson INTEGER PRIMARY KEY REFERENCES lessons ON DELETE CASCADE,
+        x REAL, y REAL, z REAL
+    )
+    """,
+    "INSERT INTO sightings SELECT lesson, x, y, z FROM older_sightings",
+    move_traits,
+    "DROP TABLE older_sightings",
+    "ALTER TABLE arrangements RENAME TO older_arrangements",
+    """
+    CREATE TABLE arrangements (
+        lesson INTEGER PRIMARY KEY REFERENCES lessons ON DELETE CASCADE,
+        target TEXT NOT NULL,
+        landmark TEXT NOT NULL,
+        configuration TEXT NOT NULL
+    )
+    """,
+    move_offsets,
+    "DROP TABLE older_arrangements",
+    # Boxes and intrinsics are JSON; the rest are files of pictures.
+    """
+    CREATE TABLE pictures (
+        lesson INTEGER PRIMARY KEY REFERENCES lessons ON DELETE CASCADE,
+        frame BLOB NOT NULL,
+        boxes TEXT NOT NULL
+    )
+    """,
+    """
+    CREATE TABLE crops (
+        lesson INTEGER PRIMARY KEY REFERENCES pictures ON DELETE CASCADE,
+        colour BLOB NOT NULL,
+        mask BLOB NOT NULL,
+        depth BLOB,
+        intrinsics TEXT
+    )
+    """,
+)
+
 # The n-th makes a file of version n out of one of version n - 1. Append, never edit:
 # files of every version are out there.
-MIGRATIONS: tuple[Migration, ...] = (TABLES,)
+MIGRATIONS: tuple[Migration, ...] = (TABLES, EVIDENCE)
 VERSION = len(MIGRATIONS)
 
 
@@ -107,8 +202,11 @@ def migrate(
     True
     """
     for migration in migrations[version(connection) :]:
-        for statement in migration:
-            connection.execute(statement)
+        for step in migration:
+            if isinstance(step, str):
+                connection.execute(step)
+            else:
+                step(connection)
     connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
     connection.execute(f"PRAGMA user_version = {len(migrations)}")
 

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import sqlite3
 from dataclasses import astuple
 
+from kille.memory.configurations import to_text
 from kille.memory.lessons import Arrangement, Kind, Scan, Sighting, Turn
+from kille.memory.pictures import Crop, Picture
+from kille.scene import Vector
 
 
-def add_dialogue(connection: sqlite3.Connection, began: str) -> int:
-    """The number of a new dialogue."""
-    return _insert(connection, "INSERT INTO dialogues (began) VALUES (?)", began)
+def add_dialogue(
+    connection: sqlite3.Connection, began: str, number: int | None = None
+) -> int:
+    """The number of a new dialogue: the one given, if one is."""
+    new = "INSERT INTO dialogues (id, began) VALUES (?, ?)"
+    return _insert(connection, new, number, began)
 
 
 def add_turn(connection: sqlite3.Connection, turn: Turn) -> int:
@@ -38,49 +45,44 @@ def add_turn(connection: sqlite3.Connection, turn: Turn) -> int:
     return int(found)
 
 
-def add_object_lesson(
-    connection: sqlite3.Connection, turn: Turn, name: str, surface: str, seen: Sighting
-) -> int:
-    """The key of a new lesson, with its turn and every scan."""
-    key = _add_lesson(connection, "object", turn, name, surface, seen)
-    place = seen.place or (None, None, None)
-    _insert(
-        connection,
-        "INSERT INTO sightings (lesson, x, y, z, colour, length, breadth, thickness) "
-        "VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-        key,
-        *place,
-        None if seen.colour is None else seen.colour.astype("<f4").tobytes(),
-        *(seen.size or (None, None, None)),
-    )
-    for scan in seen.scans:
-        _insert(
-            connection,
-            "INSERT INTO scans (lesson, descriptors, points) VALUES (?, ?, ?)",
-            key,
-            *scan_bytes(scan),
-        )
-    return key
-
-
-def add_relation_lesson(
+def add_lesson(
     connection: sqlite3.Connection,
     turn: Turn,
     name: str,
     surface: str,
-    seen: Arrangement,
+    seen: Sighting | Arrangement,
+    key: int | None = None,
 ) -> int:
-    """The key of a new lesson, with its turn."""
-    key = _add_lesson(connection, "relation", turn, name, surface, seen)
-    _insert(
+    """The key of a new lesson, with its turn and all that was seen.
+
+    It is the one given, if one is.
+    """
+    kind: Kind = "object" if isinstance(seen, Sighting) else "relation"
+    key = _insert(
         connection,
-        "INSERT INTO arrangements VALUES (?, ?, ?, ?, ?, ?)",
+        "INSERT INTO lessons (id, kind, name, surface, turn, sensor, time) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?)",
         key,
-        seen.target,
-        seen.landmark,
-        *seen.offset,
+        kind,
+        name,
+        surface,
+        add_turn(connection, turn),
+        seen.sensor,
+        seen.time,
     )
+    if isinstance(seen, Sighting):
+        _add_sighting(connection, key, seen)
+    else:
+        _add_arrangement(connection, key, seen)
+    if seen.picture is not None:
+        _add_picture(connection, key, seen.picture)
     return key
+
+
+def never_taught(connection: sqlite3.Connection) -> bool:
+    """Has there never been a lesson, not even one that was forgotten?"""
+    given = "SELECT 1 FROM sqlite_sequence WHERE name = 'lessons'"
+    return connection.execute(given).fetchone() is None
 
 
 def delete_lesson(connection: sqlite3.Connection, key: int) -> bool:
@@ -90,27 +92,76 @@ def delete_lesson(connection: sqlite3.Connection, key: int) -> bool:
 
 def scan_bytes(scan: Scan) -> tuple[bytes, bytes]:
     """The arrays row by row, little-endian on every machine."""
-    return scan.descriptors.tobytes(), scan.points.astype("<f4").tobytes()
+    points = scan.points.astype("<f4", copy=False)
+    return scan.descriptors.tobytes(), points.tobytes()
 
 
-def _add_lesson(
-    connection: sqlite3.Connection,
-    kind: Kind,
-    turn: Turn,
-    name: str,
-    surface: str,
-    seen: Sighting | Arrangement,
-) -> int:
-    return _insert(
+def vector_bytes(vector: Vector) -> bytes:
+    """The numbers one after the other, little-endian on every machine."""
+    return vector.astype("<f4", copy=False).tobytes()
+
+
+def _add_sighting(connection: sqlite3.Connection, key: int, seen: Sighting) -> None:
+    place = seen.place or (None, None, None)
+    _insert(
         connection,
-        "INSERT INTO lessons (kind, name, surface, turn, sensor, time) "
-        "VALUES (?, ?, ?, ?, ?, ?)",
-        kind,
-        name,
-        surface,
-        add_turn(connection, turn),
-        seen.sensor,
-        seen.time,
+        "INSERT INTO sightings (lesson, x, y, z) VALUES (?, ?, ?, ?)",
+        key,
+        *place,
+    )
+    for scan in seen.scans:
+        _insert(
+            connection,
+            "INSERT INTO scans (lesson, descriptors, points) VALUES (?, ?, ?)",
+            key,
+            *scan_bytes(scan),
+        )
+    for cue, vector in seen.traits.items():
+        _insert(
+            connection,
+            "INSERT INTO traits (lesson, cue, vector) VALUES (?, ?, ?)",
+            key,
+            cue,
+            vector_bytes(vector),
+        )
+
+
+def _add_arrangement(
+    connection: sqlite3.Connection, key: int, seen: Arrangement
+) -> None:
+    _insert(
+        connection,
+        "INSERT INTO arrangements VALUES (?, ?, ?, ?)",
+        key,
+        seen.target,
+        seen.landmark,
+        to_text(seen.configuration),
+    )
+
+
+def _add_picture(connection: sqlite3.Connection, key: int, picture: Picture) -> None:
+    _insert(
+        connection,
+        "INSERT INTO pictures (lesson, frame, boxes) VALUES (?, ?, ?)",
+        key,
+        picture.frame,
+        json.dumps(picture.boxes),
+    )
+    if picture.crop is not None:
+        _add_crop(connection, key, picture.crop)
+
+
+def _add_crop(connection: sqlite3.Connection, key: int, crop: Crop) -> None:
+    lens = crop.intrinsics
+    _insert(
+        connection,
+        "INSERT INTO crops (lesson, colour, mask, depth, intrinsics) "
+        "VALUES (?, ?, ?, ?, ?)",
+        key,
+        crop.colour,
+        crop.mask,
+        crop.depth,
+        None if lens is None else json.dumps(astuple(lens)),
     )
 
 

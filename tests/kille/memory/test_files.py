@@ -10,6 +10,7 @@ import sys
 import tempfile
 from collections.abc import Callable
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -135,6 +136,30 @@ def test_a_file_with_pages_overwritten_is_damaged(
     assert "is damaged" in refusal(opening, path)
 
 
+@pytest.mark.parametrize(
+    "harm",
+    [
+        "UPDATE scans SET points = x'00'",
+        "UPDATE scans SET descriptors = x''",
+        "UPDATE traits SET vector = x'0000c07f'",
+        "UPDATE traits SET vector = x'00'",
+        "UPDATE sightings SET x = 9e999",
+        "UPDATE pictures SET frame = x'00'",
+        "UPDATE pictures SET boxes = '[['",
+        "UPDATE crops SET intrinsics = '[1]'",
+    ],
+)
+def test_a_lesson_that_is_none_any_more_is_damage(
+    harm: str, path: Path, said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    taught(path, said(1), seen)
+    with closing(sqlite3.connect(path)) as connection:
+        connection.executescript(harm)
+    with Memory.reading(path) as memory:
+        assert "is damaged" in refusal(lambda _: memory.lesson(1), path)
+        assert len(memory.turns()) == 1
+
+
 def test_a_memory_has_one_owner(path: Path) -> None:
     with Memory.open(path):
         assert "in use" in refusal(Memory.open, path)
@@ -187,7 +212,7 @@ def test_a_full_disk_refuses_the_whole_lesson(
 ) -> None:
     with Memory.open(path) as memory:
         memory.begin_dialogue("now")
-        connection = memory._connection
+        connection, seen = memory._connection, replace(seen, scans=10 * seen.scans)
         (pages,) = connection.execute("PRAGMA page_count").fetchone()
         connection.execute(f"PRAGMA max_page_count = {pages}")
         line = refusal(lambda _: memory.learn_object(said(1), "cup", "cup", seen), path)

@@ -1,11 +1,12 @@
 """Whatever the moment of a kill -9, what was acknowledged is there, and nothing half.
 
 A child process teaches lesson after lesson and prints the key of each once it is
-learned; it is killed at a moment drawn at random.
+learned; it is killed at a moment drawn at random. The same is done to whole robots.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -17,6 +18,7 @@ import numpy as np
 from kille.memory import Memory, ObjectLesson
 
 SCANS, FEATURES = 3, 200
+KILLS = 15
 
 TEACHING = f"""
 import itertools, os, pathlib, sys
@@ -40,8 +42,11 @@ for number in itertools.count():
 """
 
 
-def killed_after(path: Path, seconds: float) -> list[int]:
-    """The keys of the lessons acknowledged before a child was killed."""
+def killed_after(path: Path, lessons: int, seconds: float) -> list[int]:
+    """The keys of the lessons acknowledged before a child was killed.
+
+    That is so many seconds after so many lessons.
+    """
     with subprocess.Popen(
         [sys.executable, "-c", TEACHING, str(path)],
         stdout=subprocess.PIPE,
@@ -50,10 +55,11 @@ def killed_after(path: Path, seconds: float) -> list[int]:
     ) as child:
         assert child.stdout is not None
         assert child.stdout.readline() == "ready\n"
+        keys = [child.stdout.readline() for _ in range(lessons)]
         time.sleep(seconds)
         child.kill()
-        lines = child.stdout.read().split("\n")
-    return [int(line) for line in lines[:-1]]
+        keys += child.stdout.read().splitlines(keepends=True)
+    return [int(key) for key in keys if key.endswith("\n")]
 
 
 def assert_whole(lesson: ObjectLesson) -> None:
@@ -72,17 +78,17 @@ def assert_whole(lesson: ObjectLesson) -> None:
 def test_no_acknowledged_lesson_is_lost_and_none_is_halved(path: Path) -> None:
     rng = np.random.default_rng(2026)
     acknowledged: list[int] = []
-    for seconds in rng.uniform(0.003, 0.05, size=40):
-        acknowledged += killed_after(path, float(seconds))
+    for lessons in range(KILLS):
+        acknowledged += killed_after(path, lessons, float(rng.uniform(0, 0.004)))
     with Memory.open(path) as memory:
         lessons = list(memory.objects())
         turns = memory.turns()
     for lesson in lessons:
         assert_whole(lesson)
-    assert len(acknowledged) > 40
+    assert len(acknowledged) >= sum(range(KILLS))
     assert {lesson.key for lesson in lessons} >= set(acknowledged)
     # Killed between its commit and its acknowledgement: at most one a child.
-    assert len(lessons) <= len(acknowledged) + 40
+    assert len(lessons) <= len(acknowledged) + KILLS
     assert [lesson.turn for lesson in lessons] == list(turns)
 
 
@@ -90,7 +96,23 @@ def test_a_kill_while_the_file_is_made_leaves_one_that_opens(tmp_path: Path) -> 
     rng = np.random.default_rng(2027)
     for number, seconds in enumerate(rng.uniform(0, 0.012, size=10)):
         path = tmp_path / f"{number}.db"
-        acknowledged = killed_after(path, float(seconds))
+        acknowledged = killed_after(path, 0, float(seconds))
         with Memory.open(path) as memory:
             keys = [lesson.key for lesson in memory.objects()]
         assert keys[: len(acknowledged)] == acknowledged
+
+
+def test_a_robot_keeps_every_word_that_it_said_it_learned() -> None:
+    benchmark = Path(__file__).parents[3] / "benchmarks" / "kills.py"
+    done = subprocess.run(
+        [sys.executable, str(benchmark), "--kills", "50", "--json"],
+        stdout=subprocess.PIPE,
+        env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+        text=True,
+        check=False,
+    )
+    found = json.loads(done.stdout)
+    assert (found["lost"], found["halved"], found["unreadable"]) == (0, 0, 0)
+    assert found["acknowledged"] <= found["kept"] <= found["acknowledged"] + 50
+    assert found["acknowledged"] > 50
+    assert done.returncode == 0

@@ -1,12 +1,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from kille.memory import Arrangement, Scan, Sighting
-from kille.scene import Point
+from kille.memory import Arrangement, Picture, Scan, Sighting
+from kille.scene import Configuration, Point
 
 DESCRIPTORS = np.zeros((4, 128), np.uint8)
 POINTS = np.zeros((4, 3), np.float32)
@@ -35,15 +36,45 @@ def test_a_place_is_finite_or_none(bad: float) -> None:
         Sighting("synthetic", 0.0, (), Point(0.0, bad, 1.0))
     with pytest.raises(ValueError, match="finite"):
         Sighting("synthetic", bad, (), None)
-    with pytest.raises(ValueError, match="finite"):
-        Sighting("synthetic", 0.0, (), None, size=(0.1, bad, 0.1))
-    with pytest.raises(ValueError, match="finite"):
-        Sighting("synthetic", 0.0, (), None, colour=np.array([bad], np.float32))
-    with pytest.raises(ValueError, match="finite"):
-        Arrangement("synthetic", 0.0, "book", "car", Point(bad, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf])
+def test_traits_are_finite_or_missing(bad: float) -> None:
+    traits = {
+        "size": np.zeros(3, np.float32),
+        "colour": np.array([0.5, bad], np.float32),
+    }
+    with pytest.raises(ValueError, match="the trait colour needs finite numbers"):
+        Sighting("synthetic", 0.0, (), None, traits)
 
 
 @pytest.mark.parametrize("bad", [np.zeros(3), np.zeros((3, 1), np.float32)])
-def test_a_colour_that_would_not_come_back_is_refused(bad: np.ndarray) -> None:
-    with pytest.raises(ValueError, match="colour must be float32"):
-        Sighting("synthetic", 0.0, (), None, colour=bad)
+def test_a_trait_that_would_not_come_back_is_refused(bad: np.ndarray) -> None:
+    with pytest.raises(ValueError, match="the trait colour must be float32"):
+        Sighting("synthetic", 0.0, (), None, {"colour": bad})
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf])
+def test_configurations_are_finite_or_unknown(bad: float) -> None:
+    here, nowhere = (0.0, 0.0, 0.0), (0.0, bad, 0.0)
+    for configuration in (
+        Configuration(nowhere),
+        Configuration(here, viewed=nowhere),
+        Configuration(here, others=(here, nowhere)),
+        Configuration(here, contact=bad),
+    ):
+        with pytest.raises(ValueError, match="an arrangement needs finite"):
+            Arrangement("synthetic", 0.0, "book", "car", configuration)
+
+
+def test_bytes_that_are_no_picture_are_refused(picture: Picture) -> None:
+    crop = picture.crop
+    assert crop is not None
+    with pytest.raises(ValueError, match="a frame must be a JPEG picture"):
+        Picture(crop.mask, ())
+    with pytest.raises(ValueError, match="mask of a crop must be a PNG picture"):
+        replace(crop, mask=crop.colour)
+    with pytest.raises(ValueError, match="depth of a crop must be a PNG picture"):
+        replace(crop, depth=b"")
+    with pytest.raises(ValueError, match="must be a JPEG or PNG picture"):
+        replace(crop, colour=b"GIF89a")

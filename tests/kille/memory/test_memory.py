@@ -6,10 +6,9 @@ import sqlite3
 import tempfile
 from collections.abc import Callable
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
-import hypothesis.extra.numpy as arrays
-import numpy as np
 import pytest
 from hypothesis import settings
 from hypothesis import strategies as st
@@ -19,49 +18,14 @@ from kille.memory import (
     Arrangement,
     Memory,
     NoSuchLessonError,
-    Scan,
     Sighting,
     Turn,
     Word,
+    reading,
 )
-from kille.scene import Point
+from kille.scene import Configuration
 
-NAMES = st.sampled_from(["cup", "can_of_paint", "left", "boîte"])
-NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
-PLACES = st.builds(Point, NUMBERS, NUMBERS, NUMBERS)
-ARRANGEMENTS = st.builds(Arrangement, st.text(), NUMBERS, NAMES, NAMES, PLACES)
-
-
-@st.composite
-def scans(draw: st.DrawFn) -> Scan:
-    n = draw(st.integers(0, 3))
-    return Scan(
-        draw(arrays.arrays(np.uint8, (n, 128), elements=st.integers(0, 255))),
-        draw(arrays.arrays(np.float32, (n, 3), elements=st.floats(width=32))),
-    )
-
-
-SIGHTINGS = st.builds(
-    Sighting,
-    st.text(),
-    NUMBERS,
-    st.lists(scans(), max_size=3).map(tuple),
-    st.none() | PLACES,
-    st.none()
-    | arrays.arrays(
-        np.float32,
-        st.integers(0, 5),
-        elements=st.floats(allow_nan=False, allow_infinity=False, width=32),
-    ),
-    st.none() | st.tuples(NUMBERS, NUMBERS, NUMBERS),
-)
-
-
-def plain(seen: Sighting) -> tuple[object, ...]:
-    """A sighting that can be compared; the bits of NaNs count too."""
-    pairs = [(s.descriptors.tobytes(), s.points.tobytes()) for s in seen.scans]
-    colour = None if seen.colour is None else seen.colour.tobytes()
-    return seen.sensor, seen.time, pairs, seen.place, colour, seen.size
+from .conftest import ARRANGEMENTS, NAMES, SIGHTINGS, plain
 
 
 class Remembering(RuleBasedStateMachine):
@@ -141,7 +105,17 @@ class Remembering(RuleBasedStateMachine):
         assert {
             lesson.key: (lesson.word, lesson.turn, lesson.seen)
             for lesson in self.memory.relations()
-        } == self.relations
+        } == {
+            key: (word, turn, replace(seen, picture=None))
+            for key, (word, turn, seen) in self.relations.items()
+        }
+
+    @invariant()
+    def it_shows_what_was_seen(self) -> None:
+        for key, (word, turn, seen) in (self.objects | self.relations).items():
+            lesson = self.memory.lesson(key)
+            assert (lesson.word, lesson.turn) == (word, turn)
+            assert lesson.seen.picture == self.memory.picture(key) == seen.picture
 
     @invariant()
     def its_words_are_those_of_its_lessons(self) -> None:
@@ -196,14 +170,25 @@ def test_a_lesson_that_fails_half_way_leaves_nothing(
 def test_nothing_is_left_of_what_is_forgotten(
     path: Path, said: Callable[[int], Turn], seen: Sighting
 ) -> None:
-    there = Arrangement("synthetic", 0.0, "book", "car", Point(-0.2, 0.0, 0.1))
+    stand = Configuration((-0.2, 0.0, 0.1))
+    there = Arrangement("synthetic", 0.0, "book", "car", stand, seen.picture)
     with Memory.open(path) as memory:
         memory.begin_dialogue("now")
         memory.forget(memory.learn_object(said(1), "cup", "cup", seen))
         memory.forget(memory.learn_relation(said(2), "left", "left of", there))
     with closing(sqlite3.connect(path)) as connection:
-        for table in ("lessons", "sightings", "scans", "arrangements"):
-            assert connection.execute(f"SELECT * FROM {table}").fetchall() == []
+        kept = {
+            name
+            for (name,) in connection.execute(
+                "SELECT name FROM sqlite_schema WHERE type = 'table'"
+            )
+            if connection.execute(f"SELECT * FROM {name}").fetchall()
+        }
+    assert kept == {"dialogues", "turns", "sqlite_sequence"}
+    content = path.read_bytes()
+    assert seen.scans[0].descriptors[3].tobytes() not in content
+    assert seen.traits["colour"].tobytes() not in content
+    assert b"colour" not in content.replace(b"colour BLOB", b"")
 
 
 def test_a_turn_belongs_to_a_dialogue(said: Callable[[int], Turn]) -> None:
@@ -226,8 +211,12 @@ def test_one_turn_may_teach_two_words(
 
 
 def test_lessons_may_be_forgotten_and_learned_while_they_are_read(
-    path: Path, said: Callable[[int], Turn], seen: Sighting
+    path: Path,
+    said: Callable[[int], Turn],
+    seen: Sighting,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.setattr(reading, "BATCH", 1)
     with Memory.open(path) as memory:
         memory.begin_dialogue("now")
         keys = [memory.learn_object(said(n), "cup", "cup", seen) for n in range(3)]
@@ -238,3 +227,38 @@ def test_lessons_may_be_forgotten_and_learned_while_they_are_read(
         assert next(lessons).key == keys[2]
     with Memory.open(path) as memory:
         assert len(memory.lessons()) == 3
+
+
+def test_a_reader_sees_no_half_of_what_another_does_meanwhile(
+    path: Path, said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    with Memory.open(path) as memory, Memory.reading(path) as reader:
+        memory.begin_dialogue("now")
+        key = memory.learn_object(said(1), "cup", "cup", seen)
+        with reader.at_one_moment() as then:
+            (listed,) = then.lessons()
+            memory.forget(key)
+            assert memory.lessons() == ()
+            assert plain(then.lesson(listed.key).seen) == plain(seen)
+        assert reader.lessons() == ()
+
+
+def test_two_words_for_one_thing_and_one_word_for_two(
+    said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    other = replace(seen, traits={}, place=None, picture=None)
+    with Memory.transient() as memory:
+        memory.begin_dialogue("now")
+        taught = [("cup", seen), ("mug", seen), ("cup", other)]
+        for number, (word, sighting) in enumerate(taught):
+            memory.learn_object(said(number), word, word, sighting)
+        assert [word.name for word in memory.words()] == ["cup", "mug"]
+        lessons = [(it.word.name, plain(it.seen)) for it in memory.objects()]
+        assert lessons == [(word, plain(sighting)) for word, sighting in taught]
+
+
+def test_a_lesson_that_is_not_there_has_neither_content_nor_picture() -> None:
+    with Memory.transient() as memory:
+        assert memory.picture(3) is None
+        with pytest.raises(NoSuchLessonError, match="no lesson 3"):
+            memory.lesson(3)

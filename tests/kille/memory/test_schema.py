@@ -1,12 +1,26 @@
 from __future__ import annotations
 
+import shutil
 import sqlite3
 from contextlib import closing
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from kille.memory import Memory, MemoryFileError, schema
+from kille.memory import (
+    Arrangement,
+    Dialogue,
+    Memory,
+    MemoryFileError,
+    MemoryReader,
+    Sighting,
+    Turn,
+    Word,
+    schema,
+)
+from kille.memory.configurations import from_text, to_text
+from kille.scene import Configuration, Point
 
 NEXT = (*schema.MIGRATIONS, ("ALTER TABLE dialogues ADD COLUMN tutor TEXT",))
 
@@ -46,12 +60,97 @@ def test_a_file_of_a_newer_version_is_refused_and_left_alone(path: Path) -> None
     assert path.read_bytes() == before
 
 
-def test_a_file_of_an_older_version_is_not_read_without_being_brought_up_to_date(
-    path: Path,
-) -> None:
+FIRST = """
+INSERT INTO dialogues VALUES (1, '2026-01-31T12:00');
+INSERT INTO turns VALUES (4, 1, 1, 'tutor', 'This is a cup.', 's : Naming', 'then'),
+    (5, 1, 2, 'tutor', 'This is a box.', '', 'then'),
+    (6, 1, 3, 'tutor', 'The cup is left of the box.', '', 'then');
+INSERT INTO lessons VALUES (2, 'object', 'cup', 'cup', 4, 'synthetic', 0.5),
+    (3, 'object', 'box', 'box', 5, 'photo', 0.0),
+    (7, 'relation', 'left_of', 'left of', 6, 'synthetic', 1.5);
+INSERT INTO sightings VALUES (2, 0.1, -0.2, 0.9, x'0000803e0000003f', 0.05, 0.2, 0.1),
+    (3, NULL, NULL, NULL, NULL, NULL, NULL, NULL);
+INSERT INTO scans VALUES (1, 2, x'{descriptor}', x'0000803f0000004000004040');
+INSERT INTO arrangements VALUES (7, 'cup', 'box', -0.1, 0.30000000000000004, 0.0);
+"""
+
+
+def of_version_1(path: Path) -> None:
+    """Makes a file as the first version of the tables has it."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with closing(sqlite3.connect(path)) as connection:
+        schema.migrate(connection, schema.MIGRATIONS[:1])
+        connection.executescript(FIRST.format(descriptor="07" * 128))
+        connection.commit()
+
+
+def assert_kept(memory: MemoryReader) -> None:
+    """Is all of the file of version 1 there?"""
+    cup, box = memory.objects()
+    (left,) = memory.relations()
+    assert (cup.key, box.key, left.key) == (2, 3, 7)
+    assert cup.turn == Turn(1, 1, "tutor", "This is a cup.", "s : Naming", "then")
+    assert cup.word == Word("cup", "cup", "object")
+    assert (cup.seen.sensor, cup.seen.time) == ("synthetic", 0.5)
+    assert cup.seen.place == Point(0.1, -0.2, 0.9)
+    (scan,) = cup.seen.scans
+    assert (scan.descriptors == 7).all()
+    assert scan.points.tolist() == [[1, 2, 3]]
+    assert cup.seen.traits["colour"].tolist() == [0.25, 0.5]
+    longest_first = np.exp(cup.seen.traits["size"]) - 0.01
+    assert longest_first == pytest.approx([0.2, 0.1, 0.05], abs=1e-6)
+    assert (box.seen.place, box.seen.scans, dict(box.seen.traits)) == (None, (), {})
+    offset = -0.1, 0.30000000000000004, 0.0
+    stand = Configuration(offset)
+    assert left.seen == Arrangement("synthetic", 1.5, "cup", "box", stand)
+    assert left.word == Word("left_of", "left of", "relation")
+    assert [memory.picture(it.key) for it in memory.lessons()] == [None] * 3
+    assert memory.dialogues() == (Dialogue(1, "2026-01-31T12:00"),)
+    assert len(memory.turns()) == 3
+
+
+def test_a_file_of_the_first_version_keeps_everything(path: Path) -> None:
+    of_version_1(path)
+    for _ in range(2):
+        with Memory.open(path) as memory:
+            assert_kept(memory)
+    with Memory.open(path) as memory:
+        turn = Turn(memory.begin_dialogue("later"), 1, "tutor", "", "", "later")
+        seen = Sighting("synthetic", 0.0, (), None)
+        assert memory.learn_object(turn, "cup", "cup", seen) == 8
+
+
+def test_a_file_of_an_older_version_is_read_without_being_changed(path: Path) -> None:
+    of_version_1(path)
+    before = path.read_bytes()
+    with Memory.reading(path) as memory:
+        assert_kept(memory)
+    assert path.read_bytes() == before
+    assert [it.name for it in path.parent.iterdir()] == [path.name]
+
+
+def test_a_migration_killed_half_way_leaves_the_first_version(path: Path) -> None:
+    of_version_1(path)
+    with closing(sqlite3.connect(path, isolation_level=None)) as connection:
+        connection.execute("PRAGMA journal_mode = WAL")
+        connection.execute("BEGIN IMMEDIATE")
+        schema.migrate(connection)
+        for file in (path, path.with_name(f"{path.name}-wal")):
+            shutil.copy(file, path.with_name(f"killed{file.name}"))
+    with Memory.open(path.with_name(f"killed{path.name}")) as memory:
+        assert_kept(memory)
+
+
+def test_an_empty_file_is_an_empty_memory(path: Path) -> None:
     path.parent.mkdir()
     path.touch()
-    with pytest.raises(MemoryFileError, match="not up to date"):
-        Memory.reading(path)
-    Memory.open(path).close()
-    Memory.reading(path).close()
+    with Memory.reading(path) as memory:
+        assert (memory.words(), memory.turns(), memory.lessons()) == ((), (), ())
+    assert path.read_bytes() == b""
+
+
+def test_fields_of_a_later_version_are_passed_over() -> None:
+    known = '{"offset": [0, 1, 2], "others": [[1, 2, 3]], "weather": [4, [5]]}'
+    stand = Configuration((0, 1, 2), others=((1, 2, 3),))
+    assert from_text(known) == stand
+    assert from_text(to_text(stand)) == stand

@@ -10,6 +10,7 @@ from pathlib import Path
 from rich.table import Table
 from rich.text import Text
 
+from kille.interfaces.memory.describing import legible
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import Lesson, Memory, MemoryFileError
 
@@ -58,12 +59,13 @@ def as_table(path: Path, entries: Sequence[_Entry]) -> None:
 
 
 def _entries(lessons: Sequence[Lesson]) -> list[_Entry]:
-    taught: dict[str, list[Lesson]] = {}
+    taught: dict[tuple[str, str], list[Lesson]] = {}
     for lesson in lessons:
-        taught.setdefault(lesson.word.surface, []).append(lesson)
+        word = lesson.word
+        taught.setdefault((word.surface, word.kind), []).append(lesson)
     return [
-        _Entry(word, some[0].word.kind, len(some), some[-1].turn.time)
-        for word, some in sorted(taught.items())
+        _Entry(word, kind, len(some), some[-1].turn.time)
+        for (word, kind), some in sorted(taught.items())
     ]
 
 
@@ -73,5 +75,6 @@ def _table(path: Path, entries: Sequence[_Entry]) -> Table:
         table.add_column(heading, justify="right" if heading == "lessons" else "left")
     for entry in entries:
         day = entry.last_taught.replace("T", " ")[:16]
-        table.add_row(entry.word, entry.kind, str(entry.lessons), day)
+        word = Text(legible(entry.word))
+        table.add_row(word, entry.kind, str(entry.lessons), day)
     return table

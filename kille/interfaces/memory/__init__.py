@@ -1,0 +1,1 @@
+"""`kille memory`: what the robot was taught, to list, show, forget and move."""

@@ -1,0 +1,131 @@
+"""A lesson in words: who taught it when, and what there was to see."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from kille.memory import (
+    Arrangement,
+    Lesson,
+    ObjectLesson,
+    RelationLesson,
+    Sighting,
+    Turn,
+)
+from kille.scene import Direction, Point, Traits
+
+__all__ = ["colours", "legible", "lengths", "looks", "said", "seen", "title"]
+
+_KINDS = {"object": "a thing", "relation": "where a thing is"}
+_UNSHOWN = "\N{REPLACEMENT CHARACTER}"
+_NEARLY_NOTHING = 0.01  # metres: the cue of size is the logarithm of a length and this
+_HOLDS, _MOST_COLOURS = 0.5, 3
+_UNMOVED = 0.005  # metres that nobody would mention
+
+
+def _when(time: str) -> str:
+    """A time as people write it, to the minute."""
+    return time.replace("T", " ")[:16]
+
+
+def said(turn: Turn) -> str:
+    """Who said what when."""
+    return legible(f"{turn.speaker}, {_when(turn.time)}: {turn.text}")
+
+
+def title(lesson: Lesson) -> str:
+    """Which lesson it is, and in which word."""
+    word = lesson.word
+    return legible(f"{word.surface} ({_KINDS[word.kind]}), lesson {lesson.key}")
+
+
+def legible(text: str) -> str:
+    """The text without what would change how a terminal looks.
+
+    >>> legible("red: \x1b[31mcup")
+    'red: �[31mcup'
+    """
+    return "".join(it if it.isprintable() else _UNSHOWN for it in text)
+
+
+def seen(lesson: ObjectLesson | RelationLesson) -> Iterator[str]:
+    """What there was to see, a line for each thing to be told."""
+    yield f"dialogue {lesson.turn.dialogue}, turn {lesson.turn.number}"
+    match lesson.seen:
+        case Sighting() as sighting:
+            yield from _sighted(sighting)
+        case Arrangement() as stand:
+            yield f"seen through {legible(stand.sensor)}"
+            things = f"{_words(stand.target)} from {_words(stand.landmark)}"
+            yield f"{things}: {_where(stand.configuration.offset)}"
+
+
+def looks(lesson: ObjectLesson | RelationLesson) -> str:
+    """The size and the colours of the thing, as far as they are known; "" if not."""
+    if isinstance(lesson.seen, Arrangement):
+        return ""
+    traits = lesson.seen.traits
+    return ", ".join(filter(None, (_listed(colours(traits)), _size(traits))))
+
+
+def lengths(traits: Traits) -> tuple[float, ...] | None:
+    """How far a thing reaches in metres, longest first, by the cue of its size."""
+    if "size" not in traits or len(traits["size"]) != len(Point._fields):
+        return None
+    found = np.exp(traits["size"].astype(np.float64)) - _NEARLY_NOTHING
+    return tuple(max(0.0, x) for x in found.tolist())
+
+
+def colours(traits: Traits) -> tuple[str, ...]:
+    """The words for the colours of a thing that hold of it, the best first."""
+    from kille.perception.colours import BASIC, colour_words, colours_in, xkcd
+
+    if "colour" not in traits:
+        return ()
+    try:
+        palette = colours_in(traits["colour"])
+    except ValueError:  # another cue had that name when this was learned
+        return ()
+    degrees = colour_words(palette, xkcd().among(BASIC))
+    best = sorted(degrees, key=lambda word: -degrees[word])[:_MOST_COLOURS]
+    return tuple(word for word in best if degrees[word] >= _HOLDS)
+
+
+def _sighted(sighting: Sighting) -> Iterator[str]:
+    features = sum(len(scan.descriptors) for scan in sighting.scans)
+    yield f"seen through {legible(sighting.sensor)}, by {features} features"
+    if sighting.place is not None:
+        yield f"{math.hypot(*sighting.place):.2f} m from the camera"
+
+
+def _listed(words: Sequence[str]) -> str:
+    """Words as a list in a sentence: red, grey and white."""
+    *others, last = words or ("",)
+    return f"{', '.join(others)} and {last}" if others else last
+
+
+def _size(traits: Traits) -> str:
+    reach = lengths(traits)
+    return "" if reach is None else " x ".join(_centimetres(x) for x in reach) + " cm"
+
+
+def _centimetres(metres: float) -> str:
+    return f"{100 * metres:.0f}" if metres >= 0.01 else f"{100 * metres:.1f}"
+
+
+def _where(offset: Direction) -> str:
+    """An offset as a tutor would say it: 20 cm left and 10 cm nearer."""
+    pairs = (("right", "left"), ("farther", "nearer"), ("up", "down"))
+    moved = [
+        f"{100 * abs(metres):.0f} cm {more if metres > 0 else less}"
+        for metres, (more, less) in zip(offset, pairs, strict=True)
+        if abs(metres) >= _UNMOVED
+    ]
+    return ", ".join(moved) or "at the same place"
+
+
+def _words(name: str) -> str:
+    return legible(name.replace("_", " "))

@@ -1,0 +1,117 @@
+"""`kille memory forget`: unlearn a word or a lesson, for good."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from kille.interfaces.memory.choosing import latest, lessons_named
+from kille.interfaces.memory.describing import legible, said, title
+from kille.interfaces.terminal import (
+    FAILED,
+    FINE,
+    complain,
+    console,
+    hanging,
+    memory_path,
+)
+from kille.memory import (
+    Lesson,
+    Memory,
+    MemoryFileError,
+    MemoryReader,
+    NoSuchLessonError,
+)
+
+__all__ = ["as_json", "as_text", "asked", "forget", "last", "of", "sure"]
+
+Choice = Callable[[MemoryReader], Sequence[Lesson]]
+"""Which lessons are to be forgotten."""
+
+Consent = Callable[[Sequence[Lesson]], bool]
+"""May these be forgotten?"""
+
+Report = Callable[[Sequence[Lesson], Sequence[str]], None]
+"""How it is told which lessons are gone, and which words with them."""
+
+
+def forget(given: Path | None, chosen: Choice, may: Consent, report: Report) -> int:
+    """Forgets the chosen lessons, all or none; the exit code."""
+    path = memory_path(given)
+    try:
+        # A memory that is not there is complained of, not made.
+        with Memory.reading(path) as memory:
+            lessons = chosen(memory)
+        with Memory.open(path) as memory:
+            if not may(lessons):
+                return FAILED
+            before = memory.words()
+            with memory.together():
+                for lesson in lessons:
+                    memory.forget(lesson.key)
+            gone = [it.surface for it in before if it not in memory.words()]
+    except (MemoryFileError, NoSuchLessonError, _NobodyToAsk) as error:
+        return complain(error)
+    report(lessons, gone)
+    return FINE
+
+
+def of(named: str) -> Choice:
+    """The lessons in a word, or the one with a number."""
+    return lambda memory: lessons_named(memory, named)
+
+
+def last(memory: MemoryReader) -> Sequence[Lesson]:
+    """The lesson that was learned last."""
+    return latest(memory)
+
+
+def sure(_: Sequence[Lesson]) -> bool:
+    """Forgets without a question."""
+    return True
+
+
+def asked(lessons: Sequence[Lesson]) -> bool:
+    """Asks the user in the terminal."""
+    if not sys.stdin.isatty():
+        raise _NobodyToAsk("forgetting is for good: add --yes if you mean it")
+    for lesson in lessons:
+        console().print(_line(lesson), markup=False)
+    many = "this lesson" if len(lessons) == 1 else f"these {len(lessons)} lessons"
+    try:
+        answer = input(f"Forget {many} for good? [y/N] ")
+    except EOFError:
+        answer = ""
+    if answer.strip().lower() in ("y", "yes"):
+        return True
+    console().print("Nothing was forgotten.")
+    return False
+
+
+def as_json(lessons: Sequence[Lesson], gone: Sequence[str]) -> None:
+    """What is gone, for machines."""
+    forgotten = [
+        {"lesson": it.key, "word": it.word.surface, "kind": it.word.kind}
+        for it in lessons
+    ]
+    facts = {"forgotten": forgotten, "words_gone": list(gone)}
+    console().print_json(json.dumps(facts))
+
+
+def as_text(lessons: Sequence[Lesson], gone: Sequence[str]) -> None:
+    """What is gone, for people."""
+    out = console()
+    for lesson in lessons:
+        out.print(hanging("  ", f"Forgotten: {_line(lesson)}").lstrip(), markup=False)
+    for word in gone:
+        out.print(f"The word {legible(word)} is gone.", markup=False)
+
+
+def _line(lesson: Lesson) -> str:
+    return f"{title(lesson)}; {said(lesson.turn)}"
+
+
+class _NobodyToAsk(Exception):
+    """A question had to be asked, and nobody is there to answer."""

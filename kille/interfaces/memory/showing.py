@@ -1,0 +1,180 @@
+"""`kille memory show`: what the robot was taught, by whom, and what it looked like."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+
+from kille.interfaces.memory.choosing import lessons_named
+from kille.interfaces.memory.describing import (
+    colours,
+    lengths,
+    looks,
+    said,
+    seen,
+    title,
+)
+from kille.interfaces.terminal import FINE, complain, console, hanging, memory_path
+from kille.memory import (
+    Memory,
+    MemoryFileError,
+    NoSuchLessonError,
+    ObjectLesson,
+    Picture,
+    RelationLesson,
+    Sighting,
+)
+from kille.memory.configurations import as_json as configuration_json
+
+__all__ = ["as_json", "as_text", "show"]
+
+_COLUMNS, _ROWS = 40, 12
+_NAME = 50  # characters of a word in the name of a file
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A lesson to be shown, and where its pictures were written."""
+
+    lesson: ObjectLesson | RelationLesson
+    files: Mapping[str, Path]
+
+
+Report = Callable[[Iterable[Shown]], None]
+"""How lessons are shown."""
+
+
+def show(given: Path | None, named: str, out: Path | None, report: Report) -> int:
+    """Shows the lessons in a word, or the one with a number; the exit code.
+
+    Their pictures go into a folder, if one is given.
+    """
+    path = memory_path(given)
+    try:
+        with Memory.reading(path) as memory, memory.at_one_moment():
+            keys = [lesson.key for lesson in lessons_named(memory, named)]
+            report(_written(memory.lesson(key), out) for key in keys)
+    except (MemoryFileError, NoSuchLessonError) as error:
+        return complain(error)
+    except OSError as error:
+        if isinstance(error, BrokenPipeError):
+            raise
+        return complain(
+            f"the pictures cannot be written to {out} ({error.strerror}): "
+            "name another folder with --out"
+        )
+    return FINE
+
+
+def as_json(shown: Iterable[Shown]) -> None:
+    """The lessons as a list of objects, for machines."""
+    console().print_json(json.dumps([_facts(it) for it in shown]))
+
+
+def as_text(shown: Iterable[Shown]) -> None:
+    """The lessons for people, with a picture where the terminal can show one."""
+    out = console()
+    for number, it in enumerate(shown):
+        if number:
+            out.print()
+        _tell(out, it)
+
+
+def _tell(out: Console, shown: Shown) -> None:
+    out.print(title(shown.lesson), style="bold", markup=False)
+    for line in _lines(shown):
+        out.print(hanging("  ", line), markup=False)
+    picture = shown.lesson.seen.picture
+    if picture is not None:
+        _draw(out, picture)
+
+
+def _lines(shown: Shown) -> Iterator[str]:
+    yield said(shown.lesson.turn)
+    yield ", ".join(seen(shown.lesson))
+    if looked := looks(shown.lesson):
+        yield looked
+    if shown.lesson.seen.picture is None:
+        yield "no picture was kept"
+    for file in shown.files.values():
+        yield str(file)
+
+
+def _draw(out: Console, picture: Picture) -> None:
+    from kille.interfaces.memory.blocks import half_blocks, shows_pictures
+
+    if not shows_pictures(out):
+        return
+    from kille.perception.thumbnails import decoded, outlined
+
+    crop = picture.crop
+    try:
+        pixels = outlined(picture) if crop is None else decoded(crop.colour)
+    except ValueError as error:  # it came so from another program
+        out.print(f"  {error}")
+        return
+    out.print(half_blocks(pixels, min(_COLUMNS, out.width), _ROWS))
+
+
+# --- pictures in a folder ------------------------------------------------------------
+
+
+def _written(lesson: ObjectLesson | RelationLesson, out: Path | None) -> Shown:
+    """The lesson to be shown, once its pictures are in the folder."""
+    files: dict[str, Path] = {}
+    picture = lesson.seen.picture
+    if out is not None and picture is not None:
+        out.mkdir(parents=True, exist_ok=True)
+        name = re.sub(r"[^\w-]", "_", lesson.word.name)[:_NAME]
+        for kind, (ending, content) in _pictures(picture).items():
+            files[kind] = out / f"{lesson.key}-{name}-{kind}{ending}"
+            files[kind].write_bytes(content)
+    return Shown(lesson, files)
+
+
+def _pictures(picture: Picture) -> Mapping[str, tuple[str, bytes]]:
+    """The pictures by what they show, with the endings of their files."""
+    found = {"frame": (".jpg", picture.frame)}
+    if picture.crop is not None:
+        jpeg = picture.crop.colour.startswith(b"\xff\xd8")
+        found["crop"] = ".jpg" if jpeg else ".png", picture.crop.colour
+        found["mask"] = ".png", picture.crop.mask
+        if picture.crop.depth is not None:
+            found["depth"] = ".png", picture.crop.depth
+    return found
+
+
+# --- facts for machines --------------------------------------------------------------
+
+
+def _facts(shown: Shown) -> dict[str, Any]:
+    lesson = shown.lesson
+    facts = {
+        "lesson": lesson.key,
+        "word": lesson.word.surface,
+        "kind": lesson.word.kind,
+        "turn": asdict(lesson.turn),
+        "sensor": lesson.seen.sensor,
+        "pictures": {kind: str(file) for kind, file in shown.files.items()},
+    }
+    if isinstance(lesson.seen, Sighting):
+        return facts | _sighted(lesson.seen)
+    stand = lesson.seen
+    things = {"target": stand.target, "landmark": stand.landmark}
+    return facts | things | {"configuration": configuration_json(stand.configuration)}
+
+
+def _sighted(sighting: Sighting) -> dict[str, Any]:
+    return {
+        "place": sighting.place,
+        "metres": lengths(sighting.traits),
+        "colours": colours(sighting.traits),
+        "features": sum(len(scan.descriptors) for scan in sighting.scans),
+        "cues": sorted(sighting.traits),
+    }

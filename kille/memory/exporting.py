@@ -1,0 +1,84 @@
+"""A whole memory as a package that other programs can read.
+
+    memory.json          the format, its version, and the SHA-256 of each .jsonl file
+    dialogues.jsonl      a line for each dialogue
+    turns.jsonl          a line for all that was said
+    lessons.jsonl        a line for each lesson, with the SHA-256 of its files
+    lessons/7/…          the files of lesson 7
+
+The same memory gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from kille.memory.memory import MemoryReader
+from kille.memory.packages import MANIFEST, Writer, writing
+from kille.memory.packing import Line, pack_dialogue, pack_lesson, pack_turn
+
+FORMAT, VERSION = "kille memory", 1
+DIALOGUES, TURNS, LESSONS = "dialogues.jsonl", "turns.jsonl", "lessons.jsonl"
+
+
+@dataclass(frozen=True)
+class Amount:
+    """How much went somewhere."""
+
+    dialogues: int
+    turns: int
+    lessons: int
+
+
+def export(memory: MemoryReader, path: Path) -> Amount:
+    """Write all that the memory holds: a zip if the path ends so, or a folder.
+
+    An older zip of ours is replaced. Raises PackageError, and leaves what was there,
+    if it cannot be written or the path is taken by something else.
+    """
+    with writing(path) as package, memory.at_one_moment():
+        dialogues, turns = memory.dialogues(), memory.turns()
+        keys = [lesson.key for lesson in memory.lessons()]
+        files = {
+            DIALOGUES: _lines(map(pack_dialogue, dialogues)),
+            TURNS: _lines(map(pack_turn, turns)),
+            LESSONS: _lines(_written(package, memory, key) for key in keys),
+        }
+        for name, content in files.items():
+            package.write(name, content)
+        sums = {name: checksum(content) for name, content in files.items()}
+        manifest = {"format": FORMAT, "version": VERSION, "files": sums}
+        package.write(MANIFEST, _json(manifest, indent=1))
+    return Amount(len(dialogues), len(turns), len(keys))
+
+
+def checksum(content: bytes) -> str:
+    """The SHA-256 of bytes, as text."""
+    return sha256(content).hexdigest()
+
+
+def place(key: int, name: str) -> str:
+    """Where in a package the file of a lesson is."""
+    return f"lessons/{key}/{name}"
+
+
+def _written(package: Writer, memory: MemoryReader, key: int) -> Line:
+    """The line of a lesson, whose files are written."""
+    line, files = pack_lesson(memory.lesson(key))
+    for name, content in files.items():
+        package.write(place(key, name), content)
+    return line | {"files": {name: checksum(it) for name, it in files.items()}}
+
+
+def _lines(values: Iterable[Line]) -> bytes:
+    return b"".join(_json(value) for value in values)
+
+
+def _json(value: Line, **layout: Any) -> bytes:
+    text = json.dumps(value, ensure_ascii=False, allow_nan=False, **layout)
+    return f"{text}\n".encode()

@@ -1,0 +1,135 @@
+"""Reading a package back: nothing of it is believed before it was checked."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NoReturn
+
+from kille.memory.exporting import (
+    DIALOGUES,
+    FORMAT,
+    LESSONS,
+    TURNS,
+    VERSION,
+    checksum,
+    place,
+)
+from kille.memory.lessons import Dialogue, ObjectLesson, RelationLesson, Turn
+from kille.memory.packages import MANIFEST, PackageError, Reader, damage_told, reading
+from kille.memory.packing import (
+    FILES,
+    Line,
+    unpack_dialogue,
+    unpack_lesson,
+    unpack_turn,
+    whole,
+)
+
+
+class Package:
+    """The memory in a package. Made by `opened`, which has checked its lists.
+
+    `dialogues` and `turns` are those of the memory, in order; each turn is of one of
+    the dialogues, and no two have the same number.
+    """
+
+    def __init__(self, reader: Reader, path: Path) -> None:
+        self._reader, self._path = reader, path
+        sums = _sums(reader, path)
+        self.dialogues: tuple[Dialogue, ...] = tuple(
+            map(unpack_dialogue, _lines(reader, DIALOGUES, sums))
+        )
+        turns = list(map(unpack_turn, _lines(reader, TURNS, sums)))
+        self._turns = {(it.dialogue, it.number): it for it in turns}
+        self.turns: tuple[Turn, ...] = tuple(turns)
+        lessons = _lines(reader, LESSONS, sums)
+        self._lessons = sorted(lessons, key=lambda line: whole(line, "lesson"))
+        self._check(turns)
+
+    def lessons(self) -> Iterator[ObjectLesson | RelationLesson]:
+        """All lessons, oldest first, with their pictures, each checked as it is read.
+
+        Raises PackageError at the first that is damaged.
+        """
+        for line in self._lessons:
+            with damage_told(self._path):
+                lesson = self._lesson(line)
+            yield lesson
+
+    def _lesson(self, line: Line) -> ObjectLesson | RelationLesson:
+        key, sums = line["lesson"], line["files"]
+        files = {
+            name: _checked(self._reader, place(key, name), sums[name])
+            for name in FILES & sums.keys()
+        }
+        return unpack_lesson(line, files, self._turns)
+
+    def _check(self, turns: list[Turn]) -> None:
+        numbers = [it.number for it in self.dialogues]
+        _require_unlike("dialogue", numbers)
+        _require_unlike("turn", [(it.dialogue, it.number) for it in turns])
+        _require_unlike("lesson", [it["lesson"] for it in self._lessons])
+        if lost := {it.dialogue for it in turns} - set(numbers):
+            raise ValueError(f"dialogue {min(lost)} is missing")
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[Package]:
+    """The package at this path, every file of which has been read and checked once.
+
+    Raises PackageError, one line, if it is damaged, of a newer version or no package.
+    """
+    with damage_told(path), reading(path) as reader:
+        package = Package(reader, path)
+        for _ in package.lessons():
+            pass
+    with reading(path) as reader:
+        with damage_told(path):
+            package = Package(reader, path)
+        yield package
+
+
+def _sums(reader: Reader, path: Path) -> dict[str, str]:
+    """The checksums of the lists, from the manifest."""
+    manifest = _json(reader.read(MANIFEST))
+    if manifest["format"] != FORMAT:
+        raise ValueError(f"its format is {manifest['format']}")
+    if manifest["version"] != VERSION:
+        raise PackageError(
+            f"{path} is of version {manifest['version']} of the format, this program "
+            f"knows {VERSION}: update kille"
+        )
+    sums: dict[str, str] = manifest["files"]
+    return sums
+
+
+def _lines(reader: Reader, name: str, sums: dict[str, str]) -> Iterator[Line]:
+    content = _checked(reader, name, sums[name])
+    return map(_json, io.BytesIO(content))
+
+
+def _checked(reader: Reader, name: str, known: str) -> bytes:
+    content = reader.read(name)
+    if checksum(content) != known:
+        raise ValueError(f"{name} is not what was exported")
+    return content
+
+
+def _json(content: bytes) -> Line:
+    value = json.loads(content, parse_constant=_refused)
+    if not isinstance(value, dict):
+        raise TypeError(f"{content[:40]!r} is no object of JSON")
+    return value
+
+
+def _refused(constant: str) -> NoReturn:
+    raise ValueError(f"{constant} is no number of JSON")
+
+
+def _require_unlike(what: str, names: list[Any]) -> None:
+    if len(set(names)) != len(names):
+        raise ValueError(f"a {what} is there twice")

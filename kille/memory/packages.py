@@ -1,0 +1,223 @@
+"""Packages: named files in a folder or a zip, written all at once and read with care.
+
+Whoever is killed while writing leaves the place as it was: a package is made beside it
+and put there when it is whole and on disk.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import zipfile
+import zlib
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+ZIP = ".zip"
+MANIFEST = "memory.json"
+_LARGEST = 2**30
+"""Bytes that a file of a package may have: no lesson comes near."""
+_FIRST_DAY = (1980, 1, 1, 0, 0, 0)  # of zips: the same content is the same bytes
+
+
+class PackageError(Exception):
+    """A package that cannot be written, or is none, or is damaged."""
+
+
+@contextmanager
+def damage_told(path: Path) -> Iterator[None]:
+    """Turn whatever goes wrong in reading a package into one line."""
+    try:
+        yield
+    except PackageError:
+        raise
+    except OSError as error:
+        reason = error.strerror or error
+        raise PackageError(f"{path} cannot be read ({reason})") from error
+    except (
+        zipfile.BadZipFile,
+        zlib.error,
+        EOFError,
+        NotImplementedError,  # ways to compress that we never use
+        RuntimeError,  # a password
+        RecursionError,
+        ValueError,
+        KeyError,
+        TypeError,
+        AttributeError,
+        OverflowError,
+        MemoryError,
+    ) as error:
+        raise PackageError(
+            f"{path} is damaged, or no exported memory ({_reason(error)}): nothing "
+            "was changed; export it again, or take another copy"
+        ) from error
+
+
+class Reader(ABC):
+    """The files of a package."""
+
+    @abstractmethod
+    def read(self, name: str) -> bytes:
+        """The content of a file. KeyError if there is none of this name."""
+
+
+class Writer(ABC):
+    """Where the files of a package go."""
+
+    @abstractmethod
+    def write(self, name: str, content: bytes) -> None:
+        """Adds a file."""
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[Reader]:
+    """The package at a path, whichever of the two it is."""
+    if path.is_dir():
+        yield _FolderReader(path)
+        return
+    with zipfile.ZipFile(path) as opened:
+        yield _ZipReader(opened)
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[Writer]:
+    """A package that is at the path, and on disk, when all inside went well.
+
+    A zip takes the place of an older package of ours, and of nothing else; a folder
+    must be new or empty. PackageError if it cannot be written.
+    """
+    target = Path(os.path.realpath(path))
+    draft = target.parent / f".{target.name}.{os.getpid()}.part"
+    try:
+        with _failure_told(path):
+            _check_free(path)
+            with _draft(draft, zipped=path.suffix.lower() == ZIP) as writer:
+                yield writer
+            os.replace(draft, target)
+            _sync_folder(target.parent)
+    finally:
+        if os.path.lexists(draft):
+            _remove(draft)
+
+
+@contextmanager
+def _failure_told(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise PackageError(
+            f"{path} cannot be written ({error.strerror}): name another place"
+        ) from error
+
+
+class _FolderReader(Reader):
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def read(self, name: str) -> bytes:
+        try:
+            with (self._folder / name).open("rb") as file:
+                content = file.read(_LARGEST + 1)
+        except (FileNotFoundError, NotADirectoryError):
+            raise KeyError(f"{name} is missing") from None
+        return _not_too_large(name, content)
+
+
+class _ZipReader(Reader):
+    def __init__(self, opened: zipfile.ZipFile) -> None:
+        self._opened = opened
+
+    def read(self, name: str) -> bytes:
+        with self._opened.open(name) as file:
+            return _not_too_large(name, file.read(_LARGEST + 1))
+
+
+class _FolderWriter(Writer):
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        folder.mkdir(parents=True)
+
+    def write(self, name: str, content: bytes) -> None:
+        file = self._folder / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(content)
+
+
+class _ZipWriter(Writer):
+    def __init__(self, opened: zipfile.ZipFile) -> None:
+        self._opened = opened
+
+    def write(self, name: str, content: bytes) -> None:
+        entry = zipfile.ZipInfo(name, _FIRST_DAY)
+        entry.external_attr = 0o644 << 16
+        self._opened.writestr(entry, content)
+
+
+@contextmanager
+def _draft(draft: Path, *, zipped: bool) -> Iterator[Writer]:
+    if not zipped:
+        yield _FolderWriter(draft)
+        _sync_all()
+        return
+    draft.parent.mkdir(parents=True, exist_ok=True)
+    with draft.open("xb") as file:
+        with zipfile.ZipFile(file, "w") as opened:
+            yield _ZipWriter(opened)
+        file.flush()
+        os.fsync(file.fileno())
+
+
+def _check_free(path: Path) -> None:
+    """Refuse to take the place of anything but an older package."""
+    if not path.exists() or (path.is_dir() and not any(path.iterdir())):
+        return
+    if path.is_dir() or not _is_package(path):
+        kind = "is a folder with something in it" if path.is_dir() else "is no export"
+        raise PackageError(f"{path} {kind}: it is left alone, name another place")
+
+
+def _is_package(path: Path) -> bool:
+    try:
+        with reading(path) as package:
+            package.read(MANIFEST)
+    except (KeyError, ValueError, zipfile.BadZipFile, RuntimeError):
+        return False
+    return True
+
+
+def _not_too_large(name: str, content: bytes) -> bytes:
+    if len(content) > _LARGEST:
+        raise ValueError(f"{name} is too large")
+    return content
+
+
+def _sync_all() -> None:
+    """Have all files on disk, at once: one by one takes minutes for many lessons."""
+    if os.name == "posix":
+        os.sync()
+
+
+def _sync_folder(folder: Path) -> None:
+    """Have the names in a folder on disk too, where the system can do that."""
+    if os.name != "posix":
+        return
+    opened = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(opened)
+    finally:
+        os.close(opened)
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink()
+
+
+def _reason(error: Exception) -> str:
+    text = " ".join(str(error.args[0] if error.args else error).split())
+    return text if len(text) <= 80 else f"{text[:77]}..."

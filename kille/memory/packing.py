@@ -1,0 +1,195 @@
+"""Dialogues, turns and lessons as lines of JSON, with files of arrays and pictures.
+
+What is unpacked is checked: a `ValueError`, `KeyError` or `TypeError` says that these
+are not values that were packed.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from kille.memory.configurations import as_json, from_json
+from kille.memory.lessons import (
+    Arrangement,
+    Dialogue,
+    ObjectLesson,
+    RelationLesson,
+    Scan,
+    Sighting,
+    Turn,
+    Word,
+)
+from kille.memory.pictures import JPEG, Crop, Picture
+from kille.scene import Box, Intrinsics, Point
+
+Line = dict[str, Any]
+Files = Mapping[str, bytes]
+
+FEATURES, FRAME, MASK, DEPTH = "features.npz", "frame.jpg", "mask.png", "depth.png"
+COLOURS = {True: "crop.jpg", False: "crop.png"}
+"""What the colours of a crop are called, by whether they are a JPEG."""
+FILES = frozenset({FEATURES, FRAME, MASK, DEPTH, *COLOURS.values()})
+TRAIT = "trait_"
+_LARGEST = 2**63 - 1
+
+
+def pack_dialogue(dialogue: Dialogue) -> Line:
+    """The line of a dialogue."""
+    return {"dialogue": dialogue.number, "began": dialogue.began}
+
+
+def unpack_dialogue(line: Line) -> Dialogue:
+    """The dialogue of a line."""
+    return Dialogue(whole(line, "dialogue"), _text(line, "began"))
+
+
+def pack_turn(turn: Turn) -> Line:
+    """The line of a turn."""
+    return asdict(turn)
+
+
+def unpack_turn(line: Line) -> Turn:
+    """The turn of a line."""
+    texts = (_text(line, it) for it in ("speaker", "text", "judgement", "time"))
+    return Turn(whole(line, "dialogue"), whole(line, "number"), *texts)
+
+
+def pack_lesson(lesson: ObjectLesson | RelationLesson) -> tuple[Line, Files]:
+    """The line of a lesson, and the files that belong to it."""
+    line: Line = {
+        "lesson": lesson.key,
+        **asdict(lesson.word),
+        "dialogue": lesson.turn.dialogue,
+        "turn": lesson.turn.number,
+        "sensor": lesson.seen.sensor,
+        "time": lesson.seen.time,
+    }
+    files: dict[str, bytes] = {}
+    match lesson.seen:
+        case Sighting() as seen:
+            line["place"] = seen.place
+            files[FEATURES] = _features(seen)
+        case Arrangement() as seen:
+            line |= {"target": seen.target, "landmark": seen.landmark}
+            line["configuration"] = as_json(seen.configuration)
+    if lesson.seen.picture is not None:
+        picture_line, pictures = _pack_picture(lesson.seen.picture)
+        line["picture"] = picture_line
+        files |= pictures
+    return line, files
+
+
+def unpack_lesson(
+    line: Line, files: Files, turns: Mapping[tuple[int, int], Turn]
+) -> ObjectLesson | RelationLesson:
+    """The lesson of a line with its files; `turns` by dialogue and number."""
+    key = whole(line, "lesson")
+    turn = turns[whole(line, "dialogue"), whole(line, "turn")]
+    name, surface = _text(line, "name"), _text(line, "surface")
+    sensor, time = _text(line, "sensor"), _number(line["time"])
+    picture = _unpack_picture(line["picture"], files) if "picture" in line else None
+    match line["kind"]:
+        case "object":
+            place = None if line["place"] is None else _point(line["place"])
+            scans, traits = _unpack_features(files[FEATURES])
+            sighting = Sighting(sensor, time, scans, place, traits, picture)
+            return ObjectLesson(key, Word(name, surface, "object"), turn, sighting)
+        case "relation":
+            target, landmark = _text(line, "target"), _text(line, "landmark")
+            configuration = from_json(line["configuration"])
+            stand = Arrangement(sensor, time, target, landmark, configuration, picture)
+            return RelationLesson(key, Word(name, surface, "relation"), turn, stand)
+        case kind:
+            raise ValueError(f"there are no lessons of the kind {kind}")
+
+
+def whole(line: Line, name: str) -> int:
+    """The whole number of this name, which is not below zero."""
+    value = _integer(line[name])
+    if value < 0:
+        raise ValueError(f"{name} is below zero")
+    return value
+
+
+def _features(seen: Sighting) -> bytes:
+    arrays: dict[str, Any] = {}
+    for number, scan in enumerate(seen.scans):
+        arrays[f"descriptors_{number}"] = scan.descriptors
+        arrays[f"points_{number}"] = scan.points
+    arrays |= {TRAIT + cue: vector for cue, vector in seen.traits.items()}
+    packed = io.BytesIO()
+    np.savez(packed, **arrays)
+    return packed.getvalue()
+
+
+def _unpack_features(packed: bytes) -> tuple[tuple[Scan, ...], dict[str, Any]]:
+    with np.load(io.BytesIO(packed), allow_pickle=False) as arrays:
+        found = {name: arrays[name] for name in arrays.files}
+    scans = tuple(
+        Scan(found.pop(f"descriptors_{number}"), found.pop(f"points_{number}"))
+        for number in range(sum(name.startswith("points_") for name in found))
+    )
+    return scans, {name.removeprefix(TRAIT): found[name] for name in found}
+
+
+def _pack_picture(picture: Picture) -> tuple[Line, Files]:
+    line: Line = {"boxes": [box._asdict() for box in picture.boxes]}
+    files = {FRAME: picture.frame}
+    if picture.crop is not None:
+        crop = picture.crop
+        files |= {COLOURS[crop.colour.startswith(JPEG)]: crop.colour, MASK: crop.mask}
+        if crop.depth is not None:
+            files[DEPTH] = crop.depth
+        if crop.intrinsics is not None:
+            line["intrinsics"] = asdict(crop.intrinsics)
+    return line, files
+
+
+def _unpack_picture(line: Line, files: Files) -> Picture:
+    boxes = tuple(_box(box) for box in line["boxes"])
+    return Picture(files[FRAME], boxes, _unpack_crop(line, files))
+
+
+def _unpack_crop(line: Line, files: Files) -> Crop | None:
+    if MASK not in files:
+        return None
+    (colour,) = (files[name] for name in COLOURS.values() if name in files)
+    lens = line.get("intrinsics")
+    intrinsics = None
+    if lens is not None:
+        intrinsics = Intrinsics(*(_number(lens[it]) for it in ("fx", "fy", "cx", "cy")))
+    return Crop(colour, files[MASK], files.get(DEPTH), intrinsics)
+
+
+def _box(line: Line) -> Box:
+    return Box(*(_integer(line[side]) for side in Box._fields))
+
+
+def _text(line: Line, name: str) -> str:
+    value = line[name]
+    if not isinstance(value, str):
+        raise TypeError(f"{name} is no text")
+    value.encode()  # halves of characters, which JSON can name, are ValueErrors
+    return value
+
+
+def _integer(value: object) -> int:
+    if not isinstance(value, int) or isinstance(value, bool) or abs(value) > _LARGEST:
+        raise TypeError(f"{value!r} is no whole number that a memory can keep")
+    return value
+
+
+def _number(value: object) -> float:
+    if not isinstance(value, float | int) or isinstance(value, bool):
+        raise TypeError(f"{value!r} is no number")
+    return float(value)
+
+
+def _point(values: Any) -> Point:
+    right, down, forward = map(_number, values)
+    return Point(right, down, forward)

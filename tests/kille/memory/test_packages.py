@@ -1,0 +1,453 @@
+"""What is exported and imported again is what it was; damage changes nothing."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import tempfile
+import zipfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from hashlib import sha256
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kille.memory import (
+    Arrangement,
+    Lesson,
+    Memory,
+    MemoryReader,
+    ObjectLesson,
+    RelationLesson,
+    Sighting,
+    Turn,
+)
+from kille.memory.exporting import Amount, export
+from kille.memory.importing import opened
+from kille.memory.packages import PackageError
+from kille.scene import Configuration
+
+from .conftest import ARRANGEMENTS, NAMES, SIGHTINGS, plain
+
+PLACES = ["package.zip", "package"]
+
+
+def content(memory: MemoryReader) -> object:
+    """All that a memory holds, as values that can be compared."""
+    return (
+        memory.dialogues(),
+        memory.turns(),
+        [lesson_content(memory.lesson(it.key)) for it in memory.lessons()],
+    )
+
+
+def lesson_content(lesson: ObjectLesson | RelationLesson) -> object:
+    seen = lesson.seen
+    shown = plain(seen) if isinstance(seen, Sighting) else seen
+    return lesson.key, lesson.word, lesson.turn, shown, seen.picture
+
+
+def imported(path: Path, memory: Memory) -> tuple[int, int]:
+    """Imports, and says how many lessons were new and how many were not."""
+    with opened(path) as package:
+        gained = memory.merge(package)
+    return len(gained.lessons), gained.known
+
+
+@contextmanager
+def small_memory(seen: Sighting) -> Iterator[Memory]:
+    """A memory of two dialogues and three lessons, the first of which is forgotten."""
+    with Memory.transient() as memory:
+        for began in ("2026-01-31T12:00", "2026-02-01T12:00"):
+            dialogue = memory.begin_dialogue(began)
+            memory.record_turn(
+                Turn(dialogue, 1, "robot", "I see…\u2028a thing.", "", "")
+            )
+        turn = Turn(1, 2, "tutor", "This is a cup.", "s : Naming", "2026-01-31T12:01")
+        memory.forget(memory.learn_object(turn, "cup", "cup", seen))
+        memory.learn_object(turn, "cup", "cup", seen)
+        turn = Turn(
+            2, 2, "tutor", "It is left of it.", "s : Naming", "2026-02-01T12:01"
+        )
+        stand = Configuration((-0.1, 0.0, 0.0), contact=0.5, others=((1.0, 2.0, 3.0),))
+        left = Arrangement("photo", 2.0, "cup", "box", stand)
+        memory.learn_relation(turn, "left_of", "left of", left)
+        yield memory
+
+
+# --- laws ----------------------------------------------------------------------------
+
+
+@settings(max_examples=25)
+@given(
+    taught=st.lists(
+        st.tuples(st.booleans(), NAMES, st.text(), SIGHTINGS | ARRANGEMENTS), max_size=4
+    ),
+    place=st.sampled_from(PLACES),
+)
+def test_import_undoes_export(
+    taught: list[tuple[bool, str, str, Sighting | Arrangement]], place: str
+) -> None:
+    with tempfile.TemporaryDirectory() as folder, Memory.transient() as memory:
+        dialogue = memory.begin_dialogue("now")
+        for number, (new, name, text, seen) in enumerate(taught):
+            dialogue = memory.begin_dialogue("now") if new else dialogue
+            turn = Turn(dialogue, number, "tutor", text, "", "now")
+            if isinstance(seen, Sighting):
+                memory.learn_object(turn, name, text, seen)
+            else:
+                memory.learn_relation(turn, name, text, seen)
+        path = Path(folder) / place
+        export(memory, path)
+        before = content(memory)
+        with Memory.transient() as again:
+            assert imported(path, again) == (len(taught), 0)
+            assert content(again) == before
+            assert imported(path, again) == (0, len(taught))
+            assert content(again) == before
+        assert imported(path, memory) == (0, len(taught))
+        assert content(memory) == before
+
+
+def test_the_same_memory_gives_the_same_bytes(tmp_path: Path, seen: Sighting) -> None:
+    with small_memory(seen) as memory:
+        assert export(memory, tmp_path / "a.zip") == Amount(2, 4, 2)
+        export(memory, tmp_path / "b.zip")
+    assert (tmp_path / "a.zip").read_bytes() == (tmp_path / "b.zip").read_bytes()
+
+
+def test_others_can_read_it(tmp_path: Path, seen: Sighting) -> None:
+    with small_memory(seen) as memory:
+        export(memory, tmp_path / "a.zip")
+        export(memory, tmp_path / "a")
+    with zipfile.ZipFile(tmp_path / "a.zip") as packed:
+        for name in packed.namelist():
+            assert packed.read(name) == (tmp_path / "a" / name).read_bytes()
+        lines = packed.read("lessons.jsonl").decode().split("\n")
+        cup, left = map(json.loads, lines[:-1])
+        features = np.load(io.BytesIO(packed.read("lessons/2/features.npz")))
+        depth = packed.read("lessons/2/depth.png")
+    assert (cup["lesson"], cup["name"], cup["kind"]) == (2, "cup", "object")
+    assert cup["place"] == list(seen.place or ())
+    assert (features["descriptors_1"] == seen.scans[1].descriptors).all()
+    assert (features["trait_size"] == seen.traits["size"]).all()
+    assert seen.picture is not None
+    assert seen.picture.crop is not None
+    assert depth == seen.picture.crop.depth
+    assert (left["target"], left["landmark"], left["turn"]) == ("cup", "box", 2)
+    assert left["configuration"]["contact"] == 0.5
+
+
+# --- merging -------------------------------------------------------------------------
+
+
+def test_two_memories_become_one(tmp_path: Path, seen: Sighting) -> None:
+    path = tmp_path / "other.zip"
+    with small_memory(seen) as other:
+        export(other, path)
+    with Memory.transient() as memory:
+        dialogue = memory.begin_dialogue("2025-01-01T12:00")
+        turn = Turn(dialogue, 1, "tutor", "This is a book.", "", "2025-01-01T12:01")
+        memory.learn_object(turn, "book", "book", seen)
+        assert imported(path, memory) == (2, 0)
+        assert imported(path, memory) == (0, 2)
+        assert [it.number for it in memory.dialogues()] == [1, 2, 3]
+        lessons = memory.lessons()
+        assert [it.word.name for it in lessons] == ["book", "cup", "left_of"]
+        assert [it.key for it in lessons] == [1, 2, 3]
+        assert [it.turn.dialogue for it in lessons] == [1, 2, 3]
+        assert len(memory.turns()) == 5
+
+
+def test_a_dialogue_that_went_on_is_the_same(tmp_path: Path, seen: Sighting) -> None:
+    path = tmp_path / "later.zip"
+    with small_memory(seen) as memory, small_memory(seen) as later:
+        turn = Turn(2, 3, "tutor", "This is a book.", "", "2026-02-01T12:02")
+        later.learn_object(turn, "book", "book", seen)
+        export(later, path)
+        assert imported(path, memory) == (1, 2)
+        assert content(memory) == content(later)
+
+
+def test_a_dialogue_of_another_robot_at_the_same_time_is_another(
+    tmp_path: Path, said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    path = tmp_path / "other.zip"
+    with Memory.transient() as memory, Memory.transient() as other:
+        for it, word in ((memory, "cup"), (other, "mug")):
+            it.begin_dialogue("now")
+            it.learn_object(replace(said(1), text=word), word, word, seen)
+        export(other, path)
+        assert imported(path, memory) == (1, 0)
+        assert [it.text for it in memory.turns()] == ["cup", "mug"]
+        assert len(memory.dialogues()) == 2
+
+
+def test_what_was_forgotten_can_be_brought_back(tmp_path: Path, seen: Sighting) -> None:
+    path = tmp_path / "before.zip"
+    with small_memory(seen) as memory:
+        export(memory, path)
+        memory.forget(2)
+        assert imported(path, memory) == (1, 1)
+        brought: Lesson = memory.lessons()[-1]
+        assert (brought.word.name, brought.key) == ("cup", 4)
+
+
+# --- what can go wrong ---------------------------------------------------------------
+
+
+def refusal(path: Path) -> str:
+    """The line that refuses this package."""
+    with pytest.raises(PackageError) as caught, opened(path):
+        pass
+    line = str(caught.value)
+    assert "\n" not in line
+    assert line.startswith(str(path))
+    return line
+
+
+@pytest.fixture
+def folder(tmp_path: Path, seen: Sighting) -> Path:
+    with small_memory(seen) as memory:
+        export(memory, tmp_path / "package")
+    return tmp_path / "package"
+
+
+FILES = [
+    "memory.json",
+    "dialogues.jsonl",
+    "turns.jsonl",
+    "lessons.jsonl",
+    "lessons/2/features.npz",
+    "lessons/2/frame.jpg",
+    "lessons/2/crop.jpg",
+    "lessons/2/mask.png",
+    "lessons/2/depth.png",
+]
+
+
+def test_these_are_the_files(folder: Path) -> None:
+    found = {it.relative_to(folder).as_posix() for it in folder.rglob("*.*")}
+    assert found == set(FILES)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_file_that_is_missing_or_changed_is_damage(folder: Path, name: str) -> None:
+    file = folder / name
+    original = file.read_bytes()
+    middle = len(original) // 2
+    changed = original[:middle] + b"\x00" + original[middle + 1 :]
+    for bad in (b"", original[:middle], changed):
+        file.write_bytes(bad)
+        assert "is damaged" in refusal(folder)
+    file.unlink()
+    assert "is damaged" in refusal(folder)
+    file.write_bytes(original)
+    with opened(folder) as package:
+        assert len(list(package.lessons())) == 2
+
+
+def memory_or_line(path: Path, memory: Memory) -> object:
+    """What the memory holds after an import, or the line that refuses it."""
+    try:
+        imported(path, memory)
+    except PackageError as error:
+        return str(error)
+    return content(memory)
+
+
+def test_a_zip_with_any_part_changed_is_damaged_or_the_same(
+    tmp_path: Path, seen: Sighting
+) -> None:
+    path = tmp_path / "package.zip"
+    with small_memory(seen) as memory:
+        export(memory, path)
+        before = content(memory)
+    original = path.read_bytes()
+    for at in np.random.default_rng(3).integers(0, len(original), 60).tolist():
+        damaged = bytearray(original)
+        damaged[at] ^= 0xFF
+        path.write_bytes(damaged)
+        with Memory.transient() as again:
+            found = memory_or_line(path, again)
+            # Some bytes say nothing that is read, as in a date.
+            assert found == before or (
+                "\n" not in str(found) and again.dialogues() == ()
+            )
+    for share in (0.0, 0.3, 0.9, 0.999):
+        path.write_bytes(original[: int(share * len(original))])
+        assert "is damaged" in refusal(path)
+
+
+def rewritten(folder: Path, name: str, change: Callable[[dict], object]) -> None:
+    """Changes the first line of a list, checksum and all."""
+    first, *rest = (folder / name).read_text("utf-8").split("\n")
+    line = json.loads(first)
+    change(line)
+    text = "\n".join([json.dumps(line), *rest])
+    (folder / name).write_text(text, "utf-8")
+    manifest = json.loads((folder / "memory.json").read_text())
+    manifest["files"][name] = sha256(text.encode()).hexdigest()
+    (folder / "memory.json").write_text(json.dumps(manifest))
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("turns.jsonl", {"dialogue": 7}),
+        ("turns.jsonl", {"dialogue": True}),
+        ("turns.jsonl", {"number": 2}),
+        ("turns.jsonl", {"number": 2**63}),
+        ("turns.jsonl", {"text": None}),
+        ("turns.jsonl", {"text": "\ud800"}),
+        ("dialogues.jsonl", {"dialogue": 2}),
+        ("dialogues.jsonl", {"dialogue": -1}),
+        ("dialogues.jsonl", {"began": 3}),
+        ("lessons.jsonl", {"lesson": "../2"}),
+        ("lessons.jsonl", {"lesson": 3}),
+        ("lessons.jsonl", {"turn": 9}),
+        ("lessons.jsonl", {"kind": "verb"}),
+        ("lessons.jsonl", {"kind": "relation"}),
+        ("lessons.jsonl", {"time": float("nan")}),
+        ("lessons.jsonl", {"place": [0, 1]}),
+        ("lessons.jsonl", {"place": [0, 1, "x"]}),
+        ("lessons.jsonl", {"picture": {"boxes": 3}}),
+        ("lessons.jsonl", {"files": {}}),
+        ("lessons.jsonl", {"files": []}),
+    ],
+    ids=str,
+)
+def test_what_no_memory_could_hold_is_refused(
+    folder: Path, name: str, change: dict[str, object]
+) -> None:
+    rewritten(folder, name, lambda line: line.update(change))
+    assert "is damaged" in refusal(folder)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"offset": "abc"},
+        {"offset": ["0", 0, 0]},
+        {"offset": [0, 0]},
+        {"offset": None},
+        {"viewed": [1]},
+        {"viewed": 1},
+        {"others": [[1]]},
+        {"others": [3]},
+        {"target_size": "large"},
+        {"heading": {}},
+        {"contact": True},
+    ],
+    ids=str,
+)
+def test_what_is_no_configuration_is_refused(
+    folder: Path, wrong: dict[str, object]
+) -> None:
+    stand = {"offset": [0.1, 0, 0]} | wrong
+    more = {"kind": "relation", "target": "cup", "landmark": "car"}
+    change = more | {"configuration": stand}
+    rewritten(folder, "lessons.jsonl", lambda line: line.update(change))
+    assert "is damaged" in refusal(folder)
+
+
+def test_files_that_we_do_not_know_are_passed_over(folder: Path) -> None:
+    (folder / "notes.txt").write_text("mine")
+    rewritten(
+        folder,
+        "lessons.jsonl",
+        lambda line: line["files"].update({"../x": "0", "y": "0"}),
+    )
+    with opened(folder) as package:
+        assert len(list(package.lessons())) == 2
+
+
+def test_a_newer_format_is_named(folder: Path) -> None:
+    manifest = json.loads((folder / "memory.json").read_text())
+    (folder / "memory.json").write_text(json.dumps(manifest | {"version": 2}))
+    assert "update kille" in refusal(folder)
+
+
+@pytest.mark.parametrize("bytes_", [b"", b"PK", b"Dear diary, " * 99])
+def test_another_file_is_refused(tmp_path: Path, bytes_: bytes) -> None:
+    path = tmp_path / "diary.zip"
+    path.write_bytes(bytes_)
+    assert "no exported memory" in refusal(path)
+
+
+def test_what_is_not_there_cannot_be_read(tmp_path: Path) -> None:
+    assert "cannot be read" in refusal(tmp_path / "none.zip")
+    assert "no exported memory" in refusal(tmp_path)
+
+
+def test_what_is_not_ours_is_not_replaced(tmp_path: Path, seen: Sighting) -> None:
+    diary, folder = tmp_path / "diary.zip", tmp_path / "folder"
+    diary.write_text("Dear diary")
+    folder.mkdir()
+    (folder / "file").touch()
+    with small_memory(seen) as memory:
+        for path in (diary, folder):
+            with pytest.raises(PackageError, match="left alone"):
+                export(memory, path)
+        with pytest.raises(PackageError, match="cannot be written"):
+            export(memory, diary / "package.zip")
+        for path in (Path("."), Path("/")):
+            with pytest.raises(PackageError, match="left alone"):
+                export(memory, path)
+    assert diary.read_text() == "Dear diary"
+    assert {it.name for it in tmp_path.rglob("*")} == {"diary.zip", "folder", "file"}
+
+
+def test_a_link_goes_on_leading_where_it_leads(tmp_path: Path, seen: Sighting) -> None:
+    link, target = tmp_path / "link.zip", tmp_path / "packages.zip"
+    link.symlink_to(target)
+    with small_memory(seen) as memory:
+        export(memory, link)
+        export(memory, link)
+    assert link.is_symlink()
+    with opened(target) as package:
+        assert len(list(package.lessons())) == 2
+
+
+def test_an_older_export_is_replaced_wholly_or_not_at_all(
+    tmp_path: Path, seen: Sighting, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "package.zip"
+    with small_memory(seen) as memory:
+        export(memory, path)
+        before = path.read_bytes()
+        memory.forget(2)
+
+        def full(_: int) -> None:
+            raise OSError(28, "No space left on device")
+
+        with monkeypatch.context() as patched:
+            patched.setattr(os, "fsync", full)
+            with pytest.raises(PackageError, match="No space left"):
+                export(memory, path)
+        assert path.read_bytes() == before
+        assert [it.name for it in tmp_path.iterdir()] == ["package.zip"]
+        export(memory, path)
+        with opened(path) as package:
+            assert [it.word.name for it in package.lessons()] == ["left_of"]
+
+
+def test_a_memory_that_fails_while_it_learns_is_as_it_was(
+    tmp_path: Path, path: Path, seen: Sighting
+) -> None:
+    large = replace(seen, scans=10 * seen.scans)
+    with small_memory(large) as other:
+        export(other, tmp_path / "package.zip")
+    with Memory.open(path) as memory, opened(tmp_path / "package.zip") as package:
+        connection = memory._connection
+        (pages,) = connection.execute("PRAGMA page_count").fetchone()
+        connection.execute(f"PRAGMA max_page_count = {pages}")
+        with pytest.raises(Exception, match="disk is full"):
+            memory.merge(package)
+        assert (memory.dialogues(), memory.lessons()) == ((), ())
