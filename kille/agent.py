@@ -26,7 +26,7 @@ from kille.dialogue.state import STATE, blank_model, forms, initial
 from kille.dialogue.wording import english
 from kille.exchange import Exchange, Said
 from kille.gaze import Gaze, View
-from kille.knowledge import Evidence, Knowledge
+from kille.knowledge import Evidence, Knowledge, Named
 from kille.memory import Memory, Turn
 from kille.perception.look import SCANS
 from kille.sensors.sensor import Sensor
@@ -296,13 +296,20 @@ class Agent:
         look = value_at(move.content, "look")
         target, landmark = move.content["target"], move.content["landmark"]
         x, y = value_at(target, "x"), value_at(landmark, "x")
-        offset = self._witnesses.offset(x, y, look)
-        if offset is None:
+        stand = self._witnesses.configuration(x, y, look)
+        if stand is None:
             raise RuntimeError(f"{look} was let go before its lesson")
-        words = predicate_at(target, "c").name, predicate_at(landmark, "c").name
+        things = self._named(target, x, look), self._named(landmark, y, look)
         evidence = self._evidence(turn, look)
         name = word_of(sign).name
-        self._knowledge.learn_relation(name, sign.form, words, offset, evidence)
+        self._knowledge.learn_relation(name, sign.form, things, stand, evidence)
+
+    def _named(self, content: RecordType, x: str, look: str) -> Named:
+        """A thing in a look, by the word that is said of it there."""
+        percept = self._witnesses.percept(x, look)
+        if percept is None:
+            raise RuntimeError(f"{look} was let go before its lesson")
+        return predicate_at(content, "c").name, percept
 
     def _evidence(self, turn: Turn, handle: str) -> Evidence:
         look = self._witnesses.look(handle)

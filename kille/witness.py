@@ -2,7 +2,8 @@
 
 A look is named by a handle, look7, and a thing in it by its number, o2; the theory sees
 only these names. The predicate of a noun is judged of a thing and a look by the object
-memory, that of a relation of two things and a look by the relation memory.
+memory, that of a colour by the colour memory, and that of a relation of two things and
+a look by the relation memory.
 """
 
 from __future__ import annotations
@@ -11,10 +12,11 @@ from collections.abc import Collection, Iterable, Mapping
 from functools import partial
 
 from kille.dialogue.meanings import word_of
-from kille.perception.geometry import offset
+from kille.perception.colours import ColourMemory, colours_of, xkcd
 from kille.perception.objects import ObjectMemory
 from kille.perception.relations import RelationMemory
-from kille.scene import Look, Percept, Point
+from kille.perception.relations.seeing import configuration
+from kille.scene import Configuration, Look, Percept
 from ttr import Model, Record
 
 __all__ = ["Witnesses", "thing"]
@@ -34,8 +36,15 @@ class Witnesses:
     A look that is no longer remembered says nothing: [0, 1].
     """
 
-    def __init__(self, objects: ObjectMemory, relations: RelationMemory) -> None:
+    def __init__(
+        self,
+        objects: ObjectMemory,
+        relations: RelationMemory,
+        colours: ColourMemory | None = None,
+    ) -> None:
+        """Witnesses by these learners; colours as most people name them by default."""
         self._objects, self._relations = objects, relations
+        self._colours = colours or ColourMemory(prior=xkcd())
         self._looks: dict[str, Look] = {}
         self._named: dict[tuple[str, str], Mapping[str, float]] = {}
 
@@ -67,29 +76,16 @@ class Witnesses:
             return None
         return look.percepts[number - 1]
 
-    def place(self, x: str, handle: str) -> Point | None:
-        """Where a thing is: the mean of its best-matched features, by its best word.
-
-        A thing without any word is where its region is; None where that is unknown.
-        """
-        percept = self.percept(x, handle)
-        if percept is None or percept.region.place is None:
+    def configuration(self, x: str, y: str, handle: str) -> Configuration | None:
+        """How x stands to y; None if it is not remembered, or a place is unknown."""
+        look = self.look(handle)
+        target, landmark = self.percept(x, handle), self.percept(y, handle)
+        if look is None or target is None or landmark is None:
             return None
-        degrees = self._degrees(x, handle)
-        if not degrees:
-            return percept.region.place
-        return self._objects.locate(percept, max(degrees, key=lambda w: degrees[w]))
-
-    def offset(self, x: str, y: str, handle: str) -> Point | None:
-        """Where x is from y: metres right, away and up; None if a place is unknown."""
-        look, here, there = (
-            self.look(handle),
-            self.place(x, handle),
-            self.place(y, handle),
+        others = [it.region for it in look.percepts if it not in (target, landmark)]
+        return configuration(
+            look.frame, target.region, landmark.region, others, look.up
         )
-        if look is None or here is None or there is None:
-            return None
-        return Point(*offset(here, there, look.up))
 
     def noun(self, word: str, x: str, handle: str) -> float | tuple[float, float]:
         """The degree of word(x, look)."""
@@ -97,14 +93,27 @@ class Witnesses:
             return UNKNOWN
         return self._degrees(x, handle).get(word, 0.0)
 
+    def colour(self, word: str, x: str, handle: str) -> float | tuple[float, float]:
+        """The degree of word(x, look) for a colour word, such as "light blue".
+
+        What has no colours that could be told, or a word that nobody taught: [0, 1].
+        """
+        percept = self.percept(x, handle)
+        if percept is None or percept.frame is None:
+            return UNKNOWN
+        palette = colours_of(percept.frame, percept.region)
+        if palette is None:
+            return UNKNOWN
+        return self._colours.degrees(palette).get(word, UNKNOWN)
+
     def relation(
         self, word: str, x: str, y: str, handle: str
     ) -> float | tuple[float, float]:
         """The degree of word(x, y, look)."""
-        apart = self.offset(x, y, handle)
-        if apart is None:
+        stand = self.configuration(x, y, handle)
+        if stand is None:
             return UNKNOWN
-        return self._relations.predict_proba_one(apart).get(word, 0.0)
+        return self._relations.degrees(stand).get(word, 0.0)
 
     def in_model(
         self, model: Model, nouns: Iterable[Record], relations: Iterable[Record]

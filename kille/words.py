@@ -14,6 +14,7 @@ from kille.dialogue.meanings import word_of
 from kille.perception.learners import Learner
 from kille.perception.objects import ObjectMemory
 from kille.perception.relations import RelationMemory
+from kille.scene import Configuration
 from kille.witness import Witnesses
 from ttr import Path, PType, Record
 from ttr.perceptual import (
@@ -74,6 +75,31 @@ class Pupil(Generic[X]):
         return Pupil(self._learner.copy(), self._lessons)
 
 
+class OneWord(Pupil[Configuration]):
+    """A pupil that is asked about one spatial word only.
+
+    Several of them may hold of the same things, to degrees that sum to more than 1.
+    """
+
+    def __init__(self, learner: RelationMemory, word: str, lessons: int = 0) -> None:
+        super().__init__(learner, lessons)
+        self._relations, self._word = learner, word
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The word, once it has been learned."""
+        return tuple(word for word in self._relations.labels if word == self._word)
+
+    def predict_proba_one(self, x: Configuration, /) -> dict[str, float]:
+        """The degree of the word."""
+        degrees = self._relations.degrees(x)
+        return {word: degrees[word] for word in self.labels}
+
+    def copy(self) -> OneWord:
+        """Another pupil that knows the same."""
+        return OneWord(self._relations.copy(), self._word, self._lessons)
+
+
 class Vocabulary:
     """Makes meanings of words, of what the learners know and the eyes remember."""
 
@@ -85,16 +111,19 @@ class Vocabulary:
     def speaker(
         self, name: str, nouns: Iterable[Record], relations: Iterable[Record]
     ) -> Speaker:
-        """Who has these words: nouns share one learner, and relations another."""
-        things = _params(self._objects), self._witnesses.percept
-        places = _params(self._relations), self._witnesses.offset
-        meanings = {sign.form: _meaning(sign, *things) for sign in nouns}
-        meanings |= {sign.form: _meaning(sign, *places) for sign in relations}
+        """Who has these words: nouns share a learner, each relation has its own."""
+        shared = _params(Pupil(self._objects))
+        meanings = {
+            sign.form: _meaning(sign, shared, self._witnesses.percept) for sign in nouns
+        }
+        for sign in relations:
+            own = _params(OneWord(self._relations, word_of(sign).name))
+            meanings[sign.form] = _meaning(sign, own, self._witnesses.configuration)
         return Speaker(name, meanings)
 
 
-def _params(learner: Copied[Any]) -> Record:
-    return learner_params(Pupil(learner), copied=Pupil.copy)
+def _params(pupil: Pupil[Any]) -> Record:
+    return learner_params(pupil, copied=Pupil.copy)
 
 
 def _meaning(

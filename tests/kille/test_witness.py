@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
@@ -11,9 +12,9 @@ from kille.dialogue.state import blank_model
 from kille.gaze import Gaze
 from kille.perception.objects import ObjectMemory
 from kille.perception.relations import RelationMemory
-from kille.scene import Look, Point
+from kille.scene import Configuration, Look
 from kille.witness import UNKNOWN, Witnesses, thing
-from ttr import record
+from ttr import Model, Theory, record
 
 
 @pytest.fixture(scope="module")
@@ -36,8 +37,8 @@ def objects(seen: Look) -> ObjectMemory:
 @pytest.fixture
 def witnesses(seen: Look, objects: ObjectMemory) -> Witnesses:
     relations = RelationMemory()
-    relations.learn_one((-0.2, 0.1, 0.0), "to_the_left_of", key=1)
-    relations.learn_one((0.2, 0.1, 0.0), "to_the_right_of", key=2)
+    relations.learn_one(Configuration((-0.2, 0.1, 0.0)), "to_the_left_of", key=1)
+    relations.learn_one(Configuration((0.2, 0.1, 0.0)), "to_the_right_of", key=2)
     made = Witnesses(objects, relations)
     made.remember("look1", seen)
     return made
@@ -57,10 +58,29 @@ def test_what_is_not_in_a_remembered_look_is_unknown(
     witnesses: Witnesses, x: str, look: str
 ) -> None:
     assert witnesses.percept(x, look) is None
-    assert witnesses.place(x, look) is None
-    assert witnesses.offset(x, "o2", look) is None
+    assert witnesses.configuration(x, "o2", look) is None
     assert witnesses.noun("car", x, look) == UNKNOWN
     assert witnesses.relation("to_the_left_of", x, "o2", look) == UNKNOWN
+
+
+def test_colour_words_are_judged_of_what_is_seen() -> None:
+    gaze = Gaze("synthetic:empty?seed=5", scans=1)
+    gaze.change("show banana")
+    made = Witnesses(ObjectMemory(), RelationMemory())
+    made.remember("look1", gaze.look().look)
+    theory = Theory.parse("basic Ind, Look\npred yellow(Ind, Look), blue(Ind, Look)")
+    model = Model(theory).given("look1", theory.Look).given("o1", theory.Ind)
+    for word in ("yellow", "blue"):
+        model = model.witnessed(theory[word], by=partial(made.colour, word))
+    yellow = model.perceive(
+        record(x="o1", look="look1"),
+        theory.parse("[x : Ind, look : Look, c : yellow(x, look)]"),
+    )
+    assert made.colour("yellow", "o1", "look1") > 0.5
+    assert made.colour("blue", "o1", "look1") < 0.1
+    assert yellow.p.lo == pytest.approx(made.colour("yellow", "o1", "look1"))
+    assert made.colour("yellow", "o1", "look9") == UNKNOWN
+    assert made.colour("röd", "o1", "look1") == UNKNOWN
 
 
 def test_without_depth_a_place_is_unknown_but_a_name_is_not(
@@ -77,18 +97,21 @@ def test_without_depth_a_place_is_unknown_but_a_name_is_not(
         for it in flat
     ]
     witnesses.remember("look2", replace(seen, percepts=tuple(bare)))
-    assert witnesses.place("o1", "look2") is None
+    assert witnesses.configuration("o1", "o2", "look2") is None
     assert witnesses.relation("to_the_left_of", "o2", "o1", "look2") == UNKNOWN
     assert isinstance(witnesses.noun("car", "o1", "look2"), float)
 
 
-def test_offsets_are_right_away_and_up_and_turn_around(witnesses: Witnesses) -> None:
-    there = witnesses.offset("o2", "o1", "look1")
-    back = witnesses.offset("o1", "o2", "look1")
-    assert isinstance(there, Point)
-    assert there.x == pytest.approx(-0.28, abs=0.08)
-    assert there.y == pytest.approx(0.1, abs=0.08)
-    assert back == pytest.approx(Point(-there.x, -there.y, -there.z))
+def test_configurations_are_right_away_and_up_and_turn_around(
+    witnesses: Witnesses,
+) -> None:
+    there = witnesses.configuration("o2", "o1", "look1")
+    back = witnesses.configuration("o1", "o2", "look1")
+    assert there is not None
+    assert back is not None
+    assert there.offset == pytest.approx((-0.28, 0.1, there.offset[2]), abs=0.08)
+    assert back.offset == pytest.approx([-it for it in there.offset], abs=1e-6)
+    assert there.target_size == back.landmark_size
 
 
 def test_old_looks_are_let_go_but_for_those_still_needed(

@@ -1,0 +1,120 @@
+"""Evidence: how much each cue adds for each word, and the degrees that follow from it.
+
+With e_c(w) what cue c adds for word w, the strength of a word and its degree are
+
+    s(w) = exp(b + Σ_c e_c(w)),   p(w) = s(w) / (1 + Σ s)
+
+so whatever is none of the words has strength 1, and its degree is what the words leave
+(the multinomial logit with an outside option: McFadden 1974, "Conditional logit
+analysis of qualitative choice behavior"). A trait adds how far the regression on the
+examples speaks for the word, features add their votes beyond chance, and metric size
+takes off how unlike the example nearest in size is:
+
+    e_c(w) = r score_c(w) [- a d_size(w) if c is size],   e_features(w) = v √votes(w)
+
+Size alone rejects: it is what light, distance and dirt do not change, while a thing may
+well have another colour than all examples of its word. b, r, a and v were fitted
+(`kille.experiments.fitting.evidence`) to things of which many had not been taught, seen
+in another light and partly hidden, and to pictures of things that are mostly new.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+import numpy as np
+
+from kille.perception.likeness import Kernel, Likeness, Numbers
+
+__all__ = ["Evidence", "Weighing", "weighing"]
+
+FEATURES = "features"
+"""The name under which the votes of features are counted among the cues."""
+
+SIZE = "size"
+"""The cue that rejects."""
+
+FARTHEST = 3.0
+"""What is less alike than that says no more."""
+
+
+@dataclass(frozen=True)
+class Weighing:
+    """How evidence is weighed: b, r, v, a, and the kernel of each cue."""
+
+    base: float
+    score: float
+    votes: float
+    size: float
+    kernels: Mapping[str, Kernel]
+
+    def evidence(
+        self, labels: tuple[str, ...], likeness: Likeness, votes: Numbers
+    ) -> Evidence:
+        """What each cue adds for the words; `votes` (words,) are beyond chance."""
+        added = {cue: self.score * score for cue, score in likeness.scores.items()}
+        if SIZE in added:
+            apart = np.minimum(likeness.unlike[SIZE], FARTHEST)
+            added[SIZE] = added[SIZE] - self.size * apart
+        added[FEATURES] = self.votes * np.sqrt(votes)
+        return Evidence(labels, self.base, added)
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What each cue adds for each word, (words,) each, and what all start from."""
+
+    labels: tuple[str, ...]
+    base: float
+    added: Mapping[str, Numbers]
+
+    def degrees(self) -> dict[str, float]:
+        """The degree of each word; they sum to less than 1."""
+        logs = self.base + sum(self.added.values(), np.zeros(len(self.labels)))
+        highest = max(float(logs.max(initial=0.0)), 0.0)
+        strengths = np.exp(logs - highest)
+        degrees = strengths / (np.exp(-highest) + strengths.sum())
+        return dict(zip(self.labels, degrees.tolist(), strict=True))
+
+    def reasons(self, word: str, rival: str | None = None) -> dict[str, float]:
+        """What each cue adds for a word, or adds more for it than for a rival.
+
+        Largest first: these are logarithms of how many times stronger it makes the
+        word. KeyError for a word that is not among the labels.
+        """
+        this = self._column(word)
+        other = None if rival is None else self._column(rival)
+        more = {
+            cue: float(some[this] - (0.0 if other is None else some[other]))
+            for cue, some in self.added.items()
+        }
+        return dict(sorted(more.items(), key=lambda item: -item[1]))
+
+    def _column(self, word: str) -> int:
+        try:
+            return self.labels.index(word)
+        except ValueError:
+            raise KeyError(word) from None
+
+
+@cache
+def weighing(name: str = "default") -> Weighing:
+    """A weighing that comes with the package: `default`, or with the `embedding`.
+
+    >>> weighing().size > 0
+    True
+    """
+    text = files("kille.perception").joinpath("weighing.json").read_text("utf-8")
+    fitted = json.loads(text)[name]
+    cues = fitted["cues"]
+    return Weighing(
+        fitted["base"],
+        fitted["score"],
+        fitted["votes"],
+        fitted["size"],
+        {cue: Kernel(it["weight"], it["width"]) for cue, it in cues.items()},
+    )

@@ -1,0 +1,36 @@
+"""The learners by name, as they take part in comparisons: the paper's, ours, baselines.
+
+Each name gives a learner that has learned nothing. `kille` is the paper's own way in
+both lists, `default` is what the robot uses, and `embedding` the same with a pretrained
+network as one cue more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from kille.perception.cues import with_embedding
+from kille.perception.evidence import weighing
+from kille.perception.learners import Learner
+from kille.perception.objects import ObjectMemory
+from kille.perception.paper import PaperObjects
+from kille.perception.relations import AngleRule, PaperRelations, RelationMemory
+from kille.scene import Configuration, Percept
+
+
+def _with_embedding() -> Learner[Percept]:
+    """MissingExtraError without the packages of `kille[embedding]`."""
+    return ObjectMemory(weighed=weighing("embedding"), cues=with_embedding())
+
+
+OBJECTS: Mapping[str, Callable[[], Learner[Percept]]] = {
+    "default": ObjectMemory,
+    "kille": PaperObjects,
+    "embedding": _with_embedding,
+}
+
+RELATIONS: Mapping[str, Callable[[], Learner[Configuration]]] = {
+    "default": RelationMemory,
+    "kille": PaperRelations,
+    "angle": AngleRule,
+}
