@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import argparse
-import difflib
-import os
-import re
 import sys
 from collections.abc import Sequence
-from io import StringIO, TextIOWrapper
+from errno import ENOSPC
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
+
+from kille.interfaces.parsing import Parser, Version, seed
+from kille.interfaces.streams import drop_output, prepare_streams
 
 __all__ = ["main"]
 
-FINE, FAILED, WRONG_USE, INTERRUPTED, PIPE_CLOSED = 0, 1, 2, 130, 141
+FAILED, INTERRUPTED, PIPE_CLOSED = 1, 130, 141
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs the command; 0 fine, 1 failed, 2 wrong use, 130 after Ctrl-C."""
-    _prepare_streams()
+    prepare_streams()
     try:
         code = _run(argv)
         sys.stdout.flush()
@@ -27,9 +27,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stderr.write("\n")
         return INTERRUPTED
     except BrokenPipeError:
-        # Python would complain once more when it flushes at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        drop_output()
         return PIPE_CLOSED
+    except OSError as error:
+        if error.errno != ENOSPC:
+            raise
+        drop_output()
+        told = "the output cannot be written: no space left on device"
+        sys.stderr.write(f"kille: {told}\n")
+        return FAILED
     return code
 
 
@@ -39,59 +45,21 @@ def _run(argv: Sequence[str] | None) -> int:
         options.parser.error(f"unknown option: {unknown[0]}")
     if "run" not in options:
         options.parser.error("a command is missing")
+    options.words = tuple(sys.argv[1:] if argv is None else argv)
     code: int = options.run(options)
     return code
 
 
-def _prepare_streams() -> None:
-    """Have something to read and write even where a caller has closed it.
-
-    Bytes that are no characters, and characters that cannot be shown, are replaced.
-    """
-    for name in ("stdin", "stdout", "stderr"):
-        stream = getattr(sys, name)
-        if stream is None:
-            setattr(sys, name, StringIO())
-        elif isinstance(stream, TextIOWrapper):
-            stream.reconfigure(errors="replace")
-
-
-class _Parser(argparse.ArgumentParser):
-    """A parser whose complaint is one line, with a way out."""
-
-    def __init__(self, **settings: Any) -> None:
-        super().__init__(allow_abbrev=False, **settings)
-        self.set_defaults(parser=self)
-
-    def error(self, message: str) -> NoReturn:
-        message = self._with_way_out(message)
-        self.exit(WRONG_USE, f"{self.prog}: {message} ({self.prog} --help says more)\n")
-
-    def _with_way_out(self, message: str) -> str:
-        if found := re.search(r"invalid choice: '(.*)' \(choose from (.*)\)", message):
-            known = re.findall(r"[\w-]+", found[2])
-            return _no_such(found[1], known, f"try {', '.join(known)}")
-        if found := re.fullmatch(r"unknown option: ([^=]*).*", message, re.DOTALL):
-            options = re.findall(r"--[\w-]+", self.format_help())
-            return _no_such(found[1], options, "it is not understood here")
-        return message
-
-
-def _no_such(word: str, known: Sequence[str], otherwise: str) -> str:
-    near = difflib.get_close_matches(word, known, n=1)
-    return f"there is no {word}: {f'did you mean {near[0]}?' if near else otherwise}"
-
-
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(
+    parser = Parser(
         prog="kille",
         description="A table-top robot that learns words for objects and places.",
     )
-    parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
-    commands = parser.add_subparsers(metavar="COMMAND", parser_class=_Parser)
+    parser.add_argument("--version", action=Version, nargs=0, help="print the version")
+    commands = parser.add_subparsers(metavar="COMMAND", parser_class=Parser)
     demo = commands.add_parser("demo", help="watch a tutor teach and test the robot")
     demo.add_argument(
-        "--seed", type=_seed, default=7, metavar="N", help="another run of chance (7)"
+        "--seed", type=seed, default=7, metavar="N", help="another run of chance (7)"
     )
     demo.add_argument(
         "--out",
@@ -128,33 +96,114 @@ def _parser() -> argparse.ArgumentParser:
     )
     replay.set_defaults(run=_replay)
     memory = commands.add_parser("memory", help="what the robot has learned")
-    actions = memory.add_subparsers(metavar="ACTION", parser_class=_Parser)
-    listing = actions.add_parser(
-        "list", help="the words, and how often each was taught"
-    )
-    listing.add_argument("--memory", type=Path, metavar="FILE", help="which memory")
-    listing.add_argument("--json", action="store_true", help="report for machines")
-    listing.set_defaults(run=_memory_list)
+    actions = memory.add_subparsers(metavar="ACTION", parser_class=Parser)
+    _add_memory_actions(actions)
+    _add_evaluate(commands)
     doctor = commands.add_parser("doctor", help="what works here, what is missing")
     doctor.add_argument("--json", action="store_true", help="report for machines")
     doctor.set_defaults(run=_doctor)
     return parser
 
 
-def _seed(text: str) -> int:
-    if text.isascii() and text.isdigit():
-        return int(text)
-    raise argparse.ArgumentTypeError(f"{text} is no whole number from 0, such as 7")
+def _add_evaluate(commands: Any) -> None:
+    evaluate = commands.add_parser("evaluate", help="how well words are learned")
+    kinds = evaluate.add_subparsers(metavar="WHAT", parser_class=Parser)
+    objects = kinds.add_parser(
+        "objects",
+        help="words for things: the paper's tables for your data and method",
+    )
+    _add_measuring(
+        objects,
+        data="pictures by category, labelled scenes or captures, meshes "
+        "(the ten things of the simulated table)",
+        protocols="paper, rotation, specimens, shots, even-odd, halves, scenes, "
+        "regions or growth",
+        methods="default and kille",
+    )
+    for option, help_text in (("--teach", "teach in"), ("--ask", "ask in")):
+        objects.add_argument(
+            option,
+            action="append",
+            default=[],
+            metavar="SCENE",
+            help=f"a labelled scene to {help_text}; may be repeated",
+        )
+    relations = kinds.add_parser(
+        "relations",
+        help="words for places: the same, against people's judgements",
+    )
+    _add_measuring(
+        relations,
+        data="people's judgements (the paper's protocol with simulated judges)",
+        protocols="paper or judgements",
+        methods="default, kille and angle",
+    )
+    relations.set_defaults(teach=[], ask=[])
 
 
-class _Version(argparse.Action):
-    """Prints the version, which is looked up only when it is asked for."""
+def _add_measuring(
+    parser: argparse.ArgumentParser, data: str, protocols: str, methods: str
+) -> None:
+    parser.add_argument("data", nargs="?", metavar="DATA", help=data)
+    parser.add_argument(
+        "--protocol", metavar="P", help=f"{protocols} (all usual ones for the data)"
+    )
+    parser.add_argument(
+        "--method",
+        action="append",
+        default=[],
+        metavar="M",
+        help="who takes part, by name, or your own as FILE.py:NAME or MODULE:NAME; "
+        f"may be repeated ({methods})",
+    )
+    parser.add_argument(
+        "--seed", type=seed, default=0, metavar="N", help="another run of chance (0)"
+    )
+    parser.add_argument("--json", action="store_true", help="report for machines")
+    parser.add_argument(
+        "--report",
+        type=Path,
+        metavar="FILE.html",
+        help="write a page with tables and figures",
+    )
+    parser.set_defaults(run=_evaluate)
 
-    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
-        from importlib.metadata import version
 
-        sys.stdout.write(f"kille {version('kille')}\n")
-        parser.exit()
+def _add_memory_actions(actions: Any) -> None:
+    listing = actions.add_parser(
+        "list", help="the words, and how often each was taught"
+    )
+    listing.set_defaults(run=_memory_list)
+    showing = actions.add_parser(
+        "show", help="who taught a word when, and what it looked like"
+    )
+    _add_named(showing, "+")
+    showing.add_argument(
+        "--out", type=Path, metavar="FOLDER", help="where the pictures are written"
+    )
+    showing.set_defaults(run=_memory_show)
+    forgetting = actions.add_parser("forget", help="unlearn a word or a lesson")
+    _add_named(forgetting, "*")
+    forgetting.add_argument(
+        "--last", action="store_true", help="the lesson that was learned last"
+    )
+    forgetting.add_argument("--yes", action="store_true", help="do not ask")
+    forgetting.set_defaults(run=_memory_forget)
+    exporting = actions.add_parser("export", help="write it for other programs")
+    exporting.add_argument("target", type=Path, metavar="FILE.zip|FOLDER")
+    exporting.set_defaults(run=_memory_export)
+    importing = actions.add_parser("import", help="add what was exported")
+    importing.add_argument("source", type=Path, metavar="FILE.zip|FOLDER")
+    importing.set_defaults(run=_memory_import)
+    for action in (listing, showing, forgetting, exporting, importing):
+        action.add_argument("--memory", type=Path, metavar="FILE", help="which memory")
+        action.add_argument("--json", action="store_true", help="report for machines")
+
+
+def _add_named(action: argparse.ArgumentParser, count: str) -> None:
+    action.add_argument(
+        "named", nargs=count, metavar="WORD|LESSON", help="a word or a lesson's number"
+    )
 
 
 def _demo(options: argparse.Namespace) -> int:
@@ -179,9 +228,59 @@ def _replay(options: argparse.Namespace) -> int:
 
 
 def _memory_list(options: argparse.Namespace) -> int:
-    from kille.interfaces.memory import as_json, as_table, list_words
+    from kille.interfaces.memory.listing import as_json, as_table, list_words
 
     return list_words(options.memory, as_json if options.json else as_table)
+
+
+def _memory_show(options: argparse.Namespace) -> int:
+    from kille.interfaces.memory.showing import as_json, as_text, show
+
+    report = as_json if options.json else as_text
+    return show(options.memory, " ".join(options.named), options.out, report)
+
+
+def _memory_forget(options: argparse.Namespace) -> int:
+    from kille.interfaces.memory import forgetting
+
+    if bool(options.named) == options.last:
+        options.parser.error("name a WORD, a LESSON or --last, one of them")
+    named = " ".join(options.named)
+    chosen = forgetting.last if options.last else forgetting.of(named)
+    may = forgetting.sure if options.yes else forgetting.asked
+    report = forgetting.as_json if options.json else forgetting.as_text
+    return forgetting.forget(options.memory, chosen, may, report)
+
+
+def _memory_export(options: argparse.Namespace) -> int:
+    from kille.interfaces.memory.moving import as_json, as_text, export_memory
+
+    report = as_json if options.json else as_text
+    return export_memory(options.memory, options.target, report)
+
+
+def _memory_import(options: argparse.Namespace) -> int:
+    from kille.interfaces.memory.moving import as_json, as_text, import_memory
+
+    report = as_json if options.json else as_text
+    return import_memory(options.memory, options.source, report)
+
+
+def _evaluate(options: argparse.Namespace) -> int:
+    from kille.interfaces.evaluate import Request, as_json, as_tables, evaluate
+
+    request = Request(
+        what=options.parser.prog.split()[-1],
+        data=options.data,
+        protocol=options.protocol,
+        methods=tuple(dict.fromkeys(options.method)),
+        seed=options.seed,
+        report=options.report,
+        teach=tuple(options.teach),
+        ask=tuple(options.ask),
+        words=options.words,
+    )
+    return evaluate(request, as_json() if options.json else as_tables())
 
 
 def _doctor(options: argparse.Namespace) -> int:

@@ -8,7 +8,7 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
-from importlib.metadata import PackageNotFoundError, requires, version
+from importlib.metadata import PackageNotFoundError, metadata, requires, version
 from importlib.util import find_spec
 
 from kille.interfaces.terminal import FAILED, FINE, console, hanging
@@ -73,8 +73,8 @@ def _findings() -> Iterator[Finding]:
     yield _tried("memory", _open_memory)
     yield _kinect()
     yield _line_editing()
-    yield _extra("test")
-    yield _extra("dev")
+    for extra in metadata("kille").get_all("Provides-Extra") or ():
+        yield _extra(extra)
 
 
 def _python() -> Finding:
@@ -102,7 +102,7 @@ def _package(requirement: str) -> Finding:
 
 
 def _extra(extra: str) -> Finding:
-    """The packages that only those who change the code need."""
+    """The packages that only some uses need, such as drawing or testing."""
     part = f"extra [{extra}]"
     wanted = [it for it in _required(extra) if _name(it) != "kille"]
     missing = [it for it in wanted if _installed(_name(it)) is None]

@@ -120,7 +120,7 @@ def things_in_view(view: View) -> str:
 
 def _where(place: tuple[float, float, float] | None) -> str:
     if place is None:
-        return "the whole picture, place unknown"
+        return "place unknown"
     right, _, away = place
     side = "right" if right >= 0 else "left"
     if abs(right) < 0.02:

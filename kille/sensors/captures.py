@@ -12,6 +12,8 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from itertools import count
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -91,6 +93,10 @@ def read_scenes(description: Path) -> tuple[Shot, ...]:
     content = _load(description)
     geometry = _geometry(description, content)
     scenes = content.get("scenes", {})
+    if not isinstance(scenes, dict) or not all(
+        isinstance(it, dict) for it in scenes.values()
+    ):
+        raise SensorError(f"{description}: `scenes` is an object of objects by name")
     names = sorted(
         path.name.removesuffix(_COLOUR)
         for path in description.parent.glob(f"*{_COLOUR}")
@@ -108,7 +114,7 @@ def _shot(
     labels = folder / f"{name}_label.png"
     try:
         things = {int(it["label"]): _spoken(it) for it in objects}
-    except (KeyError, TypeError, ValueError) as error:
+    except (KeyError, TypeError, ValueError, OverflowError) as error:
         raise SensorError(
             f"{description}: each object of {name} needs a whole number as `label`"
         ) from error
@@ -130,28 +136,35 @@ def _spoken(thing: Mapping[str, Any]) -> str:
 
 def _distinct(things: Mapping[int, str]) -> dict[int, str]:
     """The same names, the second thing of a name numbered, so that none is lost."""
-    seen: dict[str, int] = {}
+    taken = set(things.values())
+    first: set[str] = set()
     distinct = {}
     for label, name in things.items():
-        seen[name] = seen.get(name, 0) + 1
-        distinct[label] = name if seen[name] == 1 else f"{name} {seen[name]}"
+        numbered = (f"{name} {number}" for number in count(2))
+        own = next(it for it in numbered if it not in taken) if name in first else name
+        first.add(own)
+        taken.add(own)
+        distinct[label] = own
     return distinct
 
 
 def _geometry(description: Path, content: Mapping[str, Any]) -> Geometry:
-    numbers = _need(description, content, "intrinsics", dict)
+    lens = _need(description, content, "intrinsics", dict)
     units = _need(description, content, "depth_units_per_metre", (int, float))
     try:
-        pinhole = Intrinsics(*(float(numbers[key]) for key in ("fx", "fy", "cx", "cy")))
-    except (KeyError, TypeError, ValueError) as error:
+        units = float(units)
+        pinhole = Intrinsics(*(float(lens[key]) for key in ("fx", "fy", "cx", "cy")))
+    except (KeyError, TypeError, ValueError, OverflowError) as error:
         raise SensorError(
             f"{description}: `intrinsics` needs the numbers fx, fy, cx and cy"
         ) from error
-    if min(pinhole.fx, pinhole.fy, units) <= 0:
+    numbers = (pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, units)
+    if min(pinhole.fx, pinhole.fy, units) <= 0 or not all(map(isfinite, numbers)):
         raise SensorError(
-            f"{description}: fx, fy and depth_units_per_metre must be above 0"
+            f"{description}: fx, fy and depth_units_per_metre must be above 0, "
+            "cx and cy finite"
         )
-    return Geometry(pinhole, float(units))
+    return Geometry(pinhole, units)
 
 
 def _load(description: Path) -> Mapping[str, Any]:

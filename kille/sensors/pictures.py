@@ -29,6 +29,21 @@ def read_colour(path: Path) -> Colour:
     return _fixed(cv2.cvtColor(_decode(path, cv2.IMREAD_COLOR), cv2.COLOR_BGR2RGB))
 
 
+def fitted(colour: Colour, largest: tuple[int, int]) -> Colour:
+    """The picture, made smaller where it is wider or higher than this; read-only.
+
+    >>> fitted(np.zeros((600, 400, 3), np.uint8), (640, 480)).shape
+    (480, 320, 3)
+    """
+    height, width = colour.shape[:2]
+    factor = min(largest[0] / width, largest[1] / height)
+    if factor >= 1:
+        return colour
+    size = (max(1, round(width * factor)), max(1, round(height * factor)))
+    smaller = cv2.resize(colour, size, interpolation=cv2.INTER_AREA)
+    return _fixed(smaller.astype(np.uint8, copy=False))
+
+
 def read_depth(path: Path, units_per_metre: float) -> Depth:
     """Depth (H, W) in metres from a 16-bit picture, NaN where it holds 0; read-only.
 

@@ -205,13 +205,13 @@ def _entries(folder: Path) -> list[Path]:
     """What is in the folder in the order people count: cup2 before cup10."""
     if not folder.is_dir():
         return []
-    return sorted(folder.iterdir(), key=lambda path: _counting(path.name))
+    return sorted(folder.iterdir(), key=lambda path: counting(path.name))
 
 
-def _counting(name: str) -> list[tuple[int, str]]:
+def counting(name: str) -> list[tuple[int, str]]:
     """A key for the order of names in which numbers count as numbers.
 
-    >>> sorted(["cup10", "cup2", "cap"], key=_counting)
+    >>> sorted(["cup10", "cup2", "cap"], key=counting)
     ['cap', 'cup2', 'cup10']
     """
     parts = re.findall(r"\d+|\D+", name)

@@ -14,12 +14,16 @@ from kille.sensors.synthetic.names import recognised
 
 @dataclass(frozen=True)
 class Address:
-    """A scene, the seed of all chance, the faults in force, and a place of meshes."""
+    """A scene, the seed of all chance, the faults in force, and a place of meshes.
+
+    `specimen` says which of the things of each kind are shown, 0 the catalogue's own.
+    """
 
     scene: str = "desk"
     seed: int = 0
     faults: frozenset[str] = frozenset(FAULTS)
     meshes: Path | None = None
+    specimen: int = 0
 
 
 def parsed(name: str) -> Address:
@@ -28,7 +32,7 @@ def parsed(name: str) -> Address:
     Raises SensorError for a scene, option, fault or value that is not known.
 
     >>> parsed("synthetic:empty?seed=7&faults=none")
-    Address(scene='empty', seed=7, faults=frozenset(), meshes=None)
+    Address(scene='empty', seed=7, faults=frozenset(), meshes=None, specimen=0)
     """
     source, _, query = name.strip().partition("?")
     kind, _, scene = source.partition(":")
@@ -37,24 +41,25 @@ def parsed(name: str) -> Address:
     meshes = options.get("meshes")
     return Address(
         scene=recognised("scene", scene or "desk", SCENES),
-        seed=_seed(options.get("seed", "0")),
+        seed=_number("seed", options.get("seed", "0")),
         faults=_faults(options.get("faults", "all")),
         meshes=None if meshes is None else Path(meshes).expanduser(),
+        specimen=_number("specimen", options.get("specimen", "0")),
     )
 
 
 def _option(text: str) -> tuple[str, str]:
     key, equals, value = text.partition("=")
-    option = recognised("option", key, ["seed", "faults", "meshes"])
+    option = recognised("option", key, ["seed", "faults", "meshes", "specimen"])
     if not equals or not value:
         raise SensorError(f"option '{option}' has no value: write {option}=...")
     return option, unquote(value)
 
 
-def _seed(text: str) -> int:
+def _number(option: str, text: str) -> int:
     if not (text.isascii() and text.isdigit()):
         raise SensorError(
-            f"seed={text}: a seed is a whole number from 0, such as seed=7"
+            f"{option}={text}: a {option} is a whole number from 0, such as {option}=7"
         )
     return int(text)
 

@@ -20,6 +20,7 @@ from kille.sensors.synthetic.layout import SCENES, jittered, objection, poses_be
 from kille.sensors.synthetic.model import Model
 from kille.sensors.synthetic.names import recognised
 from kille.sensors.synthetic.render import Body, Image, Pose, rendered
+from kille.sensors.synthetic.specimens import specimen
 
 FRAMES_PER_SECOND = 30.0
 _POSES, _FAULTS = 0, 1
@@ -189,7 +190,9 @@ class Synthetic:
 
     def _model(self, thing: str) -> Model:
         mesh = self._meshes.get(thing)
-        return catalogue.model(thing) if mesh is None else obj.loaded(mesh)
+        if mesh is not None:
+            return obj.loaded(mesh)
+        return specimen(thing, self._address.specimen)
 
     def _recognised(self, name: str) -> str:
         """The object that is meant; a path of a mesh makes it known by its name."""

@@ -23,7 +23,7 @@ from .conftest import COMMAND, Run
 
 MISSPELT = {
     ("demmo",): "did you mean demo?",
-    ("xyzzy",): "try demo, talk, replay, memory, doctor",
+    ("xyzzy",): "try demo, talk, replay, memory, evaluate, doctor",
     ("memory", "lits"): "did you mean list?",
     ("talk", "--memry", "x"): "did you mean --memory?",
     ("talk", "--sensro=synthetic"): "did you mean --sensor?",
@@ -241,6 +241,16 @@ def test_a_pipe_that_closes_ends_the_demo_quietly(tmp_path: Path) -> None:
     assert err == b""
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+def test_a_full_disk_is_one_line() -> None:
+    with Path("/dev/full").open("wb") as full:
+        done = subprocess.run(
+            [*COMMAND, "--version"], stdout=full, stderr=subprocess.PIPE, check=False
+        )
+    told = b"kille: the output cannot be written: no space left on device\n"
+    assert (done.returncode, done.stderr) == (1, told)
+
+
 def test_ctrl_c_ends_the_demo(tmp_path: Path) -> None:
     with subprocess.Popen(
         [*COMMAND, "demo", "--out", str(tmp_path / "sheet.png")],
@@ -314,6 +324,9 @@ def test_doctor_for_machines(kille: Run) -> None:
     findings = {finding["part"]: finding for finding in json.loads(outcome.out)}
     assert findings["synthetic Kinect"]["state"] == "640x480 frames"
     assert findings["Kinect"]["needed"] is False
+    extras = {part for part in findings if part.startswith("extra")}
+    assert {"extra [plots]", "extra [test]", "extra [dev]"} <= extras
+    assert not any(findings[it]["needed"] for it in extras)
     broken = [it for it in findings.values() if it["needed"] and not it["works"]]
     assert (outcome.code == 0) is (not broken)
 

@@ -235,6 +235,10 @@ def test_labels_of_another_size(tmp_path: Path) -> None:
         ({"intrinsics": None}, "`intrinsics` is not what it should be"),
         ({"intrinsics": {"fx": 1}}, "needs the numbers fx, fy, cx and cy"),
         ({"intrinsics": INTRINSICS | {"fx": 0}}, "must be above 0"),
+        ({"intrinsics": INTRINSICS | {"fx": float("nan")}}, "must be above 0"),
+        ({"intrinsics": INTRINSICS | {"cx": float("inf")}}, "cx and cy finite"),
+        ({"intrinsics": INTRINSICS | {"cx": 10**400}}, "needs the numbers"),
+        ({"depth_units_per_metre": float("inf")}, "must be above 0"),
         ({"depth_units_per_metre": "mm"}, "`depth_units_per_metre`"),
         ({"frames": {}}, "`frames`"),
         ({"frames": {"000000": [{"name": "cup"}]}}, "whole number as `label`"),
@@ -249,6 +253,24 @@ def test_a_broken_description_says_what_is_wrong(
     text = complaint(scene)
     assert "scene.json" in text
     assert words in text
+
+
+@pytest.mark.parametrize("scenes", [[], 3, {"000000": []}], ids=str)
+def test_scenes_without_names_are_told(tmp_path: Path, scenes: object) -> None:
+    folder = write_scene(tmp_path / "scene")
+    (folder / "scene.json").unlink()
+    described = {"intrinsics": INTRINSICS, "depth_units_per_metre": 1000}
+    (folder / "index.json").write_text(json.dumps(described | {"scenes": scenes}))
+    assert "`scenes`" in complaint(folder)
+
+
+def test_a_thing_that_is_numbered_already_is_not_lost(tmp_path: Path) -> None:
+    folder = write_scene(tmp_path / "scene", frames=1)
+    names = {7: "book", 8: "book 2", 9: "book"}
+    objects = [{"label": label, "name": name} for label, name in names.items()]
+    edit(folder, frames={"000000": objects})
+    outlines = open_sensor(str(folder)).frame().outlines
+    assert list(outlines) == ["book", "book 2", "book 3"]
 
 
 def test_a_description_that_is_not_json(tmp_path: Path) -> None:

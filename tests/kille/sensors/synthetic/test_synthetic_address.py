@@ -48,6 +48,7 @@ def test_an_address_reads(name: str, address: Address) -> None:
         ("synthetic?faults=none,noise", "stand alone"),
         ("synthetic?seed=x", "whole number"),
         ("synthetic?seed=-1", "whole number"),
+        ("synthetic?specimen=x", "a specimen is a whole number"),
         ("synthetic?seed=1.5", "whole number"),
         ("synthetic?seed", "has no value"),
         ("synthetic?seed=", "has no value"),

@@ -11,7 +11,8 @@ import pytest
 
 from kille.sensors.sensor import At, Beside, SensorError, Stage
 from kille.sensors.synthetic import Synthetic, open_synthetic
-from kille.sensors.synthetic.catalogue import NAMES
+from kille.sensors.synthetic.catalogue import NAMES, model
+from kille.sensors.synthetic.specimens import specimen
 
 
 def clean(scene: str = "empty", seed: int = 7) -> Synthetic:
@@ -298,3 +299,24 @@ def test_things_never_stand_in_one_another(turn: float) -> None:
             continue
         with pytest.raises(SensorError, match="cut into the book"):
             sensor.place("apple", spot)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_specimen_is_another_thing_of_its_kind(name: str) -> None:
+    first, other = specimen(name, 0), specimen(name, 3)
+    assert first is model(name)
+    assert not np.array_equal(first.texture, other.texture)
+    assert np.all(other.size < 1.3 * first.size)
+    assert np.all(other.size > first.size / 1.3)
+    assert np.allclose(np.linalg.norm(other.normals, axis=1), 1, atol=1e-3)
+    assert float(other.vertices[:, 2].min()) == pytest.approx(0, abs=1e-6)
+
+
+def test_a_number_is_always_the_same_specimen() -> None:
+    frames = []
+    for _ in range(2):
+        sensor = open_synthetic("synthetic:empty?seed=7&faults=none&specimen=3")
+        sensor.show("cup")
+        frames.append(sensor.frame().colour)
+        specimen.cache_clear()
+    assert same(*frames)

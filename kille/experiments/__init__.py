@@ -1,0 +1,1 @@
+"""Protocols that measure learners, and what they report: tables, figures, numbers."""

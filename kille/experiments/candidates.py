@@ -1,0 +1,222 @@
+"""The methods that take part in a comparison: by name, or from a user's own module.
+
+Anything with `learn_one(x, word)` and `predict_proba_one(x)` may take part. Whatever it
+raises, and whatever it gives that is no degree, is told as a `MethodFailed`, so that
+the others can go on without it.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import inspect
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from difflib import get_close_matches
+from pathlib import Path
+from reprlib import repr as brief
+from types import ModuleType
+from typing import Any, TypeAlias
+
+from kille.experiments.results import ExperimentError
+
+__all__ = ["Make", "Methods", "MethodFailed", "candidates"]
+
+Make: TypeAlias = Callable[[], Any]
+"""Gives a learner that has learned nothing."""
+
+Methods: TypeAlias = Mapping[str, Make]
+
+_HIGHEST = 1e9  # whoever counts votes instead may take part, if the sums stay numbers
+_WRITTEN = "FILE.py:NAME or MODULE:NAME"
+
+
+class MethodFailed(ExperimentError):
+    """A learner that failed, or gave what are no degrees; `name` is the method's."""
+
+    def __init__(self, name: str, trouble: str) -> None:
+        super().__init__(f"the method {name} failed: {trouble}")
+        self.name = name
+
+
+def candidates(names: Sequence[str], known: Methods) -> dict[str, Make]:
+    """The methods of these names, each guarded; ExperimentError for an unknown one.
+
+    A name with a colon is of the user's own: `FILE.py:NAME` or `MODULE:NAME`, where
+    NAME is a class, or a function that makes a learner.
+    """
+    return {name: _guarded(name, _maker(name, known)) for name in names}
+
+
+def _maker(name: str, known: Methods) -> Make:
+    if name in known:
+        return known[name]
+    module, colon, thing = name.rpartition(":")
+    if colon:
+        return _of_module(module, thing)
+    near = get_close_matches(name, known, n=1)
+    hint = f"did you mean {near[0]}?" if near else f"there is {', '.join(known)}."
+    raise ExperimentError(
+        f"there is no method {name}: {hint} Your own is named {_WRITTEN}"
+    )
+
+
+# --- a user's own --------------------------------------------------------------------
+
+
+def _of_module(path: str, thing: str) -> Make:
+    module = _module(path)
+    made: object = getattr(module, thing, None)
+    if callable(made):
+        return made
+    if made is not None:
+        raise ExperimentError(f"{thing} of {path} makes no learner: name a class")
+    own = [it for it in vars(module) if not it.startswith("_")]
+    near = get_close_matches(thing, own, n=1)
+    hint = f": did you mean {near[0]}?" if near else ""
+    raise ExperimentError(f"{path} has no {thing or 'learner without a name'}{hint}")
+
+
+def _module(path: str) -> ModuleType:
+    try:
+        return _run(Path(path)) if path.endswith(".py") else _imported(path)
+    except ExperimentError:
+        raise
+    except (Exception, SystemExit) as error:
+        raise ExperimentError(f"{path} cannot be run: {_told(error)}") from error
+
+
+def _imported(path: str) -> ModuleType:
+    try:
+        with _importing_from(Path.cwd()):
+            return importlib.import_module(path)
+    except ModuleNotFoundError as error:
+        if error.name is not None and f"{path}.".startswith(f"{error.name}."):
+            raise ExperimentError(
+                f"there is no module {path}: name a method as {_WRITTEN}"
+            ) from error
+        raise
+
+
+def _run(file: Path) -> ModuleType:
+    if not file.is_file():
+        raise ExperimentError(f"there is no file {file}")
+    name = f"_measured_{file.stem}"
+    spec = importlib.util.spec_from_file_location(name, file)
+    if spec is None or spec.loader is None:
+        raise ExperimentError(f"{file} is no Python file")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module  # where dataclasses look their module up
+    with _importing_from(file.resolve().parent):
+        spec.loader.exec_module(module)
+    return module
+
+
+@contextmanager
+def _importing_from(folder: Path) -> Iterator[None]:
+    """Lets a file import what lies beside it, as when Python runs it."""
+    sys.path.insert(0, str(folder))
+    try:
+        yield
+    finally:
+        sys.path.remove(str(folder))
+
+
+# --- the guard -----------------------------------------------------------------------
+
+
+def _guarded(name: str, make: Make) -> Make:
+    def made() -> _Guarded:
+        with _failing_as(name, "it cannot be made"):
+            return _Guarded(name, make())
+
+    return made
+
+
+class _Guarded:
+    """A learner whose failures carry its name."""
+
+    def __init__(self, name: str, learner: Any) -> None:
+        for needed in ("learn_one", "predict_proba_one"):
+            if not callable(getattr(learner, needed, None)):
+                raise MethodFailed(name, f"a learner needs {needed}, it has none")
+        self._name = name
+        self._learner = learner
+        self._takes_key = _takes_key(learner.learn_one)
+
+    def learn_one(self, x: object, label: str, *, key: object = None) -> None:
+        """Teach it; the key is handed on to those who take one."""
+        named = {"key": key} if self._takes_key and key is not None else {}
+        with _failing_as(self._name, "learn_one"):
+            self._learner.learn_one(x, label, **named)
+
+    def predict_proba_one(self, x: object) -> dict[str, float]:
+        """Its degrees, which are finite numbers from 0."""
+        with _failing_as(self._name, "predict_proba_one"):
+            return self._degrees(self._learner.predict_proba_one(x))
+
+    def __getattr__(self, attribute: str) -> Any:
+        """What else the learner can do is left to it."""
+        found = getattr(self._learner, attribute)
+        if not callable(found):
+            return found
+
+        def call(*given: Any, **named: Any) -> Any:
+            with _failing_as(self._name, attribute):
+                return found(*given, **named)
+
+        return call
+
+    def _degrees(self, given: object) -> dict[str, float]:
+        if not isinstance(given, Mapping):
+            raise MethodFailed(
+                self._name,
+                "predict_proba_one gives a degree for each word, "
+                f"not {_article(type(given).__name__)}",
+            )
+        for word, degree in given.items():
+            self._check_degree(word, degree)
+        return {word: float(degree) for word, degree in given.items()}
+
+    def _check_degree(self, word: object, degree: Any) -> None:
+        try:
+            fine = bool(0 <= degree <= _HIGHEST)
+        except (TypeError, ValueError):
+            fine = False
+        if not fine or not isinstance(word, str):
+            raise MethodFailed(
+                self._name,
+                f"predict_proba_one gave {brief(word)} the degree {brief(degree)}",
+            )
+
+
+def _takes_key(method: Callable[..., Any]) -> bool:
+    try:
+        taken = inspect.signature(method).parameters.values()
+    except (TypeError, ValueError):
+        return False
+    return any(it.name == "key" or it.kind is it.VAR_KEYWORD for it in taken)
+
+
+@contextmanager
+def _failing_as(name: str, doing: str) -> Iterator[None]:
+    try:
+        yield
+    except MethodFailed:
+        raise
+    except (Exception, SystemExit) as error:
+        raise MethodFailed(name, f"{doing}: {_told(error)}") from error
+
+
+def _told(error: BaseException) -> str:
+    first = next(iter(str(error).splitlines()), "")
+    return f"{type(error).__name__}: {first}".removesuffix(": ")
+
+
+def _article(noun: str) -> str:
+    return (
+        "nothing"
+        if noun == "NoneType"
+        else f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
+    )

@@ -1,0 +1,1 @@
+"""How the fitted numbers that come with the package were made."""

@@ -1,0 +1,347 @@
+"""Fits how evidence is weighed: `python -m kille.experiments.fitting.evidence DATA`.
+
+DATA holds `ycb_meshes` and `sota_kinect`. Two kinds of things are learned from, half
+each: things rendered in many poses, most of them made darker or lighter, tinted,
+blurred and partly hidden, as things seen elsewhere are; and pictures of categories,
+whose things are mostly new. Each episode teaches some words from one to eight views and
+asks about other views of these and of untaught things. The numbers b, r, a and v of
+`kille.perception.evidence` make what was asked most probable. The weights of the
+kernels are given: they were chosen by what tells categories of these pictures apart.
+
+With `--held-out` half of the words are fitted to and the other half asked, both ways:
+so much is to be expected of words that nothing was fitted to.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.perception import evidence
+from kille.perception.cues import CUES, Cue, measured, with_embedding
+from kille.perception.evidence import FARTHEST, SIZE, Weighing
+from kille.perception.features import features_of
+from kille.perception.index import Index, View, rooted
+from kille.perception.likeness import Examples, Kernel
+from kille.perception.segment import overlap, region_of, segment
+from kille.perception.votes import beyond_chance, votes
+from kille.scene import Frame, Region
+from kille.sensors.sensor import Stage
+from kille.sensors.sources import open_sensor
+
+Numbers = NDArray[np.float64]
+
+POSES = 10
+ELSEWHERE = 0.6
+"""The share of the views that are changed."""
+
+EPISODES = 200
+FEW, MANY = 3, 12
+"""Words that are taught at most: at the beginning of a dialogue, and later."""
+
+RIDGE = 1e-3  # on the numbers that are fitted
+WEIGHTS = {
+    "colour": 1.0,
+    "hue": 1.0,
+    "size": 1.0,
+    "shape": 1.0,
+    "texture": 1.0,
+    "paint": 1.5,
+    "outline": 0.75,
+    "form": 0.75,
+    "pattern": 0.5,
+    "whole_texture": 1.0,
+    "whole_paint": 1.0,
+    "whole_form": 0.5,
+    "whole_pattern": 0.5,
+}
+WEIGHINGS = Path(evidence.__file__).with_name("weighing.json")
+EMBEDDING = 40.0
+"""The weight of the embedding, where it is had: more than that of all others."""
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """A question: what was found for each word (words, numbers), and the right column.
+
+    The column is -1 for a thing that was not taught.
+    """
+
+    found: Numbers
+    column: int
+
+
+def rendered(
+    meshes: Path, chance: np.random.Generator, cues: Mapping[str, Cue]
+) -> Iterator[View]:
+    """Views of every thing that the simulated sensor can show, and of the meshes."""
+    stage = open_sensor(f"synthetic:empty?seed=11&meshes={meshes}")
+    assert isinstance(stage, Stage)
+    for name in stage.things():
+        for _ in range(POSES):
+            stage.show(name)
+            frame = stage.frame()
+            outline = max(frame.outlines.values(), key=np.count_nonzero)
+            thing = region_of(frame, outline)
+            region = max(segment(frame).regions, key=lambda it: overlap(it, thing))
+            if chance.random() < ELSEWHERE:
+                frame, region = elsewhere(frame, region, chance)
+            yield view(frame, region, name, cues)
+
+
+def pictures(folder: Path, cues: Mapping[str, Cue]) -> Iterator[View]:
+    """A view of each picture, whose word is the name of its folder."""
+    for category in sorted(path for path in folder.iterdir() if path.is_dir()):
+        for path in sorted(category.glob("*.png")):
+            frame = open_sensor(str(path)).frame()
+            yield view(frame, segment(frame).regions[0], category.name, cues)
+
+
+def elsewhere(
+    frame: Frame, region: Region, chance: np.random.Generator
+) -> tuple[Frame, Region]:
+    """The same as it might be seen in another light, from farther away, half hidden."""
+    colour = frame.colour.astype(np.float32) / 255
+    gain = np.exp(chance.normal(0, 0.25)) * np.exp(chance.normal(0, 0.06, 3))
+    colour = np.clip(colour ** np.exp(chance.normal(0, 0.12)) * gain, 0, 1) * 255
+    if chance.random() < 0.6:
+        colour = cv2.GaussianBlur(colour, (0, 0), chance.uniform(0.4, 1.2))
+    if chance.random() < 0.5:
+        share = chance.uniform(0.5, 0.95)
+        small = cv2.resize(
+            colour, None, fx=share, fy=share, interpolation=cv2.INTER_AREA
+        )
+        colour = cv2.resize(small, colour.shape[1::-1])
+    colour = colour + chance.normal(0, 3, colour.shape)
+    changed = replace(frame, colour=np.clip(colour, 0, 255).astype(np.uint8))
+    mask = region.mask.copy()
+    if chance.random() < 0.5:
+        rows, columns = np.nonzero(mask)
+        way = chance.uniform(0, 2 * np.pi)
+        along = columns * np.cos(way) + rows * np.sin(way)
+        hidden = along < np.quantile(along, chance.uniform(0.05, 0.45))
+        mask[rows[hidden], columns[hidden]] = False
+    return changed, region_of(changed, mask)
+
+
+def view(frame: Frame, region: Region, word: str, cues: Mapping[str, Cue]) -> View:
+    """What a lesson about the region keeps; its key is made when it is taught."""
+    descriptors = features_of(frame, region).descriptors
+    return View("", word, descriptors, measured(frame, region, cues))
+
+
+def widths(groups: Iterable[Sequence[View]], cues: Iterable[str]) -> dict[str, float]:
+    """For each cue the mean of |x - y|² between things of different words."""
+    found: dict[str, list[float]] = {cue: [] for cue in cues}
+    for views in groups:
+        for cue, means in found.items():
+            known = [it for it in views if cue in it.traits]
+            if known:
+                means.append(_spread(np.stack([it.traits[cue] for it in known]), known))
+    return {cue: float(np.mean(means)) for cue, means in found.items() if means}
+
+
+def _spread(rows: NDArray[np.float32], views: Sequence[View]) -> float:
+    words = np.array([it.label for it in views])
+    squares = (rows.astype(np.float64) ** 2).sum(axis=1)
+    apart = squares[:, None] + squares - 2 * rows.astype(np.float64) @ rows.T
+    return float(apart[words[:, None] != words].mean())
+
+
+def episode(
+    views: Sequence[View],
+    kernels: Mapping[str, Kernel],
+    words: Sequence[str],
+    chance: np.random.Generator,
+) -> Iterator[Asked]:
+    """Teach some of the words, and ask about these and others."""
+    order = [str(word) for word in chance.permutation(np.array(words))]
+    most = FEW if chance.random() < 0.4 else MANY
+    count = int(chance.integers(1, min(most, len(order)) + 1))
+    taught, asked = [], []
+    for word in order[: count + max(2, count)]:
+        of = [
+            views[i] for i in chance.permutation(len(views)) if views[i].label == word
+        ]
+        lessons = int(chance.integers(1, 9)) if word in order[:count] else 0
+        taught += of[:lessons]
+        asked += of[lessons : lessons + (3 if lessons else 2)]
+    lessons_of = [replace(it, key=key) for key, it in enumerate(taught)]
+    yield from answers(lessons_of, asked, kernels)
+
+
+def answers(
+    taught: Sequence[View], asked: Sequence[View], kernels: Mapping[str, Kernel]
+) -> Iterator[Asked]:
+    """What is found when some views have been taught and others are asked about."""
+    index = Index(taught)
+    examples = Examples(taught, index.labels, kernels)
+    for it in asked:
+        likeness = examples.likeness(it.traits)
+        found = votes(index.neighbours(rooted(it.descriptors)), len(index.labels), 1)
+        beyond = beyond_chance(found, index.sizes, max(len(it.descriptors), 1))
+        score = sum(likeness.scores.values(), np.zeros(len(index.labels)))
+        apart = np.minimum(likeness.unlike.get(SIZE, np.zeros_like(score)), FARTHEST)
+        numbers = np.stack(
+            [np.ones_like(score), score, np.sqrt(beyond), -apart], axis=1
+        )
+        known = it.label in index.labels
+        yield Asked(numbers, index.labels.index(it.label) if known else -1)
+
+
+def fitted(
+    episodes: Sequence[Sequence[Asked]], kernels: Mapping[str, Kernel]
+) -> Weighing:
+    """The weighing that makes the right answers most probable, each episode alike."""
+    from scipy.optimize import minimize
+
+    found = minimize(
+        _surprise,
+        np.full(4, 0.1),
+        args=(episodes,),
+        jac=True,
+        method="L-BFGS-B",
+        bounds=[(None, None), *[(0, None)] * 3],
+    ).x
+    base, score, cast, size = (round(float(it), 3) for it in found)
+    return Weighing(base, score, cast, size, kernels)
+
+
+def _surprise(
+    numbers: Numbers, episodes: Sequence[Sequence[Asked]]
+) -> tuple[float, Numbers]:
+    """Minus the mean logarithm of the degree of what was right, and its gradient."""
+    total, gradient = RIDGE * float(numbers @ numbers), 2 * RIDGE * numbers
+    for asked in episodes:
+        share = 1 / (len(asked) * len(episodes))
+        for it in asked:
+            logs = np.concatenate([[0.0], it.found @ numbers])
+            degrees = np.exp(logs - logs.max())
+            degrees /= degrees.sum()
+            total -= share * float(np.log(degrees[it.column + 1] + 1e-12))
+            wrong = degrees[1:].copy()
+            if it.column >= 0:
+                wrong[it.column] -= 1
+            gradient = gradient + share * (wrong @ it.found)
+    return total, gradient
+
+
+def numbers_of(it: Weighing) -> Numbers:
+    """The fitted numbers of a weighing as one vector, in the order of `Asked.found`."""
+    return np.array([it.base, it.score, it.votes, it.size])
+
+
+def right(asked: Iterable[Asked], weighed: Weighing) -> tuple[float, float]:
+    """The share of taught things named, and how well they part from untaught ones.
+
+    The second is the probability that a taught thing has a higher best degree than an
+    untaught one (AUROC).
+    """
+    named: list[bool] = []
+    best: dict[bool, list[float]] = {True: [], False: []}
+    for it in asked:
+        logs = it.found @ numbers_of(weighed)
+        degrees = np.exp(logs) / (1 + np.exp(logs).sum())
+        best[it.column >= 0].append(float(degrees.max()))
+        if it.column >= 0:
+            named.append(bool(degrees.argmax() == it.column))
+    above = np.subtract.outer(best[True], best[False])
+    return float(np.mean(named)), float(np.mean((above > 0) + 0.5 * (above == 0)))
+
+
+def drawn(
+    groups: Sequence[Sequence[View]],
+    kernels: Mapping[str, Kernel],
+    words: Sequence[Sequence[str]],
+    seed: int,
+) -> list[list[Asked]]:
+    """Episodes about some words of each group of views."""
+    chance = np.random.default_rng(seed)
+    return [
+        list(episode(views, kernels, some, chance))
+        for views, some in zip(groups, words, strict=True)
+        for _ in range(EPISODES)
+    ]
+
+
+def held_out(
+    groups: Sequence[Sequence[View]], kernels: Mapping[str, Kernel]
+) -> Iterator[str]:
+    """What is reached with words that nothing was fitted to, and with the others."""
+    chance = np.random.default_rng(1)
+    halves = [_halves(views, chance) for views in groups]
+    for one, other in ((0, 1), (1, 0)):
+        weighed = fitted(drawn(groups, kernels, [it[one] for it in halves], 2), kernels)
+        for which, name in ((one, "fitted to"), (other, "held out")):
+            for views, half in zip(groups, halves, strict=True):
+                episodes = drawn([views], kernels, [half[which]], 3)
+                share, area = right([it for some in episodes for it in some], weighed)
+                count = len(half[which])
+                yield f"{name}: {count} words, named {share:.3f}, AUROC {area:.3f}\n"
+
+
+def _halves(
+    views: Sequence[View], chance: np.random.Generator
+) -> tuple[list[str], list[str]]:
+    words = [str(it) for it in chance.permutation(sorted({it.label for it in views}))]
+    return words[::2], words[1::2]
+
+
+def kernels_of(groups: Sequence[Sequence[View]]) -> dict[str, Kernel]:
+    """The kernels of all cues that tell of some view."""
+    weights = {**WEIGHTS, "embedding": EMBEDDING}
+    found = widths(groups, weights)
+    return {cue: Kernel(weights[cue], round(found[cue], 4)) for cue in found}
+
+
+def stored(weighed: Weighing) -> dict[str, object]:
+    """The weighing as it is written in weighing.json."""
+    cues = {
+        cue: {"weight": it.weight, "width": it.width}
+        for cue, it in weighed.kernels.items()
+    }
+    return {
+        "base": weighed.base,
+        "score": weighed.score,
+        "votes": weighed.votes,
+        "size": weighed.size,
+        "cues": cues,
+    }
+
+
+def main() -> None:
+    """Fit, and write what was found into the package; or print what is reached."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("data", type=Path, metavar="DATA")
+    parser.add_argument("--held-out", action="store_true", help="cross-validate")
+    parser.add_argument("--embedding", action="store_true", help="with the embedding")
+    options = parser.parse_args()
+    cv2.setNumThreads(1)
+    cues = with_embedding() if options.embedding else CUES
+    chance = np.random.default_rng(0)
+    groups = [
+        list(rendered(options.data / "ycb_meshes", chance, cues)),
+        list(pictures(options.data / "sota_kinect", cues)),
+    ]
+    kernels = kernels_of(groups)
+    if options.held_out:
+        sys.stdout.writelines(held_out(groups, kernels))
+        return
+    words = [sorted({it.label for it in views}) for views in groups]
+    weighed = fitted(drawn(groups, kernels, words, 0), kernels)
+    name = "embedding" if options.embedding else "default"
+    known = json.loads(WEIGHINGS.read_text("utf-8")) if WEIGHINGS.exists() else {}
+    text = json.dumps({**known, name: stored(weighed)}, indent=1)
+    WEIGHINGS.write_text(text + "\n", "utf-8")
+
+
+if __name__ == "__main__":
+    main()

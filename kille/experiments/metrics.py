@@ -1,0 +1,242 @@
+"""Measures of how well answers agree with what is right, and with each other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = [
+    "Band",
+    "accuracy",
+    "auroc",
+    "bootstrap",
+    "brier",
+    "confusion",
+    "distinctness",
+    "kappa",
+    "kappa_of_margins",
+    "margin",
+    "reliability",
+    "spearman",
+    "wilson",
+]
+
+Band = tuple[float, float]
+"""The lower and the upper end of what a number may well be."""
+
+Degrees = Mapping[str, float]
+
+_Z = 1.959963984540054  # of 95 % of a normal distribution, both sides
+
+
+def accuracy(right: Sequence[str], answers: Sequence[str]) -> float:
+    """The share of the answers that are right; NaN of no answers.
+
+    >>> accuracy(["cup", "cup", "car"], ["cup", "car", "car"])
+    0.6666666666666666
+    """
+    return _mean([one == other for one, other in zip(right, answers, strict=True)])
+
+
+def kappa(one: Sequence[str], other: Sequence[str]) -> float:
+    """Cohen's kappa: how far two judges agree beyond what chance would give.
+
+    kappa = (p_o - p_e) / (1 - p_e), p_o the share of the items they agree on and p_e
+    what is expected of two who use each word as often as they do, by chance. 1 where
+    both always say the same one word; NaN of no items.
+    Source: Cohen 1960, A coefficient of agreement for nominal scales.
+
+    >>> kappa(["left", "left", "near", "near"], ["left", "near", "near", "near"])
+    0.5
+    """
+    labels = sorted({*one, *other})
+    if not labels:
+        return float("nan")
+    table = confusion(one, other, labels) / len(one)
+    expected = float(table.sum(axis=1) @ table.sum(axis=0))
+    return kappa_of_margins(float(np.trace(table)), expected)
+
+
+def kappa_of_margins(observed: float, expected: float) -> float:
+    """Cohen's kappa of the agreement that was seen and that by chance.
+
+    The paper's judges agreed on 17 of 32 questions, by chance on a share of .176.
+
+    >>> round(kappa_of_margins(17 / 32, 0.1757), 2)
+    0.43
+    """
+    if observed >= 1:
+        return 1.0
+    return (observed - expected) / (1 - expected)
+
+
+def confusion(
+    right: Sequence[str], answers: Sequence[str], labels: Sequence[str]
+) -> NDArray[np.int64]:
+    """How often (row: the right word, column: the answer) each pair came up.
+
+    >>> confusion(["a", "a", "b"], ["a", "b", "b"], ["a", "b"]).tolist()
+    [[1, 1], [0, 1]]
+    """
+    index = {label: i for i, label in enumerate(labels)}
+    counts = np.zeros((len(labels), len(labels)), np.int64)
+    for word, answer in zip(right, answers, strict=True):
+        counts[index[word], index[answer]] += 1
+    return counts
+
+
+def margin(degrees: Degrees, word: str) -> float:
+    """The degree of the word less that of the best other: above 0 where it wins.
+
+    >>> round(margin({"cup": 0.5, "car": 0.2, "cap": 0.3}, "cup"), 3)
+    0.2
+    """
+    others = [degree for it, degree in degrees.items() if it != word]
+    return degrees.get(word, 0.0) - max(others, default=0.0)
+
+
+def distinctness(margins: Mapping[str, Sequence[float]]) -> list[tuple[str, float]]:
+    """The words by their mean margin, the most distinct first.
+
+    Source: Dobnik and de Graaf 2017, section 4.1, who rank what the robot learned by
+    how far its own score lies above those of other things.
+
+    >>> distinctness({"cap": [0.1, 0.3], "book": [0.9]})
+    [('book', 0.9), ('cap', 0.2)]
+    """
+    means = [(word, _mean(them)) for word, them in margins.items()]
+    return sorted(means, key=lambda it: (-it[1], it[0]))
+
+
+def auroc(of_these: ArrayLike, of_others: ArrayLike) -> float:
+    """How likely one of these has a higher score than one of the others.
+
+    The area under the receiver operating characteristic; ties count half. .5 says that
+    the score tells nothing; NaN where either is empty.
+    Source: Hanley and McNeil 1982; the same as the Mann-Whitney U over m n.
+
+    >>> auroc([0.9, 0.8], [0.1, 0.8])
+    0.875
+    """
+    these, others = _numbers(of_these), _numbers(of_others)
+    if not len(these) or not len(others):
+        return float("nan")
+    higher = (these[:, None] > others).mean()
+    equal = (these[:, None] == others).mean()
+    return float(higher + equal / 2)
+
+
+def spearman(one: ArrayLike, other: ArrayLike) -> float:
+    """Spearman's rank correlation; ties share their mean rank.
+
+    NaN where one of the two never changes or there are fewer than two.
+    Source: Spearman 1904, The proof and measurement of association between two things.
+
+    >>> spearman([1, 2, 3], [10, 20, 90])
+    1.0
+    """
+    first, second = _ranks(_numbers(one)), _ranks(_numbers(other))
+    first, second = first - first.mean(), second - second.mean()
+    scale = float(np.sqrt((first @ first) * (second @ second)))
+    return round(float(first @ second) / scale, 12) if scale else float("nan")
+
+
+def wilson(successes: float, count: int) -> Band:
+    """The 95 % band of a share: where it may well lie, after so many trials.
+
+    It stays in [0, 1] and says something even after 10 of 10.
+    Source: Wilson 1927, Probable inference, the law of succession.
+
+    >>> low, high = wilson(10, 10)
+    >>> round(low, 2), high
+    (0.72, 1.0)
+    """
+    if not count:
+        return 0.0, 1.0
+    share = successes / count
+    spread = _Z**2 / count
+    middle = (share + spread / 2) / (1 + spread)
+    half = _Z * np.sqrt(share * (1 - share) / count + spread / count / 4) / (1 + spread)
+    low = middle - half if successes > 0 else 0.0
+    high = middle + half if successes < count else 1.0
+    return float(low), float(high)
+
+
+def bootstrap(
+    values: ArrayLike,
+    chance: np.random.Generator,
+    *,
+    of: Callable[[NDArray[np.float64]], float] = np.mean,
+    rounds: int = 1000,
+) -> Band:
+    """The 95 % band of a statistic of the values, by drawing them again and again.
+
+    Source: Efron 1979, Bootstrap methods: another look at the jackknife (percentiles).
+
+    >>> bootstrap([0.5, 0.5, 0.5], np.random.default_rng(7))
+    (0.5, 0.5)
+    """
+    values = _numbers(values)
+    if not len(values):
+        return float("nan"), float("nan")
+    drawn = chance.integers(len(values), size=(rounds, len(values)))
+    found = [float(of(values[rows])) for rows in drawn]
+    low, high = np.percentile(found, [2.5, 97.5])
+    return float(low), float(high)
+
+
+def brier(right: Sequence[str], degrees: Sequence[Degrees]) -> float:
+    """The mean squared distance of the degrees from 1 for the right word, 0 for others.
+
+    0 is best and 2 is worst; what the degrees lack to 1 is held for "none of these",
+    and is wrong where the right word is one of them.
+    Source: Brier 1950, Verification of forecasts expressed in terms of probability.
+
+    >>> brier(["cup"], [{"cup": 1.0}]), brier(["cup"], [{"car": 1.0}])
+    (0.0, 2.0)
+    """
+    return _mean([_distance(w, it) for w, it in zip(right, degrees, strict=True)])
+
+
+def _distance(word: str, degrees: Degrees) -> float:
+    rest = max(0.0, 1 - sum(degrees.values()))
+    others = [degree for it, degree in degrees.items() if it != word]
+    off = [1 - degrees.get(word, 0.0), rest, *others]
+    return float(sum(it**2 for it in off))
+
+
+def reliability(
+    degrees: ArrayLike, right: ArrayLike, bins: int = 10
+) -> list[tuple[float, float, int]]:
+    """Whether degrees mean what they say: (mean degree, share right, count) a bin.
+
+    Source: Murphy and Winkler 1977, Reliability of subjective probability forecasts.
+
+    >>> reliability([0.9, 0.92, 0.1], [1, 0, 0], bins=2)
+    [(0.1, 0.0, 1), (0.91, 0.5, 2)]
+    """
+    said, held = _numbers(degrees), _numbers(right)
+    places = np.clip((said * bins).astype(int), 0, bins - 1)
+    found = [places == place for place in range(bins)]
+    return [
+        (round(_mean(said[it]), 12), _mean(held[it]), int(it.sum()))
+        for it in found
+        if it.any()
+    ]
+
+
+def _mean(values: Iterable[float] | NDArray[np.float64]) -> float:
+    them = np.asarray(list(values), np.float64)
+    return float(them.mean()) if len(them) else float("nan")
+
+
+def _numbers(values: ArrayLike) -> NDArray[np.float64]:
+    return np.asarray(values, np.float64).ravel()
+
+
+def _ranks(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    _, place, counts = np.unique(values, return_inverse=True, return_counts=True)
+    ranks: NDArray[np.float64] = (np.cumsum(counts) - (counts - 1) / 2)[place]
+    return ranks

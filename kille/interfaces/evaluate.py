@@ -1,0 +1,276 @@
+"""`kille evaluate`: protocols run, their tables printed, their report written."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import platform
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from shlex import join
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.text import Text
+
+from kille.experiments.candidates import MethodFailed, Methods, candidates
+from kille.experiments.figures import MISSING, can_draw
+from kille.experiments.plans import (
+    OBJECTS,
+    Plan,
+    chosen,
+    object_plans,
+    relation_plans,
+    run,
+)
+from kille.experiments.report import page
+from kille.experiments.results import ExperimentError, Result
+from kille.interfaces.grids import print_table
+from kille.interfaces.terminal import FAILED, FINE, complain, console
+from kille.sensors.sensor import SensorError
+from ttr import TTRError
+from ttr.files import check_outputs, write_whole
+
+__all__ = ["Request", "as_json", "as_tables", "evaluate"]
+
+_PAGES = (".html", ".htm")  # so that no picture of the data is overwritten
+_USUAL = {"objects": ("default", "kille"), "relations": ("default", "kille", "angle")}
+_PACKAGES = ("kille", "numpy", "opencv-contrib-python-headless", "scikit-learn")
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is to be measured, as the user typed it."""
+
+    what: str
+    data: str | None
+    protocol: str | None
+    methods: tuple[str, ...]
+    seed: int
+    report: Path | None
+    teach: tuple[str, ...] = ()
+    ask: tuple[str, ...] = ()
+    words: tuple[str, ...] = ()
+
+    @property
+    def who(self) -> tuple[str, ...]:
+        """The methods that take part."""
+        return self.methods or _USUAL[self.what]
+
+    @property
+    def title(self) -> str:
+        """What the report is called."""
+        return f"How well are {self.what} learned?"
+
+
+class _Tables:
+    """Prints each result when it is there."""
+
+    def result(self, plan: Plan, result: Result) -> None:
+        out = _console()
+        out.print(Text(f"\n{result.title}", style="bold"), soft_wrap=False)
+        for table in result.tables:
+            print_table(out, table)
+
+    def end(
+        self, request: Request, found: Mapping[str, Result], failures: Sequence[str]
+    ) -> None:
+        pass
+
+
+class _Json:
+    """Prints all at the end as one object."""
+
+    def result(self, plan: Plan, result: Result) -> None:
+        pass
+
+    def end(
+        self, request: Request, found: Mapping[str, Result], failures: Sequence[str]
+    ) -> None:
+        told = {
+            **_about(request),
+            "failed": list(failures),
+            "results": [_facts(name, result) for name, result in found.items()],
+        }
+        console().print_json(json.dumps(_plain(told), allow_nan=False))
+
+
+as_tables, as_json = _Tables, _Json
+"""How results are printed: for people, or for machines."""
+
+
+def evaluate(request: Request, told: _Tables | _Json) -> int:
+    """Runs the protocols; the exit code, 1 if a method failed."""
+    failures: list[str] = []
+
+    def failed(failure: MethodFailed) -> None:
+        failures.append(str(failure))
+        complain(failure)
+
+    found: dict[str, Result] = {}
+    try:
+        methods, plans = _prepared(request)
+        for plan in plans:
+            result, methods = _measured(plan, methods, request.seed, failed)
+            if result is None:
+                break
+            found[plan.name] = result
+            told.result(plan, result)
+        told.end(request, found, failures)
+        _write(request, found, failures)
+    except (ExperimentError, SensorError, TTRError) as error:
+        return complain(error)
+    return FAILED if failures else FINE
+
+
+def _prepared(request: Request) -> tuple[Methods, list[Plan]]:
+    from kille.perception.methods import OBJECTS as objects
+    from kille.perception.methods import RELATIONS as relations
+
+    known: Methods = objects if request.what == "objects" else relations
+    _check_report(request)
+    methods = candidates(request.who, known)
+    if request.what == "objects":
+        plans = object_plans(request.data, request.teach, request.ask)
+        return methods, chosen(plans, request.protocol, list(OBJECTS))
+    plans = relation_plans(request.data)
+    return methods, chosen(plans, request.protocol, ["paper", "judgements"])
+
+
+def _check_report(request: Request) -> None:
+    """Refuses a report that cannot be written before anything is measured."""
+    if request.report is None:
+        return
+    check_outputs([Path(request.data)] if request.data else [], [request.report])
+    if request.report.is_dir():
+        raise ExperimentError(
+            f"{request.report} is a folder: name a file for the report"
+        )
+    if request.report.suffix.lower() not in _PAGES:
+        raise ExperimentError(
+            f"the report is a page: name a file that ends in .html, "
+            f"not {request.report.name}"
+        )
+    folder = request.report.resolve().parent
+    if not folder.is_dir():
+        raise ExperimentError(
+            f"{request.report} cannot be written: there is no folder {folder.name}"
+        )
+
+
+def _measured(
+    plan: Plan,
+    methods: Methods,
+    seed: int,
+    failed: Callable[[MethodFailed], None],
+) -> tuple[Result | None, Methods]:
+    """Runs a protocol; on a terminal a bar shows how far it has come."""
+    err = Console(stderr=True)
+    bar = Progress(
+        BarColumn(bar_width=24),
+        TextColumn("{task.percentage:>3.0f} %"),
+        TimeElapsedColumn(),
+        TextColumn("{task.description}", markup=False),
+        console=err,
+        transient=True,
+        disable=not err.is_terminal,
+    )
+    with bar:
+        task = bar.add_task(plan.name, total=1.0)
+
+        def progress(share: float, doing: str) -> None:
+            bar.update(task, completed=share, description=doing)
+
+        return run(plan, methods, seed=seed, progress=progress, failed=failed)
+
+
+def _write(
+    request: Request, found: Mapping[str, Result], failures: Sequence[str]
+) -> None:
+    if request.report is None or not found:
+        return
+    about = {key: _line(value) for key, value in _about(request).items()}
+    write_whole(
+        request.report, page(request.title, list(found.values()), about, failures)
+    )
+    Console(stderr=True, highlight=False, soft_wrap=True).print(
+        f"report: {request.report}" + f" ({MISSING})" * (not can_draw()), markup=False
+    )
+
+
+def _about(request: Request) -> dict[str, Any]:
+    return {
+        "command": join(["kille", *request.words]),
+        "data": request.data or "simulated",
+        "seed": request.seed,
+        "methods": list(request.who),
+        "versions": {"python": platform.python_version(), **_versions(_PACKAGES)},
+    }
+
+
+def _versions(packages: Iterable[str]) -> dict[str, str]:
+    found = {}
+    for package in packages:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            continue
+    return found
+
+
+def _line(value: Any) -> str:
+    match value:
+        case dict():
+            return ", ".join(f"{key} {it}" for key, it in value.items())
+        case list():
+            return ", ".join(value)
+    return str(value)
+
+
+# --- for machines --------------------------------------------------------------------
+
+
+def _facts(name: str, result: Result) -> dict[str, Any]:
+    return {
+        "protocol": name,
+        "title": result.title,
+        "tables": [
+            {
+                "title": table.title,
+                "columns": list(table.columns),
+                "rows": [list(row) for row in table.rows],
+                "note": table.note,
+            }
+            for table in result.tables
+        ],
+        "facts": result.facts,
+    }
+
+
+def _plain(value: Any) -> Any:
+    """The value as JSON knows it; what is no number is null."""
+    match value:
+        case None | str() | bool() | int():
+            return value
+        case float():
+            return value if math.isfinite(value) else None
+        case Mapping():
+            return {str(key): _plain(it) for key, it in value.items()}
+        case Iterable():
+            return [_plain(it) for it in value]
+    return _plain(value.item()) if hasattr(value, "item") else str(value)
+
+
+# --- for people ----------------------------------------------------------------------
+
+
+def _console() -> Console:
+    """Where results go; a pipe counts as 100 columns wide."""
+    out = console()
+    if not out.is_terminal and "COLUMNS" not in os.environ:
+        out.width = 100
+    return out

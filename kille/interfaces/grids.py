@@ -1,0 +1,125 @@
+"""Tables in a terminal: each as it is, or on its side, or in parts, as it fits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from textwrap import wrap
+
+from rich.cells import cell_len
+from rich.console import Console
+from rich.table import Table as Grid
+from rich.text import Text
+
+from kille.experiments.report import shown
+from kille.experiments.results import Table
+
+__all__ = ["print_table"]
+
+_GAP = 2  # columns between those of a table
+
+
+def print_table(out: Console, table: Table) -> None:
+    """The table: as it is, or on its side, or in parts, or row by row, as it fits."""
+    out.print(Text(f"\n{table.title}", style="italic"), soft_wrap=False)
+    for number, part in enumerate(_fitting(table, out.width)):
+        out.print("\n" * bool(number), end="")
+        out.print(_grid(part, out.width), soft_wrap=False)
+    if table.note:
+        out.print(Text(table.note, style="dim"), soft_wrap=False)
+
+
+def _fitting(table: Table, width: int) -> Sequence[Table]:
+    if _width(table) <= width:
+        return [table]
+    turned = _turned(table)
+    if _width(turned) <= width:
+        return [turned]
+    parts = _parts(table, width)
+    if all(_width(part) <= width for part in parts):
+        return parts
+    return [_turned(replace(table, rows=(row,))) for row in table.rows]
+
+
+def _parts(table: Table, width: int) -> list[Table]:
+    """The columns parted so that each part fits, the first column in all of them."""
+    parts: list[list[int]] = [[0, 1]]
+    for column in range(2, len(table.columns)):
+        if _width(_some(table, [*parts[-1], column])) <= width:
+            parts[-1].append(column)
+        else:
+            parts.append([0, column])
+    return [_some(table, part) for part in parts]
+
+
+def _some(table: Table, places: Sequence[int]) -> Table:
+    columns = tuple(table.columns[place] for place in places)
+    rows = tuple(tuple(row[place] for place in places) for row in table.rows)
+    return replace(table, columns=columns, rows=rows)
+
+
+def _turned(table: Table) -> Table:
+    """The table with its rows for columns."""
+    columns = zip(table.columns, *(map(shown, row) for row in table.rows), strict=True)
+    heads, *rows = columns
+    return replace(table, columns=heads, rows=tuple(rows))
+
+
+def _widths(table: Table, lines: int) -> list[int]:
+    """How wide each column is whose head may take so many lines."""
+    return [
+        max(_narrowest(head, lines), *(cell_len(shown(row[i])) for row in table.rows))
+        for i, head in enumerate(table.columns)
+    ]
+
+
+def _narrowest(head: str, lines: int) -> int:
+    """The least width at which the head takes no more lines, no word being broken."""
+    least = max(map(cell_len, head.split()), default=1)
+    whole = max(cell_len(head), 1)
+    return next(it for it in range(least, whole + 1) if len(_broken(head, it)) <= lines)
+
+
+def _broken(head: str, width: int) -> list[str]:
+    return wrap(head, width, break_long_words=False, break_on_hyphens=False)
+
+
+def _height(table: Table) -> int:
+    """How many lines the highest head has when it is as narrow as can be."""
+    return max(len(head.split()) for head in table.columns) or 1
+
+
+def _width(table: Table, lines: int | None = None) -> int:
+    """How many columns of a terminal it takes; at the least, if lines do not matter."""
+    widths = _widths(table, lines or _height(table))
+    return sum(widths) + _GAP * (len(widths) - 1)
+
+
+def _flattest(table: Table, width: int) -> int:
+    """The fewest lines of a head with which the table fits."""
+    most = _height(table)
+    fitting = (it for it in range(1, most) if _width(table, it) <= width)
+    return next(fitting, most)
+
+
+def _grid(table: Table, width: int) -> Grid:
+    grid = Grid(
+        box=None,
+        collapse_padding=True,
+        pad_edge=False,
+        padding=(0, _GAP, 0, 0),
+        header_style="bold",
+    )
+    widths = _widths(table, _flattest(table, width))
+    for place, (head, room) in enumerate(zip(table.columns, widths, strict=True)):
+        cells = [row[place] for row in table.rows]
+        numbers = all(it is None or isinstance(it, int | float) for it in cells)
+        grid.add_column(
+            Text("\n".join(_broken(head, room))),
+            justify="right" if numbers else "left",
+            vertical="top",
+            overflow="fold",
+        )
+    for row in table.rows:
+        grid.add_row(*(Text(shown(cell)) for cell in row))
+    return grid

@@ -1,0 +1,59 @@
+"""The parser of `kille`: a mistake is one line that names a way out."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import re
+import sys
+from collections.abc import Sequence
+from typing import Any, NoReturn
+
+__all__ = ["Parser", "Version", "seed"]
+
+WRONG_USE = 2
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser whose complaint is one line, with a way out."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(allow_abbrev=False, **settings)
+        self.set_defaults(parser=self)
+
+    def error(self, message: str) -> NoReturn:
+        """Say what is wrong in one line, and leave."""
+        message = self._with_way_out(message)
+        self.exit(WRONG_USE, f"{self.prog}: {message} ({self.prog} --help says more)\n")
+
+    def _with_way_out(self, message: str) -> str:
+        if found := re.search(r"invalid choice: '(.*)' \(choose from (.*)\)", message):
+            known = re.findall(r"[\w-]+", found[2])
+            return _no_such(found[1], known, f"try {', '.join(known)}")
+        if found := re.fullmatch(r"unknown option: ([^=]*).*", message, re.DOTALL):
+            options = re.findall(r"--[\w-]+", self.format_help())
+            return _no_such(found[1], options, "it is not understood here")
+        return message
+
+
+def _no_such(word: str, known: Sequence[str], otherwise: str) -> str:
+    near = difflib.get_close_matches(word, known, n=1)
+    return f"there is no {word}: {f'did you mean {near[0]}?' if near else otherwise}"
+
+
+def seed(text: str) -> int:
+    """A seed as it is typed."""
+    if text.isascii() and text.isdigit():
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{text} is no whole number from 0, such as 7")
+
+
+class Version(argparse.Action):
+    """Prints the version, which is looked up only when it is asked for."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        """Print it, and leave."""
+        from importlib.metadata import version
+
+        sys.stdout.write(f"kille {version('kille')}\n")
+        parser.exit()
