@@ -294,6 +294,10 @@ def strings() -> dict[str, set[str]]:
 def test_the_python_reference_names_what_is_public() -> None:
     described = tables(ROOT / "docs" / "reference" / "python.md")
     perceptual = importlib.import_module("ttr.perceptual")
+    cues = importlib.import_module("kille.perception.cues")
+    index = importlib.import_module("kille.perception.index")
+    colours = importlib.import_module("kille.perception.colours")
+    relations = importlib.import_module("kille.perception.relations")
     with Agent(sensor="synthetic:empty") as robot, Memory.transient() as memory:
         robot.do("show cup")
         robot.hear("This is a cup.")
@@ -313,6 +317,18 @@ def test_the_python_reference_names_what_is_public() -> None:
             **property_tests(),
             **gameboards(),
             "kille": set(kille.__all__),
+            "kille.perception.colours": set(colours.__all__),
+            "kille.perception.cues": set(cues.__all__),
+            "kille.perception.index": set(index.__all__),
+            "kille.perception.relations": set(relations.__all__),
+            **{
+                name: set(importlib.import_module(name).__all__)
+                for name in (
+                    "kille.perception.evidence",
+                    "kille.perception.objects",
+                    "kille.perception.segment",
+                )
+            },
             "ttr.Model": public(ttr.Model()),
             "ttr.Judgement": public(ttr.Model().judge("a", ttr.Ind)),
             "ttr.Why": public(ttr.Model().judge("a", ttr.Ind).why),

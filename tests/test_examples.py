@@ -153,6 +153,24 @@ KEY_LINES = {
         "   assert_name: It is sure, and no rival is near: it says what this is.",
         "S> I do not know what this is. Please tell me.",
     ],
+    "13_bring_your_own_classifier.py": [
+        "5 things, 1 round of lessons and questions",
+        "The most distinct first:",
+        "Taken for another:",
+        "default         nothing; turned: nothing",
+        "refused: the method mine failed: it cannot be made: RuntimeError: no weights",
+    ],
+    "14_colour_words.py": [
+        "What holds of the things on the table:",
+        "  banana    yellow 1.0",
+        "  red ##########  orange #           yellow",
+        "  red             orange ##########  yellow",
+        "  after  0 lessons: red 0.00; it says orange",
+        "  after  1 lessons: red 0.20; it says orange",
+        "  after 10 lessons: red 0.71; it says red",
+        "And of a red thing: red 1.0",
+        "Forgotten again: True",
+    ],
 }
 
 

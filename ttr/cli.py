@@ -6,6 +6,7 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from errno import ENOSPC
 from io import TextIOWrapper
 
 from ttr.commands import COMMANDS
@@ -28,10 +29,20 @@ def main(argv: Sequence[str] | None = None) -> int:
         complain("types are nested too deep, by definitions, to be printed or checked")
         return FAILED
     except BrokenPipeError:
-        # Python would complain once more when it flushes at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_output()
         return PIPE_CLOSED
+    except OSError as error:
+        if error.errno != ENOSPC:
+            raise
+        _drop_output()
+        complain("the output cannot be written: no space left on device")
+        return FAILED
     return code
+
+
+def _drop_output() -> None:
+    """Python would complain once more when it flushes at exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _run(argv: Sequence[str] | None) -> int:

@@ -298,6 +298,15 @@ def test_a_closed_pipe_is_quiet(folder: Path) -> None:
     assert done.returncode == 141
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+def test_a_full_disk_is_one_line(folder: Path) -> None:
+    command = [sys.executable, "-m", "ttr.cli", "check", "good.ttr"]
+    with Path("/dev/full").open("wb") as full:
+        done = subprocess.run(command, stdout=full, stderr=-1, check=False)
+    told = b"ttr: the output cannot be written: no space left on device\n"
+    assert (done.returncode, done.stderr) == (1, told)
+
+
 def test_what_a_terminal_cannot_show_is_escaped(folder: Path) -> None:
     plain = {**os.environ, "PYTHONIOENCODING": "ascii"}
     done = run("check", "wrong.ttr", env=plain)
