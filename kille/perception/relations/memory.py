@@ -3,7 +3,7 @@
 Nothing is known of a word beforehand but that it means one of many graded templates
 (see `kille.perception.relations.templates`); its name is never looked at. Each lesson
 makes some templates more and others less likely, and the degree of a word is the mean
-of what its templates say, by how likely they are.
+of what its templates say, in log odds, by how likely they are.
 
 A word that was *said* of x is more likely meant narrowly (Tenenbaum's size principle):
 
@@ -11,12 +11,9 @@ A word that was *said* of x is more likely meant narrowly (Tenenbaum's size prin
 
 with z_h the share of all places that h covers. r lets a lesson be grossly wrong: the
 tutor slipped, or the thing was not where it was seen. A word that was *judged* of x, as
-in "no, it is not near", says nothing about where things stand:
-
-    p(degree d | word means h) = (m h(x))^d (1 - m h(x))^(1 - d),
-
-m being how often a word that fits is said to fit: always, or of a rarer word half the
-time.
+in "no, it is not near", says nothing about where things stand: it tells how likely the
+template is, and how sharp, how strict and how usual the word is
+(see `kille.perception.relations.judgements`).
 """
 
 from __future__ import annotations
@@ -28,17 +25,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.learners import Key, own_key
+from kille.perception.relations.judgements import Judgements, degrees_at, log_odds
 from kille.perception.relations.space import space
 from kille.scene import Configuration
 
 Vector = NDArray[np.float64]
 
 _SLIPS = 0.1  # r: about a tenth of the lessons may be wrong
-_HELD = np.array([[1.0], [0.5]])  # m
-_HELD_PRIOR = np.log([[0.8], [0.2]])
 _TRUTH = 0.3  # how much of it is that what is said is true
-_DOUBTED = 0.1  # how far a judgement may be wrong
-_WEIGHT = 5.0  # of one judgement
+_DOUBTED = 0.1  # how far that may be wrong
 _BEFOREHAND = 16.0  # how many places the usual ones count for
 _FARTHER = 2.0  # times the farthest that was heard: there is no doubt yet
 _DOUBT = 0.35  # of the logarithm of the distance
@@ -54,52 +49,63 @@ class Lesson:
 
 
 @dataclass(frozen=True, eq=False)
+class Meaning:
+    """What a word means: how likely each template is, (h,), and the mean line from
+    the log odds of the templates to those of the word."""
+
+    likely: Vector
+    shift: float
+    slopes: Vector
+
+    def degree(self, odds: Vector) -> float:
+        """That of the mean log odds, from those of the templates."""
+        return float(degrees_at(self.shift + self.slopes @ odds))
+
+
+@dataclass(frozen=True, eq=False)
 class Evidence:
     """What the lessons of one word say of each template: how well what was said of it
-    fits, (h,), and what was judged, (m, h); how much of what was said it covers."""
+    fits, how much of what was said it covers, (h,), and what was judged."""
 
     said: Vector
-    judged: Vector
     covered: Vector
+    judged: Judgements
     times_said: int = 0
-    lessons: int = 0
+
+    @property
+    def lessons(self) -> int:
+        """How many there were."""
+        return self.times_said + self.judged.count
 
     def plus(self, lesson: Lesson, times: int) -> Evidence:
         """With the lesson so many times more."""
         degrees = space().degrees([lesson.x])[0].astype(np.float64)
-        lessons = self.lessons + times
         if lesson.degree is not None:
-            judged = self.judged + times * _judged(degrees, lesson.degree)
-            return replace(self, judged=judged, lessons=lessons)
-        return Evidence(
-            self.said + times * _said(degrees),
-            self.judged,
-            self.covered + times * degrees,
-            self.times_said + times,
-            lessons,
+            judged = self.judged.plus(degrees, lesson.degree, times)
+            return replace(self, judged=judged)
+        return replace(
+            self,
+            said=self.said + times * _said(degrees),
+            covered=self.covered + times * degrees,
+            times_said=self.times_said + times,
         )
 
-    def templates(self, elsewhere: Vector, count: int) -> Vector:
-        """How likely the word means each template and is said to fit, (h,).
-
-        `elsewhere` is what templates cover of so many places where other words were
-        said.
-        """
+    def meaning(self, elsewhere: Vector, count: int) -> Meaning:
+        """What the word means; `elsewhere` is what templates cover of so many places
+        where other words were said."""
         breadth = space().breadth
         usual = (_BEFOREHAND * breadth + elsewhere) / (_BEFOREHAND + count)
         fit = self.said - self.times_said * np.log(usual + _SLIPS * breadth)
-        scores = space().log_prior + fit + self.judged + _HELD_PRIOR
-        if self.times_said == self.lessons:
-            scores = scores[:1]
+        judged = self.judged.fit
+        scores = space().log_prior + fit + judged.score
         likely = np.exp(scores - scores.max())
-        held = _HELD[: len(likely)]
-        believed: Vector = (held * likely).sum(axis=0) / likely.sum()
-        return believed
+        likely /= likely.sum()
+        return Meaning(likely, float(likely @ judged.shift), likely * judged.slope)
 
 
 def _nothing() -> Evidence:
     none = np.zeros(len(space().breadth))
-    return Evidence(none, np.zeros((len(_HELD), 1)), none)
+    return Evidence(none, none, Judgements.none(len(none)))
 
 
 def _said(degrees: Vector) -> Vector:
@@ -107,13 +113,6 @@ def _said(degrees: Vector) -> Vector:
     true = _DOUBTED + (1 - _DOUBTED) * degrees
     fit: Vector = np.log(degrees + _SLIPS * space().breadth) + _TRUTH * np.log(true)
     return fit
-
-
-def _judged(degrees: Vector, degree: float) -> Vector:
-    """How well the templates (h,) fit the judgement, for each m."""
-    surely = _DOUBTED / 2 + (1 - _DOUBTED) * _HELD * degrees
-    fit: Vector = degree * np.log(surely) + (1 - degree) * np.log(1 - surely)
-    return _WEIGHT * fit
 
 
 class RelationMemory:
@@ -189,8 +188,9 @@ class RelationMemory:
         return dict(zip(self.labels, shares.tolist(), strict=True))
 
     def _degrees(self, x: Configuration) -> Vector:
-        found: Vector = self._beliefs.templates @ space().degrees([x])[0]
-        return np.clip(found, 0, 1) * self._confidence(x)
+        odds = log_odds(space().degrees([x])[0])
+        found = np.array([it.degree(odds) for it in self._beliefs.meanings])
+        return found * self._confidence(x)
 
     def _confidence(self, x: Configuration) -> float:
         """1 as far as was heard, and down to 0 far beyond."""
@@ -209,23 +209,22 @@ class RelationMemory:
         every = [self._evidence[word] for word in self.labels]
         covered = np.sum([it.covered for it in every], axis=0)
         counts = np.array([it.times_said for it in every])
-        templates = np.array(
-            [
-                it.templates(covered - it.covered, int(counts.sum()) - it.times_said)
-                for it in every
-            ]
+        meanings = tuple(
+            it.meaning(covered - it.covered, int(counts.sum()) - it.times_said)
+            for it in every
         )
         distances = [math.hypot(*it.x.offset) for it in self._heard.values()]
         known = [it for it in distances if math.isfinite(it)]
-        usual = (counts + 1) / (templates @ covered + 1)
-        return _Beliefs(templates, usual, max(known, default=math.inf))
+        fitting = np.array([it.likely @ covered for it in meanings])
+        usual = (counts + 1) / (fitting + 1)
+        return _Beliefs(meanings, usual, max(known, default=math.inf))
 
 
 @dataclass(frozen=True, eq=False)
 class _Beliefs:
-    """How likely each word means each template (w, h); how usual each word is where it
-    fits (w,); and the farthest distance heard of, in metres."""
+    """What each word means; how usual each is where it fits, (w,); and the farthest
+    distance heard of, in metres."""
 
-    templates: Vector
+    meanings: tuple[Meaning, ...]
     usual: Vector
     farthest: float
