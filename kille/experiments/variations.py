@@ -33,6 +33,9 @@ ANGLES = tuple(range(0, 181, 15))
 _FEW = 3  # scans of a look, where the paper's ten would take minutes
 _SPECIMENS = 4
 
+Answers = Mapping[str, Mapping[int, Sequence[Answer]]]
+"""What each method answered, by the angle things were turned by."""
+
 
 def rotation(
     methods: Methods,
@@ -55,39 +58,44 @@ def rotation(
         name: _at_angles(make, lessons, questions, partial(steps, name))
         for name, make in methods.items()
     }
-    heads = tuple(f"{angle}°" for angle in ANGLES[::3])
-    rows: tuple[tuple[Cell, ...], ...] = tuple(
-        (name, *(share_right(them[angle]) for angle in ANGLES[::3]))
-        for name, them in answers.items()
-    )
     return Result(
         "Turned things",
-        (
-            Table(
-                "Share right of things that are turned",
-                ("method", *heads),
-                rows,
-                f"One lesson a thing, {len(things)} things, {_FEW} scans a question.",
-            ),
-        ),
-        (
-            Figure(
-                "curves",
-                "Share right of things that are turned",
-                {
-                    "x": list(ANGLES),
-                    "series": {name: _curve(them) for name, them in answers.items()},
-                    "xlabel": "turned by, degrees",
-                    "ylabel": "share right",
-                },
-            ),
-        ),
+        (_turned(answers, len(things)),),
+        (_by_angle(answers),),
         {
             "angles": list(ANGLES),
             "methods": {
                 name: [share_right(them[angle]) for angle in ANGLES]
                 for name, them in answers.items()
             },
+        },
+    )
+
+
+def _turned(answers: Answers, things: int) -> Table:
+    """The share right at every third angle."""
+    told = ANGLES[::3]
+    rows: tuple[tuple[Cell, ...], ...] = tuple(
+        (name, *(share_right(them[angle]) for angle in told))
+        for name, them in answers.items()
+    )
+    return Table(
+        "Share right of things that are turned",
+        ("method", *(f"{angle}°" for angle in told)),
+        rows,
+        f"One lesson a thing, {things} things, {_FEW} scans a question.",
+    )
+
+
+def _by_angle(answers: Answers) -> Figure:
+    return Figure(
+        "curves",
+        "Share right of things that are turned",
+        {
+            "x": list(ANGLES),
+            "series": {name: _curve(them) for name, them in answers.items()},
+            "xlabel": "turned by, degrees",
+            "ylabel": "share right",
         },
     )
 

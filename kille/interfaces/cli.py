@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 from collections.abc import Sequence
 from errno import ENOSPC
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from kille.interfaces.parsing import Parser, Version, seed
 from kille.interfaces.streams import drop_output, prepare_streams
 
-__all__ = ["main"]
+__all__ = ["command", "main"]
 
 FAILED, INTERRUPTED, PIPE_CLOSED = 1, 130, 141
+
+
+def command() -> NoReturn:
+    """The command as it is installed.
+
+    When all is done a thread may still be building a part of the index. Python waits
+    for it, and Ctrl-C then would tell of the thread, and of nothing that matters.
+    """
+    code = main()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    sys.exit(code)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -290,4 +302,4 @@ def _doctor(options: argparse.Namespace) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command()

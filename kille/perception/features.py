@@ -6,15 +6,19 @@ from functools import cache
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from kille.perception.geometry import points_at
 from kille.scene import Box, Features, Frame, Region
+
+Grey = NDArray[np.uint8]
 
 _MARGIN = 12  # pixels around the box, for features whose surroundings reach out of it
 # Both let more features through than SIFT's own .04 and 10: things with little texture
 # need them, and words learned from few pictures were told apart better.
 _CONTRAST = 0.02
 _EDGE = 20.0
+_MOST = 1280 * 960  # pixels: a larger region is made smaller, finer detail is noise
 _BRIM = 3  # pixels around the mask: outlines from depth are a little off
 
 NONE = Features(
@@ -29,21 +33,38 @@ def features_of(frame: Frame, region: Region, sift: cv2.SIFT | None = None) -> F
     """The SIFT features of the region; without texture there may be none.
 
     SIFT runs on the region's box and a margin, not on the frame: its cost is that of
-    the pixels it is given, mask or not. Another SIFT than the robot's may be given.
+    the pixels it is given, mask or not; a huge box is made smaller. Another SIFT than
+    the robot's may be given.
     """
     box = _widened(region.box, frame.colour.shape)
     crop = np.s_[box.top : box.bottom, box.left : box.right]
     if not frame.colour[crop].size:
         return NONE
-    grey = cv2.cvtColor(frame.colour[crop], cv2.COLOR_RGB2GRAY)
+    grey = np.asarray(cv2.cvtColor(frame.colour[crop], cv2.COLOR_RGB2GRAY), np.uint8)
     brim = np.ones((2 * _BRIM + 1,) * 2, np.uint8)
-    mask = cv2.dilate(region.mask[crop].astype(np.uint8), brim)
-    keypoints, descriptors = (sift or _sift()).detectAndCompute(grey, mask)
+    mask = np.asarray(cv2.dilate(region.mask[crop].astype(np.uint8), brim), np.uint8)
+    keypoints, descriptors = (sift or _sift()).detectAndCompute(*_smaller(grey, mask))
     if not keypoints:
         return NONE
     corner = np.array([box.left, box.top], np.float32)
-    pixels = np.array([point.pt for point in keypoints], np.float32) + corner
+    found = np.array([point.pt for point in keypoints], np.float32)
+    pixels = found * _stretch(grey) + corner
     return Features(descriptors.astype(np.uint8), pixels, points_at(frame, pixels))
+
+
+def _smaller(grey: Grey, mask: Grey) -> tuple[Grey, Grey]:
+    stretch = _stretch(grey)
+    if stretch == 1:
+        return grey, mask
+    size = tuple(max(1, int(side / stretch)) for side in grey.shape[::-1])
+    few = cv2.resize(grey, size, interpolation=cv2.INTER_AREA)
+    inside = cv2.resize(mask, size, interpolation=cv2.INTER_NEAREST)
+    return np.asarray(few, np.uint8), np.asarray(inside, np.uint8)
+
+
+def _stretch(grey: Grey) -> float:
+    """How many of its pixels become one."""
+    return max(1.0, float(np.sqrt(grey.size / _MOST)))
 
 
 @cache

@@ -47,7 +47,7 @@ _RIDGE = 0.1  # λ
 _ELSE = math.exp(-1)  # how like different things mostly are, by what m_c is
 _ELSE_RIDGE = _RIDGE / 3  # what was never taught counts for three examples
 _EXAMPLES = 1000  # compared in all
-_LEAST, _MOST = 4, 48  # of one word
+_LEAST, _MOST = 1, 48  # of one word
 
 
 @dataclass(frozen=True)

@@ -182,7 +182,9 @@ def _open_categories(name: str, folder: Path) -> Sensor:
             f"{name}: holds several recordings, name one of them: "
             + ", ".join(f"{name.rstrip('/')}/{scene}" for scene in scenes)
         )
-    categories = {it.name.replace("_", " "): _pictures(it) for it in inner}
+    categories: dict[str, list[Shot]] = {}
+    for it in inner:
+        categories.setdefault(it.name.replace("_", " "), []).extend(_pictures(it))
     shown = {thing: pictures for thing, pictures in categories.items() if pictures}
     if shown:
         return Gallery(name, shown)

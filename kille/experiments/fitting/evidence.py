@@ -64,7 +64,7 @@ WEIGHTS = {
     "whole_pattern": 0.5,
 }
 WEIGHINGS = Path(evidence.__file__).with_name("weighing.json")
-EMBEDDING = 40.0
+EMBEDDING = 100.0
 """The weight of the embedding, where it is had: more than that of all others."""
 
 

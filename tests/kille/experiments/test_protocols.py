@@ -164,6 +164,15 @@ def test_what_does_not_open_is_left_out_and_named(photos: Path, colour: Make) ->
     assert "lime/broken.png" in result.tables[0].note
 
 
+def test_two_folders_of_one_word_are_one_category(photos: Path) -> None:
+    more = photos / "red_ball", photos / "red ball"
+    for number, folder in enumerate(more):
+        folder.mkdir()
+        picture = np.full((20, 20, 3), 90 * number, np.uint8)
+        cv2.imwrite(str(folder / f"{number}.png"), picture)
+    assert len(open_gallery(photos, "photos").categories["red ball"]) == 2
+
+
 def test_huge_pictures_are_made_smaller(photos: Path) -> None:
     huge = np.full((1440, 2560, 3), 90, np.uint8)
     cv2.imwrite(str(photos / "lime" / "huge.png"), huge)
