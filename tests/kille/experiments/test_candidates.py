@@ -12,7 +12,7 @@ from kille.experiments.candidates import MethodFailed, candidates
 from kille.experiments.results import ExperimentError
 
 FILE = """
-from beside import WORD
+from polly_s_words import WORD
 
 class Parrot:
     def learn_one(self, x, y): pass
@@ -54,7 +54,7 @@ def failing(make: Any, x: object = None) -> str:
 
 
 def test_a_method_of_the_users_own_file(tmp_path: Path) -> None:
-    (tmp_path / "beside.py").write_text("WORD = 'polly'")
+    (tmp_path / "polly_s_words.py").write_text("WORD = 'polly'")
     (tmp_path / "mine.py").write_text(FILE)
     name = f"{tmp_path / 'mine.py'}:Parrot"
     learner = candidates([name], {})[name]()
@@ -86,7 +86,7 @@ def test_a_wrong_name_is_one_line(
     name: str, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("beside.py").write_text("WORD = 'polly'")
+    Path("polly_s_words.py").write_text("WORD = 'polly'")
     Path("mine.py").write_text(FILE)
     Path("broken.py").write_text("def")
     known = {"default": Keyed, "kille": Keyed}
