@@ -1,8 +1,9 @@
 """Fits the codebooks of texture and paint.
 
 `python -m kille.experiments.fitting.codebook DATA` is given the data folder, with
-`ycbv_scenes` (frames of the YCB-Video data set, Xiang et al. 2018, MIT) and with
-`ycb_meshes` (scans of the YCB Object and Model Set, Calli et al. 2015, CC BY 4.0).
+`ycbv_scenes` (frames of the YCB-Video data set, Xiang et al. 2018, MIT), `mosd_scenes`
+(after the Object Segmentation Database, Richtsfeld et al. 2012) and `ycb_meshes` (scans
+of the YCB Object and Model Set, Calli et al. 2015, CC BY 4.0).
 Windows are cut out of the frames by chance, around the labelled things, and around
 rendered meshes; a codebook describes what descriptors are like. No word is looked at.
 """
@@ -20,7 +21,7 @@ from kille.perception.cues.dense import Descriptors, colours, edges
 from kille.perception.cues.patch import Patch, Window
 from kille.perception.segment import region_of
 from kille.scene import Frame
-from kille.sensors.captures import description_of, read_sequence
+from kille.sensors.captures import description_of, read_scenes, read_sequence
 from kille.sensors.synthetic.sensor import open_synthetic
 
 _EACH = 150  # descriptors of a window
@@ -52,7 +53,7 @@ def main(data: Path) -> None:
 
 def windows(data: Path, chance: np.random.Generator) -> Iterator[Window]:
     """The windows that the codebooks are fitted to."""
-    for frame in _frames(data / "ycbv_scenes"):
+    for frame in _frames(data):
         yield from _by_chance(frame, chance)
         yield from _of_things(frame)
     meshes = data / "ycb_meshes"
@@ -104,13 +105,19 @@ def _book(
     return fitted(together, components, gaussians)
 
 
-def _frames(folder: Path) -> Iterator[Frame]:
+def _frames(data: Path) -> Iterator[Frame]:
     for scene in _SCENES:
-        description = description_of(folder / scene)
-        if description is None:
-            raise SystemExit(f"{folder / scene}: no scene.json: give the data folder")
         # The frames of a scene are nearly the same: every third one is enough.
-        yield from (shot.read() for shot in read_sequence(description)[::3])
+        found = _described(data / "ycbv_scenes" / scene)
+        yield from (shot.read() for shot in read_sequence(found)[::3])
+    yield from (shot.read() for shot in read_scenes(_described(data / "mosd_scenes")))
+
+
+def _described(folder: Path) -> Path:
+    description = description_of(folder)
+    if description is None:
+        raise SystemExit(f"{folder}: no captures are described: give the data folder")
+    return description
 
 
 def _by_chance(frame: Frame, chance: np.random.Generator) -> Iterator[Window]:
