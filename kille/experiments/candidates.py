@@ -8,9 +8,7 @@ the others can go on without it.
 from __future__ import annotations
 
 import importlib
-import importlib.util
 import inspect
-import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
@@ -20,6 +18,7 @@ from types import ModuleType
 from typing import Any, TypeAlias
 
 from kille.experiments.results import ExperimentError
+from ttr.modules import importing_from, run_file
 
 __all__ = ["Make", "Methods", "MethodFailed", "candidates"]
 
@@ -89,7 +88,7 @@ def _module(path: str) -> ModuleType:
 
 def _imported(path: str) -> ModuleType:
     try:
-        with _importing_from(Path.cwd()):
+        with importing_from(Path.cwd()):
             return importlib.import_module(path)
     except ModuleNotFoundError as error:
         if error.name is not None and f"{path}.".startswith(f"{error.name}."):
@@ -102,25 +101,7 @@ def _imported(path: str) -> ModuleType:
 def _run(file: Path) -> ModuleType:
     if not file.is_file():
         raise ExperimentError(f"there is no file {file}")
-    name = f"_measured_{file.stem}"
-    spec = importlib.util.spec_from_file_location(name, file)
-    if spec is None or spec.loader is None:
-        raise ExperimentError(f"{file} is no Python file")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module  # where dataclasses look their module up
-    with _importing_from(file.resolve().parent):
-        spec.loader.exec_module(module)
-    return module
-
-
-@contextmanager
-def _importing_from(folder: Path) -> Iterator[None]:
-    """Lets a file import what lies beside it, as when Python runs it."""
-    sys.path.insert(0, str(folder))
-    try:
-        yield
-    finally:
-        sys.path.remove(str(folder))
+    return run_file(file, f"_measured_{file.stem}")
 
 
 # --- the guard -----------------------------------------------------------------------

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import importlib
-import importlib.util
 import os
 import re
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
@@ -16,6 +12,7 @@ from typing import Self
 
 from ttr.errors import TTRError, suggestion
 from ttr.models import Model
+from ttr.modules import run_file
 from ttr.notation.loading import Unreadable
 from ttr.notation.reader import read
 from ttr.stories.reading import StoryError
@@ -137,7 +134,9 @@ def _module(path: str, folder: Path) -> ModuleType:
     if is_file:
         _check_there(path, folder)
     try:
-        return _run(folder / path, path) if is_file else importlib.import_module(path)
+        if not is_file:
+            return importlib.import_module(path)
+        return run_file(folder / path, f"_played_{Path(path).stem}")
     except StoryError:
         raise
     except Exception as error:
@@ -154,28 +153,6 @@ def _not_run(path: str, error: Exception) -> str:
 def _with_parents(module: str) -> list[str]:
     """A dotted name and those of the packages that it is in: a.b.c, a.b and a."""
     return [".".join(module.split(".")[: n + 1]) for n in range(module.count(".") + 1)]
-
-
-def _run(file: Path, shown: str) -> ModuleType:
-    name = f"_played_{file.stem}"
-    spec = importlib.util.spec_from_file_location(name, file)
-    if spec is None or spec.loader is None:
-        raise StoryError(f"{shown} is no Python file")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module  # where dataclasses look their module up
-    with _importing_from(file.parent):
-        spec.loader.exec_module(module)
-    return module
-
-
-@contextmanager
-def _importing_from(folder: Path) -> Iterator[None]:
-    """Lets a file import what lies beside it, as when Python runs it."""
-    sys.path.insert(0, str(folder))
-    try:
-        yield
-    finally:
-        sys.path.remove(str(folder))
 
 
 def _mentioned(game: Game) -> Theory:
