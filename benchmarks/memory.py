@@ -1,6 +1,7 @@
 """How long it takes to keep a lesson for good, and to load all lessons.
 
-A view is 300 features of one scan, the vectors of the cues, and a picture of 24 kB.
+A view is 300 features of one scan, the vectors of the cues that a thing with depth has,
+and a picture of 24 kB.
 Each is one lesson of its own, on disk when `learn_object` returns. Loading is opening
 the file, checks and all, and making every lesson a value, as a robot that starts does.
 """
@@ -18,11 +19,11 @@ import numpy as np
 from _measuring import arguments, clock_of, limit_told
 
 from kille.memory import Crop, Memory, Picture, Scan, Sighting, Turn
+from kille.perception.cues import CUES
 from kille.scene import Box, Intrinsics, Point
 
 FEATURES = 300
-CUES = {"colour": 800, "size": 3, "shape": 16, "texture": 512, "outline": 324}
-CUES |= {"form": 324, "pattern": 54}
+LENGTHS = {name: it.length for name, it in CUES.items() if "whole" not in name}
 SIZES = (1_000, 10_000)
 LEARN, LEARN_SLOWEST, LOAD = 5.0, 30.0, 2_000.0
 """Milliseconds: the median and the 99th percentile of a lesson; loading the largest."""
@@ -73,7 +74,7 @@ def sightings(rng: np.random.Generator) -> list[Sighting]:
                 ),
             ),
             Point(0.0, 0.0, 1.0),
-            {cue: rng.random(k, dtype=np.float32) for cue, k in CUES.items()},
+            {cue: rng.random(k, dtype=np.float32) for cue, k in LENGTHS.items()},
             picture(rng),
         )
         for _ in range(16)

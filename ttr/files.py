@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from errno import EISDIR
+from errno import EISDIR, ELOOP
 from pathlib import Path
 
 from ttr.errors import TTRError
@@ -52,7 +52,9 @@ def write_whole(path: Path, text: str) -> None:
     """
     data = text.encode("utf-8", "replace")
     try:
-        target = path.resolve()
+        target = Path(os.path.realpath(path))
+        if target.is_symlink():  # only links that lead round in a circle are left
+            raise OSError(ELOOP, os.strerror(ELOOP))
         if target.is_dir():
             raise IsADirectoryError(EISDIR, "is a folder")
         if target.exists() and not target.is_file():
@@ -81,11 +83,12 @@ def check_outputs(inputs: Iterable[Path], outputs: Iterable[Path | None]) -> Non
     Traceback (most recent call last):
     ttr.errors.TTRError: a.dlg would be written over: name another file
     """
-    taken = {path.resolve() for path in inputs}
+    taken = set(map(os.path.realpath, inputs))
     for path in filter(None, outputs):
-        if path.resolve() in taken and not _is_special(path):
+        place = os.path.realpath(path)
+        if place in taken and not _is_special(path):
             raise TTRError(f"{path} would be written over: name another file")
-        taken.add(path.resolve())
+        taken.add(place)
 
 
 def _is_special(path: Path) -> bool:

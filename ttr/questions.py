@@ -232,13 +232,17 @@ def resolving(
 def asked_of(question: Function, P: TypeNode, model: Model) -> Record | None:
     """The r that a question q can be applied to so that P ⊑ q(r), or None.
 
+    Raises `TTRError` for what is no question.
+
     >>> City = Basic("City")
     >>> dest = Pred("dest_city", City)
     >>> M = Model().given("paris", City)
     >>> print(asked_of(which(dest), rectype(e=dest("paris")), M))
     {x = paris}
     """
-    found = _argument_of(question, P)
+    if not isinstance(question, Function):
+        raise _no_question(question)
+    found = _argument_of(question, P) if isinstance(P, TypeNode) else None
     if found is None or not certainly(model.facts, found, question.domain):
         return None
     return found
@@ -247,10 +251,14 @@ def asked_of(question: Function, P: TypeNode, model: Model) -> Record | None:
 @lru_cache(MATCHES)
 def _argument_of(question: Function, P: TypeNode) -> Record | None:
     """The r with P ⊑ q(r), by their forms alone; `TTRError` for no question."""
-    if not isinstance(question, Function) or not is_question(question):
-        raise TTRError(f"nothing is asked for by {kind_of(question)}")
+    if not is_question(question):
+        raise _no_question(question)
     bound: dict[str, Object] = {}
     return Record(bound) if _matches(question.body, _plain(P), 0, bound) else None
+
+
+def _no_question(found: Object) -> TTRError:
+    return TTRError(f"nothing is asked for by {kind_of(found)}")
 
 
 def _combined(answer: Object, question: Object, model: Model) -> TypeNode | None:

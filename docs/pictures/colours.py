@@ -28,9 +28,7 @@ def borders() -> Colour:
     hues, lights = np.meshgrid(np.linspace(0, 360, WIDTH), np.linspace(97, 4, HEIGHT))
     lab = most_vivid(hues, lights)
     picture = rgb_of(lab[::STEP, ::STEP]).repeat(STEP, axis=0).repeat(STEP, axis=1)
-    words = xkcd().among(
-        word for word in BASIC if word not in ("grey", "white", "black")
-    )
+    words = xkcd().among(word for word in BASIC if word not in WITHOUT_HUE)
     degrees = words.degrees(lab.reshape(-1, 3)).reshape(HEIGHT, WIDTH, -1)
     for number in range(len(words.names)):
         outlined(picture, degrees[..., number])
@@ -103,7 +101,7 @@ def framed(picture: Colour) -> Colour:
 
 
 def label(page: Colour, text: str, at: tuple[int, int]) -> None:
-    """Small dark text that ends or begins there."""
+    """Small dark text that begins there."""
     cv2.putText(page, text, at, cv2.FONT_HERSHEY_SIMPLEX, 0.42, INK, 1, cv2.LINE_AA)
 
 

@@ -22,7 +22,7 @@ __all__ = [
     "mean_degrees",
     "mistaken",
     "percent",
-    "right_share",
+    "right_cells",
     "share_right",
     "taught",
 ]
@@ -52,11 +52,6 @@ class Answer:
     def best(self) -> float:
         """The degree of what is said."""
         return max(self.degrees.values(), default=0.0)
-
-    @property
-    def rest(self) -> float:
-        """The degree of all that has not been learned."""
-        return max(0.0, 1 - sum(self.degrees.values()))
 
     @property
     def right(self) -> bool:
@@ -103,7 +98,7 @@ def share_right(answers: Sequence[Answer]) -> float:
     return accuracy([it.word for it in answers], [it.said for it in answers])
 
 
-def right_share(answers: Sequence[Answer]) -> tuple[str, float, str]:
+def right_cells(answers: Sequence[Answer]) -> tuple[str, float, str]:
     """Three cells: how many of how many are right, their share, its band."""
     right = sum(answer.right for answer in answers)
     band = wilson(right, len(answers))

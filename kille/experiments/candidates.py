@@ -18,6 +18,7 @@ from types import ModuleType
 from typing import Any, TypeAlias
 
 from kille.experiments.results import ExperimentError
+from kille.perception.learners import check_degrees
 from ttr.modules import importing_from, run_file
 
 __all__ = ["Make", "Methods", "MethodFailed", "candidates"]
@@ -27,7 +28,6 @@ Make: TypeAlias = Callable[[], Any]
 
 Methods: TypeAlias = Mapping[str, Make]
 
-_HIGHEST = 1e9  # whoever counts votes instead may take part, if the sums stay numbers
 _WRITTEN = "FILE.py:NAME or MODULE:NAME"
 
 
@@ -133,7 +133,7 @@ class _Guarded:
             self._learner.learn_one(x, label, **named)
 
     def predict_proba_one(self, x: object) -> dict[str, float]:
-        """Its degrees, which are finite numbers from 0."""
+        """Its degrees, which are in [0, 1] and sum to 1 at most."""
         with _failing_as(self._name, "predict_proba_one"):
             return self._degrees(self._learner.predict_proba_one(x))
 
@@ -158,14 +158,21 @@ class _Guarded:
             )
         for word, degree in given.items():
             self._check_degree(word, degree)
-        return {word: float(degree) for word, degree in given.items()}
+        degrees = {word: float(degree) for word, degree in given.items()}
+        try:
+            check_degrees(degrees)
+        except AssertionError as broken:
+            told = f"predict_proba_one: {broken}, not to {sum(degrees.values()):.3g}"
+            raise MethodFailed(self._name, told) from None
+        return degrees
 
     def _check_degree(self, word: object, degree: Any) -> None:
         try:
-            fine = bool(0 <= degree <= _HIGHEST)
-        except (TypeError, ValueError):
+            check_degrees({"": degree})
+            fine = isinstance(word, str)
+        except (AssertionError, TypeError, ValueError):
             fine = False
-        if not fine or not isinstance(word, str):
+        if not fine:
             raise MethodFailed(
                 self._name,
                 f"predict_proba_one gave {brief(word)} the degree {brief(degree)}",

@@ -155,7 +155,7 @@ def _curves(data: Mapping[str, Any]) -> Drawing:
         axes.plot(x, it["mean"], color=hue, marker=marker, ms=5, lw=1.8, label=name)
         if it.get("low") is not None and it.get("high") is not None:
             axes.fill_between(x, it["low"], it["high"], color=hue, alpha=0.18, lw=0)
-        top = max(top, *(value for value in it["mean"] if value is not None))
+        top = max([top, *(value for value in it["mean"] if value is not None)])
     log = data.get("log", ())
     if "x" in log:
         axes.set_xscale("log")
@@ -223,33 +223,31 @@ def _map(data: Mapping[str, Any]) -> Drawing:
     rows = -(-len(words) // columns)
     drawn = Drawing(figsize=(2.5 * columns + 0.7, 2.5 * rows), layout="constrained")
     grid = drawn.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-    x, y = np.asarray(data["right"], float), np.asarray(data["away"], float)
     every = list(grid.ravel())
     for axes, word in zip(every, words, strict=False):
-        degrees = np.asarray(data["degrees"][word], float)
-        image = axes.pcolormesh(
-            x,
-            y,
-            degrees,
-            vmin=0,
-            vmax=1,
-            cmap="cividis",
-            shading="nearest",
-            rasterized=True,
-        )
-        if np.nanmin(degrees) < 0.5 < np.nanmax(degrees):
-            axes.contour(x, y, degrees, levels=[0.5], colors="#ffffff", linewidths=1)
-        axes.plot(0, 0, marker="s", ms=7, color=_WRONG, mec="#ffffff")
-        for place in (data.get("points") or {}).get(word, ()):
-            axes.plot(*place, marker="o", ms=3, color="#ffffff", mec=_INK, mew=0.5)
-        axes.set_title(word)
-        axes.set_aspect("equal")
+        image = _around(axes, data, word)
     for axes in every[len(words) :]:
         axes.set_visible(False)
     drawn.supxlabel(data.get("xlabel", "right"))
     drawn.supylabel(data.get("ylabel", "away"))
     drawn.colorbar(image, ax=every, label="degree", shrink=0.8)
     return drawn
+
+
+def _around(axes: Axes, data: Mapping[str, Any], word: str) -> Any:
+    """The degrees of one word, with the line of .5, the landmark and the lessons."""
+    x, y = np.asarray(data["right"], float), np.asarray(data["away"], float)
+    degrees = np.asarray(data["degrees"][word], float)
+    look: Any = {"cmap": "cividis", "shading": "nearest", "rasterized": True}
+    image = axes.pcolormesh(x, y, degrees, vmin=0, vmax=1, **look)
+    if np.nanmin(degrees) < 0.5 < np.nanmax(degrees):
+        axes.contour(x, y, degrees, levels=[0.5], colors="#ffffff", linewidths=1)
+    axes.plot(0, 0, marker="s", ms=7, color=_WRONG, mec="#ffffff")
+    for place in (data.get("points") or {}).get(word, ()):
+        axes.plot(*place, marker="o", ms=3, color="#ffffff", mec=_INK, mew=0.5)
+    axes.set_title(word)
+    axes.set_aspect("equal")
+    return image
 
 
 def _pictures(data: Mapping[str, Any]) -> Drawing:
@@ -272,7 +270,7 @@ def _pictures(data: Mapping[str, Any]) -> Drawing:
         axes.set(xticks=[], yticks=[])
         axes.spines[:].set_visible(True)
         axes.spines[:].set(color=_FAINT if fine else _WRONG, lw=1 if fine else 2.5)
-        axes.set_title(caption, fontsize=8, parse_math=False)
+        axes.set_title(caption, fontsize=8)
     return drawn
 
 

@@ -143,18 +143,16 @@ def _course(
     course: list[_Point] = []
     learned = 0
     for size in sizes:
+        if not course or course[-1].question <= _BEARABLE:
+            lessons = []
+            for number in range(learned, size):
+                place = number % len(seen)
+                x, word = _varied(seen[place], chance), NAMES[place]
+                teach = partial(learner.learn_one, x, word, key=number)
+                lessons.append(_seconds(teach))
+            learned = size
+            course.append(_point(learner, seen, chance, lessons, memory, size))
         step(size)
-        if course and course[-1].question > _BEARABLE:
-            continue
-        lessons = []
-        for number in range(learned, size):
-            x, word = (
-                _varied(seen[number % len(seen)], chance),
-                NAMES[number % len(seen)],
-            )
-            lessons.append(_seconds(partial(learner.learn_one, x, word, key=number)))
-        learned = size
-        course.append(_point(learner, seen, chance, lessons, memory, size))
     return course
 
 

@@ -64,7 +64,7 @@ def kappa_of_margins(observed: float, expected: float) -> float:
 
     The paper's judges agreed on 17 of 32 questions, by chance on a share of .176.
 
-    >>> round(kappa_of_margins(17 / 32, 0.1757), 2)
+    >>> round(kappa_of_margins(17 / 32, 0.176), 2)
     0.43
     """
     if observed >= 1:
@@ -138,6 +138,8 @@ def spearman(one: ArrayLike, other: ArrayLike) -> float:
     1.0
     """
     first, second = _ranks(_numbers(one)), _ranks(_numbers(other))
+    if not len(first):
+        return float("nan")
     first, second = first - first.mean(), second - second.mean()
     scale = float(np.sqrt((first @ first) * (second @ second)))
     return round(float(first @ second) / scale, 12) if scale else float("nan")

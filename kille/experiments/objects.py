@@ -25,12 +25,12 @@ from kille.experiments.asking import (
     confusion_figure,
     mean_degrees,
     mistaken,
-    right_share,
+    right_cells,
     share_right,
 )
 from kille.experiments.candidates import Make, Methods
 from kille.experiments.metrics import brier, distinctness
-from kille.experiments.results import Figure, Progress, Result, Table, silent
+from kille.experiments.results import Cell, Figure, Progress, Result, Table, silent
 from kille.experiments.steps import Steps
 from kille.experiments.table import LOOKING, OnTable, cut_out, each_shown
 from kille.sensors.synthetic.catalogue import NAMES
@@ -93,23 +93,16 @@ def paper(
         name: _course(make, lessons, questions, turned, partial(steps, name))
         for name, make in methods.items()
     }
-    count = len(things)
+    told = f"{_number(len(things))} things, {_many(rounds, 'round')}"
     return Result(
-        f"{_number(count)} things, {_many(rounds, 'round')} of lessons and questions",
+        f"{told} of lessons and questions",
         (
-            _scores(courses, count),
+            _scores(courses),
             _by_round(courses),
             _ranking(courses, things),
             _mistakes(courses),
         ),
-        (
-            *(
-                confusion_figure(f"Answers of {name}, all rounds", course.every)
-                for name, course in courses.items()
-            ),
-            *(_margins(name, course) for name, course in courses.items()),
-            _pictures(questions[0], courses),
-        ),
+        _figures(courses, questions[0]),
         {
             "things": list(things),
             "rounds": rounds,
@@ -134,25 +127,7 @@ def _course(
     return _Course(rounds, asked(learner, turned, step))
 
 
-def _scores(courses: Mapping[str, _Course], count: int) -> Table:
-    rows = []
-    for name, course in courses.items():
-        means, margins = course.means, [it.margin for it in course.means]
-        rows.append(
-            (
-                name,
-                f"{sum(it.right for it in means)} of {count}",
-                right_share(course.every)[0],
-                f"{sum(it.right for it in course.turned)} of {count}",
-                float(np.mean(margins)),
-                min(margins),
-                min(it.margin for it in course.turned),
-                brier(
-                    [it.word for it in course.every],
-                    [it.degrees for it in course.every],
-                ),
-            )
-        )
+def _scores(courses: Mapping[str, _Course]) -> Table:
     return Table(
         "Which thing is it?",
         (
@@ -165,16 +140,29 @@ def _scores(courses: Mapping[str, _Course], count: int) -> Table:
             "least, turned",
             "Brier",
         ),
-        tuple(rows),
+        tuple((name, *_score(course)) for name, course in courses.items()),
         "Right: the word with the highest mean over the rounds; KILLE had 9 of 10. "
         "Margin: the right word's degree less that of the best other. "
         "Brier: 0 is best, 2 worst.",
     )
 
 
+def _score(course: _Course) -> tuple[Cell, ...]:
+    margins = [it.margin for it in course.means]
+    return (
+        right_cells(course.means)[0],
+        right_cells(course.every)[0],
+        right_cells(course.turned)[0],
+        float(np.mean(margins)),
+        min(margins),
+        min(it.margin for it in course.turned),
+        brier([it.word for it in course.every], [it.degrees for it in course.every]),
+    )
+
+
 def _by_round(courses: Mapping[str, _Course]) -> Table:
     rows = tuple(
-        (name, *(right_share(answers)[0] for answers in course.rounds))
+        (name, *(right_cells(answers)[0] for answers in course.rounds))
         for name, course in courses.items()
     )
     rounds = len(next(iter(courses.values())).rounds)
@@ -218,6 +206,18 @@ def _mistakes(courses: Mapping[str, _Course]) -> Table:
         ("method", "over the rounds", "in single questions", "turned"),
         tuple(rows),
     )
+
+
+def _figures(
+    courses: Mapping[str, _Course], questions: Sequence[Lesson]
+) -> tuple[Figure, ...]:
+    """The answers and the margins of each method, and what was seen in a round."""
+    confusions = (
+        confusion_figure(f"Answers of {name}, all rounds", course.every)
+        for name, course in courses.items()
+    )
+    margins = (_margins(name, course) for name, course in courses.items())
+    return *confusions, *margins, _pictures(questions, courses)
 
 
 def _margins(name: str, course: _Course) -> Figure:

@@ -13,7 +13,7 @@ from kille.experiments.asking import (
     Lesson,
     asked,
     confusion_figure,
-    right_share,
+    right_cells,
     share_right,
     taught,
 )
@@ -97,13 +97,7 @@ def _parted(
             ),
             _by_category(answers),
         ),
-        (
-            *(
-                confusion_figure(f"Answers of {name}", them)
-                for name, them in answers.items()
-            ),
-            *(_wrong(name, questions, them) for name, them in answers.items()),
-        ),
+        _figures(questions, answers),
         {
             "taught": len(lessons),
             "asked": len(questions),
@@ -115,7 +109,7 @@ def _parted(
 
 def _scores(answers: Sequence[Answer]) -> tuple[Cell, ...]:
     words, said = [it.word for it in answers], [it.said for it in answers]
-    return (*right_share(answers), kappa(words, said))
+    return (*right_cells(answers), kappa(words, said))
 
 
 def _by_category(answers: Mapping[str, Sequence[Answer]]) -> Table:
@@ -131,6 +125,16 @@ def _by_category(answers: Mapping[str, Sequence[Answer]]) -> Table:
         for word in words
     )
     return Table("Share right by category", ("category", *answers), rows)
+
+
+def _figures(
+    questions: Sequence[Lesson], answers: Mapping[str, Sequence[Answer]]
+) -> tuple[Figure, ...]:
+    confusions = (
+        confusion_figure(f"Answers of {name}", them) for name, them in answers.items()
+    )
+    wrong = (_wrong(name, questions, them) for name, them in answers.items())
+    return *confusions, *wrong
 
 
 def _wrong(name: str, questions: Sequence[Lesson], answers: Sequence[Answer]) -> Figure:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import partial
@@ -12,7 +12,15 @@ from typing import Protocol as Shape
 from kille.experiments.candidates import Make, MethodFailed, Methods
 from kille.experiments.results import ExperimentError, Progress, Result
 
-__all__ = ["OBJECTS", "Plan", "chosen", "object_plans", "relation_plans", "run"]
+__all__ = [
+    "OBJECTS",
+    "RELATIONS",
+    "Plan",
+    "chosen",
+    "object_plans",
+    "relation_plans",
+    "run",
+]
 
 
 class Run(Shape):
@@ -25,11 +33,15 @@ class Run(Shape):
 
 @dataclass(frozen=True)
 class Plan:
-    """A protocol under its name; what is `usual` is run when none is named."""
+    """A protocol under its name; what is `usual` is run when none is named.
+
+    `compares` names what it compares of its own, where it asks no learner.
+    """
 
     name: str
     run: Run
     usual: bool = True
+    compares: tuple[str, ...] = ()
 
 
 OBJECTS = {
@@ -44,6 +56,12 @@ OBJECTS = {
     "regions": "labelled captures",
 }
 """The protocols for objects, and which data each is for."""
+
+RELATIONS = {
+    "paper": "simulated judges",
+    "judgements": "people's judgements",
+}
+"""The protocols for relations, and which data each is for."""
 
 _KNOWN = (
     "a folder category/picture.png, a folder of labelled scenes, a folder of labelled "
@@ -71,20 +89,25 @@ def object_plans(
     return kind(data)
 
 
-def chosen(plans: Sequence[Plan], name: str | None, known: Sequence[str]) -> list[Plan]:
-    """The plan of this name, or the usual ones; ExperimentError if there is none."""
+def chosen(
+    plans: Sequence[Plan], name: str | None, known: Mapping[str, str]
+) -> list[Plan]:
+    """The plan of this name, or the usual ones; ExperimentError if there is none.
+
+    `known` are all protocols there are, and which data each is for.
+    """
     if name is None:
         return [plan for plan in plans if plan.usual]
     found = [plan for plan in plans if plan.name == name]
     if found:
         return found
     here = [plan.name for plan in plans]
-    near = get_close_matches(name, here, n=1) or get_close_matches(name, known, n=1)
     if name in known:
         raise ExperimentError(
-            f"the protocol {name} is for {OBJECTS.get(name, 'other data')}; "
+            f"the protocol {name} is for {known[name]}; "
             f"for this data there is {', '.join(here)}"
         )
+    near = get_close_matches(name, here, n=1) or get_close_matches(name, known, n=1)
     hint = f"did you mean {near[0]}?" if near else f"there is {', '.join(here)}"
     raise ExperimentError(f"there is no protocol {name}: {hint}")
 
@@ -210,6 +233,7 @@ def _captures(data: str) -> tuple[Plan, ...]:
 
 def _regions(data: str) -> tuple[Plan, ...]:
     from kille.experiments.regions import captures, regions
+    from kille.perception.segment import SEGMENTATIONS
 
     found = captures(Path(data).expanduser())
 
@@ -217,7 +241,7 @@ def _regions(data: str) -> tuple[Plan, ...]:
         """Regions are found before any learner sees them, and without chance."""
         return regions(found, progress=progress)
 
-    return (Plan("regions", measured),)
+    return (Plan("regions", measured, compares=tuple(SEGMENTATIONS)),)
 
 
 def _growth() -> tuple[Plan, ...]:

@@ -15,7 +15,7 @@ from kille.experiments.asking import (
     asked,
     confusion_figure,
     mean_degrees,
-    right_share,
+    right_cells,
     share_right,
     taught,
 )
@@ -38,7 +38,7 @@ __all__ = ["across"]
 _SEEING = 0.5  # the share of the time that goes into seeing
 
 Answers = Mapping[tuple[Split, str], Sequence[Answer]]
-"""What each method answered, by the split and its name."""
+"""What each method answered, by the split and the method's name."""
 
 
 def across(
@@ -51,17 +51,7 @@ def across(
 ) -> Result:
     """What is told apart of the taught things, and whether strangers are noticed."""
     _see(scenes, chosen, progress)
-    count = sum(len(scenes.lessons(split.ask)) for split in chosen) * len(methods)
-    steps = Steps(progress, count, _SEEING, 1)
-    answers = {
-        (split, name): asked(
-            taught(make, (it for scene in split.teach for it in scenes.lessons(scene))),
-            scenes.lessons(split.ask),
-            partial(steps, f"{name}, {split}"),
-        )
-        for split in chosen
-        for name, make in methods.items()
-    }
+    answers = _answers(scenes, chosen, methods, progress)
     known = {split: known_in(scenes, split) for split in chosen}
     return Result(
         "Taught in some scenes, asked in another",
@@ -95,6 +85,22 @@ def _see(scenes: Scenes, chosen: Sequence[Split], progress: Progress) -> None:
     for scene in needed:
         scenes.lessons(scene)
         steps(f"looking at {scene}")
+
+
+def _answers(
+    scenes: Scenes, chosen: Sequence[Split], methods: Methods, progress: Progress
+) -> Answers:
+    count = sum(len(scenes.lessons(split.ask)) for split in chosen) * len(methods)
+    steps = Steps(progress, count, _SEEING, 1)
+    return {
+        (split, name): asked(
+            taught(make, (it for scene in split.teach for it in scenes.lessons(scene))),
+            scenes.lessons(split.ask),
+            partial(steps, f"{name}, {split}"),
+        )
+        for split in chosen
+        for name, make in methods.items()
+    }
 
 
 def _known_again(answers: Answers, known: Mapping[Split, set[str]]) -> Table:
@@ -133,11 +139,11 @@ def _auroc(answers: Sequence[Answer], known: set[str]) -> float:
 
 def _scores(answers: Sequence[Answer], known: set[str]) -> tuple[Cell, ...]:
     things = _by_thing(answers)
-    right, share, _ = right_share([it for it in answers if it.word in known])
+    right, share, _ = right_cells([it for it in answers if it.word in known])
     return (
         right,
         share,
-        right_share([it for it in things if it.word in known])[0],
+        right_cells([it for it in things if it.word in known])[0],
         _auroc(answers, known),
         _auroc(things, known),
     )

@@ -1,23 +1,18 @@
 """How quickly the words for pictures are learned: from one, three, five, ten of each.
 
 A run draws ten categories and shuffles the pictures of each; the last six are asked
-for, of the others the first are taught. Source: the k-shot protocol of Vinyals et al.
-2016, Matching networks for one shot learning, with a fixed number of tutored examples.
+for (or a third, where a category has few), of the others the first are taught.
+Source: the k-shot protocol of Vinyals et al. 2016, Matching networks for one shot
+learning, with a fixed number of tutored examples.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from kille.experiments.asking import (
-    Answer,
-    Lesson,
-    asked,
-    share_right,
-    taught,
-)
+from kille.experiments.asking import Answer, Lesson, asked, share_right, taught
 from kille.experiments.candidates import Methods
 from kille.experiments.gallery import LOOKING, Categories, Gallery
 from kille.experiments.metrics import Band, auroc, bootstrap, brier
@@ -39,9 +34,11 @@ SHOTS = (1, 3, 5, 10)
 _CATEGORIES = 10
 _ASKED = 6
 
-
 Answers = Mapping[str, Mapping[int, Sequence[Sequence[Answer]]]]
 """What each method answered in each run, by the number of pictures taught."""
+
+_Run = tuple[int, int, list[Lesson], list[Lesson]]
+"""The number of a run, that of pictures taught of each, lessons and questions."""
 
 Curve = Mapping[int, tuple[float, Band]]
 """The mean share right and its band, by the number of pictures taught."""
@@ -59,14 +56,7 @@ def shots(
             "to teach one and ask another it takes two"
         )
     gallery.look(progress, LOOKING)
-    steps = Steps(progress, RUNS * len(numbers) * len(methods), LOOKING, 1)
-    found: dict[str, dict[int, list[list[Answer]]]] = {
-        name: {number: [] for number in numbers} for name in methods
-    }
-    for run, number, (lessons, questions) in _runs(gallery, numbers, count, seed):
-        for name, make in methods.items():
-            found[name][number].append(asked(taught(make, lessons), questions))
-            steps(f"{name}, {number} of each, run {run + 1} of {RUNS}")
+    found = _answers(_runs(gallery, numbers, count, seed), numbers, methods, progress)
     chance = np.random.default_rng([seed, RUNS])
     curves = {
         name: {number: _over_runs(runs, chance) for number, runs in by_number.items()}
@@ -82,20 +72,36 @@ def shots(
             "asked_of_each": count,
             "categories": _categories(gallery),
             "left_out": list(gallery.unread),
-            "methods": {
-                name: {
-                    str(number): [share_right(run) for run in runs]
-                    for number, runs in by_number.items()
-                }
-                for name, by_number in found.items()
-            },
+            "methods": {name: _by_run(them) for name, them in found.items()},
         },
     )
 
 
+def _by_run(answers: Mapping[int, Sequence[Sequence[Answer]]]) -> dict[str, object]:
+    """The share right in each run, by the number of pictures taught."""
+    return {
+        str(number): [share_right(run) for run in runs]
+        for number, runs in answers.items()
+    }
+
+
+def _answers(
+    runs: Iterable[_Run], numbers: Sequence[int], methods: Methods, progress: Progress
+) -> Answers:
+    steps = Steps(progress, RUNS * len(numbers) * len(methods), LOOKING, 1)
+    found: dict[str, dict[int, list[list[Answer]]]] = {
+        name: {number: [] for number in numbers} for name in methods
+    }
+    for run, number, lessons, questions in runs:
+        for name, make in methods.items():
+            found[name][number].append(asked(taught(make, lessons), questions))
+            steps(f"{name}, {number} of each, run {run + 1} of {RUNS}")
+    return found
+
+
 def _runs(
     gallery: Gallery, numbers: Sequence[int], count: int, seed: int
-) -> Iterator[tuple[int, int, tuple[list[Lesson], list[Lesson]]]]:
+) -> Iterator[_Run]:
     """The lessons and questions of each run, for each number of pictures taught."""
     for run in range(RUNS):
         # Runs of different seeds have no draw in common.
@@ -103,7 +109,7 @@ def _runs(
         questions = gallery.lessons({w: them[-count:] for w, them in drawn.items()})
         for number in numbers:
             lessons = gallery.lessons({w: them[:number] for w, them in drawn.items()})
-            yield run, number, (lessons, questions)
+            yield run, number, lessons, questions
 
 
 def _categories(gallery: Gallery) -> int:

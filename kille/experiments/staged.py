@@ -7,7 +7,7 @@ finger would. The people are simulated, see `kille.experiments.judges`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import cos, pi, sin
 from typing import Any
@@ -49,27 +49,18 @@ def staged(methods: Mapping[str, Any], *, seed: int, progress: Progress) -> Tabl
     rounds = [list(_round(stage, chance)) for _ in range(3)]
     stage.close()
     taught, asked = [*rounds[0], *rounds[1]], rounds[2]
-    tutor = Person()
-    words = [tutor.says(it.true, chance) for it in taught]
-    judged = [[tutor.says(it.true, chance) for it in asked] for _ in range(2)]
+    person = Person()
+    words = [person.says(it.true, chance) for it in taught]
+    judged = [[person.says(it.true, chance) for it in asked] for _ in range(2)]
     rows: list[tuple[Cell, ...]] = []
     for name, make in methods.items():
-        learner = make()
-        for key, (it, word) in enumerate(zip(taught, words, strict=True)):
-            learner.learn_one(it.seen, word, key=key)
-        answers = [answer(learner.predict_proba_one(it.seen)) for it in asked]
+        answers = _answers(make(), taught, words, asked)
         accepted = [
-            tutor.chances(it.true).get(word, 0.0) >= ACCEPTED
+            person.chances(it.true).get(word, 0.0) >= ACCEPTED
             for it, word in zip(asked, answers, strict=True)
         ]
-        rows.append(
-            (
-                name,
-                kappa(judged[0], judged[1]),
-                kappa([*judged[0], *judged[1]], answers * 2),
-                float(np.mean(accepted)),
-            )
-        )
+        agreed = kappa([*judged[0], *judged[1]], answers * 2)
+        rows.append((name, kappa(*judged), agreed, float(np.mean(accepted))))
     return Table(
         title="The same on rendered scenes, seen by the robot's own eyes",
         columns=("method", "judges' kappa", "robot's kappa", "accepted"),
@@ -77,6 +68,15 @@ def staged(methods: Mapping[str, Any], *, seed: int, progress: Progress) -> Tabl
         note=f"{len(taught)} lessons and {len(asked)} questions, one run; "
         f"places are {_error(taught + asked):.1f} cm off (median).",
     )
+
+
+def _answers(
+    learner: Any, taught: Sequence[_Seen], words: Sequence[str], asked: Sequence[_Seen]
+) -> list[str]:
+    """What a learner says of the questions that was taught these words."""
+    for key, (it, word) in enumerate(zip(taught, words, strict=True)):
+        learner.learn_one(it.seen, word, key=key)
+    return [answer(learner.predict_proba_one(it.seen)) for it in asked]
 
 
 def _round(stage: Synthetic, chance: np.random.Generator) -> Iterator[_Seen]:

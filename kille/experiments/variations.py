@@ -15,7 +15,7 @@ from kille.experiments.asking import (
     asked,
     confusion_figure,
     mistaken,
-    right_share,
+    right_cells,
     share_right,
     taught,
 )
@@ -31,7 +31,7 @@ __all__ = ["ANGLES", "rotation", "specimens"]
 ANGLES = tuple(range(0, 181, 15))
 
 _FEW = 3  # scans of a look, where the paper's ten would take minutes
-_SPECIMENS = 4
+_TAUGHT, _ASKED = (0, 1), (2, 3, 4, 5)  # specimens of each kind
 
 Answers = Mapping[str, Mapping[int, Sequence[Answer]]]
 """What each method answered, by the angle things were turned by."""
@@ -126,26 +126,17 @@ def _curve(by_angle: Mapping[int, Sequence[Answer]]) -> dict[str, list[float]]:
 
 def specimens(methods: Methods, *, seed: int, progress: Progress = silent) -> Result:
     """Two of each kind are taught, and others of the kind are asked for."""
-    kinds = list(NAMES)
-    taught_of, asked_of = (0, 1), tuple(range(2, 2 + _SPECIMENS))
-    steps = Steps(progress, (len(taught_of) + len(asked_of)) * len(kinds), 0, LOOKING)
-    lessons, questions = (
-        [
-            lesson
-            for number in numbers
-            for lesson in each_shown(
-                OnTable(seed, specimen=number), kinds, steps, doing, scans=_FEW
-            )
-        ]
-        for numbers, doing in ((taught_of, "lessons"), (asked_of, "new things"))
-    )
+    count = (len(_TAUGHT) + len(_ASKED)) * len(NAMES)
+    steps = Steps(progress, count, 0, LOOKING)
+    lessons = _of_each_kind(_TAUGHT, seed, steps, "lessons")
+    questions = _of_each_kind(_ASKED, seed, steps, "new things")
     steps = Steps(progress, len(methods) * len(questions), LOOKING, 1)
     answers = {
         name: asked(taught(make, lessons), questions, partial(steps, name))
         for name, make in methods.items()
     }
     rows = [
-        (name, *right_share(them), mistaken(them)) for name, them in answers.items()
+        (name, *right_cells(them), mistaken(them)) for name, them in answers.items()
     ]
     return Result(
         "New things of a known kind",
@@ -154,7 +145,7 @@ def specimens(methods: Methods, *, seed: int, progress: Progress = silent) -> Re
                 "Is a new cup a cup?",
                 ("method", "right", "share", "95 % band", "taken for what"),
                 tuple(rows),
-                f"{len(taught_of)} things of each kind taught, {len(asked_of)} others "
+                f"{len(_TAUGHT)} things of each kind taught, {len(_ASKED)} others "
                 "asked for: other proportions, colours and prints.",
             ),
         ),
@@ -164,3 +155,14 @@ def specimens(methods: Methods, *, seed: int, progress: Progress = silent) -> Re
         ),
         {"methods": {name: share_right(them) for name, them in answers.items()}},
     )
+
+
+def _of_each_kind(
+    specimens: Sequence[int], seed: int, steps: Steps, doing: str
+) -> list[Lesson]:
+    tables = (OnTable(seed, specimen=number) for number in specimens)
+    return [
+        lesson
+        for table in tables
+        for lesson in each_shown(table, NAMES, steps, doing, scans=_FEW)
+    ]

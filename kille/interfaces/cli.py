@@ -69,6 +69,20 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action=Version, nargs=0, help="print the version")
     commands = parser.add_subparsers(metavar="COMMAND", parser_class=Parser)
+    _add_demo(commands)
+    _add_talk(commands)
+    _add_replay(commands)
+    memory = commands.add_parser("memory", help="what the robot has learned")
+    actions = memory.add_subparsers(metavar="ACTION", parser_class=Parser)
+    _add_memory_actions(actions)
+    _add_evaluate(commands)
+    doctor = commands.add_parser("doctor", help="what works here, what is missing")
+    doctor.add_argument("--json", action="store_true", help="report for machines")
+    doctor.set_defaults(run=_doctor)
+    return parser
+
+
+def _add_demo(commands: Any) -> None:
     demo = commands.add_parser("demo", help="watch a tutor teach and test the robot")
     demo.add_argument(
         "--seed", type=seed, default=7, metavar="N", help="another run of chance (7)"
@@ -81,6 +95,9 @@ def _parser() -> argparse.ArgumentParser:
         help="where the picture sheet goes (kille-demo.png)",
     )
     demo.set_defaults(run=_demo)
+
+
+def _add_talk(commands: Any) -> None:
     talk = commands.add_parser("talk", help="teach the robot yourself")
     talk.add_argument(
         "--sensor",
@@ -98,6 +115,9 @@ def _parser() -> argparse.ArgumentParser:
     talk.add_argument("--lang", choices=["en"], default="en", help="language")
     talk.add_argument("--trace", action="store_true", help="show the judgements")
     talk.set_defaults(run=_talk)
+
+
+def _add_replay(commands: Any) -> None:
     replay = commands.add_parser("replay", help="play dialogue files, compare answers")
     replay.add_argument("files", nargs="+", type=Path, metavar="FILE.dlg")
     telling = replay.add_mutually_exclusive_group()
@@ -107,14 +127,6 @@ def _parser() -> argparse.ArgumentParser:
         "--junit", type=Path, metavar="FILE", help="write a report for CI (.xml)"
     )
     replay.set_defaults(run=_replay)
-    memory = commands.add_parser("memory", help="what the robot has learned")
-    actions = memory.add_subparsers(metavar="ACTION", parser_class=Parser)
-    _add_memory_actions(actions)
-    _add_evaluate(commands)
-    doctor = commands.add_parser("doctor", help="what works here, what is missing")
-    doctor.add_argument("--json", action="store_true", help="report for machines")
-    doctor.set_defaults(run=_doctor)
-    return parser
 
 
 def _add_evaluate(commands: Any) -> None:
@@ -132,13 +144,10 @@ def _add_evaluate(commands: Any) -> None:
         "regions or growth",
         methods="default and kille",
     )
-    for option, help_text in (("--teach", "teach in"), ("--ask", "ask in")):
+    for act in ("teach", "ask"):
+        told = f"a labelled scene to {act} in; may be repeated"
         objects.add_argument(
-            option,
-            action="append",
-            default=[],
-            metavar="SCENE",
-            help=f"a labelled scene to {help_text}; may be repeated",
+            f"--{act}", action="append", default=[], metavar="SCENE", help=told
         )
     relations = kinds.add_parser(
         "relations",

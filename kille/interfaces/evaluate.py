@@ -21,6 +21,7 @@ from kille.experiments.candidates import MethodFailed, Methods, candidates
 from kille.experiments.figures import MISSING, can_draw
 from kille.experiments.plans import (
     OBJECTS,
+    RELATIONS,
     Plan,
     chosen,
     object_plans,
@@ -33,7 +34,7 @@ from kille.interfaces.grids import print_table
 from kille.interfaces.terminal import FAILED, FINE, complain, console
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
-from ttr.files import check_outputs, write_whole
+from ttr.files import check_outputs, why_unread, write_whole
 
 __all__ = ["Request", "as_json", "as_tables", "evaluate"]
 
@@ -77,7 +78,10 @@ class _Tables:
             print_table(out, table)
 
     def end(
-        self, request: Request, found: Mapping[str, Result], failures: Sequence[str]
+        self,
+        about: Mapping[str, Any],
+        found: Mapping[str, Result],
+        failures: Sequence[str],
     ) -> None:
         pass
 
@@ -89,10 +93,13 @@ class _Json:
         pass
 
     def end(
-        self, request: Request, found: Mapping[str, Result], failures: Sequence[str]
+        self,
+        about: Mapping[str, Any],
+        found: Mapping[str, Result],
+        failures: Sequence[str],
     ) -> None:
         told = {
-            **_about(request),
+            **about,
             "failed": list(failures),
             "results": [_facts(name, result) for name, result in found.items()],
         }
@@ -120,25 +127,33 @@ def evaluate(request: Request, told: _Tables | _Json) -> int:
                 break
             found[plan.name] = result
             told.result(plan, result)
-        told.end(request, found, failures)
-        _write(request, found, failures)
+        about = _about(request, plans)
+        told.end(about, found, failures)
+        _write(request, about, found, failures)
     except (ExperimentError, SensorError, TTRError) as error:
         return complain(error)
     return FAILED if failures else FINE
 
 
 def _prepared(request: Request) -> tuple[Methods, list[Plan]]:
-    from kille.perception.methods import OBJECTS as objects
-    from kille.perception.methods import RELATIONS as relations
+    """Who takes part, and in what; ExperimentError where that cannot be told."""
+    try:
+        return _planned(request)
+    except OSError as error:
+        raise ExperimentError(why_unread(error.filename, error)) from error
 
-    known: Methods = objects if request.what == "objects" else relations
+
+def _planned(request: Request) -> tuple[Methods, list[Plan]]:
+    from kille.perception import methods as known
+
     _check_report(request)
-    methods = candidates(request.who, known)
     if request.what == "objects":
+        methods = candidates(request.who, known.OBJECTS)
         plans = object_plans(request.data, request.teach, request.ask)
-        return methods, chosen(plans, request.protocol, list(OBJECTS))
+        return methods, chosen(plans, request.protocol, OBJECTS)
+    methods = candidates(request.who, known.RELATIONS)
     plans = relation_plans(request.data)
-    return methods, chosen(plans, request.protocol, ["paper", "judgements"])
+    return methods, chosen(plans, request.protocol, RELATIONS)
 
 
 def _check_report(request: Request) -> None:
@@ -155,7 +170,7 @@ def _check_report(request: Request) -> None:
             f"the report is a page: name a file that ends in .html, "
             f"not {request.report.name}"
         )
-    folder = request.report.resolve().parent
+    folder = Path(os.path.realpath(request.report)).parent
     if not folder.is_dir():
         raise ExperimentError(
             f"{request.report} cannot be written: there is no folder {folder.name}"
@@ -189,25 +204,32 @@ def _measured(
 
 
 def _write(
-    request: Request, found: Mapping[str, Result], failures: Sequence[str]
+    request: Request,
+    about: Mapping[str, Any],
+    found: Mapping[str, Result],
+    failures: Sequence[str],
 ) -> None:
     if request.report is None or not found:
         return
-    about = {key: _line(value) for key, value in _about(request).items()}
+    lines = {key: _line(value) for key, value in about.items()}
     write_whole(
-        request.report, page(request.title, list(found.values()), about, failures)
+        request.report, page(request.title, list(found.values()), lines, failures)
     )
     Console(stderr=True, highlight=False, soft_wrap=True).print(
         f"report: {request.report}" + f" ({MISSING})" * (not can_draw()), markup=False
     )
 
 
-def _about(request: Request) -> dict[str, Any]:
+def _about(request: Request, plans: Sequence[Plan]) -> dict[str, Any]:
+    """How this was made; the methods are those that took part in any of the plans."""
+    took_part = dict.fromkeys(
+        name for plan in plans for name in plan.compares or request.who
+    )
     return {
         "command": join(["kille", *request.words]),
         "data": request.data or "simulated",
         "seed": request.seed,
-        "methods": list(request.who),
+        "methods": list(took_part),
         "versions": {"python": platform.python_version(), **_versions(_PACKAGES)},
     }
 

@@ -38,13 +38,14 @@ def _fitting(table: Table, width: int) -> Sequence[Table]:
     parts = _parts(table, width)
     if all(_width(part) <= width for part in parts):
         return parts
-    return [_turned(replace(table, rows=(row,))) for row in table.rows]
+    return [_turned(replace(table, rows=(row,))) for row in table.rows] or [turned]
 
 
 def _parts(table: Table, width: int) -> list[Table]:
     """The columns parted so that each part fits, the first column in all of them."""
-    parts: list[list[int]] = [[0, 1]]
-    for column in range(2, len(table.columns)):
+    count = len(table.columns)
+    parts = [[*range(min(2, count))]]
+    for column in range(2, count):
         if _width(_some(table, [*parts[-1], column])) <= width:
             parts[-1].append(column)
         else:
@@ -68,7 +69,7 @@ def _turned(table: Table) -> Table:
 def _widths(table: Table, lines: int) -> list[int]:
     """How wide each column is whose head may take so many lines."""
     return [
-        max(_narrowest(head, lines), *(cell_len(shown(row[i])) for row in table.rows))
+        max([_narrowest(head, lines), *(cell_len(shown(row[i])) for row in table.rows)])
         for i, head in enumerate(table.columns)
     ]
 

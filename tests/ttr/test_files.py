@@ -77,3 +77,14 @@ def test_a_log_stays_where_no_dialogue_begins(tmp_path, capsys):
     assert main(["play", str(story), "--log", str(log)]) == 1
     capsys.readouterr()
     assert log.read_text() == "kept"
+
+
+def test_links_that_lead_nowhere_are_told_of(tmp_path: Path) -> None:
+    loop = tmp_path / "loop"
+    loop.symlink_to(loop)
+    check_outputs([loop], [tmp_path / "a"])
+    with pytest.raises(TTRError, match="loop would be written over"):
+        check_outputs([loop], [loop])
+    with pytest.raises(TTRError, match="loop cannot be written: too many levels"):
+        write_whole(loop, "whole")
+    assert loop.is_symlink()

@@ -295,3 +295,10 @@ def test_what_is_no_list_of_questions_is_refused(junk: object) -> None:
 def test_which_asks_for_a_predicate() -> None:
     with pytest.raises(TTRError, match="asks for a predicate"):
         which(5)
+
+
+@pytest.mark.parametrize("junk", [[1], {"a": 1}, bytearray(b"x")])
+def test_what_python_cannot_hash_is_no_question_and_no_answer(junk: object) -> None:
+    with pytest.raises(TTRError, match="nothing is asked for by"):
+        asked_of(junk, Rec, Model())
+    assert asked_of(TO, junk, M) is None

@@ -194,6 +194,19 @@ def test_other_mistakes_are_told_too(kennel: Session, typed: str, said: str) -> 
     assert said in reply.text
 
 
+@pytest.mark.parametrize(
+    "typed", [":save LOOP", ":load LOOP", 'import "LOOP"', ":save a\0", ":load a\0"]
+)
+def test_what_is_no_path_of_a_file_is_told(
+    kennel: Session, tmp_path: Path, typed: str
+) -> None:
+    loop = tmp_path / "loop"
+    loop.symlink_to(loop)
+    reply = respond(kennel, typed.replace("LOOP", str(loop)))
+    assert reply.session is kennel
+    assert reply.text.startswith("error: ")
+
+
 def test_a_name_declared_by_the_theory_hides_a_question() -> None:
     session = after("basic Ind\npred create(Ind)\nobject a : Ind")
     assert respond(session, "create(a)").text == "create(a)"

@@ -112,7 +112,7 @@ def _after(
 def _entry(tree: Statement, source: Source, folder: Path) -> Entry:
     """The statement as an entry; an import in it is relative to the folder."""
     if isinstance(tree, trees.Import):
-        path = (folder / tree.path).resolve()
+        path = Path(os.path.realpath(folder / tree.path))
         try:
             theory = theory_of_file(path)
         except TTRError as error:
@@ -420,10 +420,10 @@ def saved(session: Session, path: Path) -> None:
 
     Raises `TTRError` where the file cannot be written.
     """
-    folder = path.resolve().parent
-    text = "".join(f"{_relative(entry.text, folder)}\n" for entry in session.entries)
     try:
-        write_whole(path, text)
+        folder = Path(os.path.realpath(path)).parent
+        lines = [_relative(entry.text, folder) for entry in session.entries]
+        write_whole(path, "".join(f"{line}\n" for line in lines))
     except ValueError:
         raise Unsupported(
             f"{path} cannot be written: it is no path of a file"

@@ -25,9 +25,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from kille.experiments.metrics import auroc
 from kille.perception import evidence
 from kille.perception.cues import CUES, Cue, measured, with_embedding
-from kille.perception.evidence import FARTHEST, SIZE, Weighing
+from kille.perception.evidence import SIZE, Weighing, unlike_in_size
 from kille.perception.features import features_of
 from kille.perception.index import Index, View, rooted
 from kille.perception.likeness import Examples, Kernel
@@ -189,7 +190,8 @@ def answers(
         found = votes(index.neighbours(rooted(it.descriptors)), len(index.labels), 1)
         beyond = beyond_chance(found, index.sizes, max(len(it.descriptors), 1))
         score = sum(likeness.scores.values(), np.zeros(len(index.labels)))
-        apart = np.minimum(likeness.unlike.get(SIZE, np.zeros_like(score)), FARTHEST)
+        sized = SIZE in likeness.unlike
+        apart = unlike_in_size(likeness) if sized else np.zeros_like(score)
         numbers = np.stack(
             [np.ones_like(score), score, np.sqrt(beyond), -apart], axis=1
         )
@@ -253,8 +255,7 @@ def right(asked: Iterable[Asked], weighed: Weighing) -> tuple[float, float]:
         best[it.column >= 0].append(float(degrees.max()))
         if it.column >= 0:
             named.append(bool(degrees.argmax() == it.column))
-    above = np.subtract.outer(best[True], best[False])
-    return float(np.mean(named)), float(np.mean((above > 0) + 0.5 * (above == 0)))
+    return float(np.mean(named)), auroc(best[True], best[False])
 
 
 def drawn(

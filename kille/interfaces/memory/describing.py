@@ -17,7 +17,16 @@ from kille.memory import (
 )
 from kille.scene import Direction, Point, Traits
 
-__all__ = ["colours", "legible", "lengths", "looks", "said", "seen", "title"]
+__all__ = [
+    "colours",
+    "legible",
+    "lengths",
+    "looks",
+    "said",
+    "seen",
+    "title",
+    "when",
+]
 
 _KINDS = {"object": "a thing", "relation": "where a thing is"}
 _UNSHOWN = "\N{REPLACEMENT CHARACTER}"
@@ -26,14 +35,14 @@ _HOLDS, _MOST_COLOURS = 0.5, 3
 _UNMOVED = 0.005  # metres that nobody would mention
 
 
-def _when(time: str) -> str:
-    """A time as people write it, to the minute."""
+def when(time: str) -> str:
+    """A time in ISO 8601 as people write it, to the minute."""
     return time.replace("T", " ")[:16]
 
 
 def said(turn: Turn) -> str:
     """Who said what when."""
-    return legible(f"{turn.speaker}, {_when(turn.time)}: {turn.text}")
+    return legible(f"{turn.speaker}, {when(turn.time)}: {turn.text}")
 
 
 def title(lesson: Lesson) -> str:

@@ -47,15 +47,21 @@ def forget(given: Path | None, chosen: Choice, may: Consent, report: Report) -> 
         with Memory.open(path) as memory:
             if not may(lessons):
                 return FAILED
-            before = memory.words()
-            with memory.together():
-                for lesson in lessons:
-                    memory.forget(lesson.key)
-            gone = [it.surface for it in before if it not in memory.words()]
+            gone = _forgotten(memory, lessons)
     except (MemoryFileError, NoSuchLessonError, _NobodyToAsk) as error:
         return complain(error)
     report(lessons, gone)
     return FINE
+
+
+def _forgotten(memory: Memory, lessons: Sequence[Lesson]) -> list[str]:
+    """Forgets the lessons, all or none; the words that are gone with them."""
+    before = memory.words()
+    with memory.together():
+        for lesson in lessons:
+            memory.forget(lesson.key)
+    left = {(word.kind, word.name) for word in memory.words()}
+    return [it.surface for it in before if (it.kind, it.name) not in left]
 
 
 def of(named: str) -> Choice:

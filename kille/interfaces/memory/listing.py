@@ -10,7 +10,7 @@ from pathlib import Path
 from rich.table import Table
 from rich.text import Text
 
-from kille.interfaces.memory.describing import legible
+from kille.interfaces.memory.describing import legible, when
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import Lesson, Memory, MemoryFileError
 
@@ -74,7 +74,6 @@ def _table(path: Path, entries: Sequence[_Entry]) -> Table:
     for heading in ("word", "kind", "lessons", "last taught"):
         table.add_column(heading, justify="right" if heading == "lessons" else "left")
     for entry in entries:
-        day = entry.last_taught.replace("T", " ")[:16]
-        word = Text(legible(entry.word))
-        table.add_row(word, entry.kind, str(entry.lessons), day)
+        word, last = Text(legible(entry.word)), Text(legible(when(entry.last_taught)))
+        table.add_row(word, entry.kind, str(entry.lessons), last)
     return table

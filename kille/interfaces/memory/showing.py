@@ -31,6 +31,7 @@ from kille.memory import (
     Sighting,
 )
 from kille.memory.configurations import as_json as configuration_json
+from kille.memory.pictures import JPEG
 
 __all__ = ["as_json", "as_text", "show"]
 
@@ -60,15 +61,8 @@ def show(given: Path | None, named: str, out: Path | None, report: Report) -> in
         with Memory.reading(path) as memory, memory.at_one_moment():
             keys = [lesson.key for lesson in lessons_named(memory, named)]
             report(_written(memory.lesson(key), out) for key in keys)
-    except (MemoryFileError, NoSuchLessonError) as error:
+    except (MemoryFileError, NoSuchLessonError, _Unwritable) as error:
         return complain(error)
-    except OSError as error:
-        if isinstance(error, BrokenPipeError):
-            raise
-        return complain(
-            f"the pictures cannot be written to {out} ({error.strerror}): "
-            "name another folder with --out"
-        )
     return FINE
 
 
@@ -117,7 +111,7 @@ def _draw(out: Console, picture: Picture) -> None:
     try:
         pixels = outlined(picture) if crop is None else decoded(crop.colour)
     except ValueError as error:  # it came so from another program
-        out.print(f"  {error}")
+        out.print(f"  {error}", markup=False)
         return
     out.print(half_blocks(pixels, min(_COLUMNS, out.width), _ROWS))
 
@@ -125,16 +119,27 @@ def _draw(out: Console, picture: Picture) -> None:
 # --- pictures in a folder ------------------------------------------------------------
 
 
+class _Unwritable(Exception):
+    """Pictures that cannot be written where the user wants them."""
+
+
 def _written(lesson: ObjectLesson | RelationLesson, out: Path | None) -> Shown:
     """The lesson to be shown, once its pictures are in the folder."""
-    files: dict[str, Path] = {}
     picture = lesson.seen.picture
-    if out is not None and picture is not None:
+    if out is None or picture is None:
+        return Shown(lesson, {})
+    name = re.sub(r"[^\w-]", "_", lesson.word.name)[:_NAME]
+    files: dict[str, Path] = {}
+    try:
         out.mkdir(parents=True, exist_ok=True)
-        name = re.sub(r"[^\w-]", "_", lesson.word.name)[:_NAME]
         for kind, (ending, content) in _pictures(picture).items():
             files[kind] = out / f"{lesson.key}-{name}-{kind}{ending}"
             files[kind].write_bytes(content)
+    except OSError as error:
+        raise _Unwritable(
+            f"the pictures cannot be written to {out} ({error.strerror}): "
+            "name another folder with --out"
+        ) from error
     return Shown(lesson, files)
 
 
@@ -142,7 +147,7 @@ def _pictures(picture: Picture) -> Mapping[str, tuple[str, bytes]]:
     """The pictures by what they show, with the endings of their files."""
     found = {"frame": (".jpg", picture.frame)}
     if picture.crop is not None:
-        jpeg = picture.crop.colour.startswith(b"\xff\xd8")
+        jpeg = picture.crop.colour.startswith(JPEG)
         found["crop"] = ".jpg" if jpeg else ".png", picture.crop.colour
         found["mask"] = ".png", picture.crop.mask
         if picture.crop.depth is not None:

@@ -120,6 +120,8 @@ def test_a_learner_needs_both_methods() -> None:
         ({"cup": 1e308}, "gave 'cup' the degree 1e+308"),
         ({"cup": 10**400}, "gave 'cup' the degree 1000"),
         ({"cup": np.zeros(2)}, "gave 'cup' the degree array"),
+        ({"cup": 7}, "gave 'cup' the degree 7"),
+        ({"cup": 0.8, "mug": 0.6}, "degrees sum to 1 at most, not to 1.4"),
     ],
 )
 def test_what_is_no_degree_is_refused(given: object, told: str) -> None:

@@ -59,6 +59,24 @@ def test_each_method_is_asked_at_each_size() -> None:
     )
 
 
+def test_progress_is_told_of_what_is_done() -> None:
+    learners: list[Slow] = []
+
+    class Watched(Slow):
+        def __init__(self) -> None:
+            super().__init__()
+            learners.append(self)
+
+    told: list[tuple[float, int]] = []
+    growth(
+        {"slow": Watched},
+        seed=0,
+        sizes=SIZES,
+        progress=lambda share, _: told.append((share, len(learners[0].words))),
+    )
+    assert [views for _, views in told] == [10, 20, 40]
+
+
 def test_what_takes_too_long_is_foreseen_and_marked(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import re
@@ -14,10 +15,12 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from rich.console import Console
 
 from kille.experiments import figures
 from kille.experiments.results import Figure, Result, Table
 from kille.interfaces import evaluate as interface
+from kille.interfaces.grids import print_table
 
 from .conftest import COMMAND, Run
 
@@ -96,6 +99,17 @@ def test_json_for_machines(kille: Run, place: Path) -> None:
     assert kille(*MINE, "--json", "--seed", "5").out == outcome.out
 
 
+def test_the_methods_named_are_those_that_took_part(
+    kille: Run, place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    result = Result("r", (), (), {})
+    apart = interface.Plan("apart", lambda *_, **__: result, compares=("one", "other"))
+    monkeypatch.setattr(interface, "object_plans", lambda *_: (apart,))
+    report = json.loads(kille(*MINE, "--json", "--report", "a.html").out)
+    assert report["methods"] == ["one", "other"]
+    assert "<dt>methods</dt><dd>one, other</dd>" in Path("a.html").read_text()
+
+
 def test_a_learner_that_fails_is_named_and_the_others_go_on(
     kille: Run, place: Path
 ) -> None:
@@ -132,6 +146,27 @@ WRONG = {
     ("photos", "--report", "photos/lime/0.png"): "ends in .html",
     ("photos", "--teach", "0001"): "for a folder of labelled scenes only",
 }
+
+
+WRONG_RELATIONS = {
+    ("photos",): "photos",
+    ("--protocol", "judgements"): (
+        "the protocol judgements is for people's judgements; "
+        "for this data there is paper"
+    ),
+    ("--protocol", "shots"): "there is no protocol shots: there is paper",
+}
+
+
+@pytest.mark.parametrize(
+    ("words", "told"), WRONG_RELATIONS.items(), ids=map(" ".join, WRONG_RELATIONS)
+)
+def test_a_mistake_about_relations_is_one_line(
+    kille: Run, place: Path, words: tuple[str, ...], told: str
+) -> None:
+    outcome = kille("evaluate", "relations", *words)
+    assert (outcome.code, outcome.out) == (2, "")
+    assert told in outcome.complaint
 
 
 @pytest.mark.parametrize(("words", "told"), WRONG.items(), ids=map(" ".join, WRONG))
@@ -234,6 +269,19 @@ def test_a_report_that_cannot_be_written_is_told(program: Run, place: Path) -> N
     assert [*(place / "locked").iterdir()] == []
 
 
+@pytest.mark.parametrize("what", ["objects", "relations"])
+@pytest.mark.parametrize("mode", [0o000, 0o444])
+def test_a_folder_that_may_not_be_looked_into_is_told(
+    program: Run, place: Path, what: str, mode: int
+) -> None:
+    (place / "photos").chmod(mode)
+    outcome = program("evaluate", what, "photos")
+    (place / "photos").chmod(0o755)
+    assert outcome.code == 2
+    assert "Traceback" not in outcome.err
+    assert outcome.err.startswith("kille: ")
+
+
 def test_after_ctrl_c_there_is_no_half_report(place: Path) -> None:
     started = place / "started"
     slow = f"""
@@ -308,6 +356,13 @@ def test_every_kind_of_figure_is_drawn(kind: str) -> None:
     assert not re.search(r"<!DOCTYPE|<metadata|id=\"figure", text)
 
 
+def test_a_curve_without_a_point_is_drawn_as_nothing() -> None:
+    pytest.importorskip("matplotlib")
+    series = {"a": {"mean": []}, "b": {"mean": [None, 0.5], "x": [1, 3]}}
+    text = figures.svg(Figure("curves", "title", {"x": [], "series": series}))
+    assert text.startswith("<svg")
+
+
 def test_words_of_any_kind_are_drawn_as_they_are() -> None:
     pytest.importorskip("matplotlib")
     words = ["$\\bad{$", "<b>&", "日本語 \x1b[31m", "", "long " * 60]
@@ -331,3 +386,21 @@ def test_a_head_is_broken_only_where_there_is_no_room(
     narrow = kille(*MINE, "--protocol", "shots").out.splitlines()
     assert "         degree of  right of" in narrow
     assert "method  .5 or more     these" in narrow
+
+
+@pytest.mark.parametrize("columns", [10, 100])
+@pytest.mark.parametrize("heads", [("method",), ("method", "right", "share")])
+def test_a_table_without_rows_is_its_heads(
+    columns: int, heads: tuple[str, ...]
+) -> None:
+    out = Console(file=io.StringIO(), width=columns)
+    print_table(out, Table("nobody", heads, ()))
+    assert isinstance(out.file, io.StringIO)
+    assert all(head in out.file.getvalue() for head in heads)
+
+
+def test_a_table_of_one_column_is_printed_however_wide() -> None:
+    out = Console(file=io.StringIO(), width=10)
+    print_table(out, Table("words", ("word",), (("a word that is long",), ("cup",))))
+    assert isinstance(out.file, io.StringIO)
+    assert "cup" in out.file.getvalue()

@@ -212,6 +212,18 @@ def test_a_folder_that_cannot_be_made(kille: Run, taught: Path, tmp_path: Path) 
     assert "cannot be written" in outcome.complaint
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+def test_a_full_disk_is_not_laid_to_the_pictures(taught: Path, tmp_path: Path) -> None:
+    words = ["memory", "show", "cup", "--out", str(tmp_path / "pictures")]
+    for shown in (words, words[:3]):
+        with Path("/dev/full").open("wb") as full:
+            done = subprocess.run(
+                [*COMMAND, *shown], stdout=full, stderr=subprocess.PIPE, check=False
+            )
+        told = b"kille: the output cannot be written: no space left on device\n"
+        assert (done.returncode, done.stderr) == (1, told)
+
+
 # --- forget --------------------------------------------------------------------------
 
 
