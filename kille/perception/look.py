@@ -102,12 +102,14 @@ def _track(
     """The region and what it is in each later frame, where it is found again.
 
     Later frames are taken apart if something has moved there; what stays where it is
-    has not changed its outline either. The first few are, so that a flicker is found.
+    has not changed its outline either. The first few are, so that a flicker is found,
+    and so are all where the region was not in most of these.
     """
     track = [(frames[0], region)]
     for number, frame in enumerate(frames[1:], start=1):
         before, last = track[-1]
-        if number >= _DOUBTED and _is_still(last, before, frame):
+        sure = number >= _DOUBTED and len(track) > _DOUBTED / 2
+        if sure and _is_still(last, before, frame):
             track.append((frame, region_of(frame, last.mask)))
             continue
         found = scenes(number).regions

@@ -17,7 +17,7 @@ import numpy as np
 
 from kille.perception.foreground import guess
 from kille.perception.geometry import CAMERA_UP, points_in
-from kille.perception.surfaces.merging import Merger, fitted, merged
+from kille.perception.surfaces.merging import Rounds, fitted, merged
 from kille.perception.surfaces.patches import (
     filled,
     numbered,
@@ -70,12 +70,12 @@ def segment(frame: Frame) -> Scene:
     Without depth there is one region, a guess, whose place is unknown. Without a table,
     things are the pieces that are near and not as large as a wall.
     """
-    return _segmented(frame, partial(_things, merger=fitted()))
+    return _segmented(frame, partial(_things, rounds=fitted()))
 
 
-def merging_by(merger: Merger) -> Segmentation:
+def merging_by(rounds: Rounds) -> Segmentation:
     """The same as `segment`, with a merge that was fitted otherwise."""
-    return partial(_segmented, labeller=partial(_things, merger=merger))
+    return partial(_segmented, labeller=partial(_things, rounds=rounds))
 
 
 def plainly(frame: Frame) -> Scene:
@@ -138,14 +138,14 @@ def _segmented(frame: Frame, labeller: _Labeller) -> Scene:
 
 
 def _things(
-    relief: Relief, inside: Mask, table: Plane | None, *, merger: Merger
+    relief: Relief, inside: Mask, table: Plane | None, *, rounds: Rounds
 ) -> Labels:
     """Labels (h, w) of the patches inside, those of one thing put together."""
     if table is None:
         return _pieces(relief, inside, table)
     surface = surface_of(relief)
     patches = patches_of(relief, inside, surface)
-    return merged(patches, relief, surface, table, merger)
+    return merged(patches, relief, surface, table, rounds)
 
 
 def _pieces(relief: Relief, inside: Mask, table: Plane | None) -> Labels:

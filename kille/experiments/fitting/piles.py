@@ -116,7 +116,8 @@ class _Heap:
             if borne and height <= _HIGHEST:
                 return self._put(lifted(model, height), pose)
             if self.chance.random() < 0.1:
-                leaning = turned(model, self._level_axis(), self.chance.uniform(8, 25))
+                axis, lean = _level_axis(self.chance), self.chance.uniform(8, 25)
+                leaning = turned(model, axis, lean)
                 return self._put(lifted(leaning, float(np.median(under))), pose)
 
     def put_before_wider(self, right: float) -> None:
@@ -167,9 +168,6 @@ class _Heap:
         cells = np.zeros((_CELLS, _CELLS), np.uint8)
         cv2.fillConvexPoly(cells, corners.astype(np.int32), (1,))
         return cells > 0
-
-    def _level_axis(self) -> tuple[float, float, float]:
-        return _level_axis(self.chance)
 
 
 def a_thing(chance: Chance, meshes: Sequence[Path]) -> Model:

@@ -2,11 +2,15 @@
 
 Small networks say from a pair's features how likely the two belong to one thing. Their
 log-odds are the weights of a graph, whose edges are contracted greedily, the most
-certain first; the weights of parallel edges add up [1]. The networks were fitted by
+certain first; the weights of parallel edges add up [1]. What came of it is measured
+anew and judged by other networks, to which a leg and a body are pairs of pieces where
+the first saw patches of them only [2]. The networks were fitted by
 `kille.experiments.fitting.merge`, which says on what.
 
 [1] M. Keuper et al.: Efficient decomposition of image and mesh graphs by lifted
 multicuts. ICCV 2015 (greedy additive edge contraction).
+[2] J. Nunez-Iglesias et al.: Machine learning of hierarchical clustering to segment 2D
+and 3D images. PLoS ONE 2013 (pairs are judged anew as pieces grow).
 """
 
 from __future__ import annotations
@@ -76,53 +80,68 @@ class Merger:
         return odds
 
 
+Rounds = tuple[Merger, ...]
+"""What merges patches first, and what then merges the pieces that came of it."""
+
+
 @cache
-def fitted() -> Merger:
-    """The merger that is shipped."""
+def fitted() -> Rounds:
+    """The rounds that are shipped."""
     with (files(__package__) / WEIGHTS).open("rb") as file, np.load(file) as stored:
         return unpacked(stored)
 
 
-def packed(merger: Merger) -> dict[str, NDArray[np.float32]]:
-    """The merger as named arrays, to be kept in a file."""
+def packed(rounds: Rounds) -> dict[str, NDArray[np.float32]]:
+    """The rounds as named arrays, to be kept in a file."""
     arrays = {
-        f"{kind} {name}": np.asarray(values, np.float32)
+        f"{number} {kind} {name}": np.asarray(values, np.float32)
+        for number, merger in enumerate(rounds)
         for kind in ("touching", "parted")
         for name, values in vars(getattr(merger, kind)).items()
     }
-    return {**arrays, "bias": np.array([merger.bias], np.float32)}
+    biases = [merger.bias for merger in rounds]
+    return {**arrays, "biases": np.array(biases, np.float32)}
 
 
-def unpacked(stored: Mapping[str, NDArray[np.float32]]) -> Merger:
-    """The merger of these named arrays. ValueError if it judges other features."""
-    touching, parted = (
-        Committee(
-            **{
-                name: stored[f"{kind} {name}"].astype(np.float64)
-                for name in Committee.__dataclass_fields__
-            }
+def unpacked(stored: Mapping[str, NDArray[np.float32]]) -> Rounds:
+    """The rounds of these named arrays. ValueError if they judge other features."""
+    rounds = tuple(
+        Merger(
+            _committee(stored, f"{number} touching"),
+            _committee(stored, f"{number} parted"),
+            float(bias),
         )
-        for kind in ("touching", "parted")
+        for number, bias in enumerate(stored["biases"])
     )
-    if touching.mean.shape != (len(FEATURES),):
-        raise ValueError(
-            f"the merger judges {touching.mean.size} features, not {len(FEATURES)}: "
-            "fit it anew by `python -m kille.experiments.fitting.merge`"
-        )
-    return Merger(touching, parted, float(stored["bias"][0]))
+    for merger in rounds:
+        if merger.touching.mean.shape != (len(FEATURES),):
+            raise ValueError(
+                f"the merger judges {merger.touching.mean.size} features, not "
+                f"{len(FEATURES)}: "
+                "fit it anew by `python -m kille.experiments.fitting.merge`"
+            )
+    return rounds
+
+
+def _committee(stored: Mapping[str, NDArray[np.float32]], kind: str) -> Committee:
+    names = Committee.__dataclass_fields__
+    return Committee(**{it: stored[f"{kind} {it}"].astype(np.float64) for it in names})
 
 
 def merged(
-    labels: Labels, relief: Relief, surface: Surface, table: Plane, merger: Merger
+    labels: Labels, relief: Relief, surface: Surface, table: Plane, rounds: Rounds
 ) -> Labels:
     """Labels (h, w) in which the patches of one thing have one label, from 1."""
-    number = int(labels.max())
-    if number < 2:
-        return labels
-    pairs = pairs_of(labels, relief, surface, measured(labels, relief, surface, table))
-    things = contracted(number, pairs, merger.log_odds(pairs))
-    together: Labels = np.concatenate([[0], things + 1]).astype(np.int32)[labels]
-    return together
+    for merger in rounds:
+        number = int(labels.max())
+        if number < 2:
+            break
+        patches = measured(labels, relief, surface, table)
+        pairs = pairs_of(labels, relief, surface, patches)
+        things = contracted(number, pairs, merger.log_odds(pairs))
+        _, names = np.unique(things, return_inverse=True)
+        labels = np.concatenate([[0], names + 1]).astype(np.int32)[labels]
+    return labels
 
 
 def contracted(number: int, pairs: Pairs, odds: Vectors) -> NDArray[np.intp]:
