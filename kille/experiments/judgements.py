@@ -58,12 +58,19 @@ def judgements(
         facts={
             "study": study.name,
             "seed": seed,
-            "spearman": {
-                name: {word: round(it.spearman, 4) for word, it in scores.items()}
-                for name, scores in rights.items()
-            },
+            "spearman": _ranks(rights, "spearman"),
+            "spearman within folds": _ranks(rights, "within"),
         },
     )
+
+
+def _ranks(
+    rights: Mapping[str, Mapping[str, Score]], which: str
+) -> dict[str, dict[str, float]]:
+    return {
+        name: {word: round(getattr(it, which), 4) for word, it in scores.items()}
+        for name, scores in rights.items()
+    }
 
 
 def _draws(

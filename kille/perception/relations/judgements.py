@@ -15,7 +15,7 @@ six sums a template, so judgements have no order and are forgotten exactly.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -25,7 +25,7 @@ Vector = NDArray[np.float64]
 
 _DOUBTED = 0.03  # nobody is surer than this
 _SHIFT = 1.0  # deviations of the priors: a factor of e in the odds,
-_SLOPE = 0.05  # and little sharper or vaguer than one of the templates of the grid
+_SLOPE = 0.1  # and a little sharper or vaguer than one of the templates of the grid
 _NOISE = np.array([[0.15], [0.3], [0.6], [1.0], [1.6]])
 _ENOUGH = 15  # judgements: more tell where templates err rather than which is meant
 _PROBIT = 1.702  # the logistic nearest to the normal distribution
@@ -67,6 +67,7 @@ class Judgements:
     zy: Vector
 
     @staticmethod
+    @cache  # what follows from nothing is reckoned once
     def none(templates: int) -> Judgements:
         """Of so many templates, before anything was judged."""
         zeros = np.zeros(templates)

@@ -19,6 +19,7 @@ template is, and how sharp, how strict and how usual the word is
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -34,6 +35,7 @@ Vector = NDArray[np.float64]
 _SLIPS = 0.1  # r: about a tenth of the lessons may be wrong
 _TRUTH = 0.3  # how much of it is that what is said is true
 _DOUBTED = 0.1  # how far that may be wrong
+_RECALLED = 100  # lessons of a word among which one is looked for as a reason
 _BEFOREHAND = 16.0  # how many places the usual ones count for
 _FARTHER = 2.0  # times the farthest that was heard: there is no doubt yet
 _DOUBT = 0.35  # of the logarithm of the distance
@@ -47,6 +49,11 @@ class Lesson:
     label: str
     degree: float | None
 
+    @property
+    def denies(self) -> bool:
+        """Whether it is a plain "no"."""
+        return self.degree == 0
+
 
 @dataclass(frozen=True, eq=False)
 class Meaning:
@@ -56,10 +63,6 @@ class Meaning:
     likely: Vector
     shift: float
     slopes: Vector
-
-    def degree(self, odds: Vector) -> float:
-        """That of the mean log odds, from those of the templates."""
-        return float(degrees_at(self.shift + self.slopes @ odds))
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,17 +80,16 @@ class Evidence:
         """How many there were."""
         return self.times_said + self.judged.count
 
-    def plus(self, lesson: Lesson, times: int) -> Evidence:
-        """With the lesson so many times more."""
+    def plus(self, lesson: Lesson) -> Evidence:
+        """With one lesson more."""
         degrees = space().degrees([lesson.x])[0].astype(np.float64)
         if lesson.degree is not None:
-            judged = self.judged.plus(degrees, lesson.degree, times)
-            return replace(self, judged=judged)
+            return replace(self, judged=self.judged.plus(degrees, lesson.degree, 1))
         return replace(
             self,
-            said=self.said + times * _said(degrees),
-            covered=self.covered + times * degrees,
-            times_said=self.times_said + times,
+            said=self.said + _said(degrees),
+            covered=self.covered + degrees,
+            times_said=self.times_said + 1,
         )
 
     def meaning(self, elsewhere: Vector, count: int) -> Meaning:
@@ -101,6 +103,11 @@ class Evidence:
         likely = np.exp(scores - scores.max())
         likely /= likely.sum()
         return Meaning(likely, float(likely @ judged.shift), likely * judged.slope)
+
+
+def template_odds(seen: Sequence[Configuration]) -> Vector:
+    """The log odds (n, h) of all templates at some configurations."""
+    return log_odds(space().degrees(seen))
 
 
 def _nothing() -> Evidence:
@@ -126,9 +133,13 @@ class RelationMemory:
     def copy(self) -> RelationMemory:
         """Another memory that knows the same; either learns without the other."""
         twin = RelationMemory()
-        twin._heard, twin._evidence = dict(self._heard), dict(self._evidence)
-        twin._believed = self._believed
+        twin.become(self)
         return twin
+
+    def become(self, other: RelationMemory) -> None:
+        """Know what the other knows and nothing else; either goes on by itself."""
+        self._heard, self._evidence = dict(other._heard), dict(other._evidence)
+        self._believed = other._believed
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -155,18 +166,25 @@ class RelationMemory:
     def _learn(self, lesson: Lesson, key: Key | None) -> None:
         if key in self._heard:
             raise ValueError(f"the key {key!r} was learned before; forget it first")
-        self._count(lesson, 1)
+        old = self._evidence.get(lesson.label) or _nothing()
+        self._evidence[lesson.label] = old.plus(lesson)
         self._heard[own_key(self._heard) if key is None else key] = lesson
+        self._believed = None
 
     def forget(self, key: Key) -> None:
-        """Be as if this had never been learned; KeyError if it was not."""
-        self._count(self._heard.pop(key), -1)
+        """Be as if this had never been learned; KeyError if it was not.
 
-    def _count(self, lesson: Lesson, times: int) -> None:
-        old = self._evidence.get(lesson.label) or _nothing()
-        self._evidence[lesson.label] = old.plus(lesson, times)
-        if not self._evidence[lesson.label].lessons:
-            del self._evidence[lesson.label]
+        What the other lessons say is added up again: a sum from which one part is taken
+        is not to the last bit what it was before.
+        """
+        label = self._heard.pop(key).label
+        evidence = _nothing()
+        for lesson in self._heard.values():
+            evidence = evidence.plus(lesson) if lesson.label == label else evidence
+        if evidence.lessons:
+            self._evidence[label] = evidence
+        else:
+            del self._evidence[label]
         self._believed = None
 
     def degrees(self, x: Configuration) -> dict[str, float]:
@@ -174,6 +192,45 @@ class RelationMemory:
         if not self._evidence:
             return {}
         return dict(zip(self.labels, self._degrees(x).tolist(), strict=True))
+
+    def degrees_of(
+        self, seen: Sequence[Configuration], odds: Vector | None = None
+    ) -> list[dict[str, float]]:
+        """The same of several configurations at once.
+
+        `odds` (n, h) are what `template_odds` gives for them, for whoever asks again
+        after other lessons.
+        """
+        if not self._evidence or not seen:
+            return [{} for _ in seen]
+        found = self._believed_at(template_odds(seen) if odds is None else odds)
+        found *= np.array([self._confidence(it) for it in seen])[:, None]
+        labels = self.labels
+        return [dict(zip(labels, row, strict=True)) for row in found.tolist()]
+
+    def nearest(self, x: Configuration, label: str) -> Key | None:
+        """The lesson in a word that was given where things stood most as they do now.
+
+        What the word means says what counts: its likely templates are compared. Of
+        many lessons the newest; None if all are in where it does not hold. KeyError
+        for a word that was not learned.
+        """
+        likely = self._beliefs.meanings[self._column(label)].likely
+        own = [
+            (key, it.x)
+            for key, it in self._heard.items()
+            if it.label == label and not it.denies
+        ][-_RECALLED:]
+        if not own:
+            return None
+        here, *there = space().degrees([x, *(stand for _, stand in own)])
+        unlike = [float(likely @ np.abs(it - here)) for it in there]
+        return own[int(np.argmin(unlike))][0]
+
+    def _column(self, label: str) -> int:
+        if label not in self._evidence:
+            raise KeyError(label)
+        return self.labels.index(label)
 
     def predict_proba_one(self, x: Configuration) -> dict[str, float]:
         """How likely each word is the one to be said of x; the rest is for no word.
@@ -188,9 +245,13 @@ class RelationMemory:
         return dict(zip(self.labels, shares.tolist(), strict=True))
 
     def _degrees(self, x: Configuration) -> Vector:
-        odds = log_odds(space().degrees([x])[0])
-        found = np.array([it.degree(odds) for it in self._beliefs.meanings])
-        return found * self._confidence(x)
+        here: Vector = self._believed_at(template_odds([x]))[0]
+        return here * self._confidence(x)
+
+    def _believed_at(self, odds: Vector) -> Vector:
+        """The degrees (n, w) of all words from the log odds (n, h) of the templates."""
+        found: Vector = degrees_at(odds @ self._beliefs.slopes + self._beliefs.shifts)
+        return found
 
     def _confidence(self, x: Configuration) -> float:
         """1 as far as was heard, and down to 0 far beyond."""
@@ -213,18 +274,29 @@ class RelationMemory:
             it.meaning(covered - it.covered, int(counts.sum()) - it.times_said)
             for it in every
         )
-        distances = [math.hypot(*it.x.offset) for it in self._heard.values()]
+        # "No" tells nothing of how far words reach.
+        held = [it.x for it in self._heard.values() if not it.denies]
+        distances = [math.hypot(*x.offset) for x in held]
         known = [it for it in distances if math.isfinite(it)]
         fitting = np.array([it.likely @ covered for it in meanings])
         usual = (counts + 1) / (fitting + 1)
-        return _Beliefs(meanings, usual, max(known, default=math.inf))
+        return _Beliefs(
+            meanings,
+            usual,
+            max(known, default=math.inf),
+            np.stack([it.slopes for it in meanings], axis=1),
+            np.array([it.shift for it in meanings]),
+        )
 
 
 @dataclass(frozen=True, eq=False)
 class _Beliefs:
-    """What each word means; how usual each is where it fits, (w,); and the farthest
-    distance heard of, in metres."""
+    """What each word means; how usual each is where it fits, (w,); the farthest
+    distance heard of, in metres; and the lines of all meanings: slopes (h, w) and
+    shifts (w,)."""
 
     meanings: tuple[Meaning, ...]
     usual: Vector
     farthest: float
+    slopes: Vector
+    shifts: Vector

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import permutations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,18 +33,53 @@ def configuration(
     the middles of their regions.
     """
     here, there = places or (target.place, landmark.place)
+    axes = table_axes(up)
+    of, to = (
+        _Placed(place, _bounds(frame, region, axes))
+        for place, region in ((here, target), (there, landmark))
+    )
+    return _between(of, to, [it.place for it in others], up)
+
+
+def configurations(
+    frame: Frame, regions: Sequence[Region], up: Direction
+) -> Mapping[tuple[int, int], Configuration]:
+    """How each region stands to each other one, by the numbers of target and landmark.
+
+    As `configuration` says of each two, with all the others there; a pair of which a
+    place is unknown is missing.
+    """
+    axes = table_axes(up)
+    placed = [_Placed(it.place, _bounds(frame, it, axes)) for it in regions]
+    found = {}
+    for of, to in permutations(range(len(placed)), 2):
+        others = [it.place for i, it in enumerate(placed) if i not in (of, to)]
+        stand = _between(placed[of], placed[to], others, up)
+        if stand is not None:
+            found[of, to] = stand
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Placed:
+    """Where a thing is, and the box around it, as far as they are known."""
+
+    place: Point | None
+    box: Bounds | None
+
+
+def _between(
+    target: _Placed, landmark: _Placed, others: Sequence[Point | None], up: Direction
+) -> Configuration | None:
+    here, there = target.place, landmark.place
     if here is None or there is None:
         return None
-    axes = table_axes(up)
-    viewed = axes @ np.asarray(there, np.float64)
     found = Configuration(
         offset=offset(here, there, up),
-        viewed=_direction(viewed),
-        others=tuple(
-            offset(it.place, there, up) for it in others if it.place is not None
-        ),
+        viewed=_direction(table_axes(up) @ np.asarray(there, np.float64)),
+        others=tuple(offset(it, there, up) for it in others if it is not None),
     )
-    box, base = _bounds(frame, target, axes), _bounds(frame, landmark, axes)
+    box, base = target.box, landmark.box
     if box is None or base is None:
         return found
     held = hold(box, base)

@@ -3,15 +3,17 @@
 A template gives each configuration a degree, the applicability of the word. Those of
 directions follow the attention vector sum of Regier and Carlson 2001,
 
-    sigmoid(2 k (c - c0) - a gap), made 1 in the middle,
+    sigmoid(2 k (c - c0) + s tanh((c - c0) / w) - a gap), made 1 in the middle,
 
 c the cosine of how far the target is off the direction, the mean of that on the table
-and that against the viewer's ray. Those of distance are sigmoid(k (b - log d)), less
-where other things are nearer or between. Those of function are sigmoid(k (f - b)) of
-contact, support and containment.
+and that against the viewer's ray. With s = 0 the degree is a slope in the angle alone.
+With s > 0 there is a step at the border too: people hold places to be good, acceptable
+or bad for a word, and what parts acceptable from bad is a line (Logan and Sadler 1996).
+Those of distance are sigmoid(k (b - log d)), less where other things are nearer or
+between. Those of function are sigmoid(k (f - b)) of contact, support and containment.
 
 Each family is a grid of such templates with a prior over them. Which of them a word
-means is told by its examples alone (see `kille.perception.relations.evidence`).
+means is told by its examples alone (see `kille.perception.relations.memory`).
 """
 
 from __future__ import annotations
@@ -70,8 +72,8 @@ def _sigmoid(x: NDArray[np.floating]) -> Array:
 
 # The means are those of the prior that was found on other people's judgements of blocks
 # (k 4, c0 .55, a .1; near: k 1.5, b 1); the widths let a word be twice as sharp or
-# as vague, and its border be 30 degrees elsewhere.
-SHARPNESS = _axis([2, 4, 8], 4, 3)
+# four times as vague, and its border be 30 degrees elsewhere.
+SHARPNESS = _axis([1, 2, 4, 8], 4, 3)
 BORDER = _axis([-0.05, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 0.95], 0.55, 0.3)
 FADING = _axis([0, 0.1, 0.4], 0.1, 0.15)
 STEEPNESS = _axis([0.8, 1.5, 3, 6], 1.5, 1.5)
@@ -79,18 +81,35 @@ REACH = _axis([-0.5, 0, 0.5, 1, 1.5, 2, 2.5], 1, 0.7)
 CROWDED = _axis([0, 0.75, 1.5], 0, 1)
 PARTED = _axis([0, 0.7, 1.5], 0, 1)
 
+# The edges of cones: k and s. A sharp edge is a step already: only the vague have one.
+EDGES = np.array([[1, 0], [2, 0], [4, 0], [8, 0], [1, 1.5], [2, 1.5]], np.float32)
+_EDGE = Axis(np.arange(len(EDGES), dtype=np.float32), _axis(EDGES[:, 0], 4, 3).prior)
+_STEP = 0.1  # w: within 6 degrees of the border
+
+
+def _cone_grid() -> tuple[list[Array], NDArray[np.float64]]:
+    """k, s, c0 and a of every cone around a direction, each (h,), and their prior."""
+    (edge, c0, a), prior = _grid(_EDGE, BORDER, FADING)
+    k, s = EDGES[edge.astype(int)].T
+    return [k, s, c0, a], prior
+
 
 def _cones(cosines: Callable[[Measures], Array]) -> Callable[[Measures], Array]:
     """Templates around each of m directions, from their cosines (n, m).
 
     Each is made so high that it is 1 in the middle of its cone.
     """
-    (k, c0, a), _ = _grid(SHARPNESS, BORDER, FADING)
-    highest = _sigmoid(2 * k * (1 - c0))
+    (k, s, c0, a), _ = _cone_grid()
+
+    def inside(c: ArrayLike) -> Array:
+        beyond = np.asarray(c, np.float32) - c0
+        return np.asarray(2 * k * beyond + s * np.tanh(beyond / _STEP), np.float32)
+
+    highest = _sigmoid(inside(1.0))
 
     def degrees(of: Measures) -> Array:
-        c = cosines(of)[:, :, None]
-        off = 2 * k * (c - c0) - a * of.gap[:, None, None]
+        c = cosines(of)
+        off = inside(c[:, :, None]) - a * of.gap[:, None, None]
         return (_sigmoid(off) / highest).reshape(len(c), -1)
 
     return degrees
@@ -98,7 +117,7 @@ def _cones(cosines: Callable[[Measures], Array]) -> Callable[[Measures], Array]:
 
 def _cone_prior(of_directions: ArrayLike, share: float) -> NDArray[np.float64]:
     weights = np.asarray(of_directions, np.float64)
-    _, prior = _grid(SHARPNESS, BORDER, FADING)
+    _, prior = _cone_grid()
     return share * np.outer(weights / weights.sum(), prior).ravel()
 
 

@@ -49,6 +49,16 @@ def test_learners_are_held_against_people() -> None:
     assert again.tables == result.tables
 
 
+def test_a_word_of_few_scenes_is_in_few_folds() -> None:
+    study = invented()
+    rare = {**study.words, "rare": study.words["left"][:3]}
+    few = Study("invented", rare, {**study.about, "rare": "left"})
+    result = judgements(few, METHODS, seed=1, progress=silent)
+    within = result.facts["spearman within folds"]["default"]
+    assert set(within) == set(rare)
+    assert min(within["left"], within["right"]) > 0.8
+
+
 def test_a_learner_with_two_methods_takes_part() -> None:
     class Shrug:
         def learn_one(self, x: Configuration, label: str) -> None:

@@ -9,7 +9,6 @@ import pytest
 
 from kille.experiments.causes import Cause, played
 from kille.experiments.judges import WORDS, Person, born
-from kille.experiments.metrics import kappa
 from kille.experiments.results import silent
 from kille.experiments.spatial import paper, published
 from kille.experiments.staged import staged
@@ -78,19 +77,6 @@ def test_the_published_kappas_follow_from_their_margins() -> None:
     (_, _, _, judges), (_, _, _, robot) = published().rows
     assert judges == pytest.approx(0.4313, abs=5e-4)
     assert robot == pytest.approx(0.0537, abs=5e-4)
-
-
-def test_a_kappa_of_the_papers_can_be_told_from_answers() -> None:
-    """32 answers on which two agree 17 times, chance agreement being .176."""
-    ones = [
-        word
-        for word, count in zip(WORDS, (6, 6, 6, 6, 4, 4), strict=True)
-        for _ in range(count)
-    ]
-    others = [*ones[:17], *(ones[17:][3:] + ones[17:][:3])]
-    seen = np.mean([one == other for one, other in zip(ones, others, strict=True)])
-    by_chance = sum((ones.count(w) / 32) * (others.count(w) / 32) for w in WORDS)
-    assert kappa(ones, others) == pytest.approx((seen - by_chance) / (1 - by_chance))
 
 
 def test_the_report_has_a_row_for_each_cause_and_is_seeded(

@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kille.perception.learners import check_learner
@@ -203,6 +203,45 @@ def test_no_is_learned_from() -> None:
         memory.judge_one(at(0.5, 0.0), "near", math.nan)
 
 
+@settings(max_examples=40)
+@given(
+    st.sampled_from(sorted(WAYS)),
+    st.floats(0.05, 1.5),
+    st.floats(-math.pi, math.pi),
+    st.integers(1, 4),
+)
+def test_a_no_weakens_that_word_there_and_is_forgotten_exactly(
+    word: str, far: float, bearing: float, lessons: int
+) -> None:
+    """Also beyond all that was heard: a denial never makes a word fit better."""
+    memory, place = taught(lessons), around(bearing, far)
+    asked = [place, *(at(0.25 * right, 0.25 * away) for right, away in WAYS.values())]
+    before = [memory.degrees(x) for x in asked]
+    memory.judge_one(place, word, 0.0, key="no")
+    after = [memory.degrees(x) for x in asked]
+    assert after[0][word] < before[0][word]
+    for old, new in zip(before, after, strict=True):
+        assert {**new, word: old[word]} == old
+    memory.forget("no")
+    assert [memory.degrees(x) for x in asked] == before
+
+
+def test_a_correction_is_a_no_and_a_lesson() -> None:
+    """ "No, it is behind the book": not left there, and behind."""
+    memory, place = taught(3), around(math.radians(140), 0.25)
+    before = memory.degrees(place)
+    assert best(before) == "zap"
+    memory.judge_one(place, "zap", 0.0, key="no")
+    memory.learn_one(place, "bakom", key="behind")
+    after = memory.degrees(place)
+    assert after["zap"] < before["zap"] - 0.2
+    assert after["bakom"] > before["bakom"]
+    assert best(memory.predict_proba_one(place)) == "bakom"
+    memory.forget("behind")
+    memory.forget("no")
+    assert memory.degrees(place) == before
+
+
 def test_words_for_the_same_places_share_the_choice() -> None:
     memory = taught(4)
     for x in said("zap", 4, np.random.default_rng(0)):
@@ -299,3 +338,69 @@ def test_a_lesson_that_cannot_be_taken_leaves_nothing_behind() -> None:
     with pytest.raises(KeyError):
         memory.forget("odd")
     assert memory.degrees(at(0.2, 0.0)) == before
+
+
+# --- forgetting, asking of many, reasons ----------------------------------------------
+
+stands = st.builds(
+    Configuration,
+    st.tuples(*[st.floats(-0.5, 0.5)] * 3),
+    viewed=st.just((0.0, 1.0, -0.4)),
+    contact=st.none() | st.floats(0, 1),
+)
+told = st.tuples(stands, st.sampled_from(["near", "left"]), st.booleans())
+
+
+def teach(
+    memory: RelationMemory, x: Configuration, word: str, holds: bool, key: object
+) -> None:
+    if holds:
+        memory.learn_one(x, word, key=key)
+    else:
+        memory.judge_one(x, word, 0.0, key=key)
+
+
+@given(before=st.lists(told, max_size=5), more=told, asked=stands)
+def test_to_forget_is_exact_to_the_last_bit(
+    before: list[tuple[Configuration, str, bool]],
+    more: tuple[Configuration, str, bool],
+    asked: Configuration,
+) -> None:
+    memory = RelationMemory()
+    for key, lesson in enumerate(before):
+        teach(memory, *lesson, key)
+    then = memory.degrees(asked), memory.predict_proba_one(asked)
+    kept = memory.copy()
+    teach(memory, *more, "more")
+    memory.forget("more")
+    assert (memory.degrees(asked), memory.predict_proba_one(asked)) == then
+    if before:
+        memory.forget(0)
+        memory.become(kept)
+        assert (memory.degrees(asked), memory.predict_proba_one(asked)) == then
+
+
+@given(before=st.lists(told, max_size=4), asked=st.lists(stands, max_size=4))
+def test_many_are_judged_as_each_of_them(
+    before: list[tuple[Configuration, str, bool]], asked: list[Configuration]
+) -> None:
+    memory = RelationMemory()
+    for key, lesson in enumerate(before):
+        teach(memory, *lesson, key)
+    together = memory.degrees_of(asked)
+    assert len(together) == len(asked)
+    for degrees, x in zip(together, asked, strict=True):
+        assert degrees == pytest.approx(memory.degrees(x), abs=1e-6)
+
+
+def test_the_nearest_lesson_is_so_in_what_the_word_means() -> None:
+    memory = RelationMemory()
+    near, far = Configuration((-0.1, 0.0, 0.0)), Configuration((0.0, 0.5, 0.0))
+    memory.judge_one(Configuration((-0.5, 0.0, 0.0)), "near", 0.0, key="no")
+    assert memory.nearest(near, "near") is None
+    memory.learn_one(far, "near", key="far")
+    memory.learn_one(near, "near", key="near")
+    assert memory.nearest(Configuration((0.1, 0.0, 0.0)), "near") == "near"
+    assert memory.nearest(Configuration((0.1, 0.6, 0.0)), "near") == "far"
+    with pytest.raises(KeyError):
+        memory.nearest(near, "left")

@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.perception.relations.bounds import Bounds, bounds_of, hold
-from kille.perception.relations.seeing import configuration
+from kille.perception.relations.seeing import configuration, configurations
 from kille.perception.segment import region_of
-from kille.scene import Configuration
+from kille.scene import Configuration, Region
 from kille.sensors.sensor import At
 from kille.sensors.synthetic.sensor import open_synthetic
 
@@ -79,3 +79,18 @@ def test_a_book_beside_a_car() -> None:
     assert found.viewed[1] > 0.4
     assert found.viewed[2] < 0
     assert found.support == 0
+
+
+def test_all_pairs_are_seen_as_each_of_them() -> None:
+    stage = open_synthetic("synthetic:empty?seed=3")
+    for thing, at in (("book", -0.2), ("cup", 0.0), ("car", 0.25)):
+        stage.place(thing, At(at, 0.05))
+    frame = stage.frame()
+    regions = [region_of(frame, mask) for mask in frame.outlines.values()]
+    regions.append(Region(regions[0].mask, regions[0].box, None))
+    up = (0.0, -0.8, -0.6)
+    pairs = configurations(frame, regions, up)
+    assert pairs.keys() == {(i, j) for i in range(3) for j in range(3) if i != j}
+    for (i, j), stand in pairs.items():
+        others = [it for n, it in enumerate(regions) if n not in (i, j)]
+        assert stand == configuration(frame, regions[i], regions[j], others, up)
