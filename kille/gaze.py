@@ -29,11 +29,13 @@ class View:
     Only when more goes than comes do the later ones move up. `focus` is the number of
     what the tutor points at, else of the nearest thing, which stays while the same
     things are in view, even if noise in the depth makes another one the nearer now and
-    then; None when nothing is in view.
+    then; None when nothing is in view. `kept` are the numbers of the things that had
+    them before.
     """
 
     look: Look
     focus: int | None
+    kept: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +65,7 @@ class Gaze:
         before = self.attention.view
         order = _in_order(seen.percepts, before)
         focus = _focus(order, before) if pointed is None else _first(order, seen)
-        view = View(replace(seen, percepts=tuple(order)), focus)
+        view = View(replace(seen, percepts=tuple(order)), focus, _kept(order, before))
         self.attention = Attention(pointed, view)
         return view
 
@@ -132,6 +134,12 @@ def _found_again(
         left = [percept for percept in left if percept is not again]
         found.append(again)
     return found
+
+
+def _kept(order: Sequence[Percept], before: View | None) -> tuple[int, ...]:
+    """The numbers of the things that had them before."""
+    found = zip(order, _found_again(order, before), strict=False)
+    return tuple(n for n, (it, again) in enumerate(found, start=1) if it is again)
 
 
 def _focus(order: Sequence[Percept], before: View | None) -> int | None:

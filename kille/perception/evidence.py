@@ -12,7 +12,8 @@ takes off how unlike the example nearest in size is:
 
     e_c(w) = r score_c(w) [- a d_size(w) if c is size],   e_features(w) = v √votes(w)
 
-Size alone rejects: it is what light, distance and dirt do not change, while a thing may
+where d_size is 3 at most, and 0 for a word no example of which has a known size. Size
+alone rejects: it is what light, distance and dirt do not change, while a thing may
 well have another colour than all examples of its word. b, r, a and v were fitted
 (`kille.experiments.fitting.evidence`) to things of which many had not been taught, seen
 in another light and partly hidden, and to pictures of things that are mostly new.
@@ -58,10 +59,15 @@ class Weighing:
         """What each cue adds for the words; `votes` (words,) are beyond chance."""
         added = {cue: self.score * score for cue, score in likeness.scores.items()}
         if SIZE in added:
-            apart = np.minimum(likeness.unlike[SIZE], FARTHEST)
-            added[SIZE] = added[SIZE] - self.size * apart
+            added[SIZE] = added[SIZE] - self.size * unlike_in_size(likeness)
         added[FEATURES] = self.votes * np.sqrt(votes)
         return Evidence(labels, self.base, added)
+
+
+def unlike_in_size(likeness: Likeness) -> Numbers:
+    """d_size for each word (words,): 0 where no size of the word is known."""
+    apart = likeness.unlike[SIZE]
+    return np.where(np.isfinite(apart), np.minimum(apart, FARTHEST), 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +79,7 @@ class Evidence:
     added: Mapping[str, Numbers]
 
     def degrees(self) -> dict[str, float]:
-        """The degree of each word; they sum to less than 1."""
+        """The degree of each word; they sum to 1 at most."""
         logs = self.base + sum(self.added.values(), np.zeros(len(self.labels)))
         highest = max(float(logs.max(initial=0.0)), 0.0)
         strengths = np.exp(logs - highest)
@@ -104,6 +110,8 @@ class Evidence:
 @cache
 def weighing(name: str = "default") -> Weighing:
     """A weighing that comes with the package: `default`, or with the `embedding`.
+
+    KeyError for another name.
 
     >>> weighing().size > 0
     True

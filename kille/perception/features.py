@@ -43,28 +43,27 @@ def features_of(frame: Frame, region: Region, sift: cv2.SIFT | None = None) -> F
     grey = np.asarray(cv2.cvtColor(frame.colour[crop], cv2.COLOR_RGB2GRAY), np.uint8)
     brim = np.ones((2 * _BRIM + 1,) * 2, np.uint8)
     mask = np.asarray(cv2.dilate(region.mask[crop].astype(np.uint8), brim), np.uint8)
-    keypoints, descriptors = (sift or _sift()).detectAndCompute(*_smaller(grey, mask))
+    seen, inside = _smaller(grey, mask)
+    keypoints, descriptors = (sift or _sift()).detectAndCompute(seen, inside)
     if not keypoints:
         return NONE
-    corner = np.array([box.left, box.top], np.float32)
-    found = np.array([point.pt for point in keypoints], np.float32)
-    pixels = found * _stretch(grey) + corner
+    # The middle of a pixel is its whole number, hence the halves.
+    stretch = np.divide(grey.shape, seen.shape)[::-1]
+    corner = np.array([box.left, box.top]) + (stretch - 1) / 2
+    found = np.array([point.pt for point in keypoints])
+    pixels = np.asarray(found * stretch + corner, np.float32)
     return Features(descriptors.astype(np.uint8), pixels, points_at(frame, pixels))
 
 
 def _smaller(grey: Grey, mask: Grey) -> tuple[Grey, Grey]:
-    stretch = _stretch(grey)
-    if stretch == 1:
+    """Both as they are, or with about as many pixels as SIFT is given at most."""
+    stretch = np.sqrt(grey.size / _MOST)
+    if stretch <= 1:
         return grey, mask
     size = tuple(max(1, int(side / stretch)) for side in grey.shape[::-1])
     few = cv2.resize(grey, size, interpolation=cv2.INTER_AREA)
     inside = cv2.resize(mask, size, interpolation=cv2.INTER_NEAREST)
     return np.asarray(few, np.uint8), np.asarray(inside, np.uint8)
-
-
-def _stretch(grey: Grey) -> float:
-    """How many of its pixels become one."""
-    return max(1.0, float(np.sqrt(grey.size / _MOST)))
 
 
 @cache

@@ -15,7 +15,6 @@ Array = NDArray[np.float32]
 CAMERA_UP: Direction = (0.0, -1.0, 0.0)
 """What counts as up when no table is seen: a camera that is held level."""
 
-
 _NEAREST, _FARTHEST = 1e-3, 1e3  # metres: a number beyond them is no reading
 
 
@@ -93,7 +92,7 @@ def _usable(lens: Intrinsics) -> bool:
 def _stretched(depth: Depth, shape: tuple[int, int]) -> Depth:
     """The depth at another size (H, W), each pixel from the reading nearest to it."""
     rows, columns = (
-        np.arange(size) * have // size
+        (2 * np.arange(size) + 1) * have // (2 * size)
         for size, have in zip(shape, depth.shape, strict=True)
     )
     stretched: Depth = depth[rows[:, None], columns]

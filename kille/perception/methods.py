@@ -2,7 +2,8 @@
 
 Each name gives a learner that has learned nothing. `kille` is the paper's own way in
 both lists, `default` is what the robot uses, and `embedding` the same with a pretrained
-network as one cue more.
+network as one cue more. `votes` has features alone, as the paper's, but pooled: what
+the literature mostly compares with. `angle` is a rule that measures one number.
 """
 
 from __future__ import annotations
@@ -14,8 +15,11 @@ from kille.perception.evidence import weighing
 from kille.perception.learners import Learner
 from kille.perception.objects import ObjectMemory
 from kille.perception.paper import PaperObjects
+from kille.perception.pooled import PooledVotes
 from kille.perception.relations import AngleRule, PaperRelations, RelationMemory
 from kille.scene import Configuration, Percept
+
+__all__ = ["OBJECTS", "RELATIONS"]
 
 
 def _with_embedding() -> Learner[Percept]:
@@ -26,6 +30,7 @@ def _with_embedding() -> Learner[Percept]:
 OBJECTS: Mapping[str, Callable[[], Learner[Percept]]] = {
     "default": ObjectMemory,
     "kille": PaperObjects,
+    "votes": PooledVotes,
     "embedding": _with_embedding,
 }
 

@@ -5,6 +5,12 @@ learned descriptor: so the very thing that was shown is known again. Traits, suc
 colours, size and form, are compared with those of examples: so a new cup is known as a
 cup. `kille.perception.evidence` says how they are weighed, and what is left for what
 has not been learned.
+
+A word may also be denied of a thing: "this is not a cup". That weakens this word there
+and for what is like that, and is evidence for no other: it is an example against it
+(`kille.perception.opposing`), and features near those of the denied view vote for it no
+more than if another word had such (`kille.perception.votes`). Other words gain only
+what it leaves them.
 """
 
 from __future__ import annotations
@@ -17,22 +23,19 @@ from numpy.typing import NDArray
 
 from kille.perception.cues import CUES, Cue, measured
 from kille.perception.evidence import Evidence, Weighing, weighing
+from kille.perception.features import NONE
 from kille.perception.index import Index, View, distances, rooted
 from kille.perception.index.building import Builder
 from kille.perception.learners import Key, own_key
 from kille.perception.likeness import Examples, Likeness
-from kille.perception.votes import beyond_chance, votes
+from kille.perception.votes import beyond_chance, rivals, votes
 from kille.scene import Features, Percept, Traits
 
 __all__ = ["ObjectMemory", "kept_features"]
 
 _KEPT_SCANS = 4
+_RECALLED = 24  # views of a word that are looked through by their features
 _NEW = 0.25  # RootSIFT distance; what is nearer was seen in an earlier scan
-NO_FEATURES = Features(
-    np.empty((0, 128), np.uint8),
-    np.empty((0, 2), np.float32),
-    np.empty((0, 3), np.float32),
-)
 
 
 class ObjectMemory:
@@ -48,28 +51,44 @@ class ObjectMemory:
         self,
         views: Iterable[View] = (),
         *,
+        denied: Iterable[View] = (),
         weighed: Weighing | None = None,
         cues: Mapping[str, Cue] = CUES,
         builder: Builder | None = None,
     ) -> None:
-        """The memory that was taught these views in this order."""
+        """The memory that was taught these views in this order.
+
+        `denied` are views of what their words do not hold of.
+        """
         self._index = Index(views, builder=builder)
+        self._denied: dict[Key, View] = {}
         self._weighing = weighed or weighing()
         self._cues = cues
         self._examples: Examples | None = None
         self._latest: Examples | None = None
+        for view in denied:
+            self.deny(view)
 
     def copy(self) -> ObjectMemory:
         """Another memory that knows the same; either learns without the other."""
         twin = object.__new__(ObjectMemory)
-        twin.__dict__.update(self.__dict__)
-        twin._index = self._index.copy()
+        twin.become(self)
         return twin
+
+    def become(self, other: ObjectMemory) -> None:
+        """Know what the other knows and nothing else; either goes on by itself."""
+        self.__dict__.update(other.__dict__)
+        self._index, self._denied = other._index.copy(), dict(other._denied)
 
     @property
     def views(self) -> tuple[View, ...]:
-        """All that was learned, in order."""
+        """All that was learned, in order, but for what was denied."""
         return tuple(self._index.views.values())
+
+    @property
+    def denied(self) -> tuple[View, ...]:
+        """The views of what their words do not hold of, in order."""
+        return tuple(self._denied.values())
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -78,12 +97,25 @@ class ObjectMemory:
 
     def learn_one(self, x: Percept, label: str, *, key: Key | None = None) -> None:
         """Take the percept as an instance of it; ValueError if the key is taken."""
-        named = own_key(self._index.views) if key is None else key
-        self.learn(self.view_of(x, label, key=named))
+        self.learn(self.view_of(x, label, key=self._own_key() if key is None else key))
+
+    def deny_one(self, x: Percept, label: str, *, key: Key | None = None) -> None:
+        """Take the percept as no instance of it; ValueError if the key is taken.
+
+        A word that was only denied is not known.
+        """
+        self.deny(self.view_of(x, label, key=self._own_key() if key is None else key))
 
     def learn(self, view: View) -> None:
         """Take a view as `view_of` makes it; ValueError if its key is taken."""
+        self._require_free(view.key)
         self._index.learn(view)
+        self._examples = None
+
+    def deny(self, view: View) -> None:
+        """Take a view of what its word does not hold of; ValueError like `learn`."""
+        self._require_free(view.key)
+        self._denied[view.key] = view
         self._examples = None
 
     def view_of(self, x: Percept, label: str, *, key: Key) -> View:
@@ -92,12 +124,14 @@ class ObjectMemory:
 
     def forget(self, key: Key) -> None:
         """Be as if this had never been learned; KeyError if it was not."""
-        self._index.forget(key)
+        if self._denied.pop(key, None) is None:
+            self._index.forget(key)
         self._examples = None
 
     def forget_word(self, label: str) -> None:
         """Be as if the word had never been learned; KeyError if it was not."""
-        keys = [view.key for view in self.views if view.label == label]
+        every = (*self.views, *self.denied)
+        keys = [view.key for view in every if view.label == label]
         if not keys:
             raise KeyError(label)
         for key in keys:
@@ -109,14 +143,15 @@ class ObjectMemory:
 
     def evidence(self, x: Percept) -> Evidence:
         """What each cue says for each word; of no words, if nothing is seen."""
-        query, traits = _descriptors(x.scans), self.traits_of(x)
+        query, traits = descriptors_of(x.scans), self.traits_of(x)
         labels = self.labels
         if not labels or not (traits or len(query)):
             return Evidence((), self._weighing.base, {})
         cast = np.zeros(len(labels))
         if len(query):
             found = self._index.neighbours(rooted(query))
-            cast = votes(found, len(labels), len(x.scans))
+            rivalling = rivals(found, rooted(query), labels, self.denied)
+            cast = votes(found, len(labels), len(x.scans), rivalling)
             cast = beyond_chance(cast, self._index.sizes, len(query) / len(x.scans))
         return self._weighing.evidence(labels, self._likeness(traits), cast)
 
@@ -129,13 +164,50 @@ class ObjectMemory:
             _MORE[x] = measured(x.frame, x.region, lacking)
         return {**x.traits, **_MORE[x]}
 
+    def nearest(self, x: Percept, label: str) -> View | None:
+        """The remembered view of a word that is most like what is seen, by its traits.
+
+        Where no trait tells, by the features of the newest ones. None if nothing does;
+        KeyError for a word that was not learned.
+        """
+        labels = self.labels
+        if label not in labels:
+            raise KeyError(label)
+        found = self._compared().nearest(self.traits_of(x), labels.index(label))
+        return self._nearest_in_features(x, label) if found is None else found
+
+    def _nearest_in_features(self, x: Percept, label: str) -> View | None:
+        own = [it for it in self.views if it.label == label and len(it.descriptors)]
+        query = rooted(descriptors_of(x.scans[:1]))
+        if not own or not len(query):
+            return None
+        apart = [
+            distances(query, rooted(it.descriptors)).min(axis=1).mean()
+            for it in own[-_RECALLED:]
+        ]
+        return own[-_RECALLED:][int(np.argmin(apart))]
+
     def _likeness(self, traits: Traits) -> Likeness:
+        return self._compared().likeness(traits)
+
+    def _compared(self) -> Examples:
         if self._examples is None:
             self._examples = Examples(
-                self.views, self.labels, self._weighing.kernels, self._latest
+                self.views,
+                self.labels,
+                self._weighing.kernels,
+                self._latest,
+                denied=self.denied,
             )
             self._latest = self._examples
-        return self._examples.likeness(traits)
+        return self._examples
+
+    def _own_key(self) -> Key:
+        return own_key({*self._index.views, *self._denied})
+
+    def _require_free(self, key: Key) -> None:
+        if key in self._denied or key in self._index.views:
+            raise ValueError(f"the key {key!r} was learned before; forget it first")
 
 
 _MORE: WeakKeyDictionary[Percept, Traits] = WeakKeyDictionary()
@@ -151,7 +223,7 @@ def kept_features(x: Percept) -> Features:
     chosen = sorted(
         {round(i) for i in np.linspace(0, count - 1, min(count, _KEPT_SCANS))}
     )
-    kept = NO_FEATURES
+    kept = NONE
     for i in chosen:
         scan = x.scans[i]
         new = _is_new(scan.descriptors, kept.descriptors)
@@ -169,7 +241,6 @@ def _is_new(more: NDArray[np.uint8], kept: NDArray[np.uint8]) -> NDArray[np.bool
     return new
 
 
-def _descriptors(scans: Sequence[Features]) -> NDArray[np.uint8]:
-    return np.concatenate(
-        [np.empty((0, 128), np.uint8), *(it.descriptors for it in scans)]
-    )
+def descriptors_of(scans: Sequence[Features]) -> NDArray[np.uint8]:
+    """The descriptors (n, 128) of all scans together."""
+    return np.concatenate([NONE.descriptors, *(it.descriptors for it in scans)])

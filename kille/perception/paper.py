@@ -10,7 +10,8 @@ whatever it is: nothing is ever new. The numbers of FLANN are not in the paper, 
 the ratio: the former are those of OpenCV's tutorial on matching, the latter is .75.
 
 It is slow on purpose: its time grows with every view. It also has KILLE's bias, that
-things with few features are taken for things with many.
+things with few features are taken for things with many. Where hardly a view matches, as
+in pictures of categories, the votes of `kille.perception.pooled` do better.
 """
 
 from __future__ import annotations
@@ -34,10 +35,7 @@ Options = dict[str, bool | int | float | str]
 
 _RATIO = 0.75
 _COMPARED = 2  # descriptors of a view with each feature
-_TREES: dict[str, bool | int | float | str] = {
-    "algorithm": 1,
-    "trees": 5,
-}  # randomised kd-trees
+_TREES: Options = {"algorithm": 1, "trees": 5}  # 1: randomised kd-trees
 _CHECKS: Options = {"checks": 50}
 _SEED = 1
 _BEST = 20  # features whose points make the place of a thing
@@ -45,13 +43,12 @@ _BEST = 20  # features whose points make the place of a thing
 
 @dataclass(frozen=True, eq=False)
 class _Stored:
-    """A view as it was stored: the word, its descriptors, and trees over them.
+    """A view as it was stored: the word, and trees over its descriptors.
 
     There are none over fewer than two descriptors, which nothing can match.
     """
 
     label: str
-    descriptors: Rows
     trees: cv2.flann.Index | None
 
 
@@ -135,7 +132,7 @@ def _stored(label: str, descriptors: NDArray[np.uint8]) -> _Stored:
     rows = descriptors.astype(np.float32)
     cv2.setRNGSeed(_SEED)  # the same lesson, the same trees
     trees = cv2.flann.Index(rows, _TREES) if len(rows) >= _COMPARED else None
-    return _Stored(label, rows, trees)
+    return _Stored(label, trees)
 
 
 def _nearest(stored: _Stored, scan: Features) -> Rows:

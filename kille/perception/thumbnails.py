@@ -163,7 +163,7 @@ def _depth(crop: Crop) -> Depth | None:
 
 
 def _read(picture: bytes, flags: int) -> NDArray[Any]:
-    pixels = cv2.imdecode(np.frombuffer(picture, np.uint8), flags)
+    pixels = cv2.imdecode(np.frombuffer(picture, np.uint8), flags) if picture else None
     if pixels is None:
         raise ValueError("a picture that was kept cannot be decoded")
     return pixels

@@ -11,33 +11,69 @@ most things asked about had not been taught.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.index import NOBODY, Neighbours, Rows
+from kille.perception.index import NOBODY, Neighbours, Rows, View, distances, rooted
+from kille.perception.index.views import thinned
 
 UNTAUGHT = 0.45
 """The RootSIFT distance to expect of a descriptor of something else."""
 
 _CHANCE, _CHANCE_POWER = 0.23, 0.65  # a and b
 _SIZE_POWER = 0.5
+_DENIED = 2000  # descriptors of what was denied of a word that are compared
 
 
-def votes(found: Neighbours, words: int, scans: int) -> NDArray[np.float64]:
+def votes(
+    found: Neighbours, words: int, scans: int, rivalling: Rows | None = None
+) -> NDArray[np.float64]:
     """The votes for each of so many words, from the neighbours of all features.
 
     The same picture under two words: both distances are 0, and so is the weight.
+    `rivalling` (n,) are distances that count as if another word had such a descriptor.
     """
     if not found.words.shape[1]:
         return np.zeros(words)
-    rows = np.arange(len(found.words))
-    nearest = found.distances.argmin(axis=1)
-    first, winner = found.distances[rows, nearest], found.words[rows, nearest]
+    winner, first = _nearest(found)
     second = np.minimum(_nearest_other(found, winner[:, None]), UNTAUGHT)
+    if rivalling is not None:
+        second = np.minimum(second, rivalling)
     weights = np.where(first < second, 1 - first / np.maximum(second, 1e-9), 0)
     someone = winner != NOBODY
     cast = np.bincount(winner[someone], weights[someone], minlength=words)
     return np.asarray(cast / scans, np.float64)
+
+
+def rivals(
+    found: Neighbours, query: Rows, labels: Sequence[str], denied: Sequence[View]
+) -> Rows | None:
+    """How far each feature (n,) is from what was denied of the word it would vote for.
+
+    It is infinite where nothing was; None if nothing was denied of any of the words.
+    """
+    opposed = sorted({it.label for it in denied} & set(labels))
+    if not opposed or not found.words.shape[1]:
+        return None
+    winner, _ = _nearest(found)
+    apart = np.full(len(query), np.inf, np.float32)
+    for label in opposed:
+        voting = np.flatnonzero(winner == labels.index(label))
+        against = thinned([it for it in denied if it.label == label], _DENIED)
+        others = rooted(np.concatenate([it.descriptors for it in against]))
+        if len(voting) and len(others):
+            apart[voting] = distances(query[voting], others).min(axis=1)
+    return apart
+
+
+def counted(found: Neighbours, words: int) -> NDArray[np.intp]:
+    """How many features have their nearest neighbour in each of so many words."""
+    if not found.words.shape[1]:
+        return np.zeros(words, np.intp)
+    winner, _ = _nearest(found)
+    return np.bincount(winner[winner != NOBODY], minlength=words)
 
 
 def beyond_chance(
@@ -55,6 +91,13 @@ def beyond_chance(
     shares = (counts / counts.mean()) ** _SIZE_POWER
     chance = _CHANCE * max(features, 1) ** _CHANCE_POWER
     return np.asarray(cast / shares / chance, np.float64)
+
+
+def _nearest(found: Neighbours) -> tuple[NDArray[np.intp], Rows]:
+    """The word (n,) of the nearest neighbour of each feature, and its distance (n,)."""
+    rows = np.arange(len(found.words))
+    nearest = found.distances.argmin(axis=1)
+    return found.words[rows, nearest], found.distances[rows, nearest]
 
 
 def _nearest_other(found: Neighbours, words: NDArray[np.intp]) -> Rows:

@@ -16,7 +16,7 @@ def shape(patch: Patch) -> Vector | None:
 
     The share of the picture (or, with depth, the area in dm²) as a logarithm; how wide
     it is to its height, upright and along its own axes; how much of its box and of its
-    convex hull it fills; how round it is; how many edges of holes; Hu's moments 1-4.
+    convex hull it fills; how round it is; how the longer axis leans; Hu's moments 1-4.
     None for a region of next to no pixels.
     """
     if patch.framed is None:

@@ -18,7 +18,7 @@ def size(patch: Patch) -> Vector | None:
     """log(reach + 1 cm) along the three principal axes (3,), longest first.
 
     It is the size of what is visible, not of what is hidden behind it; twice as long is
-    as far from the thing's own size as half as long. None without depth.
+    as far from the thing's own size as half as long. None for fewer than 20 points.
     """
     extents = reach(patch)
     if extents is None:
@@ -28,7 +28,10 @@ def size(patch: Patch) -> Vector | None:
 
 
 def reach(patch: Patch) -> Array | None:
-    """How far the region's points reach along their principal axes (3,) in metres."""
+    """How far the region's points reach along their principal axes (3,) in metres.
+
+    Those at its edges count only if there are too few others; None if too few at all.
+    """
     for points in (patch.inner_points, patch.points):
         if len(points) >= _LEAST_POINTS:
             return _extents(points)

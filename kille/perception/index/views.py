@@ -44,13 +44,11 @@ def rooted(descriptors: Descriptors) -> Rows:
 
 def distances(query: Rows, others: Rows) -> Rows:
     """The distances (n, m) between descriptors of length 1."""
-    return _apart(query @ others.T)
-
-
-def _apart(alike: Rows) -> Rows:
-    alike *= -2
-    alike += 2
-    return np.sqrt(np.maximum(alike, 0, out=alike), out=alike)
+    apart: Rows = query @ others.T
+    apart *= -2
+    apart += 2
+    np.maximum(apart, 0, out=apart)
+    return np.sqrt(apart, out=apart)
 
 
 def stacked(views: Sequence[View]) -> Descriptors:

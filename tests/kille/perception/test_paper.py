@@ -10,7 +10,7 @@ from tabletop import Camera, Card, frame_of, percept_of, prototypes
 
 from kille.perception.learners import check_learner
 from kille.perception.look import look
-from kille.perception.paper import PaperObjects
+from kille.perception.paper import PaperObjects, _scans
 from kille.scene import Percept, Point
 
 WORDS = {"cup": 1, "book": 2, "shoe": 3}
@@ -89,7 +89,7 @@ def test_opencvs_own_sift_looks_at_the_frames() -> None:
     (percept,) = look(Camera(*frames), 3).percepts
     memory = PaperObjects()
     memory.learn_one(percept, "book")
-    stored = memory._views[0].descriptors
+    stored = _scans(percept)[0].descriptors
     assert 10 < len(stored) < len(percept.scans[0].descriptors)
     place = memory.locate(percept, "book")
     assert isinstance(place, Point)

@@ -137,6 +137,8 @@ def test_pictures_that_cannot_be_decoded_are_named(cup: Percept) -> None:
     broken = Crop(crop.colour[:40], crop.mask)
     with pytest.raises(ValueError, match="cannot be decoded"):
         restored(broken)
+    with pytest.raises(ValueError, match="cannot be decoded"):
+        decoded(b"")
     other = evidence_of(frame_of(cup), region_in(480, 640, Box(0, 0, 9, 9)))
     with pytest.raises(ValueError, match="is not that of a crop"):
         restored(Crop(crop.colour, crop_of(other).mask))

@@ -169,3 +169,57 @@ def test_contradicting_lessons_share_the_choice() -> None:
     chances = memory.predict_proba_one(RED)
     assert chances["röd"] == pytest.approx(chances["rouge"])
     assert 0.8 < sum(chances.values()) < 1
+
+
+# --- what was denied ------------------------------------------------------------------
+
+
+def test_a_colour_that_was_denied_is_not_said_of_it_again() -> None:
+    memory = ColourMemory(xkcd())
+    before, chances = memory.degrees(RED), memory.predict_proba_one(RED)
+    memory.deny_one(RED, "red")
+    after = memory.degrees(RED)
+    assert after["red"] < 0.5 < before["red"]
+    assert {**after, "red": 0} == {**before, "red": 0}
+    assert memory.degrees(BLUE) == pytest.approx(ColourMemory(xkcd()).degrees(BLUE))
+    fewer = memory.predict_proba_one(RED)
+    assert fewer["red"] < 0.5 * chances["red"]
+    assert {**fewer, "red": 0} == {**chances, "red": 0}
+
+
+def test_a_new_word_is_denied_too_but_not_known_by_that() -> None:
+    memory = ColourMemory()
+    memory.deny_one(RED, "zap", key="no")
+    assert memory.labels == ()
+    assert memory.degrees(RED) == memory.predict_proba_one(RED) == {}
+    memory.learn_one(ORANGE, "zap")
+    assert memory.degrees(RED)["zap"] < memory.degrees(ORANGE)["zap"]
+    memory.forget("no")
+    assert memory.degrees(ORANGE)["zap"] == pytest.approx(1)
+
+
+@given(taught=lessons, x=palettes, word=st.sampled_from(["red", "zap"]))
+def test_a_denial_is_forgotten_to_the_last_bit(
+    taught: list[tuple[Palette, str]], x: Palette, word: str
+) -> None:
+    memory = ColourMemory(xkcd())
+    for palette, said in taught:
+        memory.learn_one(palette, said)
+    before = memory.degrees(x), memory.predict_proba_one(x)
+    for teach in (memory.deny_one, memory.learn_one):
+        teach(x, word, key="more")
+        degrees, chances = memory.degrees(x), memory.predict_proba_one(x)
+        assert all(0 <= p <= 1 for p in [*degrees.values(), *chances.values()])
+        assert sum(chances.values()) <= 1 + 1e-9
+        memory.forget("more")
+        assert (memory.degrees(x), memory.predict_proba_one(x)) == before
+
+
+def test_the_nearest_lesson_in_a_colour_is_of_the_likest_colours() -> None:
+    memory = ColourMemory(xkcd())
+    assert memory.nearest(RED, "red") is None
+    memory.learn_one(ORANGE, "red", key=1)
+    memory.learn_one(RED, "red", key=2)
+    assert memory.nearest(plain(lab_of([210, 30, 35])), "red") == 2
+    assert memory.knows("red")
+    assert not memory.knows("zap")

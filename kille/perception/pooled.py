@@ -1,0 +1,45 @@
+"""Pooled votes: a plain way to tell words by local features, to compare others with.
+
+All learned descriptors are in one pool. Each feature of what is seen votes for the word
+of the nearest of them, with one whole vote, and the votes for a word are divided by how
+many descriptors of it there are. With nobody's votes left over, nothing is ever new.
+
+Source: the voting of Schmid & Mohr 1997, "Local grayvalue invariants for image
+retrieval", here with RootSIFT, and for words, not for single pictures.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from kille.perception.index import Index, View, rooted
+from kille.perception.learners import Key, own_key
+from kille.perception.objects import descriptors_of, kept_features
+from kille.perception.votes import counted
+from kille.scene import Percept
+
+__all__ = ["PooledVotes"]
+
+
+class PooledVotes:
+    """A learner of words for things, from percepts: features only, one vote each."""
+
+    def __init__(self) -> None:
+        self._index = Index()
+
+    def learn_one(self, x: Percept, label: str, *, key: Key | None = None) -> None:
+        """Put its features into the pool; ValueError if the key is taken."""
+        named = own_key(self._index.views) if key is None else key
+        self._index.learn(View(named, label, kept_features(x).descriptors))
+
+    def forget(self, key: Key) -> None:
+        """Be as if this had never been learned; KeyError if it was not."""
+        self._index.forget(key)
+
+    def predict_proba_one(self, x: Percept) -> dict[str, float]:
+        """The share of each word in the votes; all 0 if nobody votes."""
+        labels = self._index.labels
+        found = self._index.neighbours(rooted(descriptors_of(x.scans)))
+        votes = counted(found, len(labels)) / np.maximum(self._index.sizes, 1)
+        shares = votes / max(float(votes.sum()), 1e-9)
+        return dict(zip(labels, shares.tolist(), strict=True))
