@@ -3,42 +3,51 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
-from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from kille.dialogue import games
-from kille.dialogue.language import NotUnderstood, understand
+from kille.body import Body
+from kille.dialogue.language import Sentence, understand
 from kille.dialogue.meanings import (
-    named,
-    noun,
-    predicate_at,
-    relation,
+    set_to,
+    sign,
     theory,
-    value_at,
     word_of,
 )
-from kille.dialogue.state import STATE, blank_model, forms, initial
-from kille.dialogue.wording import english
+from kille.dialogue.state import blank_model
+from kille.dialogue.tutoring import heard, tutoring
+from kille.dialogue.wording import did_not_understand, lexicon
 from kille.exchange import Exchange, Said
 from kille.gaze import Gaze, View
-from kille.knowledge import Evidence, Knowledge, Named
-from kille.memory import Memory, Turn
+from kille.journal import Journal
+from kille.knowledge import Knowledge
+from kille.memory import Memory, MemoryFileError
 from kille.perception.look import SCANS
-from kille.sensors.sensor import Sensor
+from kille.recollection import sign_of
+from kille.sensors.sensor import Sensor, SensorError
 from kille.witness import Witnesses, thing
 from kille.words import Vocabulary
-from ttr import Model, Record, RecordType, record
+from ttr import (
+    Judgement,
+    Model,
+    Record,
+    RecType,
+    Singleton,
+    record,
+)
 from ttr.perceptual import Meaning, Speaker
-from ttr.updates import Algorithm, Run, Step, run
+from ttr.probability import CERTAIN
+from ttr.updates import Game, Run, Step
 
 __all__ = ["Agent"]
 
 _POINTING = re.compile(r"#([0-9]{1,6})\b")
+
+TUTOR = "tutor"
 
 Played = tuple[Exchange, Run]
 """A turn, and the state and model that it leads to."""
@@ -61,12 +70,16 @@ class Agent:
         sensor: str | Sensor = "synthetic",
         memory: Memory | Path | str | None = None,
         *,
+        language: str = "en",
+        mode: str = "",
+        wording: str = "",
         scans: int = SCANS,
         now: Callable[[], datetime] = lambda: datetime.now(UTC),
     ) -> None:
         self.gaze = Gaze(sensor, scans)
+        self.language, self._mode, self._wording = language, mode, wording
         self._now = now
-        self._lexicon = english()
+        self._lexicon = lexicon(language)
         self.exchanges: list[Exchange] = []
         with ExitStack() as failing:
             failing.callback(self.gaze.close)
@@ -78,25 +91,59 @@ class Agent:
     def _wake(self, memory: Memory) -> None:
         """Begin a dialogue, knowing what the memory holds."""
         knowledge = Knowledge(memory)
-        witnesses = Witnesses(knowledge.objects, knowledge.relations)
-        words = memory.words()
-        nouns = [noun(word.surface) for word in words if word.kind == "object"]
-        links = [relation(word.surface) for word in words if word.kind == "relation"]
-        self._dialogue = memory.begin_dialogue(self._time())
-        self._turns = self._looks = 0
+        witnesses = Witnesses.of(knowledge)
+        colours = tuple(self._colour_words(knowledge.colours.labels))
+        taught = [sign_of(word) for word in memory.words()]
+        known = list({word_of(it): it for it in (*colours, *taught)}.values())
+        self._looks = 0
         self.memory, self._knowledge, self._witnesses = memory, knowledge, witnesses
-        self.state: Record = initial(nouns, links, self._lexicon.bands)
-        self.model: Model = witnesses.in_model(blank_model(), nouns, links)
+        self._journal = Journal(memory, self._now)
+        body = Body(knowledge, witnesses, self.gaze, self._journal, self._now)
+        self.game: Game = tutoring(
+            known,
+            language=self.language,
+            mode=self._mode,
+            wording=self._wording,
+            model=witnesses.in_model(blank_model(), known),
+            act=body.act,
+            colours=colours,
+        )
+        self._now_at = self.game.begin()
+
+    def _colour_words(self, known: Iterable[str]) -> Iterator[Record]:
+        """The words of its language for colours that people have named for it."""
+        by_meaning = {means: form for form, means in self._lexicon.means.items()}
+        for name in known:
+            form = by_meaning.get(name, "" if by_meaning else name)
+            if form:
+                yield sign(form, "adjective", means=name)
+
+    @property
+    def state(self) -> Record:
+        """The information state: all that it knows of the dialogue."""
+        return self._now_at.state
+
+    @property
+    def model(self) -> Model:
+        """The model in which its judgements are made."""
+        return self._now_at.model
 
     # --- what a user does ------------------------------------------------------------
 
     def hear(self, text: str) -> str:
         """Take in what the tutor says; the robot's answer, a sentence a line.
 
-        `#2` in the text points at the thing with that number. What is not understood
-        leaves the state as it was.
+        `#2` in the text points at the thing with that number. Who says nothing leaves
+        the floor to the robot. What is not understood leaves the state as it was.
         """
         return self._taking(lambda: self._hearing(_legible(text)))
+
+    def hear_perhaps(self, *texts: tuple[str, float]) -> str:
+        """Take in what the tutor perhaps says: one of these texts, each so probable.
+
+        Each is one move. What was not heard well enough, the robot asks about.
+        """
+        return self._taking(lambda: self._overhearing(texts))
 
     def look(self) -> str:
         """Look at the scene of one's own accord; what the robot then says, if anything.
@@ -134,8 +181,9 @@ class Agent:
         They judge what is in the looks that it remembers. What they learn is learned by
         new meanings: it is neither kept nor known to the robot.
         """
-        private, known = self.state.private, self._knowledge
+        known = self._knowledge
         vocabulary = Vocabulary(self._witnesses, known.objects, known.relations)
+        private = self.state.private
         return vocabulary.speaker("robot", private.nouns, private.relations)
 
     def meaning(self, word: str) -> Meaning:
@@ -182,157 +230,96 @@ class Agent:
 
         The state is taken over, and the answer given, when all of it is on disk.
         """
-        attention, turns = self.gaze.attention, self._turns
+        attention = self.gaze.attention
         try:
-            with self._knowledge.together():
+            with self._knowledge.together(), self._journal.whole():
                 exchange, after = turn()
-                self._record_answer(exchange)
-        except BaseException:
-            self.gaze.attention, self._turns = attention, turns
+        except BaseException as error:
+            self.gaze.attention = attention
             self._witnesses.reconsider()
-            raise
-        self.state, self.model = after.state, after.model
+            raise _cause(error) from error
+        self._now_at = after
         self.exchanges.append(exchange)
         return exchange.answer
 
     def _hearing(self, text: str) -> Played:
-        turn = self._turn("tutor", text)
-        so_far = Run(self.state, self.model, ())
-        words = _POINTING.sub(" ", text)
-        try:
-            utterance = understand(words)
-        except NotUnderstood:
-            self._record(turn)
-            sorry = Said(self._lexicon.did_not_understand(words), None)
-            return Exchange(text, None, (), (sorry,)), so_far
-        for number in _POINTING.findall(text):
+        """Take in all that a text says, move by move."""
+        numbers = _POINTING.findall(text)
+        for number in numbers:
             self.gaze.point(number)
-        if "look" in utterance.content:
-            so_far = self._seeing(games.LOOKED, so_far)
-        event, model = so_far.model.create(utterance.type)
-        heard = model.judge(event, utterance.type)
-        so_far = self._playing(games.HEARD, so_far._replace(model=model), event)
-        turn = replace(turn, judgement=str(heard))
-        self._record(turn)
-        after, said = self._acting(so_far, turn)
-        return Exchange(text, heard, after.trace, said), after
+        words = _POINTING.sub(" ", text)
+        if not words.strip():
+            if not numbers or not self.state.shared.qud:
+                return self._looking()
+            words = self._lexicon.pointing
+        exchange, now = Exchange(text, None, (), ()), self._now_at
+        for sentence in understand(words, self.language):
+            exchange, now = self._answering(sentence, heard(sentence), exchange, now)
+        return exchange, now
+
+    def _overhearing(self, texts: Sequence[tuple[str, float]]) -> Played:
+        """Take in a move that may have been said in one of several ways."""
+        sentences = [understand(_legible(text), self.language)[0] for text, _ in texts]
+        ways = tuple(reading for it in sentences for reading in it.readings)
+        text = " | ".join(f"{text} {p:g}" for text, p in texts)
+        text = text if ways else max(texts, key=lambda it: it[1])[0]
+        event = heard(*sentences, p=[p for _, p in texts])
+        so_far = Exchange(text, None, (), ())
+        return self._answering(Sentence(text, ways), event, so_far, self._now_at)
+
+    def _answering(
+        self, sentence: Sentence, event: object, so_far: Exchange, now: Run
+    ) -> Played:
+        """Take in one move of the tutor's, and answer it."""
+        self._journal.heard(sentence.text)
+        if not sentence.readings:
+            sorry = Said(did_not_understand(self._lexicon, sentence.text), None)
+            self._journal.said(sorry.text)
+            return so_far.then(None, (), (sorry,)), now
+        if any("look" in reading.content for reading in sentence.readings):
+            glance, now = self._seeing("Glance", "tutor", now)
+            so_far = so_far.then(None, glance.steps, ())
+        answered, after = self._played(now, event)
+        judged = _judged(sentence, answered.steps, after.model)
+        self._journal.understood(str(judged))
+        return so_far.then(judged, answered.steps, answered.said), after
 
     def _looking(self) -> Played:
         """A look of one's own accord, about which nothing can be learned yet."""
-        so_far = self._seeing(games.SCENE_CHANGED, Run(self.state, self.model, ()))
-        after, said = self._acting(so_far, self._turn("world", ""))
-        return Exchange("", None, after.trace, said), after
+        self._journal.looking()
+        return self._seeing("Seen", "robot", self._now_at)
+
+    def _played(self, now: Run, event: object) -> Played:
+        """Play an event, and what the robot says to it."""
+        assert self.game.say is not None
+        turn = self.game.take(now, event)
+        said = tuple(Said(self.game.say(move), move) for move in turn.said)
+        for it in said:
+            self._journal.said(it.text, str(it.judgement))
+        return Exchange("", None, turn.trace, said), turn.run
 
     # --- seeing ----------------------------------------------------------------------
 
-    def _seeing(self, algorithm: Algorithm, so_far: Run) -> Run:
+    def _seeing(self, kind: str, floor: str, now: Run) -> Played:
         """Take a look, and play it as an event."""
         view = self.gaze.look()
         self._looks += 1
         handle = f"look{self._looks}"
-        self._witnesses.remember(handle, view.look, _looks_of(so_far.state))
-        percepts = view.look.percepts
-        things = [thing(number) for number in range(1, len(percepts) + 1)]
-        placed = [
-            x
-            for x, percept in zip(things, percepts, strict=True)
-            if percept.region.place is not None
-        ]
-        focus = [] if view.focus is None else [thing(view.focus)]
-        model = so_far.model.given(handle, theory()["Look"])
+        self._witnesses.remember(handle, view.look, _looks_of(now.state))
+        things = [thing(number) for number in range(1, len(view.look.percepts) + 1)]
+        places = [percept.region.place for percept in view.look.percepts]
+        seen = record(
+            look=handle,
+            things=things,
+            placed=[x for x, place in zip(things, places, strict=True) if place],
+            focus=[] if view.focus is None else [thing(view.focus)],
+        )
+        model = now.model.given(handle, theory()["Look"])
         for x in things:
             model = model.given(x, theory()["Ind"])
-        seen = record(look=handle, things=things, placed=placed, focus=focus)
-        event = record(view=seen)
-        return self._playing(algorithm, so_far._replace(model=model), event)
-
-    def _playing(self, algorithm: Algorithm, so_far: Run, event: Record) -> Run:
-        """Play an event through an algorithm, and add to the trace."""
-        state, model, _ = so_far
-        after = run(algorithm, state, type=STATE, model=model, events=[event])
-        return after._replace(trace=so_far.trace + after.trace)
-
-    # --- acting ----------------------------------------------------------------------
-
-    def _acting(self, so_far: Run, turn: Turn) -> tuple[Run, tuple[Said, ...]]:
-        """Make the moves on the agenda: learn, then say it, then it has been said."""
-        said: list[Said] = []
-        while so_far.state.private.agenda:
-            planned = so_far.state.private.agenda[0]
-            move, model = so_far.model.create(planned)
-            model = self._learned(planned, move, model, turn)
-            private = so_far.state.private
-            known = forms(private.nouns, private.relations, move.signs)
-            sentence = self._lexicon.say(move, predicate_at(planned, "e").name, known)
-            said.append(Said(sentence, model.judge(move, planned)))
-            so_far = self._playing(games.SAID, so_far._replace(model=model), move)
-        return so_far, tuple(said)
-
-    def _learned(
-        self, planned: RecordType, move: Record, model: Model, turn: Turn
-    ) -> Model:
-        """The model after the lesson that a move claims to have been, if it does."""
-        if planned <= named("Learned"):
-            self._learn_noun(move, turn)
-            self._witnesses.reconsider()
-            return self._witnesses.in_model(model, move.signs, ())
-        if planned <= named("LearnedRelation"):
-            self._learn_relation(move, turn)
-            return self._witnesses.in_model(model, (), move.signs)
-        return model
-
-    def _learn_noun(self, move: Record, turn: Turn) -> None:
-        (sign,) = move.signs
-        look = value_at(move.content, "look")
-        percept = self._witnesses.percept(value_at(move.content, "x"), look)
-        if percept is None:
-            raise RuntimeError(f"{look} was let go before its lesson")
-        evidence = self._evidence(turn, look)
-        name = word_of(sign).name
-        self._knowledge.learn_noun(name, sign.form, percept, evidence)
-
-    def _learn_relation(self, move: Record, turn: Turn) -> None:
-        (sign,) = move.signs
-        look = value_at(move.content, "look")
-        target, landmark = move.content["target"], move.content["landmark"]
-        x, y = value_at(target, "x"), value_at(landmark, "x")
-        stand = self._witnesses.configuration(x, y, look)
-        if stand is None:
-            raise RuntimeError(f"{look} was let go before its lesson")
-        things = self._named(target, x, look), self._named(landmark, y, look)
-        evidence = self._evidence(turn, look)
-        name = word_of(sign).name
-        self._knowledge.learn_relation(name, sign.form, things, stand, evidence)
-
-    def _named(self, content: RecordType, x: str, look: str) -> Named:
-        """A thing in a look, by the word that is said of it there."""
-        percept = self._witnesses.percept(x, look)
-        if percept is None:
-            raise RuntimeError(f"{look} was let go before its lesson")
-        return predicate_at(content, "c").name, percept
-
-    def _evidence(self, turn: Turn, handle: str) -> Evidence:
-        look = self._witnesses.look(handle)
-        time = 0.0 if look is None else look.frame.time
-        return Evidence(turn, self.gaze.sensor.name, time)
-
-    # --- keeping track ---------------------------------------------------------------
-
-    def _record_answer(self, exchange: Exchange) -> None:
-        for said in exchange.said:
-            judged = "" if said.judgement is None else str(said.judgement)
-            self._record(self._turn("robot", said.text, judged))
-
-    def _record(self, turn: Turn) -> None:
-        self.memory.record_turn(turn)
-        self._turns = turn.number
-
-    def _turn(self, speaker: str, text: str, judgement: str = "") -> Turn:
-        number = self._turns + 1
-        return Turn(self._dialogue, number, speaker, text, judgement, self._time())
-
-    def _time(self) -> str:
-        return self._now().isoformat(timespec="milliseconds")
+        kept = [thing(number) for number in view.kept]
+        event = record(view=seen, kept=kept, floor=floor)
+        return self._played(now._replace(model=model), event)
 
 
 def _opened(memory: Memory | Path | str | None) -> Memory:
@@ -344,9 +331,34 @@ def _opened(memory: Memory | Path | str | None) -> Memory:
     return Memory.open(Path(memory))
 
 
+def _cause(error: BaseException) -> BaseException:
+    """What failed: the body's own error, where a move failed because of it."""
+    cause: BaseException | None = error
+    while cause is not None and not isinstance(cause, SensorError | MemoryFileError):
+        cause = cause.__cause__
+    return error if cause is None else cause
+
+
+def _judged(sentence: Sentence, steps: Sequence[Step], model: Model) -> Judgement:
+    """The move that a sentence was taken to be, as a judgement.
+
+    An answer to a question of the robot's may make another move the latest one.
+    """
+    taken = [it.after.shared.latest for it in steps if it.after.shared.latest]
+    judged = (
+        model.judge(move, set_to(reading.type, content=RecType @ move.content))
+        for move in reversed(taken)
+        if move.spkr == TUTOR
+        for reading in sentence.readings
+    )
+    return next(it for it in judged if it.p == CERTAIN)
+
+
 def _looks_of(s: Record) -> set[str]:
-    """The looks that the tutor may still confirm something about."""
-    return {str(value_at(content, "look")) for content in s.shared.pending}
+    """The looks that the tutor may still confirm or make clear something about."""
+    open_ = [option.content for issue in s.shared.qud for option in issue.options]
+    looks = [it.get("look") for it in (*s.shared.pending, *open_)]
+    return {str(look.value) for look in looks if isinstance(look, Singleton)}
 
 
 def _legible(text: str) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from kille.agent import Agent
-from kille.dialogue.wording import english
+from kille.dialogue.wording import lexicon
 from kille.exchange import Exchange
 from kille.gaze import View
 
@@ -77,7 +77,7 @@ def demonstration(robot: Agent) -> Iterator[Event]:
     """Teaches and tests a robot on a stage with the ten objects, step by step."""
     for word in OBJECTS:
         yield from _world(robot, f"show {word}")
-        yield _said(robot, f"This is {english().with_article(word)}.")
+        yield _said(robot, f"This is {lexicon().with_article(word)}.")
     for word in OBJECTS:
         yield from _world(robot, f"show {word}")
         turn = _said(robot, "What is this?").turn

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ttr import Judgement
@@ -25,13 +26,25 @@ class Said:
 class Exchange:
     """What one turn did: what was heard, the rules that ran, what was said.
 
-    `heard` is None where the robot only looked, or did not understand.
+    `heard` is the last move of the tutor's in it; None where the robot only looked, or
+    did not understand.
     """
 
     text: str
     heard: Judgement | None
     steps: tuple[Step, ...]
     said: tuple[Said, ...]
+
+    def then(
+        self, heard: Judgement | None, steps: Iterable[Step], said: Iterable[Said]
+    ) -> Exchange:
+        """The turn with more of it."""
+        return Exchange(
+            self.text,
+            self.heard if heard is None else heard,
+            (*self.steps, *steps),
+            (*self.said, *said),
+        )
 
     @property
     def answer(self) -> str:

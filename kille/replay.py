@@ -8,12 +8,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 from kille.agent import Agent
+from kille.dialogue.language import LANGUAGES
 from kille.dialogue.meanings import theory
 from kille.memory import Memory
 from kille.sensors.sensor import SensorError
 from ttr import TTRError, TypeNode
+from ttr.errors import UpdateError
 from ttr.probability import CERTAIN
-from ttr.stories import SILENCE, Line, Mismatch, Story, failing, fits
+from ttr.stories import SILENCE, Line, Mismatch, Story, alternatives, failing, fits
 
 __all__ = ["Echo", "play"]
 
@@ -33,11 +35,17 @@ def play(
     if story.game is not None:
         raise story.game.wrong("a story that names its game is played by `ttr play`")
     try:
-        robot = Agent(_first_scene(story), memory)
+        robot = Agent(_first_scene(story), memory, language=_language(story))
     except SensorError as error:
         raise story.lines[0].wrong(str(error)) from error
     with robot:
         return _Playing(robot, echo).play(story)
+
+
+def _language(story: Story) -> str:
+    """The language of a story: that of its file's name, as in `naming.sv.dlg`."""
+    suffixes = [suffix.lstrip(".") for suffix in Path(story.lines[0].file).suffixes]
+    return next((it for it in suffixes if it in LANGUAGES), LANGUAGES[0])
 
 
 def _first_scene(story: Story) -> str:
@@ -99,12 +107,20 @@ class _Playing:
         if line.mark == "U>":
             return self._robot.hear(line.text)
         if line.mark == "U~":
-            raise line.wrong("the robot is told things for certain: write `U>`")
+            return self._overheard(line)
         if not line.text.startswith("scene "):
             return self._robot.do(line.text)
         if not self._started:
             return self._robot.look()
         return self._robot.do(f"scene {_expanded(line)}")
+
+    def _overheard(self, line: Line) -> str:
+        """What the robot says to what the tutor perhaps said."""
+        said = [(it.text, it.p) for it in alternatives(line)]
+        try:
+            return self._robot.hear_perhaps(*said)
+        except UpdateError as error:
+            raise line.wrong(error.message) from error
 
     def _compare(self, line: Line) -> Mismatch | None:
         found = self._said.pop(0) if self._said else ""

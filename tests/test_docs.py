@@ -11,8 +11,11 @@ from __future__ import annotations
 import argparse
 import doctest
 import importlib
+import inspect
 import os
+import pkgutil
 import re
+import runpy
 import shlex
 import shutil
 import subprocess
@@ -41,6 +44,16 @@ RUNS = PROGRAMS | {"pytest": "pytest"}
 
 def named(page: Path) -> str:
     return page.relative_to(ROOT).as_posix()
+
+
+# --- what is played ------------------------------------------------------------------
+
+
+def test_the_games_are_shown_as_they_are_played() -> None:
+    script = ROOT / "docs" / "pictures" / "games.py"
+    played: str = runpy.run_path(str(script))["page"]()
+    shown = (ROOT / "docs" / "reference" / "games.md").read_text("utf-8")
+    assert played == shown, "run `python docs/pictures/games.py`"
 
 
 # --- links ---------------------------------------------------------------------------
@@ -294,10 +307,6 @@ def strings() -> dict[str, set[str]]:
 def test_the_python_reference_names_what_is_public() -> None:
     described = tables(ROOT / "docs" / "reference" / "python.md")
     perceptual = importlib.import_module("ttr.perceptual")
-    cues = importlib.import_module("kille.perception.cues")
-    index = importlib.import_module("kille.perception.index")
-    colours = importlib.import_module("kille.perception.colours")
-    relations = importlib.import_module("kille.perception.relations")
     with Agent(sensor="synthetic:empty") as robot, Memory.transient() as memory:
         robot.do("show cup")
         robot.hear("This is a cup.")
@@ -317,18 +326,9 @@ def test_the_python_reference_names_what_is_public() -> None:
             **property_tests(),
             **gameboards(),
             "kille": set(kille.__all__),
-            "kille.perception.colours": set(colours.__all__),
-            "kille.perception.cues": set(cues.__all__),
-            "kille.perception.index": set(index.__all__),
-            "kille.perception.relations": set(relations.__all__),
-            **{
-                name: set(importlib.import_module(name).__all__)
-                for name in (
-                    "kille.perception.evidence",
-                    "kille.perception.objects",
-                    "kille.perception.segment",
-                )
-            },
+            **seeing(),
+            **measuring(),
+            **talking(),
             "ttr.Model": public(ttr.Model()),
             "ttr.Judgement": public(ttr.Model().judge("a", ttr.Ind)),
             "ttr.Why": public(ttr.Model().judge("a", ttr.Ind).why),
@@ -338,6 +338,42 @@ def test_the_python_reference_names_what_is_public() -> None:
             "kille.Memory": public(memory),
         }
     assert described == expected
+
+
+def seeing() -> dict[str, set[str]]:
+    """The public names of what sees and learns words of what is seen."""
+    modules = ("segment", "cues", "index", "objects", "evidence", "colours")
+    more = ("attributes", "relations", "learners", "methods")
+    named = [f"kille.perception.{module}" for module in (*modules, *more)]
+    return {name: set(importlib.import_module(name).__all__) for name in named}
+
+
+def talking() -> dict[str, set[str]]:
+    """The public names of what a game of one's own is made of, and played with."""
+    dialogue = ("tutoring", "moves", "meanings", "reference", "describing")
+    more = ("language", "strategies")
+    simulation = ("worlds", "perceiving", "playing")
+    named = [f"kille.dialogue.{module}" for module in (*dialogue, *more)]
+    named += [f"kille.simulation.{module}" for module in simulation]
+    return {name: set(importlib.import_module(name).__all__) for name in named}
+
+
+def measuring() -> dict[str, set[str]]:
+    """The modules that have protocols; the public names of what these give and take."""
+    modules = ("results", "candidates", "metrics", "report", "figures")
+    named = [f"kille.experiments.{module}" for module in modules]
+    found = {name: set(importlib.import_module(name).__all__) for name in named}
+    package = importlib.import_module("kille.experiments")
+    inner = [it.name for it in pkgutil.iter_modules(package.__path__) if not it.ispkg]
+    return found | {"kille.experiments": {it for it in inner if has_protocol(it)}}
+
+
+def has_protocol(module: str) -> bool:
+    """Whether a module of the experiments has a public function that gives a result."""
+    found = importlib.import_module(f"kille.experiments.{module}")
+    public = [getattr(found, name) for name in getattr(found, "__all__", ())]
+    functions = filter(inspect.isfunction, public)
+    return any(it.__annotations__.get("return") == "Result" for it in functions)
 
 
 def probability() -> dict[str, set[str]]:

@@ -171,6 +171,11 @@ KEY_LINES = {
         "And of a red thing: red 1.0",
         "Forgotten again: True",
     ],
+    "15_write_your_own_game.py": [
+        "cup: This is a geka. OK, I learned a geka.",
+        "box: This is a lale. OK, I learned a lale.",
+        "A and B have the same words: True ['bubi', 'geka', 'lale']",
+    ],
 }
 
 

@@ -106,6 +106,16 @@ class Assignment:
         heads = [head(T), *(head(one) for _, one in below(T, self.theory.axioms))]
         return any(one in self.opened or one in self.functions for one in heads)
 
+    def can_be(self, sit: Object, pred: Pred) -> bool:
+        """Whether anything could make sit a situation in which this predicate is true.
+
+        It is quick: where nothing was said of it and nothing else tells, it cannot.
+        """
+        if pred in self.functions or pred in self.opened or pred in self.theory.related:
+            return True
+        told = self.known.get(identity(sit))
+        return told is not None and any(head(T) is pred for T in told)
+
     def perceived(self, sit: Object, T: Atom) -> Degree | None:
         """What the witness function of T answers, or None where there is none.
 

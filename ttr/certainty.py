@@ -118,7 +118,7 @@ def _also(
     if T is known:
         return True
     if isinstance(T, RecordType) and isinstance(known, RecordType):
-        return _fields_also(facts, sit, T.fields, known, around)
+        return _fields_also(facts, sit, _telling_first(T), known, around)
     if isinstance(T, Singleton):
         return _is_value(facts, sit, T, around) and _also(
             facts, sit, T.base, known, around
@@ -165,10 +165,19 @@ def _record(facts: Assignment, sit: Object, T: RecordType, around: Around) -> bo
         return False
     found = sit._fields
     inside = (found, *around)
-    for label, field in T.fields:
+    for label, field in _telling_first(T):
         if label not in found or not _certain(facts, found[label], field, inside):
             return False
     return True
+
+
+@lru_cache(4096)
+def _telling_first(T: RecordType) -> tuple[tuple[str, TypeNode], ...]:
+    """The fields, those first in which records are most likely to differ.
+
+    What is of which basic type is mostly the same, but not which predicate is true.
+    """
+    return tuple(sorted(T.fields, key=lambda field: not isinstance(field[1], PType)))
 
 
 def _singleton(facts: Assignment, sit: Object, T: Singleton, around: Around) -> bool:
@@ -176,7 +185,10 @@ def _singleton(facts: Assignment, sit: Object, T: Singleton, around: Around) -> 
 
 
 def _is_value(facts: Assignment, sit: Object, T: Singleton, around: Around) -> bool:
-    wanted = _worked_out(facts, T.value, around)
+    value = T.value
+    if value == () or isinstance(value, str):
+        return value is sit or value == sit
+    wanted = _worked_out(facts, value, around)
     return wanted is not None and (
         wanted is sit or bool(identity(wanted) == identity(sit))
     )
@@ -197,6 +209,8 @@ def _basic(facts: Assignment, sit: Object, T: Basic, around: Around) -> bool:
 
 
 def _ptype(facts: Assignment, sit: Object, T: PType, around: Around) -> bool:
+    if not facts.can_be(sit, T.pred):
+        return False
     ground = _worked_out(facts, T, around)
     return ground is not None and _atom(facts, sit, ground)
 

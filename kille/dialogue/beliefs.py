@@ -8,18 +8,22 @@ given back with it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from itertools import permutations
 
 from kille.dialogue.meanings import word_of
-from ttr import Model, Record, record
+from kille.dialogue.reference.perspectives import front_of
+from ttr import Model, PType, Record, record
 
 __all__ = [
     "Beliefs",
-    "best_pair",
-    "best_thing",
+    "about",
+    "believed",
+    "certainty",
+    "degree",
+    "doubt",
     "has_rival",
     "is_sure",
     "knows",
+    "lead",
     "nouns_of",
     "recognised",
     "relations_of",
@@ -31,19 +35,26 @@ Beliefs = Sequence[Record]
 
 def nouns_of(s: Record, model: Model, x: str) -> tuple[Beliefs, Model]:
     """How probably each noun is true of x, the most probable first."""
-    sit = record(x=x, look=s.view.look)
-    return _judged(model, sit, s.private.nouns)
+    return about(model, record(x=x, look=s.view.look), s.private.nouns)
 
 
 def relations_of(s: Record, model: Model, x: str, y: str) -> tuple[Beliefs, Model]:
-    """How probably x stands in each relation to y, the most probable first."""
-    sit = record(look=s.view.look, target=record(x=x), landmark=record(x=y))
-    return _judged(model, sit, s.private.relations)
+    """How probably x stands in each relation to y, the most probable first.
+
+    It is judged in the perspective that the talk has settled on.
+    """
+    look = s.view.look
+    sit = record(
+        look=look,
+        frame=front_of(s, y),
+        target=record(x=x, look=look),
+        landmark=record(x=y, look=look),
+    )
+    return about(model, sit, s.private.relations)
 
 
-def _judged(
-    model: Model, sit: Record, signs: Iterable[Record]
-) -> tuple[Beliefs, Model]:
+def about(model: Model, sit: Record, signs: Iterable[Record]) -> tuple[Beliefs, Model]:
+    """How probably a situation is of what each sign means, the most probable first."""
     beliefs = []
     for sign in signs:
         judgement = model.perceive(sit, sign.meaning)
@@ -52,22 +63,70 @@ def _judged(
     return sorted(beliefs, key=lambda b: (-b.p, b.sign.form)), model
 
 
+def believed(
+    s: Record, model: Model, signs: Iterable[Record], x: str, *beside: str
+) -> Beliefs:
+    """How probably words are true of x, or of x beside y, the most probable first."""
+    look = s.view.look
+    front = [front_of(s, y) for y in beside]
+    sit = record(dict(zip(("x", "landmark"), (x, *beside), strict=False)), look=look)
+    beliefs = [
+        record(
+            sit=sit, sign=sign, p=degree(model, word_of(sign)(x, *beside, look, *front))
+        )
+        for sign in signs
+    ]
+    return sorted(beliefs, key=lambda b: (-b.p, b.sign.form))
+
+
+def degree(model: Model, claim: PType) -> float:
+    """How probable a claim is at least, by the witness function of its word."""
+    seen = model.facts.perceived(None, claim)
+    return 0.0 if seen is None else float(seen.lo)
+
+
+def certainty(s: Record, beliefs: Beliefs) -> str:
+    """How to say the first belief: Assert, Hedge, Guess, Doubt, or else Admit.
+
+    What it is sure of it asserts, what is not worth saying it does not say. In between
+    it names the rival, if there is one, and else says how sure it is.
+    """
+    if is_sure(s, beliefs):
+        return "Assert"
+    if not thinks(s, beliefs):
+        return "Admit"
+    if has_rival(s, beliefs):
+        return "Hedge"
+    return "Guess" if beliefs[0].p >= s.private.strategy.bands.think else "Doubt"
+
+
+def doubt(beliefs: Beliefs) -> float:
+    """How far the first belief is from being certain and without a rival."""
+    return 1.0 - lead(beliefs) if beliefs else 1.0
+
+
+def lead(beliefs: Beliefs) -> float:
+    """How far the first belief is ahead of the second."""
+    first, second = [*(b.p for b in beliefs[:2]), 0.0, 0.0][:2]
+    return float(first - second)
+
+
 def is_sure(s: Record, beliefs: Beliefs) -> bool:
     """Whether the first belief is certain enough, and far enough from the second."""
     if not beliefs:
         return False
-    lead = beliefs[0].p - (beliefs[1].p if len(beliefs) > 1 else 0.0)
-    return bool(beliefs[0].p >= s.private.sure and lead >= s.private.margin)
+    bands = s.private.strategy.bands
+    return bool(beliefs[0].p >= bands.sure and lead(beliefs) >= bands.margin)
 
 
 def thinks(s: Record, beliefs: Beliefs) -> bool:
     """Whether the first belief is worth saying."""
-    return bool(beliefs) and bool(beliefs[0].p >= s.private.likely)
+    return bool(beliefs) and bool(beliefs[0].p >= s.private.strategy.bands.likely)
 
 
 def has_rival(s: Record, beliefs: Beliefs) -> bool:
     """Whether the second belief is worth naming."""
-    return len(beliefs) > 1 and bool(beliefs[1].p >= s.private.might)
+    return len(beliefs) > 1 and bool(beliefs[1].p >= s.private.strategy.bands.might)
 
 
 def knows(words: Iterable[Record], sign: Record) -> bool:
@@ -79,30 +138,3 @@ def recognised(s: Record, model: Model, x: str) -> tuple[Record | None, Model]:
     """The belief about x that the robot is sure of, if there is one."""
     beliefs, model = nouns_of(s, model, x)
     return (beliefs[0] if is_sure(s, beliefs) else None), model
-
-
-def best_thing(s: Record, model: Model, sign: Record) -> tuple[Record | None, Model]:
-    """The thing in view that the noun fits best, as a belief worth saying."""
-    beliefs: list[Record] = []
-    for x in s.view.things:
-        judged, model = _judged(model, record(x=x, look=s.view.look), [sign])
-        beliefs += judged
-    best = max(beliefs, key=lambda b: b.p, default=None)
-    return (best if best is not None and thinks(s, [best]) else None), model
-
-
-def best_pair(
-    s: Record, model: Model, target: Record, landmark: Record
-) -> tuple[tuple[str, str] | None, Model]:
-    """The two things in view that the two nouns fit best together."""
-    fits: dict[tuple[str, str], float] = {}
-    for x in s.view.things:
-        for sign in (target, landmark):
-            judged, model = _judged(model, record(x=x, look=s.view.look), [sign])
-            fits[x, sign.form] = judged[0].p
-    pairs = [
-        (fits[x, target.form] * fits[y, landmark.form], (x, y))
-        for x, y in permutations(s.view.things, 2)
-        if min(fits[x, target.form], fits[y, landmark.form]) >= s.private.likely
-    ]
-    return (max(pairs)[1] if pairs else None), model

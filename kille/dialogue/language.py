@@ -1,43 +1,57 @@
-"""From what the tutor says to a type: parsing is judging what kind of event it is.
+"""From what is said to types: parsing is judging what kind of event it is.
 
 The grammar says which words belong together, the theory what that means, and they meet
 by name. A rule with a type of its name means that type merged with what its parts mean;
-a rule without one is the label under which its part's meaning stands.
+a rule without one is the label under which its part's meaning stands. A rule whose type
+has a place for a word finds a word.
+
+What can be read in several ways has several readings. They are alternatives of one
+event, and the state of the dialogue decides between them.
 """
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from itertools import islice, product
 
+from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.meanings import (
+    CLAIMS,
+    kind_in,
     named,
-    noun,
-    relation,
+    placed,
     set_to,
+    sign,
     spoken,
     theory,
     value_at,
 )
+from kille.dialogue.parsing import Grammar, Tree, Word, parts, words
+from kille.dialogue.transcribing import CLOSELY, LOOSELY, robot_rules
 from ttr import Rec, Record, RecordType, RecType, merge, rectype
 
-if TYPE_CHECKING:
-    from lark import Lark, Token, Tree
+__all__ = ["LANGUAGES", "Sentence", "Utterance", "overhear", "understand"]
 
-__all__ = ["NotUnderstood", "Utterance", "understand"]
-
+LANGUAGES = ("en", "sv")
+"""The languages that there is a grammar and a lexicon of."""
 
 _LONGEST = 400
-"""Characters; no sentence of the grammar has more, and parsing slows down beyond."""
+"""Characters; no sentence of the grammar has more."""
 
 _REMEMBERED = 1024
-"""Texts of which the reading is kept; parsing takes most of a turn's time."""
+"""Sentences of which the readings are kept; parsing takes most of a turn's time."""
 
+_READINGS = 16
+"""How many readings a sentence has at most: the simplest ones."""
 
-class NotUnderstood(Exception):
-    """A text that is no utterance of the grammar."""
+_FORMS = 3
+"""How many words a form is taken to be of: those that the lexicon names come first."""
+
+_SENTENCE = re.compile(r"[^.!?…\n]+[.!?…\n]*")
 
 
 @dataclass(frozen=True)
@@ -55,87 +69,201 @@ class Utterance:
             raise TypeError(f"what is said is a record type, but found {content}")
         return content
 
+    @property
+    def signs(self) -> tuple[Record, ...]:
+        """The words in it, in order."""
+        signs: tuple[Record, ...] = value_at(self.type, "signs")
+        return signs
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """A move of the tutor's: the text, and how it can be read, the simplest way first.
+
+    Without any reading it was not understood.
+    """
+
+    text: str
+    readings: tuple[Utterance, ...]
+
+
+def understand(text: str, language: str = "en") -> tuple[Sentence, ...]:
+    """What a tutor's text says, move by move.
+
+    >>> [said] = understand("This is a cup.")
+    >>> print(said.readings[0].content)  # doctest: +NORMALIZE_WHITESPACE
+    [look : Look, target : [look = ^.look : Look, x : Ind, d : shown(x, look)],
+     c : cup(target.x, look)]
+    >>> understand("Colourless green ideas.")
+    (Sentence(text='Colourless green ideas.', readings=()),)
+    """
+    found: list[Sentence] = []
+    for part in _SENTENCE.findall(text):
+        if re.search(r"\w", part):
+            found += _sentences(part.strip(), language)
+    return tuple(found) or (Sentence(text, ()),)
+
+
+def overhear(text: str, language: str = "en") -> tuple[Utterance, ...]:
+    """What a text of the robot's says: how it can be read, the simplest way first.
+
+    Its grammar is made of the wordings of the lexicon. Which things are meant is not
+    in the text; what it does not say of a rival is as in the content.
+
+    >>> [learned] = overhear("OK, I learned a cup.")
+    >>> print(learned.content)  # doctest: +NORMALIZE_WHITESPACE
+    [look : Look, target : [look = ^.look : Look, x : Ind], c : cup(target.x, look)]
+    """
+    reader = _reader(language)
+    grammar = _robots_grammar(language)
+    trees = grammar.parse(text.strip(), CLOSELY) or grammar.parse(text.strip(), LOOSELY)
+    types = (T for tree in trees for move in parts(tree) for T in reader.said(move))
+    return tuple(Utterance(text, T) for T in dict.fromkeys(types))
+
 
 @lru_cache(_REMEMBERED)
-def understand(text: str) -> Utterance:
-    """The utterance that a text is; raises `NotUnderstood`.
-
-    Pure, and so remembered for the latest texts.
-
-    >>> heard = understand("This is a cup.")
-    >>> print(heard.type["content"])
-    RecType@[look : Look, x : Ind, c : cup(x, look)]
-    >>> understand("Colourless green ideas.")
-    Traceback (most recent call last):
-    kille.dialogue.language.NotUnderstood: Colourless green ideas.
-    """
-    from lark.exceptions import LarkError
-
-    if len(text) > _LONGEST:
-        raise NotUnderstood(text)
-    try:
-        tree = _grammar().parse(text)
-    except LarkError:
-        raise NotUnderstood(text) from None
-    return Utterance(text, _heard(text, _parts(tree)[0]))
-
-
-@cache
-def _grammar() -> Lark:
-    from lark import Lark
-
-    source = files("kille.grammars").joinpath("tutor.en.lark")
-    return Lark(source.read_text(encoding="utf-8"), parser="earley", start="start")
-
-
-def _heard(text: str, move: Tree[Token]) -> RecordType:
-    """The type of the event: who speaks to whom, the move, its signs, its content."""
-    signs = tuple(_signs(move))
-    content: RecordType = Rec
-    for part in _parts(move):
-        content = _merged(content, _meaning(part))
-    return set_to(
-        spoken("Heard", _type_name(move)),
-        text=theory()["Text"] @ text,
-        signs=named("Heard")["signs"] @ signs,
-        content=RecType @ content,
+def _sentences(text: str, language: str) -> tuple[Sentence, ...]:
+    """The moves of one sentence, each with its readings. Pure, and so remembered."""
+    plain = " ".join(text.split())
+    trees = _grammar(language).parse(plain) if len(plain) <= _LONGEST else []
+    if not trees:
+        return (Sentence(text, ()),)
+    trees = sorted(trees, key=lambda tree: len(parts(tree)))
+    fewest = len(parts(trees[0]))
+    alike = [parts(tree) for tree in trees if len(parts(tree)) == fewest]
+    reader = _reader(language)
+    return tuple(
+        Sentence(text, reader.readings(text, dict.fromkeys(moves)))
+        for moves in zip(*alike, strict=True)
     )
 
 
-def _signs(tree: Tree[Token]) -> list[Record]:
-    """The words in a tree, as signs, in the order in which they were said."""
-    if tree.data in _WORDS:
-        return [_WORDS[tree.data](" ".join(str(token) for token in tree.children))]
-    return [sign for part in _parts(tree) for sign in _signs(part)]
+@cache
+def _grammar(language: str) -> Grammar:
+    return Grammar(_source(language))
 
 
-_WORDS = {"noun": noun, "relation": relation}
+@cache
+def _robots_grammar(language: str) -> Grammar:
+    source = _source(language)
+    return Grammar(source + robot_rules(lexicon(language), source), CLOSELY, LOOSELY)
 
 
-def _meaning(tree: Tree[Token]) -> RecordType:
-    """What a part of an utterance means, from what its own parts mean."""
-    if tree.data in _WORDS:
-        meaning: RecordType = _signs(tree)[0].meaning
-        return meaning
-    meaning = Rec
-    for part in _parts(tree):
-        meaning = _merged(meaning, _meaning(part))
-    if _type_name(tree) in theory().names:
-        return _merged(named(_type_name(tree)), meaning)
-    return rectype({str(tree.data): meaning})
+def _source(language: str) -> str:
+    source = files("kille.grammars").joinpath(f"tutor.{language}.lark")
+    return source.read_text(encoding="utf-8")
 
 
-def _parts(tree: Tree[Token]) -> list[Tree[Token]]:
-    from lark import Tree
+@cache
+def _reader(language: str) -> _Reader:
+    return _Reader(lexicon(language))
 
-    return [part for part in tree.children if isinstance(part, Tree)]
+
+Meant = tuple[tuple[Record, ...], RecordType]
+"""The words of a part, in the order in which they were said, and what it means."""
 
 
-def _type_name(tree: Tree[Token]) -> str:
+class _Reader:
+    """From trees to types, with the words of one language."""
+
+    def __init__(self, lexicon_: Lexicon) -> None:
+        self._lexicon = lexicon_
+        self._meanings = lru_cache(4 * _REMEMBERED)(self._meanings_anew)
+
+    def readings(self, text: str, moves: Iterable[Tree]) -> tuple[Utterance, ...]:
+        """The different readings of a move."""
+        types = (T for move in moves for T in self._heard(text, move))
+        return tuple(
+            Utterance(text, T) for T in islice(dict.fromkeys(types), _READINGS)
+        )
+
+    def _heard(self, text: str, move: Tree) -> Iterator[RecordType]:
+        """The types of the event: who speaks to whom, its move, words and content."""
+        for signs, content in self._together(move):
+            yield set_to(
+                spoken("Heard", _type_name(move.rule)),
+                text=theory()["Text"] @ text,
+                signs=named("Heard")["signs"] @ signs,
+                content=RecType @ content,
+            )
+
+    def said(self, move: Tree) -> Iterator[RecordType]:
+        """The types of the event of the robot's saying this."""
+        for signs, all_of_it in self._together(move):
+            content, rival = _apart(all_of_it)
+            yield set_to(
+                spoken("Said", _type_name(move.rule)),
+                signs=named("Said")["signs"] @ signs,
+                content=RecType @ content,
+                rival=RecType @ rival,
+            )
+
+    def _together(self, tree: Tree) -> list[Meant]:
+        """What the parts of a tree mean together, in every way."""
+        ways = []
+        for meant in product(*(self._meanings(part) for part in parts(tree))):
+            together: RecordType = Rec
+            for _, meaning in meant:
+                together = _merged(together, meaning)
+            ways.append((tuple(it for signs, _ in meant for it in signs), together))
+        return ways
+
+    def _meanings_anew(self, tree: Tree) -> list[Meant]:
+        """What a part of an utterance means, from what its own parts mean."""
+        name = _type_name(tree.rule)
+        if kind_in(name) is not None:
+            return [((it,), placed(it, name)) for it in self._signs(tree, name)]
+        together = self._together(tree)
+        if name in theory().names:
+            return [(signs, _merged(named(name), T)) for signs, T in together]
+        return [(signs, rectype({tree.rule: T})) for signs, T in together]
+
+    def _signs(self, tree: Tree, name: str) -> Iterator[Record]:
+        """The words that a rule may have found, as signs."""
+        kind = kind_in(name)
+        assert kind is not None
+        found = words(tree)
+        said = "".join(it.text.lower() for it in found if it.terminal == "A")
+        rest = [it for it in found if it.terminal != "A"]
+        for form, article in self._forms(rest):
+            main = self._lexicon.main_form(form)
+            means = self._lexicon.means.get(main, "") if kind == "adjective" else ""
+            yield sign(main, kind, said or article, means)
+
+    def _forms(self, found: list[Word]) -> Iterator[tuple[str, str]]:
+        """The word that was found, with the article that its form shows."""
+        text = " ".join(it.text.lower() for it in found)
+        inflections = self._lexicon.inflections
+        name = next((it.terminal for it in found if it.terminal in inflections), None)
+        if name is None:
+            yield text, ""
+            return
+        found_forms = [
+            (form, inflection.article)
+            for inflection in inflections[name]
+            for form in inflection.words(text)
+        ]
+        known = self._lexicon.vocabulary
+        yield from sorted(found_forms, key=lambda it: it[0] not in known)[:_FORMS]
+
+
+def _apart(all_of_it: RecordType) -> tuple[RecordType, RecordType]:
+    """The content, and its rival: what is not said of that is as in the content."""
+    rival = all_of_it.get("rival")
+    content = rectype({k: T for k, T in all_of_it.fields if k != "rival"})
+    if not isinstance(rival, RecordType):
+        return content, Rec
+    same = rectype({k: T for k, T in content.fields if k not in CLAIMS})
+    return content, _merged(same, rival)
+
+
+@cache
+def _type_name(rule: str) -> str:
     """The name that a rule's type has in the theory: ask_name, AskName."""
-    return "".join(part.capitalize() for part in str(tree.data).split("_"))
+    return "".join(part.capitalize() for part in rule.split("_"))
 
 
+@lru_cache(4096)
 def _merged(S: RecordType, T: RecordType) -> RecordType:
     merged = merge(S, T)
     if not isinstance(merged, RecordType):

@@ -1,18 +1,21 @@
 """The types of the dialogue, read from `grammars/tutor.ttr`, and the meanings of words.
 
-A word is a sign: a form, and a meaning that is the type `Noun` or `Relation` of the
-theory with the word's own predicate in place of the one that stands for it there.
+A word is a sign: a form, and a meaning that is the type `Noun`, `Adjective` or
+`Relation` of the theory with the word's own predicate in place of the one that stands
+for it there. In other places the word means other types, made in the same way.
 """
 
 from __future__ import annotations
 
 import re
 import unicodedata
-from functools import cache
+from collections.abc import Iterator
+from functools import cache, lru_cache
 from importlib.resources import files
 
 from ttr import (
     Meet,
+    Negation,
     Pred,
     PType,
     Record,
@@ -28,17 +31,34 @@ from ttr import (
 from ttr.syntax import Object
 
 __all__ = [
+    "CLAIMS",
+    "KINDS",
+    "adjective",
+    "claims",
+    "denied",
+    "is_denial",
+    "kind_in",
+    "meaning_in",
+    "mentions",
     "named",
     "noun",
+    "placed",
     "predicate_at",
     "predicate_name",
     "relation",
+    "reworded",
+    "set_at",
     "set_to",
+    "sign",
     "spoken",
     "theory",
     "value_at",
     "word_of",
 ]
+
+
+KINDS = ("noun", "adjective", "relation")
+"""The kinds of words, by the names of the predicates that stand for them."""
 
 
 @cache
@@ -51,7 +71,7 @@ def theory() -> Theory:
 def named(name: str) -> RecordType:
     """The record type that the theory gives this name.
 
-    >>> print(named("Naming"))
+    >>> print(named("Phrase"))
     [look : Look, x : Ind]
     """
     found = theory()[name]
@@ -96,25 +116,104 @@ def predicate_name(form: str) -> str:
     return name if name.isidentifier() else f"n{name}"
 
 
-def noun(form: str) -> Record:
-    """The sign of a noun.
+def sign(form: str, kind: str, article: str = "", means: str = "") -> Record:
+    """A word: a form of a kind, as it is said with this article, and what it means.
 
-    >>> print(noun("teddy bear"))  # doctest: +NORMALIZE_WHITESPACE
-    {form = "teddy bear",
+    It means what the word `means` does, which may be of another language, or else has a
+    meaning of its own.
+
+    >>> print(sign("teddy bear", "noun", "a"))  # doctest: +NORMALIZE_WHITESPACE
+    {article = a, form = "teddy bear", kind = noun,
      meaning = [look : Look, x : Ind, c : teddy_bear(x, look)]}
+    >>> word_of(sign("röd", "adjective", means="red")).name
+    'is_red'
     """
-    return _sign(form, "Noun", "noun")
+    return _sign(form.lower(), kind, article.lower(), (means or form).lower())
+
+
+@lru_cache(4096)
+def _sign(form: str, kind: str, article: str, means: str) -> Record:
+    meaning = meaning_in(means, kind.capitalize())
+    return record(form=form, kind=kind, article=article, meaning=meaning)
+
+
+def noun(form: str, article: str = "") -> Record:
+    """The sign of a noun."""
+    return sign(form, "noun", article)
+
+
+def adjective(form: str) -> Record:
+    """The sign of an adjective.
+
+    >>> print(adjective("red").meaning)
+    [look : Look, x : Ind, a : is_red(x, look)]
+    """
+    return sign(form, "adjective")
 
 
 def relation(form: str) -> Record:
     """The sign of a relation, such as "to the left of"."""
-    return _sign(form, "Relation", "relation")
+    return sign(form, "relation")
 
 
-def _sign(form: str, template: str, stands_for: str) -> Record:
-    pattern = theory()[stands_for]
-    own = Pred(predicate_name(form), *pattern.arities)
-    return record(form=form.lower(), meaning=_with(named(template), pattern, own))
+@cache
+def kind_in(template: str) -> str | None:
+    """The kind of word that has its place in a type of the theory, if one has.
+
+    >>> kind_in("Naming"), kind_in("Nearby"), kind_in("Phrase")
+    ('noun', 'relation', None)
+    """
+    if template not in theory().names:
+        return None
+    mentioned = set(_predicates(named(template)))
+    return next((kind for kind in KINDS if theory()[kind] in mentioned), None)
+
+
+def meaning_in(form: str, template: str) -> RecordType:
+    """What a word means in a place: the type with the word's own predicate in it.
+
+    >>> print(meaning_in("red", "Having"))  # doctest: +NORMALIZE_WHITESPACE
+    [look : Look, target : [look = ^.look : Look, x : Ind],
+     a : is_red(target.x, look)]
+    """
+    kind = kind_in(template)
+    if kind is None:
+        raise TypeError(f"{template} of tutor.ttr has no place for a word")
+    name = predicate_name(form)
+    pattern = theory()[kind]
+    own = Pred(f"is_{name}" if kind == "adjective" else name, *pattern.arities)
+    return _in_place(own, template, pattern)
+
+
+@lru_cache(4096)
+def _in_place(own: Pred, template: str, pattern: Pred) -> RecordType:
+    """The type with a word's own predicate where one stands for it."""
+    placed = _with(named(template), pattern, own)
+    assert isinstance(placed, RecordType)
+    return placed
+
+
+def placed(sign: Record, template: str) -> RecordType:
+    """What a sign means in another place: a noun as said of a target, for example."""
+    kind = kind_in(template)
+    if kind is None:
+        raise TypeError(f"{template} of tutor.ttr has no place for a word")
+    return _in_place(word_of(sign), template, theory()[kind])
+
+
+def _predicates(T: TypeNode) -> Iterator[Pred]:
+    """The predicates of the ptypes in a type."""
+    match T:
+        case PType(pred, _):
+            yield pred
+        case RecordType(fields):
+            for _, field in fields:
+                yield from _predicates(field)
+        case Meet(parts):
+            for part in parts:
+                yield from _predicates(part)
+        case Negation(body):
+            yield from _predicates(body)
 
 
 def _with(T: TypeNode, pattern: Pred, own: Pred) -> TypeNode:
@@ -126,17 +225,90 @@ def _with(T: TypeNode, pattern: Pred, own: Pred) -> TypeNode:
             return rectype({k: _with(field, pattern, own) for k, field in fields})
         case Meet(parts):
             return meet(*(_with(part, pattern, own) for part in parts))
+        case Negation(body):
+            return ~_with(body, pattern, own)
         case Singleton(base, value):
             return Singleton(_with(base, pattern, own), value)
     return T
 
 
 def word_of(sign: Record) -> Pred:
-    """The predicate that is a sign's own: the one field of its meaning with a ptype."""
-    for _, field in sign.meaning.fields:
-        if isinstance(field, PType):
-            return field.pred
-    raise TypeError(f"the meaning of {sign.form!r} has no predicate of its own")
+    """The predicate that is a sign's own: the one that its meaning mentions."""
+    own = _first_predicate(sign.meaning)
+    if own is None:
+        raise TypeError(f"the meaning of {sign.form!r} has no predicate of its own")
+    return own
+
+
+@lru_cache(4096)
+def _first_predicate(T: RecordType) -> Pred | None:
+    return next(_predicates(T), None)
+
+
+def reworded(T: RecordType, sign: Record, other: Record) -> RecordType:
+    """The type with what one word means in place of what another of its kind does.
+
+    >>> print(reworded(noun("cupp").meaning, noun("cupp"), noun("cup")))
+    [look : Look, x : Ind, c : cup(x, look)]
+    """
+    changed = _with(T, word_of(sign), word_of(other))
+    assert isinstance(changed, RecordType)
+    return changed
+
+
+def mentions(T: TypeNode, sign: Record) -> bool:
+    """Whether the sign's predicate occurs in a type."""
+    return word_of(sign) in set(_predicates(T))
+
+
+CLAIMS = ("c", "a", "rel")
+"""The labels under which the claim of a sentence stands: what its word is true of."""
+
+
+def denied(content: RecordType) -> RecordType:
+    """What is so if the claim of a content is not.
+
+    >>> print(denied(meaning_in("cup", "Noun")))
+    [look : Look, x : Ind, c : ~cup(x, look)]
+    """
+    claims = {label: content[label] for label in CLAIMS if label in content}
+    return set_to(content, **{label: _not(claim) for label, claim in claims.items()})
+
+
+def _not(claim: TypeNode) -> TypeNode:
+    return claim.body if isinstance(claim, Negation) else ~claim
+
+
+def claims(content: RecordType, sign: Record) -> bool:
+    """Whether a sign is the word that a content is the claim of."""
+    return any(word_of(sign) in set(_predicates(it)) for it in _claims(content))
+
+
+def _claims(content: RecordType) -> Iterator[TypeNode]:
+    for label in CLAIMS:
+        if label in content:
+            yield content[label]
+
+
+def is_denial(content: RecordType) -> bool:
+    """Whether a content says that its word is not true of its target."""
+    return any(isinstance(claim, Negation) for claim in _claims(content))
+
+
+def set_at(T: RecordType, path: str, value: Object) -> RecordType:
+    """The record type with the field at a path made manifest, or set anew.
+
+    >>> print(set_at(named("Asked"), "target.x", "o2"))
+    [look : Look, target : [look = ^.look : Look, x = o2 : Ind]]
+    """
+    label, _, rest = path.partition(".")
+    field = T[label]
+    if rest:
+        if not isinstance(field, RecordType):
+            raise TypeError(f"the field {label} of {T} is no record type")
+        return set_to(T, **{label: set_at(field, rest, value)})
+    base = field.base if isinstance(field, Singleton) else field
+    return set_to(T, **{label: base @ value})
 
 
 def value_at(T: RecordType, label: str) -> Object:

@@ -1,27 +1,47 @@
-"""Planning what the robot says next, and what it is about."""
+"""Planning what the robot says next, what it is about, and what it does thereby."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Sequence
 from functools import cache
 
-from kille.dialogue.meanings import named, set_to, spoken, theory, word_of
-from ttr import (
-    Pred,
-    PType,
-    Rec,
-    Record,
-    RecordType,
-    RecType,
-    TypeNode,
-    outer,
-    rectype,
-    replace,
+from kille.dialogue.meanings import (
+    mentions,
+    named,
+    placed,
+    set_at,
+    set_to,
+    spoken,
+    theory,
 )
+from kille.dialogue.reference.perspectives import front_of
+from ttr import Rec, Record, RecordType, RecType, TypeNode, record, rectype, replace
+from ttr.syntax import Object
 
-__all__ = ["answering", "in_look", "plan", "related", "uses"]
+__all__ = [
+    "answering",
+    "changed_act",
+    "content_of",
+    "instead",
+    "issue",
+    "numbered",
+    "plan",
+    "said_of",
+    "standing",
+    "used",
+]
 
 NOTHING_PLANNED = theory()["Agenda"] @ ()
+
+DOES = ("drops", "degrees", "explains", "recalls", "points")
+"""What a move of the robot's may do besides, by the labels of Said."""
+
+CLAIMED = {
+    "noun": ("c", "Naming"),
+    "adjective": ("a", "Having"),
+    "relation": ("rel", "Relation"),
+}
+"""Where each kind of word stands in what is said: the label, and the type with it."""
 
 
 @cache
@@ -40,60 +60,106 @@ def plan(
     *,
     signs: Iterable[Record] = (),
     pending: Iterable[TypeNode] = (),
+    teaches: Iterable[TypeNode] = (),
+    forgets: Iterable[str] = (),
+    asks: Iterable[Record] = (),
+    **does: Iterable[Object],
 ) -> Record:
-    """The state in which the robot is about to say this, and what it thereby claims.
+    """The state in which the robot is about to say this, and what it does thereby.
 
-    `signs` are the words that it will use or learn; `pending` is what the tutor may
-    confirm afterwards.
+    `signs` are the words that it will use or learn; `pending` is what it claims, which
+    the tutor may confirm afterwards; `asks` are the issues that it puts under
+    discussion. `teaches` and `forgets` are what it learns and unlearns before it says
+    so, and `does` what else it does, under the labels that the type Said has for it.
     """
+    done = {"teaches": teaches, "forgets": forgets, **dict.fromkeys(DOES, ()), **does}
     move = set_to(
         spoken("Said", act),
         signs=named("Said")["signs"] @ tuple(signs),
         content=RecType @ content,
         rival=RecType @ rival,
+        **{label: named("Said")[label] @ tuple(them) for label, them in done.items()},
     )
-    return replace(s, {"private.agenda": (move,), "shared.pending": tuple(pending)})
+    return replace(
+        s,
+        {
+            "private.agenda": (*s.private.agenda, move),
+            "shared.pending": tuple(pending),
+            "shared.qud": (*asks, *s.shared.qud),
+        },
+    )
 
 
-def in_look(s: Record, content: RecordType, x: str) -> RecordType:
-    """A content, set to be about this individual in the latest look."""
-    naming = named("Naming")
-    return set_to(content, x=naming["x"] @ x, look=naming["look"] @ s.view.look)
+def issue(ask: str, options: Iterable[Record]) -> Record:
+    """A question about what the tutor said: which of these moves it was."""
+    return record(ask=ask, options=tuple(options))
 
 
-def related(
+def content_of(s: Record) -> RecordType:
+    """What the latest move is about."""
+    content: RecordType = s.shared.latest.content
+    return content
+
+
+def said_of(s: Record, sign: Record, x: str, template: str = "Naming") -> RecordType:
+    """That a word is true of an individual in the latest look.
+
+    >>> from kille.dialogue.meanings import noun
+    >>> from kille.dialogue.state import initial
+    >>> print(said_of(initial(), noun("cup"), "o1"))  # doctest: +NORMALIZE_WHITESPACE
+    [look = look0 : Look, target : [look = ^.look : Look, x = o1 : Ind],
+     c : cup(target.x, look)]
+    """
+    content = set_at(placed(sign, template), "look", s.view.look)
+    return set_at(content, "target.x", x)
+
+
+def instead(content: RecordType, sign: Record) -> RecordType:
+    """A content that claims another word of the same things.
+
+    >>> from kille.dialogue.meanings import meaning_in, noun
+    >>> print(instead(meaning_in("cup", "Naming"), noun("mug")))
+    [look : Look, target : [look = ^.look : Look, x : Ind], c : mug(target.x, look)]
+    """
+    label, template = CLAIMED[sign.kind]
+    return set_to(content, **{label: placed(sign, template)[label]})
+
+
+def numbered(s: Record, x: str) -> dict[str, TypeNode]:
+    """The field of a content that says which number a thing in view has."""
+    return {"number": theory()["Text"] @ str(1 + s.view.things.index(x))}
+
+
+def changed_act(planned: RecordType, act: str) -> RecordType:
+    """A planned move that is made in other words: the same, by another act."""
+    return set_to(planned, e=named(act)["e"])
+
+
+def standing(
     s: Record, x: str, target: Record, y: str, landmark: Record, *relation: Record
 ) -> RecordType:
     """That x, a target, and y, a landmark, stand so, by these signs in the latest look.
 
     Without a relation it says only that both are there.
     """
-    relating = named("Relating")
-    content = set_to(
-        relating,
-        look=relating["look"] @ s.view.look,
-        target=_standing(target, x),
-        landmark=_standing(landmark, y),
-    )
+    content = named("Relating")
     for sign in relation:
-        content = set_to(sign.meaning, **dict(content.fields))
-    return content
+        content = set_at(sign.meaning, "frame", front_of(s, y))
+    content = set_at(content, "look", s.view.look)
+    return set_to(
+        content,
+        target=_individual(content, "target", target, x),
+        landmark=_individual(content, "landmark", landmark, y),
+    )
 
 
-def _standing(sign: Record, x: str) -> RecordType:
+def _individual(content: RecordType, part: str, sign: Record, x: str) -> RecordType:
     """That x is what a sign means, in the look that the record around it has."""
-    naming = named("Naming")
-    return set_to(sign.meaning, x=naming["x"] @ x, look=naming["look"] @ outer.look)
+    own = content[part]
+    assert isinstance(own, RecordType)
+    return set_at(set_to(sign.meaning, **dict(own.fields)), "x", x)
 
 
-def uses(content: TypeNode, sign: Record) -> bool:
-    """Whether the sign's predicate occurs in the content."""
-    return any(pred is word_of(sign) for pred in _predicates(content))
-
-
-def _predicates(T: TypeNode) -> Iterator[Pred]:
-    if isinstance(T, PType):
-        yield T.pred
-    if isinstance(T, RecordType):
-        for _, field in T.fields:
-            yield from _predicates(field)
+def used(known: Iterable[Record], *contents: RecordType) -> Sequence[Record]:
+    """The words that are known and occur in one of the contents."""
+    return [sign for sign in known if any(mentions(one, sign) for one in contents)]

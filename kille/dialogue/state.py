@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator
 
-from kille.dialogue.meanings import named, theory, word_of
+from kille.dialogue.meanings import KINDS, named, theory
+from kille.dialogue.reference.perspectives import OPEN
+from kille.dialogue.strategies import strategy as default
 from ttr import Model, Record, RecordType, record
 
-__all__ = ["STATE", "blank_model", "forms", "initial"]
+__all__ = ["STATE", "blank_model", "initial", "words"]
 
 STATE: RecordType = named("State")
 """The type of every information state."""
@@ -17,28 +19,54 @@ NO_LOOK = "look0"
 
 
 def initial(
-    nouns: Iterable[Record], relations: Iterable[Record], bands: Mapping[str, float]
+    signs: Iterable[Record] = (),
+    strategy: Record | None = None,
+    colours: Iterable[Record] = (),
 ) -> Record:
     """The state in which a dialogue begins: words are known, nothing has been said.
 
+    The strategy is a value of `kille.dialogue.strategies`; `colours` are those of the
+    adjectives that answer what colour something is.
+
     >>> from kille.dialogue.meanings import noun
-    >>> bands = {"sure": 0.6, "margin": 0.2, "likely": 0.2, "might": 0.1}
-    >>> s = initial([noun("cup")], [], bands)
+    >>> s = initial([noun("cup")])
     >>> blank_model().judge(s, STATE).holds
     True
     """
+    words = list(signs)
+    known = {f"{kind}s": [it for it in words if it.kind == kind] for kind in KINDS}
     return record(
         private=record(
             agenda=[],
-            nouns=list(nouns),
-            relations=list(relations),
             beliefs=[],
             asked=[],
-            **{name: float(band) for name, band in bands.items()},
+            lessons=[],
+            last=[],
+            failed=[],
+            colours=list(colours),
+            cost=record(turns=0.0, words=0.0, corrections=0.0, questions=0.0),
+            strategy=default() if strategy is None else strategy,
+            **known,
         ),
         view=record(look=NO_LOOK, things=[], placed=[], focus=[]),
-        shared=record(latest=record(), pending=[], commitments=[]),
+        shared=record(
+            latest=record(),
+            pending=[],
+            commitments=[],
+            qud=[],
+            salient=[],
+            topic=[],
+            frame=OPEN,
+            turned=[],
+            here=[],
+        ),
     )
+
+
+def words(s: Record) -> Iterator[Record]:
+    """All words that are known in a state."""
+    for kind in KINDS:
+        yield from s.private[f"{kind}s"]
 
 
 def blank_model() -> Model:
@@ -50,8 +78,3 @@ def blank_model() -> Model:
         .witnessed(types["Number"], by=lambda a: isinstance(a, float))
         .given(NO_LOOK, types["Look"])
     )
-
-
-def forms(*signs: Iterable[Record]) -> dict[str, str]:
-    """The form of each word, by the name of its predicate."""
-    return {word_of(sign).name: sign.form for some in signs for sign in some}

@@ -8,60 +8,90 @@ checked, tested and changed by themselves.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 
-from kille.dialogue.games import HEARD, SAID, SCENE_CHANGED
-from kille.dialogue.language import NotUnderstood, understand
+from kille.dialogue.games import TUTORING
+from kille.dialogue.language import Sentence, understand
+from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import named, predicate_at, theory
-from kille.dialogue.state import STATE, blank_model, forms, initial
-from kille.dialogue.wording import english
+from kille.dialogue.state import STATE, blank_model, initial
+from kille.dialogue.strategies import strategy
+from kille.dialogue.wording import say as worded
 from ttr import Judgement, Model, Record, RecordType
-from ttr.updates import Game, first
+from ttr.updates import Algorithm, Game, NBest, nbest
 from ttr.updates.games import Act
 
-__all__ = ["hear", "say", "tutoring"]
+__all__ = ["hear", "heard", "say", "tutoring"]
 
 
 def tutoring(
-    nouns: Iterable[Record] = (),
-    relations: Iterable[Record] = (),
+    signs: Iterable[Record] = (),
     *,
+    language: str = "en",
+    rules: Algorithm = TUTORING,
     model: Model | None = None,
     act: Act | None = None,
+    mode: str = "",
+    wording: str = "",
+    colours: Iterable[Record] = (),
 ) -> Game:
     """The games of tutoring as one, by a robot that knows these words.
 
     `model` judges what they are true of, by witness functions of their predicates;
     `act` makes a planned move, where more is to be done for it than to create it.
+    `mode` and `wording` name its strategy in `strategies.toml`; `colours` are those of
+    its adjectives that are colours.
 
     >>> game = tutoring()
     >>> turn = game.take(game.begin(), game.hear("What is this?"))
     >>> [game.say(move) for move in turn.said]
     ['I see nothing on the table.']
     """
+    deciding = strategy(mode, wording)
     return Game(
         "tutoring",
         STATE,
-        initial(nouns, relations, english().bands),
-        first(HEARD, SAID, SCENE_CHANGED),
+        initial(signs, deciding, colours),
+        rules,
         blank_model() if model is None else model,
         agenda="private.agenda",
-        hears=(named("Heard"), named("Seen")),
+        hears=(named("Heard"), named("Seen"), named("Glance")),
         act=act,
-        hear=hear,
-        say=say,
+        hear=partial(hear, language=language),
+        say=partial(say, language=language, wording=deciding.wording),
         theory=theory(),
     )
 
 
-def hear(text: str) -> RecordType | None:
-    """The type of the event of saying this, or None if it is not understood."""
-    try:
-        return understand(text).type
-    except NotUnderstood:
-        return None
+def hear(text: str, language: str = "en") -> RecordType | NBest | None:
+    """The event of saying this, or None if it is not understood.
+
+    Of several sentences it is the first.
+    """
+    return heard(understand(text, language)[0])
 
 
-def say(move: Judgement) -> str:
+def heard(
+    *sentences: Sentence, p: Iterable[float] = (1.0,)
+) -> RecordType | NBest | None:
+    """The event that one of these sentences was said, each so probable.
+
+    Its alternatives are all the ways in which they can be read.
+    """
+    weighed = [
+        (reading.type, q / len(said.readings))
+        for said, q in zip(sentences, p, strict=True)
+        for reading in said.readings
+    ]
+    match weighed:
+        case []:
+            return None
+        case [(said, 1.0)]:
+            return said
+    return nbest(*weighed)
+
+
+def say(move: Judgement, language: str = "en", wording: str = "paper") -> str:
     """The robot's sentence for a move of its own.
 
     Raises `TypeError` for what is none.
@@ -69,4 +99,5 @@ def say(move: Judgement) -> str:
     planned, made = move.type, move.sit
     if not isinstance(planned, RecordType) or not isinstance(made, Record):
         raise TypeError(f"a move is a record of a record type, but found {move}")
-    return english().say(made, predicate_at(planned, "e").name, forms(made.signs))
+    act = predicate_at(planned, "e").name
+    return worded(lexicon(language, wording), act, made)

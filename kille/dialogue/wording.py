@@ -1,108 +1,179 @@
-"""From a move of the robot's to its sentence, by the wordings of the lexicon."""
+"""From a move to its sentence, by the wordings of the lexicon.
+
+A wording has slots, and a content fills those that it has something for: `{a_word}`
+what it says of its target, `{the_target}` the phrase for that, `{relation}` how it
+stands to `{the_landmark}`. Of several wordings the first is taken of which every slot
+is filled.
+"""
 
 from __future__ import annotations
 
-import difflib
 import re
-import tomllib
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from functools import cache
-from importlib.resources import files
+from collections.abc import Iterable, Iterator, Mapping
+from string import Formatter
 
-from ttr import PType, Record, RecordType
+from kille.dialogue.details import details
+from kille.dialogue.lexicon import Lexicon, Wordings, lexicon
+from kille.dialogue.listing import listed
+from kille.dialogue.meanings import word_of
+from kille.dialogue.mending import suggested
+from kille.dialogue.phrases import Words, claimed, noun_phrase, phrase
+from ttr import Negation, Rec, Record, RecordType, Singleton
 
-__all__ = ["Lexicon", "english"]
+__all__ = ["did_not_understand", "lexicon", "say", "tell"]
 
-_NEAR = 0.6
-"""Share of characters in common, in their order, that makes two sentences alike."""
+_SHOWN = 60
+"""Characters of what was not understood that are said back."""
 
+_CLAIMS = {"c": "word", "a": "quality", "rel": "relation"}
+"""The slots of what is said of a target, by the label of its claim."""
 
-@dataclass(frozen=True)
-class Lexicon:
-    """Wordings, bands of certainty and articles of a language, from its file."""
+_SAID = (str, float, int)
+"""The values of fields that are said as they are."""
 
-    says: Mapping[str, str]
-    bands: Mapping[str, float]
-    articles: Mapping[str, list[str]]
-    examples: tuple[str, ...]
-    not_understood: str
+_PARTS = ("target", "landmark")
+"""The labels of what is said by a noun phrase."""
 
-    def say(self, move: Record, act: str, forms: Mapping[str, str]) -> str:
-        """The sentence for a move: its act's wording with the words of its content.
-
-        `act` is the name of the move's predicate; `forms` gives the form of each
-        predicate that is a word.
-        """
-        slots = dict(self._slots(move.content, forms, ""))
-        slots |= dict(self._slots(move.rival, forms, "rival"))
-        sentence = self.says[act].format_map(slots)
-        if act == "give_help":
-            return "\n  ".join([sentence, *self.examples])
-        return sentence
-
-    def _slots(
-        self, content: RecordType, forms: Mapping[str, str], prefix: str
-    ) -> Iterator[tuple[str, str]]:
-        """The slots that a content fills: {word}, {target}, {relation} …"""
-        for label, form in _words(content, forms):
-            if label == "c":
-                yield prefix or "word", form
-                yield f"a_{prefix or 'word'}", self.with_article(form)
-            else:
-                yield "_".join(filter(None, (prefix, label))), form
-
-    def with_article(self, noun: str) -> str:
-        """The noun with its indefinite article.
-
-        >>> lexicon = english()
-        >>> lexicon.with_article("apple"), lexicon.with_article("unicorn")
-        ('an apple', 'a unicorn')
-        """
-        sounds_open = noun[0] in "aeiou" and not noun.startswith(
-            tuple(self.articles["a"])
-        )
-        if sounds_open or noun.startswith(tuple(self.articles["an"])):
-            return f"an {noun}"
-        return f"a {noun}"
-
-    def did_not_understand(self, text: str) -> str:
-        """One sentence: that it was not understood, and what could be said instead.
-
-        It is the example that is near to the text, or else the first.
-
-        >>> print(english().did_not_understand("Where is teh book?"))
-        Sorry, I did not understand "Where is teh book?". You could say
-        "Where is the book?"; ...
-        """
-        shown = re.sub(r"\s+", " ", text).strip()
-        shown = "".join(c if c.isprintable() else "�" for c in shown)
-        shown = shown if len(shown) <= 60 else shown[:57] + "…"
-        near = difflib.get_close_matches(shown, self.examples, n=1, cutoff=_NEAR)
-        nearest = near[0] if near else self.examples[0]
-        return self.not_understood.format(text=shown, nearest=nearest)
+_WORDS = {"c": "noun", "a": "adjective", "rel": "relation"}
+"""The slots of a word by itself, where the content is what the word means."""
 
 
-def _words(content: RecordType, forms: Mapping[str, str]) -> Iterator[tuple[str, str]]:
-    """The words in a content: (label of the part or field, form)."""
+def say(lexicon: Lexicon, act: str, move: Record) -> str:
+    """The robot's sentence for a move; `act` is the name of its predicate."""
+    return _worded(lexicon, lexicon.says, act, move)
+
+
+def tell(lexicon: Lexicon, act: str, move: Record) -> str:
+    """The tutor's sentence for a move: what a simulated tutor says.
+
+    >>> from kille.dialogue.meanings import meaning_in, noun
+    >>> from ttr import record
+    >>> move = record(content=meaning_in("cup", "Naming"), signs=[noun("cup")])
+    >>> tell(lexicon("en"), "correct", move)
+    'No, a cup.'
+    """
+    return _worded(lexicon, lexicon.tells, act, move)
+
+
+def did_not_understand(lexicon: Lexicon, text: str) -> str:
+    """One sentence: that it was not understood, and what could be said instead.
+
+    That is the text with its slips mended, or an example that is like it.
+
+    >>> print(did_not_understand(lexicon("en"), "Where is teh book?"))
+    Sorry, I did not understand "Where is teh book?". You could say
+    "Where is the book?"; ...
+    """
+    shown = re.sub(r"\s+", " ", text).strip()
+    shown = "".join(c if c.isprintable() else "�" for c in shown)
+    shown = shown if len(shown) <= _SHOWN else shown[: _SHOWN - 3] + "…"
+    return lexicon.not_understood.format(text=shown, nearest=suggested(lexicon, shown))
+
+
+def _worded(lexicon: Lexicon, wordings: Wordings, act: str, move: Record) -> str:
+    words = {word_of(sign): sign for sign in move.signs}
+    slots = dict(_slots(lexicon, move.content, words))
+    rival = move.rival if "rival" in move else Rec
+    if isinstance(rival, RecordType):
+        slots |= {_of_rival(slot): text for slot, text in _slots(lexicon, rival, words)}
+    slots |= details(lexicon, move)
+    wording = _fitting(wordings[act], slots)
+    return _capital(lexicon.with_examples(wording).format_map(slots))
+
+
+def _fitting(wordings: Iterable[str], slots: Mapping[str, str]) -> str:
+    """The first wording of which all slots are filled, or else the last."""
+    wording = ""
+    for wording in wordings:
+        if all(slot in slots for slot in _slots_in(wording)):
+            return wording
+    return wording
+
+
+def _slots_in(wording: str) -> Iterator[str]:
+    for _, slot, _, _ in Formatter().parse(wording):
+        if slot and slot != "examples":
+            yield slot
+
+
+def _of_rival(slot: str) -> str:
+    """The slot of the rival: {rival} for {word}, {a_rival}, {rival_relation} …"""
+    return {"word": "rival", "a_word": "a_rival"}.get(slot, f"rival_{slot}")
+
+
+def _capital(sentence: str) -> str:
+    return sentence[:1].upper() + sentence[1:]
+
+
+def _slots(
+    lexicon: Lexicon, content: RecordType, words: Words
+) -> Iterator[tuple[str, str]]:
+    """The slots that a content fills, with what it fills them with."""
+    yield from _claim_slots(lexicon, content, words)
+    yield from listed(lexicon, content, words)
     for label, field in content.fields:
-        if isinstance(field, PType) and field.pred.name in forms:
-            yield "relation" if label == "rel" else label, forms[field.pred.name]
-        if isinstance(field, RecordType):
-            for _, form in _words(field, forms):
-                yield label, form
+        sign = next((it for it in words.values() if it.meaning is field), None)
+        if sign is not None and label not in (*_PARTS, *lexicon.styles):
+            yield from _forms(lexicon, label, sign)
+        elif isinstance(field, RecordType):
+            yield from _phrase_slots(lexicon, label, field, words)
+        elif isinstance(field, Singleton) and isinstance(
+            field.value, str | float | int
+        ):
+            yield label, lexicon.values.get(str(field.value), _plainly(field.value))
 
 
-@cache
-def english() -> Lexicon:
-    """The packaged English lexicon."""
-    source = files("kille.grammars").joinpath("lexicon.en.toml")
-    data = tomllib.loads(source.read_text(encoding="utf-8"))
-    understands = data["understands"]
-    return Lexicon(
-        says=data["says"],
-        bands=data["bands"],
-        articles=data["articles"],
-        examples=tuple(understands["examples"]),
-        not_understood=understands["not_understood"],
-    )
+def _claim_slots(
+    lexicon: Lexicon, content: RecordType, words: Words
+) -> Iterator[tuple[str, str]]:
+    """The words that a content claims to be true, or not."""
+    alone = "x" in content
+    for label in _CLAIMS:
+        sign = next((words[p] for p in claimed(content.get(label)) if p in words), None)
+        if sign is None:
+            continue
+        slots = dict(_forms(lexicon, (_WORDS if alone else _CLAIMS)[label], sign))
+        if label == "a" and not alone:
+            article = _gender(lexicon, content, words)
+            slots["so"] = lexicon.agreeing(sign.form, article)
+        yield from slots.items()
+        if isinstance(content[label], Negation):
+            yield from ((f"not_{slot}", text) for slot, text in slots.items())
+
+
+def _forms(lexicon: Lexicon, slot: str, sign: Record) -> Iterator[tuple[str, str]]:
+    """The forms of a word, as slots."""
+    yield slot, sign.form
+    if sign.kind == "noun":
+        yield f"a_{slot}", lexicon.with_article(sign.form, sign.article)
+        article = lexicon.article(sign)
+        yield f"the_{slot}", noun_phrase(lexicon, sign, "definite")
+        yield f"plural_{slot}", lexicon.inflected(sign.form, "PLURAL", article)
+
+
+def _gender(lexicon: Lexicon, content: RecordType, words: Words) -> str:
+    """The article of the noun for the target, which what is said of it agrees with."""
+    target = content.get("target")
+    if not isinstance(target, RecordType):
+        return ""
+    noun = next((words[p] for p in claimed(target.get("c")) if p in words), None)
+    return lexicon.article(noun) if noun is not None else ""
+
+
+def _phrase_slots(
+    lexicon: Lexicon, label: str, part: RecordType, words: Words
+) -> Iterator[tuple[str, str]]:
+    """The phrase for a part, with and without its articles."""
+    for slot, style in (
+        (label, label if label in lexicon.styles else "bare"),
+        (f"a_{label}", "indefinite"),
+        (f"the_{label}", "definite"),
+    ):
+        found = phrase(lexicon, part, words, style)
+        if found is not None:
+            yield slot, found
+
+
+def _plainly(value: str | float) -> str:
+    """A number or text of a content, as it is said."""
+    return f"{value:g}" if isinstance(value, float) else str(value)

@@ -112,7 +112,22 @@ def _add_talk(commands: Any) -> None:
         metavar="FILE",
         help="where it keeps what it learns (your data folder)",
     )
-    talk.add_argument("--lang", choices=["en"], default="en", help="language")
+    talk.add_argument(
+        "--lang", choices=["en", "sv"], default="en", help="English or Swedish (en)"
+    )
+    talk.add_argument(
+        "--mode",
+        choices=["driven", "assisted", "autonomous"],
+        default="assisted",
+        help="driven: never asks; assisted: asks when it helps; autonomous: also "
+        "learns by itself what it is sure of (assisted)",
+    )
+    talk.add_argument(
+        "--wording",
+        choices=["paper", "four"],
+        default="paper",
+        help="how certain it sounds: the paper's wordings, or four bands (paper)",
+    )
     talk.add_argument("--trace", action="store_true", help="show the judgements")
     talk.set_defaults(run=_talk)
 
@@ -238,7 +253,14 @@ def _talk(options: argparse.Namespace) -> int:
     from kille.interfaces.talk import talk
 
     account = derivation if options.trace else nothing
-    return talk(options.sensor, options.memory, account)
+    return talk(
+        options.sensor,
+        options.memory,
+        account,
+        language=options.lang,
+        mode=options.mode,
+        wording=options.wording,
+    )
 
 
 def _replay(options: argparse.Namespace) -> int:

@@ -8,9 +8,20 @@ from kille.dialogue.meanings import predicate_at
 from kille.exchange import Exchange
 from kille.gaze import View
 from kille.interfaces.terminal import hanging_type
-from ttr import Judgement, PType, Record, RecordType
+from ttr import (
+    Judgement,
+    PType,
+    Rec,
+    Record,
+    RecordType,
+    Singleton,
+    record,
+    rectype,
+)
 from ttr.printing import notation
+from ttr.records import differences
 from ttr.substitution import grounded
+from ttr.syntax import Object
 from ttr.updates import Step
 
 __all__ = [
@@ -43,8 +54,9 @@ def claims(turn: Exchange) -> Iterator[tuple[str, str]]:
 def derivation(turn: Exchange) -> Iterator[tuple[str, str]]:
     """A turn in full: the judgement that the parse is, each rule and its changes."""
     if turn.heard is not None:
-        yield "heard", notation(turn.heard.sit)
-        yield "", f": {notation(turn.heard.type)}"
+        yield from _move("heard", turn.heard)
+        for sign in turn.heard.sit.signs:
+            yield "word", f'"{sign.form}", {sign.kind} : {notation(sign.meaning)}'
     for step in turn.steps:
         doc = step.rule.doc.split("\n")[0]
         yield "rule", f"{step.rule.name}: {doc}"
@@ -72,10 +84,37 @@ def _changes(step: Step) -> Iterator[str]:
 
     What was taken off a list was told when it came on.
     """
-    for change in step.changes:
+    for change in differences(in_short(step.before), in_short(step.after)):
         path, taken_off, _ = change.partition(": − ")
         if not path.startswith(_TOLD_APART):
             yield f"{path}: − …" if taken_off else change
+
+
+def in_short(value: Object) -> Object:
+    """A state for people: a word is its form, a planned move only what it will say.
+
+    What the words mean was told when they were heard.
+    """
+    match value:
+        case Record() if "meaning" in value and "form" in value:
+            return value.form
+        case Record():
+            return record({label: in_short(value[label]) for label in value})
+        case tuple():
+            return tuple(map(in_short, value))
+        case RecordType() if "teaches" in value and "signs" in value:
+            return _planned(value)
+    return value
+
+
+def _planned(T: RecordType) -> RecordType:
+    """A planned move without the fields that are empty, or left to be filled."""
+    told = {
+        label: Singleton(field.base, in_short(field.value))
+        for label, field in T.fields
+        if isinstance(field, Singleton) and field.value not in ((), Rec)
+    }
+    return rectype({"e": T["e"], **told})
 
 
 def _move(who: str, judgement: Judgement) -> Iterator[tuple[str, str]]:

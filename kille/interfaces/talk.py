@@ -14,6 +14,7 @@ from kille.interfaces.showing import Account, explained, things_in_view
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import MemoryFileError
 from kille.perception.sheet import overview, write_picture
+from kille.perception.thumbnails import outlined
 from kille.sensors.sensor import SensorError, Stage
 from ttr import TTRError
 
@@ -29,6 +30,7 @@ Lines that begin with @ change what there is to see:
                                 #2 This is a book.
   @ look                        what is in view
   @ picture [FILE.png]          a picture of it, with the numbers
+  @ why [FILE.png]              what the latest "Why?" reminded it of, as a picture
   @ things                      all that can be shown
   @ scene SENSOR                look through another sensor
   @ restart                     a new dialogue, with the same memory
@@ -37,10 +39,19 @@ Ctrl-D or "Goodbye." ends the conversation; what was learned stays."""
 _POINTING = re.compile(r"#[0-9]{1,6}")
 
 
-def talk(sensor: str, memory: Path | None, account: Account) -> int:
+def talk(
+    sensor: str,
+    memory: Path | None,
+    account: Account,
+    *,
+    language: str = "en",
+    mode: str = "",
+    wording: str = "",
+) -> int:
     """Talks until the tutor leaves, with an account of each turn; the exit code."""
+    place = memory_path(memory)
     try:
-        robot = Agent(sensor, memory_path(memory))
+        robot = Agent(sensor, place, language=language, mode=mode, wording=wording)
     except (SensorError, MemoryFileError) as error:
         return complain(error)
     with robot, _line_editing():
@@ -65,7 +76,7 @@ class _Conversation:
             if not self._typed:
                 self._print(f"U> {line}")
             self._answer(line)
-            if self._has_left():
+            if self._has_said("Part"):
                 return
 
     def _welcome(self) -> None:
@@ -102,14 +113,14 @@ class _Conversation:
     def _done(self, line: str) -> str:
         if line.startswith("@"):
             return self._command(line[1:].strip())
-        if _POINTING.fullmatch(line):
+        if _POINTING.fullmatch(line) and not self._robot.state.shared.qud:
             return self._command(f"point {line}")
         turns = len(self._robot.exchanges)
-        answer = self._robot.hear(line) if line else self._robot.look()
+        answer = self._robot.hear(line)
         for turn in self._robot.exchanges[turns:]:
             for text in explained(self._account(turn)):
                 self._print(text, style="dim")
-        if line.rstrip(".!?").lower() == "help":
+        if self._has_said("GiveHelp"):
             answer += "".join(f"\n  {command}" for command in COMMANDS.splitlines())
         return answer
 
@@ -118,6 +129,8 @@ class _Conversation:
         match verb:
             case "picture":
                 return self._picture(Path(rest or "kille-view.png"))
+            case "why":
+                return self._reminder(Path(rest or "kille-why.png"))
             case "things":
                 return self._things()
             case "" | "help":
@@ -141,6 +154,32 @@ class _Conversation:
         self._print(f"The picture is in {path}.")
         return answer
 
+    def _reminder(self, path: Path) -> str:
+        """Writes the picture of the lesson that the robot was reminded of."""
+        key = next(self._reminders(), None)
+        picture = None if key is None else self._robot.memory.picture(int(key))
+        if picture is None:
+            complain(
+                'there is no lesson to show: ask "Why?" after the robot has said what '
+                "something is"
+            )
+            return ""
+        try:
+            write_picture(path, outlined(picture))
+        except (OSError, ValueError) as error:
+            complain(f"the picture cannot be written to {path}: {error}")
+            return ""
+        self._print(f"What it was reminded of is in {path}.")
+        return ""
+
+    def _reminders(self) -> Iterator[str]:
+        """The lessons that the robot has named as reasons, the latest first."""
+        for turn in reversed(self._robot.exchanges):
+            for said in turn.said:
+                if said.judgement is not None:
+                    for reason in said.judgement.sit.reasons:
+                        yield from (it.key for it in reason.reminders)
+
     def _things(self) -> str:
         sensor = self._robot.gaze.sensor
         if isinstance(sensor, Stage):
@@ -153,11 +192,11 @@ class _Conversation:
         if self._robot.view is not None:
             self._print(things_in_view(self._robot.view))
 
-    def _has_left(self) -> bool:
-        latest = self._robot.exchanges[-1:] if self._robot.exchanges else []
+    def _has_said(self, act: str) -> bool:
+        """Whether the robot's latest turn was such an act."""
         return any(
-            said.judgement is not None and said.judgement.type <= named("Part")
-            for turn in latest
+            said.judgement is not None and said.judgement.type <= named(act)
+            for turn in self._robot.exchanges[-1:]
             for said in turn.said
         )
 

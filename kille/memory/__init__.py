@@ -1,7 +1,7 @@
 """The durable memory: what was said, seen and learned, kept in one SQLite file.
 
 What the robot was taught is on disk before it says "OK", with its evidence: the turn,
-the sensor's scans and places. Models are rebuilt from these observations.
+the sensor's scans, traits, places and pictures. Models are rebuilt from these.
 """
 
 from kille.memory.errors import MemoryFileError, NoSuchLessonError

@@ -132,12 +132,12 @@ def _connect(path: Path, mode: Mode) -> sqlite3.Connection:
 def _own(connection: sqlite3.Connection) -> None:
     """Make this the only writer, commits durable and the tables up to date."""
     connection.execute("PRAGMA synchronous = FULL")
-    connection.execute("PRAGMA foreign_keys = ON")
     # What is forgotten is overwritten, not only passed over.
     connection.execute("PRAGMA secure_delete = ON")
     hold(connection)
     schema.migrate(connection)
     connection.execute("COMMIT")
+    connection.execute("PRAGMA foreign_keys = ON")  # not while tables are replaced
     hold(connection)
 
 

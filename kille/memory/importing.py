@@ -98,7 +98,7 @@ def _sums(reader: Reader, path: Path) -> dict[str, str]:
     manifest = _json(reader.read(MANIFEST))
     if manifest["format"] != FORMAT:
         raise ValueError(f"its format is {manifest['format']}")
-    if manifest["version"] != VERSION:
+    if manifest["version"] not in range(1, VERSION + 1):
         raise PackageError(
             f"{path} is of version {manifest['version']} of the format, this program "
             f"knows {VERSION}: update kille"

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from kille.memory.pictures import Picture
 from kille.scene import Configuration, Point, Traits, Vector
 
-Kind = Literal["object", "relation"]
+Kind = Literal["object", "attribute", "relation"]
+"""What a word is said of: what a thing is, how it is, or where it is."""
 
 DESCRIPTOR_LENGTH = 128
 
@@ -23,12 +24,14 @@ class Word:
     """A word that was learned.
 
     `name` is what its predicate is called (`can_of_paint`), `surface` what the tutor
-    said when it was first taught ("can of paint").
+    said when it was first taught ("can of paint"), `article` what stood before it then,
+    "" where that is unknown.
     """
 
     name: str
     surface: str
     kind: Kind
+    article: str = ""
 
 
 @dataclass(frozen=True)
@@ -118,16 +121,20 @@ class Arrangement:
 
 @dataclass(frozen=True)
 class Lesson:
-    """That a turn taught a word; `key` names the lesson for good."""
+    """That a turn taught a word; `key` names the lesson for good.
+
+    It `holds`, or it is one in what the word does not hold of: "this is not a cup".
+    """
 
     key: int
     word: Word
     turn: Turn
+    holds: bool = field(default=True, kw_only=True)
 
 
 @dataclass(frozen=True, eq=False)
 class ObjectLesson(Lesson):
-    """A lesson in what an object is called, with what was seen."""
+    """A lesson in what an object is called, or how it is, with what was seen."""
 
     seen: Sighting
 

@@ -15,6 +15,7 @@ from kille.memory.errors import NoSuchLessonError, content_explained, explained
 from kille.memory.lessons import (
     Arrangement,
     Dialogue,
+    Kind,
     Lesson,
     ObjectLesson,
     RelationLesson,
@@ -57,7 +58,10 @@ class MemoryReader:
         self.close()
 
     def words(self) -> tuple[Word, ...]:
-        """Every word that a lesson teaches, as it was said first, oldest first."""
+        """Every word that is known to hold of something, oldest first.
+
+        It is as it was said when that was first taught, with the first article it had.
+        """
         with explained(self.place):
             return reading.words(self._connection)
 
@@ -76,13 +80,36 @@ class MemoryReader:
         with explained(self.place):
             return reading.lessons(self._connection)
 
+    def latest(self, count: int = 1) -> tuple[Lesson, ...]:
+        """So many of the newest lessons, the newest last, without what was seen."""
+        with explained(self.place):
+            return reading.latest(self._connection, count)
+
+    def told(self, key: int) -> Lesson:
+        """The lesson of this key without what was seen. Raises NoSuchLessonError."""
+        with explained(self.place):
+            found = reading.told(self._connection, key)
+        if found is None:
+            raise _no_such(self.place, key)
+        return found
+
+    def keys_of(self, kind: Kind, name: str) -> tuple[int, ...]:
+        """The keys of the lessons in a word, oldest first."""
+        with explained(self.place):
+            return reading.keys_of(self._connection, kind, name)
+
     def objects(self) -> Iterator[ObjectLesson]:
-        """The lessons about objects, oldest first, without their pictures.
+        """The lessons in what objects are, oldest first, without their pictures.
 
         They are read some hundred at a time, as they are asked for.
         """
         with content_explained(self.place):
             yield from reading.objects(self._connection)
+
+    def attributes(self) -> Iterator[ObjectLesson]:
+        """The lessons in how objects are, read like those in what they are."""
+        with content_explained(self.place):
+            yield from reading.objects(self._connection, "attribute")
 
     def relations(self) -> Iterator[RelationLesson]:
         """The lessons about relations, read like those about objects."""
@@ -127,7 +154,7 @@ class Memory(MemoryReader):
     ...     seen = Sighting("synthetic", 0.0, scans=(), place=Point(0.0, 0.1, 0.8))
     ...     key = memory.learn_object(said, "cup", "cup", seen)
     ...     print(memory.words())
-    (Word(name='cup', surface='cup', kind='object'),)
+    (Word(name='cup', surface='cup', kind='object', article=''),)
     """
 
     def __init__(self, connection: sqlite3.Connection, place: str) -> None:
@@ -160,29 +187,64 @@ class Memory(MemoryReader):
     def record_turn(self, turn: Turn) -> int:
         """Keep what was said; the id of the turn, the same however often it is kept.
 
+        What it was understood to be, "" at first, may be added when it is known.
         Raises ValueError if its dialogue never began, or if something else is on
         record as that turn.
         """
         with self._transaction() as connection:
             return writing.add_turn(connection, turn)
 
-    def learn_object(self, turn: Turn, name: str, surface: str, seen: Sighting) -> int:
-        """Keep the turn, the word it taught and what was seen, all or nothing.
-
-        The key of the lesson. Raises ValueError as `record_turn` does.
-        """
-        with self._transaction() as connection:
-            return writing.add_lesson(connection, turn, name, surface, seen)
-
-    def learn_relation(
-        self, turn: Turn, name: str, surface: str, seen: Arrangement
+    def learn_object(
+        self,
+        turn: Turn,
+        name: str,
+        surface: str,
+        seen: Sighting,
+        *,
+        article: str = "",
+        holds: bool = True,
     ) -> int:
         """Keep the turn, the word it taught and what was seen, all or nothing.
 
-        The key of the lesson. Raises ValueError as `record_turn` does.
+        The key of the lesson, which `holds`, or is one in what the word does not hold
+        of. Raises ValueError as `record_turn` does.
         """
+        word = Word(name, surface, "object", article)
+        return self._learn(turn, word, seen, holds)
+
+    def learn_attribute(
+        self,
+        turn: Turn,
+        name: str,
+        surface: str,
+        seen: Sighting,
+        *,
+        article: str = "",
+        holds: bool = True,
+    ) -> int:
+        """The same for a word for how a thing is, such as "red"."""
+        word = Word(name, surface, "attribute", article)
+        return self._learn(turn, word, seen, holds)
+
+    def learn_relation(
+        self,
+        turn: Turn,
+        name: str,
+        surface: str,
+        seen: Arrangement,
+        *,
+        article: str = "",
+        holds: bool = True,
+    ) -> int:
+        """The same for a word for where a thing is, such as "left of"."""
+        word = Word(name, surface, "relation", article)
+        return self._learn(turn, word, seen, holds)
+
+    def _learn(
+        self, turn: Turn, word: Word, seen: Sighting | Arrangement, holds: bool
+    ) -> int:
         with self._transaction() as connection:
-            return writing.add_lesson(connection, turn, name, surface, seen)
+            return writing.add_lesson(connection, turn, word, seen, holds=holds)
 
     def forget(self, key: int) -> None:
         """Unlearn one lesson; what was said stays on record.
@@ -194,11 +256,24 @@ class Memory(MemoryReader):
         if not found:
             raise _no_such(self.place, key)
 
+    def forget_word(self, kind: Kind, name: str) -> tuple[int, ...]:
+        """Unlearn all lessons in a word, all or nothing; their keys, oldest first.
+
+        Raises NoSuchLessonError if there are none.
+        """
+        with self._transaction() as connection:
+            keys = reading.keys_of(connection, kind, name)
+            for key in keys:
+                writing.delete_lesson(connection, key)
+        if not keys:
+            raise NoSuchLessonError(f"{self.place} has no lesson in the {kind} {name}")
+        return keys
+
     def merge(self, other: Source) -> Merged:
         """Add what is new in another memory, all or nothing; what that was.
 
-        Nothing that is known is learned again: not a lesson in the same word from the
-        same turn of the same dialogue. An empty memory becomes the other.
+        Nothing that is known is learned again: not a lesson of the same in the same
+        word from the same turn of the same dialogue. An empty memory becomes the other.
         """
         with self._transaction() as connection:
             return merging.merge(connection, other)

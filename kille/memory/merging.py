@@ -1,8 +1,8 @@
 """Adding another memory to one, so that nothing is learned twice.
 
 A dialogue of the other is one of ours if both began at the same time and all turns that
-both have are the same. A lesson is one of ours if it teaches the same word in the same
-turn. Where ours is empty, everything keeps its number.
+both have are the same. A lesson is one of ours if it teaches the same of the same word
+in the same turn. Where ours is empty, everything keeps its number.
 """
 
 from __future__ import annotations
@@ -20,10 +20,9 @@ from kille.memory.lessons import (
     ObjectLesson,
     RelationLesson,
     Turn,
-    Word,
 )
 
-Identity = tuple[int, int, str, str]
+Identity = tuple[int, int, str, str, bool]
 Said = Mapping[int, Turn]
 """The turns of one dialogue by their number, as if it had no number itself."""
 
@@ -105,11 +104,15 @@ def _add_lessons(
             ours[identity] -= 1
             known += 1
             continue
-        word: Word = lesson.word
         key = lesson.key if keeps else None
         learned.append(
             writing.add_lesson(
-                connection, turn, word.name, word.surface, lesson.seen, key
+                connection,
+                turn,
+                lesson.word,
+                lesson.seen,
+                holds=lesson.holds,
+                key=key,
             )
         )
     return learned, known
@@ -117,7 +120,7 @@ def _add_lessons(
 
 def _identity(lesson: Lesson) -> Identity:
     turn, word = lesson.turn, lesson.word
-    return turn.dialogue, turn.number, word.kind, word.name
+    return turn.dialogue, turn.number, word.kind, word.name, lesson.holds
 
 
 def _by_dialogue(turns: Iterable[Turn]) -> dict[int, dict[int, Turn]]:

@@ -1,15 +1,16 @@
 """Dialogues, turns and lessons as lines of JSON, with files of arrays and pictures.
 
-What is unpacked is checked: a `ValueError`, `KeyError` or `TypeError` says that these
-are not values that were packed.
+What is unpacked is checked: a `ValueError`, `KeyError`, `TypeError` or `OverflowError`
+says that these are not values that were packed.
 """
 
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Mapping
 from dataclasses import asdict
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from kille.memory.configurations import as_json, from_json
 from kille.memory.lessons import (
     Arrangement,
     Dialogue,
+    Kind,
     ObjectLesson,
     RelationLesson,
     Scan,
@@ -64,6 +66,7 @@ def pack_lesson(lesson: ObjectLesson | RelationLesson) -> tuple[Line, Files]:
     line: Line = {
         "lesson": lesson.key,
         **asdict(lesson.word),
+        "holds": lesson.holds,
         "dialogue": lesson.turn.dialogue,
         "turn": lesson.turn.number,
         "sensor": lesson.seen.sensor,
@@ -90,22 +93,38 @@ def unpack_lesson(
     """The lesson of a line with its files; `turns` by dialogue and number."""
     key = whole(line, "lesson")
     turn = turns[whole(line, "dialogue"), whole(line, "turn")]
-    name, surface = _text(line, "name"), _text(line, "surface")
+    word, holds = _word(line), _truth(line)
     sensor, time = _text(line, "sensor"), _number(line["time"])
     picture = _unpack_picture(line["picture"], files) if "picture" in line else None
-    match line["kind"]:
-        case "object":
+    match word.kind:
+        case "object" | "attribute":
             place = None if line["place"] is None else _point(line["place"])
             scans, traits = _unpack_features(files[FEATURES])
             sighting = Sighting(sensor, time, scans, place, traits, picture)
-            return ObjectLesson(key, Word(name, surface, "object"), turn, sighting)
+            return ObjectLesson(key, word, turn, sighting, holds=holds)
         case "relation":
             target, landmark = _text(line, "target"), _text(line, "landmark")
             configuration = from_json(line["configuration"])
             stand = Arrangement(sensor, time, target, landmark, configuration, picture)
-            return RelationLesson(key, Word(name, surface, "relation"), turn, stand)
-        case kind:
-            raise ValueError(f"there are no lessons of the kind {kind}")
+            return RelationLesson(key, word, turn, stand, holds=holds)
+
+
+def _word(line: Line) -> Word:
+    kinds: dict[str, Kind] = {it: it for it in get_args(Kind)}
+    if line["kind"] not in kinds:
+        raise ValueError(f"there are no lessons of the kind {line['kind']}")
+    article = _text(line, "article") if "article" in line else ""
+    return Word(
+        _text(line, "name"), _text(line, "surface"), kinds[line["kind"]], article
+    )
+
+
+def _truth(line: Line) -> bool:
+    """Whether the lesson holds, as all did of which nothing is said."""
+    holds = line.get("holds", True)
+    if not isinstance(holds, bool):
+        raise TypeError(f"holds is {holds!r}, neither true nor false")
+    return holds
 
 
 def whole(line: Line, name: str) -> int:
@@ -187,6 +206,8 @@ def _integer(value: object) -> int:
 def _number(value: object) -> float:
     if not isinstance(value, float | int) or isinstance(value, bool):
         raise TypeError(f"{value!r} is no number")
+    if not math.isfinite(value):
+        raise ValueError(f"{value!r} is no finite number")
     return float(value)
 
 

@@ -36,8 +36,13 @@ BATCH = 250
 """How many lessons are read at once."""
 
 WORDS = """
-    SELECT name, surface, kind FROM lessons
-    WHERE id IN (SELECT min(id) FROM lessons GROUP BY kind, name) ORDER BY id
+    SELECT name, surface, kind, coalesce(
+        (SELECT article FROM lessons AS other
+         WHERE other.kind = first.kind AND other.name = first.name AND article != ''
+         ORDER BY other.id LIMIT 1), '')
+    FROM lessons AS first
+    WHERE id IN (SELECT min(id) FROM lessons WHERE holds GROUP BY kind, name)
+    ORDER BY id
 """
 
 DIALOGUES = "SELECT id, began FROM dialogues ORDER BY id"
@@ -48,20 +53,32 @@ TURNS = """
 """
 
 LESSON_COLUMNS = """
-    lessons.id, name, surface, kind,
+    lessons.id, holds, name, surface, kind, article,
     dialogue, number, speaker, text, judgement, turns.time
 """
-LESSON_WIDTH = 10
+LESSON_WIDTH = 12
 
 LESSONS = f"""
     SELECT {LESSON_COLUMNS} FROM lessons JOIN turns ON turns.id = turn
     ORDER BY lessons.id
 """
 
+LATEST = f"""
+    SELECT {LESSON_COLUMNS} FROM lessons JOIN turns ON turns.id = turn
+    ORDER BY lessons.id DESC LIMIT ?
+"""
+
+TOLD = f"""
+    SELECT {LESSON_COLUMNS} FROM lessons JOIN turns ON turns.id = turn
+    WHERE lessons.id = ?
+"""
+
+KEYS_OF_WORD = "SELECT id FROM lessons WHERE kind = ? AND name = ? ORDER BY id"
+
 OBJECTS = f"""
     SELECT {LESSON_COLUMNS}, sensor, lessons.time, x, y, z
     FROM lessons JOIN turns ON turns.id = turn JOIN sightings ON lesson = lessons.id
-    WHERE lessons.id BETWEEN ? AND ? ORDER BY lessons.id
+    WHERE lessons.id BETWEEN ? AND ? AND kind IN (?, ?) ORDER BY lessons.id
 """
 
 RELATIONS = f"""
@@ -103,7 +120,10 @@ def at_one_moment(connection: sqlite3.Connection) -> Iterator[None]:
 
 
 def words(connection: sqlite3.Connection) -> tuple[Word, ...]:
-    """Every word that a lesson teaches, as it was said first, oldest first."""
+    """Every word that is known to hold of something, oldest first.
+
+    It is as it was said when that was first taught, with the first article it had.
+    """
     return tuple(Word(*row) for row in connection.execute(WORDS))
 
 
@@ -119,18 +139,37 @@ def turns(connection: sqlite3.Connection) -> tuple[Turn, ...]:
 
 def lessons(connection: sqlite3.Connection) -> tuple[Lesson, ...]:
     """All lessons, oldest first, without what was seen in them."""
-    return tuple(Lesson(*_lesson_fields(row)) for row in connection.execute(LESSONS))
+    return tuple(_lesson(row) for row in connection.execute(LESSONS))
 
 
-def objects(connection: sqlite3.Connection) -> Iterator[ObjectLesson]:
-    """The lessons about objects, oldest first, without their pictures.
+def latest(connection: sqlite3.Connection, count: int) -> tuple[Lesson, ...]:
+    """So many of the newest lessons, the newest last, without what was seen."""
+    found = connection.execute(LATEST, (count,)).fetchall()
+    return tuple(_lesson(row) for row in reversed(found))
 
-    A batch is read when its first lesson is asked for: what was forgotten before is
-    left out.
+
+def told(connection: sqlite3.Connection, key: int) -> Lesson | None:
+    """The lesson of this key without what was seen, or None."""
+    row = connection.execute(TOLD, (key,)).fetchone()
+    return None if row is None else _lesson(row)
+
+
+def keys_of(connection: sqlite3.Connection, kind: Kind, name: str) -> tuple[int, ...]:
+    """The keys of the lessons in a word, oldest first."""
+    return tuple(key for (key,) in connection.execute(KEYS_OF_WORD, (kind, name)))
+
+
+def objects(
+    connection: sqlite3.Connection, kind: Kind = "object"
+) -> Iterator[ObjectLesson]:
+    """The lessons in what objects are, or how they are, without their pictures.
+
+    Oldest first. A batch is read when its first lesson is asked for: what was forgotten
+    before is left out.
     """
-    for first, last in _batches(connection, "object"):
+    for first, last in _batches(connection, kind):
         with at_one_moment(connection):
-            batch = objects_between(connection, first, last)
+            batch = objects_between(connection, first, last, (kind, kind))
         yield from batch
 
 
@@ -168,20 +207,26 @@ def picture(connection: sqlite3.Connection, key: int) -> Picture | None:
 
 
 def objects_between(
-    connection: sqlite3.Connection, first: int, last: int
+    connection: sqlite3.Connection,
+    first: int,
+    last: int,
+    kinds: tuple[Kind, Kind] = ("object", "attribute"),
 ) -> list[ObjectLesson]:
-    """The lessons about objects whose keys are from the first to the last of these."""
+    """The lessons of these kinds whose keys are from the first to the last of these."""
     scans = _scans(connection, first, last)
     traits = _traits(connection, first, last)
     found = []
-    for row in connection.execute(OBJECTS, (first, last)).fetchall():
+    for row in connection.execute(OBJECTS, (first, last, *kinds)).fetchall():
         key = row[0]
         sensor, time, x, y, z = row[LESSON_WIDTH:]
         place = None if x is None else Point(x, y, z)
         seen = Sighting(
             sensor, time, tuple(scans.get(key, ())), place, traits.get(key, {})
         )
-        found.append(ObjectLesson(*_lesson_fields(row), seen))
+        known = _lesson(row)
+        found.append(
+            ObjectLesson(known.key, known.word, known.turn, seen, holds=known.holds)
+        )
     return found
 
 
@@ -193,7 +238,10 @@ def relations_between(
     for row in connection.execute(RELATIONS, (first, last)).fetchall():
         sensor, time, target, landmark, text = row[LESSON_WIDTH:]
         seen = Arrangement(sensor, time, target, landmark, from_text(text))
-        found.append(RelationLesson(*_lesson_fields(row), seen))
+        known = _lesson(row)
+        found.append(
+            RelationLesson(known.key, known.word, known.turn, seen, holds=known.holds)
+        )
     return found
 
 
@@ -236,6 +284,8 @@ def _batches(connection: sqlite3.Connection, kind: Kind) -> Iterator[tuple[int, 
         yield batch[0], batch[-1]
 
 
-def _lesson_fields(row: tuple[Any, ...]) -> tuple[int, Word, Turn]:
-    """The fields of a lesson, from a row that begins with LESSON_COLUMNS."""
-    return row[0], Word(*row[1:4]), Turn(*row[4:LESSON_WIDTH])
+def _lesson(row: tuple[Any, ...]) -> Lesson:
+    """The lesson of a row that begins with LESSON_COLUMNS."""
+    key, holds, name, surface, kind, article, *said = row[:LESSON_WIDTH]
+    word = Word(name, surface, kind, article)
+    return Lesson(key, word, Turn(*said), holds=bool(holds))

@@ -168,9 +168,40 @@ EVIDENCE: Migration = (
     """,
 )
 
+# The kinds of lessons are checked by their table, and SQLite changes no check: another
+# table takes its place. Nothing may look after foreign keys meanwhile, or what was seen
+# would go with the old table. The count of keys ever given is kept.
+POLARITY: Migration = (
+    """
+    CREATE TABLE newer_lessons (
+        id INTEGER PRIMARY KEY AUTOINCREMENT,
+        kind TEXT NOT NULL CHECK (kind IN ('object', 'attribute', 'relation')),
+        name TEXT NOT NULL,
+        surface TEXT NOT NULL,
+        turn INTEGER NOT NULL REFERENCES turns,
+        sensor TEXT NOT NULL,
+        time REAL NOT NULL,
+        article TEXT NOT NULL DEFAULT '',
+        holds INTEGER NOT NULL DEFAULT 1 CHECK (holds IN (0, 1))
+    )
+    """,
+    """
+    INSERT INTO newer_lessons (id, kind, name, surface, turn, sensor, time)
+    SELECT id, kind, name, surface, turn, sensor, time FROM lessons ORDER BY id
+    """,
+    "DELETE FROM sqlite_sequence WHERE name = 'newer_lessons'",
+    """
+    INSERT INTO sqlite_sequence (name, seq)
+    SELECT 'newer_lessons', seq FROM sqlite_sequence WHERE name = 'lessons'
+    """,
+    "DROP TABLE lessons",
+    "ALTER TABLE newer_lessons RENAME TO lessons",
+    "CREATE INDEX lessons_by_word ON lessons (kind, name)",
+)
+
 # The n-th makes a file of version n out of one of version n - 1. Append, never edit:
 # files of every version are out there.
-MIGRATIONS: tuple[Migration, ...] = (TABLES, EVIDENCE)
+MIGRATIONS: tuple[Migration, ...] = (TABLES, EVIDENCE, POLARITY)
 VERSION = len(MIGRATIONS)
 
 
@@ -191,6 +222,8 @@ def migrate(
     connection: sqlite3.Connection, migrations: Sequence[Migration] = MIGRATIONS
 ) -> None:
     """Bring the tables up to date, in the transaction that is open.
+
+    SQLite must not be looking after foreign keys, as it does not unless it is told to.
 
     The mark of the version is written in any case: SQLite opens a file that may not
     be written without a word, and this shows it before anything is lost.

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from dataclasses import astuple
+from dataclasses import astuple, replace
 
 from kille.memory.configurations import to_text
-from kille.memory.lessons import Arrangement, Kind, Scan, Sighting, Turn
+from kille.memory.lessons import Arrangement, Scan, Sighting, Turn, Word
 from kille.memory.pictures import Crop, Picture
 from kille.scene import Vector
 
@@ -23,8 +23,8 @@ def add_dialogue(
 def add_turn(connection: sqlite3.Connection, turn: Turn) -> int:
     """The id of this turn, which is kept once however often it is added.
 
-    Raises ValueError if its dialogue never began, or if something else is on record
-    as that turn.
+    What it was understood to be may be added when it is known. Raises ValueError if
+    its dialogue never began, or if something else is on record as that turn.
     """
     _require_dialogue(connection, turn)
     recorded = connection.execute(
@@ -40,32 +40,39 @@ def add_turn(connection: sqlite3.Connection, turn: Turn) -> int:
             *astuple(turn),
         )
     *fields, found = recorded
-    if Turn(*fields) != turn:
-        raise ValueError(f"{Turn(*fields)} is on record, it cannot become {turn}")
+    known = Turn(*fields)
+    if known == replace(turn, judgement=""):
+        judging = "UPDATE turns SET judgement = ? WHERE id = ?"
+        connection.execute(judging, (turn.judgement, found))
+    elif known != turn:
+        raise ValueError(f"{known} is on record, it cannot become {turn}")
     return int(found)
 
 
 def add_lesson(
     connection: sqlite3.Connection,
     turn: Turn,
-    name: str,
-    surface: str,
+    word: Word,
     seen: Sighting | Arrangement,
+    *,
+    holds: bool = True,
     key: int | None = None,
 ) -> int:
     """The key of a new lesson, with its turn and all that was seen.
 
     It is the one given, if one is.
     """
-    kind: Kind = "object" if isinstance(seen, Sighting) else "relation"
     key = _insert(
         connection,
-        "INSERT INTO lessons (id, kind, name, surface, turn, sensor, time) "
-        "VALUES (?, ?, ?, ?, ?, ?, ?)",
+        "INSERT INTO lessons "
+        "(id, kind, name, surface, article, holds, turn, sensor, time) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
         key,
-        kind,
-        name,
-        surface,
+        word.kind,
+        word.name,
+        word.surface,
+        word.article,
+        holds,
         add_turn(connection, turn),
         seen.sensor,
         seen.time,

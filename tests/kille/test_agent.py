@@ -135,7 +135,7 @@ def test_every_turn_is_kept_with_its_judgement() -> None:
     judged = [turn.judgement for turn in turns]
     assert "learned(" in judged[1]
     assert judged[2] == judged[3] == ""
-    assert "cup(x, look)" in judged[5]
+    assert "cup(target.x, look)" in judged[5]
     assert {turn.time for turn in turns} == {NOON.isoformat(timespec="milliseconds")}
 
 
@@ -226,7 +226,7 @@ WORDS = st.sampled_from(
 def test_any_text_gets_an_answer_and_a_state_of_its_type(text: str) -> None:
     with awake("synthetic:empty") as robot:
         try:
-            assert robot.hear(text)
+            assert robot.hear(text) or not text.strip()
         except SensorError as error:
             told = str(error)
             pointless = "#" in text and "nothing is in view" in told
@@ -549,7 +549,7 @@ def test_the_rules_that_ran_are_in_the_trace() -> None:
     with awake() as robot:
         tell(robot, "@ show cup", "This is a cup.")
         names = [step.rule.name for step in robot.trace]
-        assert names[-2:] == ["say", "keep_noun"]
+        assert names[-2:] == ["say", "keep"]
         assert "learn_word" in names
         assert robot.trace[-1].after == robot.state
         heard = robot.exchanges[-1].heard

@@ -71,10 +71,11 @@ def test_a_word_judges_as_the_robot_does(robot: Agent) -> None:
 def test_a_relation_is_judged_of_two_things(robot: Agent) -> None:
     left = robot.meaning("to the left of")
     cup, book = cup_and_book(robot)
-    r = record(look=cup.look, target=record(x=book.x), landmark=record(x=cup.x))
-    back = record(look=cup.look, target=record(x=cup.x), landmark=record(x=book.x))
+    r = record(look=cup.look, frame="away", target=book, landmark=cup)
+    back = record(look=cup.look, frame="away", target=cup, landmark=book)
     assert left.degree(r) == robot.model.perceive(r, left.type).p
-    assert str(left.classify(r)) == f"to_the_left_of({book.x}, {cup.x}, {cup.look})"
+    claim = f"to_the_left_of({book.x}, {cup.x}, {cup.look}, away)"
+    assert str(left.classify(r)) == claim
     assert left.degree(back).hi < 0.5
 
 

@@ -91,7 +91,8 @@ WRONG = {
     "@ scene nowhere": "nowhere",
     "@ point 3": "no thing #3",
     "U> #3 This is a cup.": "no thing #3",
-    "U~ Hello. 0.6 | Goodbye. 0.3": "for certain: write `U>`",
+    "U~ Hello. 0.6 | Goodbye.": "ends with its probability",
+    "U~ Hello. 0.6 | Goodbye. 0.9": "come to at most 1, found 1.5",
 }
 
 

@@ -454,3 +454,22 @@ def test_a_machine_plays_and_checks():
     wrong = testing.machine(game_of(misfit))
     with pytest.raises(AssertionError, match="P1 type preservation"):
         run_state_machine_as_test(wrong, settings=few)
+
+
+def test_a_rule_that_weighs_all_that_may_have_been_heard_is_pure():
+    @rule(when=Board, on=Saying, p=0.01)
+    def weigh(s, e, *, nbest):
+        told = [one for one, _ in nbest] if hasattr(nbest, "alternatives") else [e]
+        return replace(s, heard=[*s.heard, told[-1].w])
+
+    events = [record(w=word, e=f"said {word}") for word in ("hi", "ho")]
+    model = M
+    for event in events:
+        model = model.given(event.e, say(event.w))
+    game = Game("words", Board, START, weigh, model)
+    both = nbest((events[0], 0.6), (events[1], 0.4))
+    dialogue = testing.play(game, [both])
+    assert dialogue.now.state.heard == ("ho",)
+    assert (
+        next(p for p in testing.ALL if p.name == "P2").breach(dialogue, Roles()) is None
+    )

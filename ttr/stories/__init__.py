@@ -4,6 +4,7 @@
 them and says where they differ from what happens. `written` makes a story of turns.
 """
 
+from ttr.stories.hearing import Alternative, alternatives
 from ttr.stories.mismatches import SILENCE, Mismatch
 from ttr.stories.opening import opening, setting_of
 from ttr.stories.outcomes import Outcome, facts, junit, summary
@@ -14,6 +15,7 @@ from ttr.stories.writing import Moment, moment, worded, written
 
 __all__ = [
     "SILENCE",
+    "Alternative",
     "Line",
     "Mismatch",
     "Moment",
@@ -22,6 +24,7 @@ __all__ = [
     "Setting",
     "Story",
     "StoryError",
+    "alternatives",
     "facts",
     "failing",
     "fits",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from functools import partial
+from typing import NamedTuple
 
 from ttr.errors import NotationError, TTRError, UpdateError, suggestion
 from ttr.stories.reading import Line, StoryError
@@ -12,7 +13,7 @@ from ttr.stories.settings import Setting
 from ttr.syntax import Object, TypeNode
 from ttr.updates import NBest, Run, nbest
 
-__all__ = ["event", "type_of", "value"]
+__all__ = ["Alternative", "alternatives", "event", "type_of", "value"]
 
 _Read = Callable[[Line, str, int], object]
 """What a part of a line makes happen, which begins so far into its text."""
@@ -95,27 +96,39 @@ def _weighed(line: Line, begin: int, read: _Read) -> NBest | None:
 
     Those that are not understood are left out: it may have been something else.
     """
-    text = line.text[begin:]
-    pairs = [
-        _alternative(line, begin + part.start(), part[0], read)
-        for part in re.finditer(r"(?:(?!\s\|\s).)+", text)
-    ]
+    found = alternatives(line, begin)
+    pairs = [(read(line, it.text, it.begin), it.p) for it in found]
     understood = [(one, p) for one, p in pairs if one is not None]
     if pairs and not understood:
         return None
     try:
         return nbest(*understood)
     except UpdateError as error:
-        span = line.span(begin, len(text))
+        span = line.span(begin, len(line.text) - begin)
         raise StoryError(f"{line.place}: {error.message}", span=span) from error
 
 
-def _alternative(
-    line: Line, begin: int, text: str, read: _Read
-) -> tuple[object, float]:
+class Alternative(NamedTuple):
+    """What was perhaps said or done: where it begins in its line, and how probable."""
+
+    text: str
+    p: float
+    begin: int
+
+
+def alternatives(line: Line, begin: int = 0) -> tuple[Alternative, ...]:
+    """The alternatives in a line: texts, each with its probability after it.
+
+    Raises `StoryError` for one without.
+    """
+    parts = re.finditer(r"(?:(?!\s\|\s).)+", line.text[begin:])
+    return tuple(_alternative(line, begin + it.start(), it[0]) for it in parts)
+
+
+def _alternative(line: Line, begin: int, text: str) -> Alternative:
     found = re.fullmatch(r"[\s|]*(\S.*?)\s+(\d*\.?\d+)\s*", text)
     if found is None:
         told = "an alternative ends with its probability, as in `Greet 0.6`"
         span = line.span(begin, len(text))
         raise StoryError(f"{line.place}: {told}", span=span)
-    return read(line, found[1], begin + found.start(1)), float(found[2])
+    return Alternative(found[1], float(found[2]), begin + found.start(1))

@@ -18,7 +18,7 @@ def applied(game: Game, step: Step, *rules: Rule) -> Run | None:
     None where one of them fails, or none applies.
     """
     algorithm = seq(*map(maybe, rules))
-    events = () if step.event is None else (step.event,)
+    events = () if step.given is None else (step.given,)
     try:
         after = run(
             algorithm, step.before, type=game.type, model=step.model, events=events

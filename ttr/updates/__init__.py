@@ -21,6 +21,7 @@ from ttr.updates.algorithms import (
     first,
     maybe,
     repeat,
+    replaced,
     rules_of,
     seq,
 )
@@ -52,6 +53,7 @@ __all__ = [
     "maybe",
     "nbest",
     "repeat",
+    "replaced",
     "rule",
     "rules_of",
     "run",

@@ -12,7 +12,7 @@ from ttr.judging import derivation
 from ttr.models import Model
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, Degree
-from ttr.syntax import Object, TypeNode, freeze
+from ttr.syntax import Object, Record, RecordType, Singleton, TypeNode, freeze
 from ttr.updates.failing import in_short
 
 __all__ = ["Heard", "NBest", "heard", "nbest"]
@@ -96,11 +96,13 @@ def heard(
     if not isinstance(event, NBest):
         if certainly(model.facts, event, on):
             found = Heard(event, CERTAIN)
-        elif wanted.lo == 1.0:
+        elif wanted.lo == 1.0 or _is_other(event, on):
             return None
         else:
             found = Heard(event, derivation(model.facts, event, on).p)
         return found if _within(found.p, wanted) else None
+    if wanted.lo == 1.0 and any(_is_other(one, on) for one, _ in event):
+        return None
     judged = [(one, q, _degree(one, on, model)) for one, q in event]
     fitting = [(one, q, p) for one, q, p in judged if p != REFUTED]
     if not fitting:
@@ -108,6 +110,25 @@ def heard(
     best = max(fitting, key=lambda one: one[1] * one[2].lo)
     found = Heard(best[0], _total([(q, p) for _, q, p in fitting]))
     return found if _within(found.p, wanted) else None
+
+
+def _is_other(event: Object, on: TypeNode) -> bool:
+    """Whether an event plainly lacks labels, or names, that the type asks for.
+
+    It is quick, and mostly tells what was said from what was seen.
+    """
+    if not isinstance(on, RecordType) or not isinstance(event, Record):
+        return False
+    found = event._fields
+    return any(
+        label not in found
+        or (
+            isinstance(field, Singleton)
+            and isinstance(field.value, str)
+            and field.value != found[label]
+        )
+        for label, field in on.fields
+    )
 
 
 def _total(weighted: list[tuple[float, Degree]]) -> Degree:

@@ -58,9 +58,9 @@ ROUNDS = 1000
 class Step:
     """One rule that was applied: to what, what it bound, and what it changed.
 
-    `event` is what the rule took of what happened, with probability `p`; `created` are
-    the paths of what the rule only typed and had to be made up; `seconds` is how long
-    it took.
+    `event` is what the rule took of what happened, with probability `p`, and `given`
+    all that may have happened; `created` are the paths of what the rule only typed and
+    had to be made up; `seconds` is how long it took.
     """
 
     rule: Rule
@@ -72,6 +72,7 @@ class Step:
     created: tuple[str, ...]
     seconds: float
     model: Model
+    given: Object | NBest
 
     @cached_property
     def licence(self) -> Judgement:
@@ -303,6 +304,7 @@ class _Player:
             after.created,
             perf_counter() - start,
             so_far.model,
+            event.event if rule.on is None else self.event,
         )
         return Run(after.state, after.model, (*trace, step))
 

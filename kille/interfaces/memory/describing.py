@@ -28,7 +28,11 @@ __all__ = [
     "when",
 ]
 
-_KINDS = {"object": "a thing", "relation": "where a thing is"}
+_KINDS = {
+    "object": "a thing",
+    "attribute": "how a thing is",
+    "relation": "where a thing is",
+}
 _UNSHOWN = "\N{REPLACEMENT CHARACTER}"
 _NEARLY_NOTHING = 0.01  # metres: the cue of size is the logarithm of a length and this
 _HOLDS, _MOST_COLOURS = 0.5, 3
@@ -46,9 +50,10 @@ def said(turn: Turn) -> str:
 
 
 def title(lesson: Lesson) -> str:
-    """Which lesson it is, and in which word."""
+    """Which lesson it is, and in which word, or in what it does not hold of."""
     word = lesson.word
-    return legible(f"{word.surface} ({_KINDS[word.kind]}), lesson {lesson.key}")
+    what = word.surface if lesson.holds else f"not {word.surface}"
+    return legible(f"{what} ({_KINDS[word.kind]}), lesson {lesson.key}")
 
 
 def legible(text: str) -> str:

@@ -164,6 +164,7 @@ def _facts(shown: Shown) -> dict[str, Any]:
         "lesson": lesson.key,
         "word": lesson.word.surface,
         "kind": lesson.word.kind,
+        "holds": lesson.holds,
         "turn": asdict(lesson.turn),
         "sensor": lesson.seen.sensor,
         "pictures": {kind: str(file) for kind, file in shown.files.items()},

@@ -27,6 +27,9 @@ from kille.scene import Configuration
 
 from .conftest import ARRANGEMENTS, NAMES, SIGHTINGS, plain
 
+ARTICLES = st.sampled_from(["", "a", "ett"])
+HOLDS = st.booleans()
+
 
 class Remembering(RuleBasedStateMachine):
     """A memory in a file, beside plain lists of what it should hold."""
@@ -39,6 +42,8 @@ class Remembering(RuleBasedStateMachine):
         self.dialogue = self.memory.begin_dialogue("now")
         self.turns: list[Turn] = []
         self.objects: dict[int, tuple[Word, Turn, Sighting]] = {}
+        self.attributes: dict[int, tuple[Word, Turn, Sighting]] = {}
+        self.holding: dict[int, bool] = {}
         self.relations: dict[int, tuple[Word, Turn, Arrangement]] = {}
         self.keys: set[int] = set()
 
@@ -61,27 +66,69 @@ class Remembering(RuleBasedStateMachine):
         turn = self.say(text)
         assert self.memory.record_turn(turn) == self.memory.record_turn(turn)
 
-    @rule(name=NAMES, surface=st.text(), seen=SIGHTINGS)
-    def learn_object(self, name: str, surface: str, seen: Sighting) -> None:
+    @rule(name=NAMES, surface=st.text(), seen=SIGHTINGS, article=ARTICLES, holds=HOLDS)
+    def learn_object(
+        self, name: str, surface: str, seen: Sighting, article: str, holds: bool
+    ) -> None:
         turn = self.say("This is it.")
-        key = self.memory.learn_object(turn, name, surface, seen)
+        key = self.memory.learn_object(
+            turn, name, surface, seen, article=article, holds=holds
+        )
         self.keep_new(key)
-        self.objects[key] = Word(name, surface, "object"), turn, seen
+        self.objects[key] = Word(name, surface, "object", article), turn, seen
+        self.holding[key] = holds
 
-    @rule(name=NAMES, surface=st.text(), seen=ARRANGEMENTS)
-    def learn_relation(self, name: str, surface: str, seen: Arrangement) -> None:
+    @rule(name=NAMES, surface=st.text(), seen=SIGHTINGS, holds=HOLDS)
+    def learn_attribute(
+        self, name: str, surface: str, seen: Sighting, holds: bool
+    ) -> None:
+        turn = self.say("This is so.")
+        key = self.memory.learn_attribute(turn, name, surface, seen, holds=holds)
+        self.keep_new(key)
+        self.attributes[key] = Word(name, surface, "attribute"), turn, seen
+        self.holding[key] = holds
+
+    @rule(name=NAMES, surface=st.text(), seen=ARRANGEMENTS, holds=HOLDS)
+    def learn_relation(
+        self, name: str, surface: str, seen: Arrangement, holds: bool
+    ) -> None:
         turn = self.say("It is there.")
-        key = self.memory.learn_relation(turn, name, surface, seen)
+        key = self.memory.learn_relation(turn, name, surface, seen, holds=holds)
         self.keep_new(key)
         self.relations[key] = Word(name, surface, "relation"), turn, seen
+        self.holding[key] = holds
 
-    @precondition(lambda self: self.objects or self.relations)
+    @property
+    def taught(self) -> dict[int, tuple[Word, Turn, Sighting | Arrangement]]:
+        every = {**self.objects, **self.attributes, **self.relations}
+        return dict(sorted(every.items()))
+
+    def drop(self, key: int) -> None:
+        for lessons in (self.objects, self.attributes, self.relations):
+            lessons.pop(key, None)
+
+    @precondition(lambda self: self.taught)
+    @rule(choice=st.data())
+    def forget_word(self, choice: st.DataObject) -> None:
+        word, *_ = choice.draw(st.sampled_from(list(self.taught.values())))
+        own = [
+            key
+            for key, (it, *_) in self.taught.items()
+            if (it.kind, it.name) == (word.kind, word.name)
+        ]
+        assert self.memory.keys_of(word.kind, word.name) == tuple(own)
+        assert self.memory.forget_word(word.kind, word.name) == tuple(own)
+        for key in own:
+            self.drop(key)
+        with pytest.raises(NoSuchLessonError):
+            self.memory.forget_word(word.kind, word.name)
+
+    @precondition(lambda self: self.taught)
     @rule(choice=st.data())
     def forget(self, choice: st.DataObject) -> None:
-        key = choice.draw(st.sampled_from(sorted(self.objects | self.relations)))
+        key = choice.draw(st.sampled_from(list(self.taught)))
         self.memory.forget(key)
-        self.objects.pop(key, None)
-        self.relations.pop(key, None)
+        self.drop(key)
         with pytest.raises(NoSuchLessonError, match=f"no lesson {key}"):
             self.memory.forget(key)
 
@@ -103,6 +150,10 @@ class Remembering(RuleBasedStateMachine):
             for lesson in self.memory.objects()
         } == {key: (w, t, plain(s)) for key, (w, t, s) in self.objects.items()}
         assert {
+            lesson.key: (lesson.word, lesson.turn, plain(lesson.seen))
+            for lesson in self.memory.attributes()
+        } == {key: (w, t, plain(s)) for key, (w, t, s) in self.attributes.items()}
+        assert {
             lesson.key: (lesson.word, lesson.turn, lesson.seen)
             for lesson in self.memory.relations()
         } == {
@@ -112,21 +163,30 @@ class Remembering(RuleBasedStateMachine):
 
     @invariant()
     def it_shows_what_was_seen(self) -> None:
-        for key, (word, turn, seen) in (self.objects | self.relations).items():
+        for key, (word, turn, seen) in self.taught.items():
             lesson = self.memory.lesson(key)
             assert (lesson.word, lesson.turn) == (word, turn)
+            assert lesson.holds == self.memory.told(key).holds == self.holding[key]
             assert lesson.seen.picture == self.memory.picture(key) == seen.picture
 
     @invariant()
     def its_words_are_those_of_its_lessons(self) -> None:
-        taught = sorted((self.objects | self.relations).items())
+        taught = list(self.taught.items())
         first: dict[tuple[str, str], Word] = {}
-        for _, (word, *_) in taught:
-            first.setdefault((word.kind, word.name), word)
-        assert self.memory.words() == tuple(first.values())
-        assert [(x.key, x.word, x.turn) for x in self.memory.lessons()] == [
-            (key, word, turn) for key, (word, turn, _) in taught
-        ]
+        articles: dict[tuple[str, str], str] = {}
+        for key, (word, *_) in taught:
+            if word.article:
+                articles.setdefault((word.kind, word.name), word.article)
+            if self.holding[key]:
+                first.setdefault((word.kind, word.name), word)
+        assert self.memory.words() == tuple(
+            replace(word, article=articles.get(named, ""))
+            for named, word in first.items()
+        )
+        lessons = [(x.key, x.word, x.turn) for x in self.memory.lessons()]
+        assert lessons == [(key, word, turn) for key, (word, turn, _) in taught]
+        newest = [it.key for it in self.memory.latest(2)]
+        assert newest == [key for key, *_ in lessons][-2:]
 
 
 TestRemembering = Remembering.TestCase
@@ -154,6 +214,17 @@ def test_what_was_said_cannot_be_rewritten(
         with pytest.raises(ValueError, match="on record"):
             memory.learn_object(other, "book", "book", seen)
         assert (memory.turns(), memory.words()) == ((said(1),), ())
+
+
+def test_what_was_said_may_be_understood_later(said: Callable[[int], Turn]) -> None:
+    heard = replace(said(1), judgement="")
+    with Memory.transient() as memory:
+        memory.begin_dialogue("now")
+        assert memory.record_turn(heard) == memory.record_turn(said(1))
+        assert memory.turns() == (said(1),)
+        for other in (heard, replace(said(1), judgement="s : Greeting")):
+            with pytest.raises(ValueError, match="on record"):
+                memory.record_turn(other)
 
 
 def test_a_lesson_that_fails_half_way_leaves_nothing(

@@ -50,7 +50,7 @@ def content(memory: MemoryReader) -> object:
 def lesson_content(lesson: ObjectLesson | RelationLesson) -> object:
     seen = lesson.seen
     shown = plain(seen) if isinstance(seen, Sighting) else seen
-    return lesson.key, lesson.word, lesson.turn, shown, seen.picture
+    return lesson.key, lesson.word, lesson.turn, lesson.holds, shown, seen.picture
 
 
 def imported(path: Path, memory: Memory) -> tuple[int, int]:
@@ -87,22 +87,33 @@ def small_memory(seen: Sighting) -> Iterator[Memory]:
 @settings(max_examples=25)
 @given(
     taught=st.lists(
-        st.tuples(st.booleans(), NAMES, st.text(), SIGHTINGS | ARRANGEMENTS), max_size=4
+        st.tuples(
+            st.booleans(),
+            NAMES,
+            st.text(),
+            SIGHTINGS | ARRANGEMENTS,
+            st.sampled_from(["", "an"]),
+            st.booleans(),
+        ),
+        max_size=4,
     ),
     place=st.sampled_from(PLACES),
 )
 def test_import_undoes_export(
-    taught: list[tuple[bool, str, str, Sighting | Arrangement]], place: str
+    taught: list[tuple[bool, str, str, Sighting | Arrangement, str, bool]], place: str
 ) -> None:
     with tempfile.TemporaryDirectory() as folder, Memory.transient() as memory:
         dialogue = memory.begin_dialogue("now")
-        for number, (new, name, text, seen) in enumerate(taught):
+        for number, (new, name, text, seen, article, holds) in enumerate(taught):
             dialogue = memory.begin_dialogue("now") if new else dialogue
             turn = Turn(dialogue, number, "tutor", text, "", "now")
-            if isinstance(seen, Sighting):
-                memory.learn_object(turn, name, text, seen)
+            told = {"article": article, "holds": holds}
+            if isinstance(seen, Arrangement):
+                memory.learn_relation(turn, name, text, seen, **told)
+            elif number % 2:
+                memory.learn_attribute(turn, name, text, seen, **told)
             else:
-                memory.learn_relation(turn, name, text, seen)
+                memory.learn_object(turn, name, text, seen, **told)
         path = Path(folder) / place
         export(memory, path)
         before = content(memory)
@@ -285,12 +296,17 @@ def test_a_zip_with_any_part_changed_is_damaged_or_the_same(
         assert "is damaged" in refusal(path)
 
 
-def rewritten(folder: Path, name: str, change: Callable[[dict], object]) -> None:
-    """Changes the first line of a list, checksum and all."""
+def rewritten(
+    folder: Path,
+    name: str,
+    change: Callable[[dict], object],
+    reword: Callable[[str], str] = str,
+) -> None:
+    """Changes the first line of a list, checksum and all; `reword` changes its text."""
     first, *rest = (folder / name).read_text("utf-8").split("\n")
     line = json.loads(first)
     change(line)
-    text = "\n".join([json.dumps(line), *rest])
+    text = "\n".join([reword(json.dumps(line)), *rest])
     (folder / name).write_text(text, "utf-8")
     manifest = json.loads((folder / "memory.json").read_text())
     manifest["files"][name] = sha256(text.encode()).hexdigest()
@@ -314,6 +330,9 @@ def rewritten(folder: Path, name: str, change: Callable[[dict], object]) -> None
         ("lessons.jsonl", {"turn": 9}),
         ("lessons.jsonl", {"kind": "verb"}),
         ("lessons.jsonl", {"kind": "relation"}),
+        ("lessons.jsonl", {"kind": ["object"]}),
+        ("lessons.jsonl", {"holds": 1}),
+        ("lessons.jsonl", {"article": None}),
         ("lessons.jsonl", {"time": float("nan")}),
         ("lessons.jsonl", {"place": [0, 1]}),
         ("lessons.jsonl", {"place": [0, 1, "x"]}),
@@ -327,6 +346,15 @@ def test_what_no_memory_could_hold_is_refused(
     folder: Path, name: str, change: dict[str, object]
 ) -> None:
     rewritten(folder, name, lambda line: line.update(change))
+    assert "is damaged" in refusal(folder)
+
+
+@pytest.mark.parametrize("bad", ["1e999", "-1e999", "1" + 400 * "0"])
+def test_numbers_that_no_memory_can_keep_are_refused(folder: Path, bad: str) -> None:
+    def change(line: dict) -> None:
+        line["picture"]["intrinsics"]["fx"] = "BAD"
+
+    rewritten(folder, "lessons.jsonl", change, lambda text: text.replace('"BAD"', bad))
     assert "is damaged" in refusal(folder)
 
 
@@ -370,8 +398,26 @@ def test_files_that_we_do_not_know_are_passed_over(folder: Path) -> None:
 
 def test_a_newer_format_is_named(folder: Path) -> None:
     manifest = json.loads((folder / "memory.json").read_text())
-    (folder / "memory.json").write_text(json.dumps(manifest | {"version": 2}))
+    (folder / "memory.json").write_text(json.dumps(manifest | {"version": 3}))
     assert "update kille" in refusal(folder)
+
+
+def test_a_package_of_the_first_version_is_read(folder: Path) -> None:
+    """It says nothing of articles, nor of what words do not hold of."""
+    listed = folder / "lessons.jsonl"
+    lines = [json.loads(it) for it in listed.read_text("utf-8").splitlines()]
+    for line in lines:
+        del line["article"], line["holds"]
+    text = "".join(f"{json.dumps(line)}\n" for line in lines)
+    listed.write_text(text, "utf-8")
+    manifest = json.loads((folder / "memory.json").read_text())
+    manifest["files"]["lessons.jsonl"] = sha256(text.encode()).hexdigest()
+    manifest["version"] = 1
+    (folder / "memory.json").write_text(json.dumps(manifest))
+    with opened(folder) as package, Memory.transient() as memory:
+        memory.merge(package)
+        assert all(it.holds and it.word.article == "" for it in memory.lessons())
+        assert [it.word.name for it in memory.lessons()] == ["cup", "left_of"]
 
 
 @pytest.mark.parametrize("bytes_", [b"", b"PK", b"Dear diary, " * 99])

@@ -84,6 +84,65 @@ def of_version_1(path: Path) -> None:
         connection.commit()
 
 
+SECOND = """
+INSERT INTO dialogues VALUES (1, '2026-01-31T12:00');
+INSERT INTO turns VALUES (4, 1, 1, 'tutor', 'This is a cup.', '', 'then'),
+    (6, 1, 2, 'tutor', 'It is left of the box.', '', 'then');
+INSERT INTO lessons VALUES (2, 'object', 'cup', 'cup', 4, 'synthetic', 0.5),
+    (7, 'relation', 'left_of', 'left of', 6, 'synthetic', 1.5);
+UPDATE sqlite_sequence SET seq = 9 WHERE name = 'lessons';
+INSERT INTO sightings VALUES (2, 0.1, -0.2, 0.9);
+INSERT INTO scans VALUES (1, 2, x'{descriptor}', x'0000803f0000004000004040');
+INSERT INTO traits VALUES (1, 2, 'colour', x'0000803e0000003f');
+INSERT INTO pictures VALUES (2, x'ffd8ff01', '[[1, 2, 3, 4]]');
+INSERT INTO arrangements VALUES (7, 'cup', 'box', '{{"offset": [-0.1, 0.3, 0.0]}}');
+"""
+
+
+def of_version_2(path: Path) -> None:
+    """Makes a file as the second version of the tables has it; 9 was forgotten."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with closing(sqlite3.connect(path)) as connection:
+        schema.migrate(connection, schema.MIGRATIONS[:2])
+        connection.executescript(SECOND.format(descriptor="07" * 128))
+        connection.commit()
+
+
+def test_a_file_of_the_second_version_keeps_everything(path: Path) -> None:
+    of_version_2(path)
+    for _ in range(2):
+        with Memory.open(path) as memory:
+            cup, left = memory.lesson(2), memory.lesson(7)
+            assert (cup.word, cup.holds) == (Word("cup", "cup", "object", ""), True)
+            assert isinstance(cup.seen, Sighting)
+            assert len(cup.seen.scans) == 1
+            assert cup.seen.traits["colour"].tolist() == [0.25, 0.5]
+            assert cup.seen.picture is not None
+            assert (left.word.name, left.holds) == ("left_of", True)
+            assert isinstance(left.seen, Arrangement)
+            assert left.seen.configuration == Configuration((-0.1, 0.3, 0.0))
+    with Memory.open(path) as memory:
+        turn = Turn(memory.begin_dialogue("later"), 1, "tutor", "", "", "later")
+        seen = Sighting("synthetic", 0.0, (), None)
+        assert memory.learn_attribute(turn, "is_red", "red", seen, holds=False) == 10
+        memory.forget(2)
+    with closing(sqlite3.connect(path)) as connection:
+        assert connection.execute("SELECT count(*) FROM scans").fetchone() == (0,)
+        assert connection.execute("PRAGMA foreign_key_check").fetchall() == []
+
+
+def test_a_second_version_in_which_nothing_was_ever_taught(path: Path) -> None:
+    path.parent.mkdir()
+    with closing(sqlite3.connect(path)) as connection:
+        schema.migrate(connection, schema.MIGRATIONS[:2])
+        connection.commit()
+    with Memory.open(path) as memory:
+        assert memory.lessons() == ()
+        turn = Turn(memory.begin_dialogue("later"), 1, "tutor", "", "", "later")
+        seen = Sighting("synthetic", 0.0, (), None)
+        assert memory.learn_object(turn, "cup", "cup", seen) == 1
+
+
 def assert_kept(memory: MemoryReader) -> None:
     """Is all of the file of version 1 there?"""
     cup, box = memory.objects()

@@ -1,0 +1,242 @@
+"""How fast the robot answers, what is seen aside.
+
+    python benchmarks/talking.py [--json] [--cpu] [--profile]
+
+A dialogue of a hundred different turns in front of three things: each is parsed, taken,
+judged, answered and worded; what is seen is a prepared answer. It is played again and
+again, so that sentences are remembered; then with sentences that were never heard. The
+first turn counts from the start of the process. `--profile` says where the time goes.
+"""
+
+from __future__ import annotations
+
+import cProfile
+import gc
+import pstats
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from statistics import median, quantiles
+
+from _measuring import Result, arguments, clock_of, report
+
+from kille.dialogue.language import understand
+from kille.dialogue.meanings import adjective, noun, relation, theory, word_of
+from kille.dialogue.state import blank_model
+from kille.dialogue.tutoring import tutoring
+from ttr import Model, Record, record
+from ttr.updates import Game, Run
+
+ROUNDS = 10
+"""How often the dialogue is played; the first half warms up and is not counted."""
+
+STARTS = 5
+"""How often a process is started."""
+
+Clock = Callable[[], float]
+
+THINGS = ("o1", "o2", "o3")
+DEGREES = {
+    ("cup", "o1"): 0.9,
+    ("mug", "o1"): 0.3,
+    ("cup", "o2"): 0.85,
+    ("book", "o3"): 0.95,
+    ("is_red", "o1"): 0.9,
+    ("is_blue", "o2"): 0.9,
+    ("is_green", "o3"): 0.8,
+    ("to_the_left_of", "o1", "o3"): 0.8,
+    ("to_the_right_of", "o3", "o1"): 0.8,
+    ("behind", "o2", "o3"): 0.7,
+}
+"""How much the words are true of the things: of what is not here, not at all."""
+
+SIGNS = (
+    *map(noun, ("cup", "mug", "book")),
+    *map(adjective, ("red", "blue", "green")),
+    *map(relation, ("to the left of", "to the right of", "behind")),
+)
+
+PHRASES = ("this", "it", "the book", "the red cup", "the blue cup", "the green one")
+SENTENCES = (
+    "What is {}?",
+    "Where is {}?",
+    "Is {} a cup?",
+    "Is {} red?",
+    "Is {} to the left of the book?",
+    "{} is a cup.",
+    "{} is big.",
+    "{} is behind the red cup.",
+    "What colour is {}?",
+    "Show me {}.",
+    "No, {} is a mug.",
+    "{} is not a box.",
+)
+OTHERS = (
+    "Hello.",
+    "Yes.",
+    "No.",
+    "Thank you.",
+    "Help.",
+    "Why?",
+    "How sure are you?",
+    "What do you see?",
+    "What do you know?",
+    "What is a cup?",
+    "What does red mean?",
+    "How many cups are there?",
+    "Pardon?",
+    "Forget that.",
+    "Forget the last thing.",
+    "Where is the cup?",
+    "The red one.",
+    "What is the cup to the left of the book?",
+    "What is the red cup to the left of the green book?",
+    "A cup.",
+    "No, a mug.",
+    "This is a unicorn.",
+    "Where is the unicorn?",
+    "The unicorn is a horse.",
+    "Forget unicorn.",
+    "Colourless green ideas sleep.",
+    "What is the other cup?",
+    "The other one is a cup.",
+)
+DIALOGUE = tuple(
+    text
+    for number, sentence in enumerate(SENTENCES)
+    for text in (
+        *(sentence.format(phrase) for phrase in PHRASES),
+        *OTHERS[number::12],
+    )
+)[:100]
+"""A hundred turns, no two the same."""
+
+
+def degree(word: str, arity: int, *args: str) -> float:
+    return DEGREES.get((word, *args[:arity]), 0.0)
+
+
+def seeing() -> Model:
+    """Three things in view, of which the words are true as they are."""
+    model = blank_model().given("look1", theory()["Look"])
+    for x in THINGS:
+        model = model.given(x, theory()["Ind"])
+    for sign in SIGNS:
+        word = word_of(sign)
+        arity = 2 if sign.kind == "relation" else 1
+        model = model.witnessed(word, by=partial(degree, word.name, arity))
+    return model
+
+
+def opened() -> tuple[Game, Run]:
+    """The game, and the run in which the three things are seen."""
+    game = tutoring(SIGNS, model=seeing())
+    view = record(look="look1", things=THINGS, placed=THINGS, focus=["o1"])
+    return game, game.take(game.begin(), _glance(view)).run
+
+
+def _glance(view: Record) -> Record:
+    return record(view=view, kept=[], floor="tutor")
+
+
+def answered(game: Game, so_far: Run, text: str) -> Run:
+    """What comes of a text, its answer worded."""
+    assert game.hear is not None
+    assert game.say is not None
+    event = game.hear(text)
+    if event is None:
+        return so_far
+    turn = game.take(so_far, event)
+    assert all(map(game.say, turn.said))
+    return turn.run
+
+
+def turns(texts: Callable[[int], Sequence[str]], clock: Clock) -> list[float]:
+    """The milliseconds of each turn, of the second half of the rounds."""
+    game, begun = opened()
+    gc.collect()
+    gc.freeze()
+    times = []
+    for number in range(ROUNDS):
+        so_far = begun
+        for text in texts(number):
+            start = clock()
+            so_far = answered(game, so_far, text)
+            times.append(1000 * (clock() - start))
+    return times[len(times) // 2 :]
+
+
+def new(number: int) -> Sequence[str]:
+    """The dialogue about a word that was never heard before."""
+    return [text.replace("book", f"thing{number}") for text in DIALOGUE]
+
+
+def parsed(clock: Clock) -> list[float]:
+    """The milliseconds to parse sentences that were never heard before."""
+    times = []
+    for text in new(-1):
+        start = clock()
+        understand(text)
+        times.append(1000 * (clock() - start))
+    return times
+
+
+FIRST = """
+from kille.dialogue.tutoring import tutoring
+game = tutoring()
+turn = game.take(game.begin(), game.hear("What is this?"))
+assert [game.say(move) for move in turn.said]
+"""
+
+
+def first() -> list[float]:
+    """The milliseconds from the start of a process to its first answer."""
+    times = []
+    for _ in range(STARTS):
+        start = time.perf_counter()
+        subprocess.run([sys.executable, "-c", FIRST], check=True)
+        times.append(1000 * (time.perf_counter() - start))
+    return times
+
+
+def timed(
+    task: str, times: Sequence[float], middle: float = 0, most: float = 0
+) -> Iterator[Result]:
+    """The median and the 95th percentile, with the limits that they have."""
+    for of, found, limit in (
+        ("median", median(times), middle),
+        ("p95", quantiles(times, n=20)[-1], most),
+    ):
+        limits = ((of, limit, found),) if limit else ()
+        yield Result("talking", f"{task}, {of}", {1: found}, limits)
+
+
+def measured(clock: Clock) -> Iterator[Result]:
+    yield from timed("a turn", turns(lambda number: DIALOGUE, clock), 1.0, 5.0)
+    yield from timed("a turn of new sentences", turns(new, clock))
+    yield from timed("parsing a new sentence", parsed(clock), 5.0)
+    yield from timed("from start to first answer", first(), 300.0)
+
+
+def profiled() -> None:
+    """Say where the time of the hundred turns goes."""
+    turns(lambda number: DIALOGUE, time.perf_counter)
+    profile = cProfile.Profile()
+    profile.runcall(turns, lambda number: DIALOGUE, time.perf_counter)
+    pstats.Stats(profile).sort_stats("tottime").print_stats(40)
+
+
+def main() -> None:
+    parser = arguments(__doc__)
+    parser.add_argument("--profile", action="store_true", help="say what costs most")
+    options = parser.parse_args()
+    if options.profile:
+        profiled()
+        return
+    report(measured(getattr(time, clock_of(options))), options)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,130 @@
+"""Writes docs/reference/games.md: every game as a table, played as it is now.
+
+Each table is a dialogue with the simulated robot of `kille.simulation`: what is said,
+the rules that answer it, and what they change in the state. Run from the top folder:
+
+    python docs/pictures/games.py
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from kille.interfaces.showing import in_short
+from kille.simulation.perceiving import seen
+from kille.simulation.playing import simulated
+from kille.simulation.worlds import Thing, World
+from ttr import Record
+from ttr.records import differences
+from ttr.updates import Game, Run, Turn
+
+DIALOGUES = Path(__file__).with_suffix(".toml")
+PAGE = Path(__file__).parents[1] / "reference" / "games.md"
+
+HEAD = """\
+# Games of tutoring
+
+Every game as a dialogue with the simulated robot: what is said, the rules that answer
+it, and what they change in the state. A game is a page of `kille/dialogue/games/`; the
+types of its moves are in `grammars/tutor.ttr`, its sentences in
+`grammars/tutor.en.lark` and `lexicon.en.toml`. This page is written by
+`python docs/pictures/games.py`.
+"""
+
+ALWAYS = {"hear", "refer", "say", "see", "glance"}
+"""The rules of every turn, which the page on listening tells of."""
+
+UNSAID = (
+    "private.agenda",
+    "private.beliefs",
+    "private.cost",
+    "private.last",
+    "shared.latest",
+    "shared.here",
+    "view",
+)
+"""What changes in every turn."""
+
+
+def page() -> str:
+    """The page, of games as they are played now."""
+    games = tomllib.loads(DIALOGUES.read_text(encoding="utf-8"))["game"]
+    return "\n".join([HEAD, *(line for it in games for line in _section(it))]) + "\n"
+
+
+def _section(game: Mapping[str, Any]) -> Iterator[str]:
+    module = import_module(f"kille.dialogue.games.{game['page']}")
+    doc = (inspect.getdoc(module) or "").split("\n\n")[0].replace("\n", " ")
+    yield f"## {game['title']}\n"
+    yield f"{doc} `kille/dialogue/games/{game['page']}.py`\n"
+    yield "| said | rules | state before → after |"
+    yield "| --- | --- | --- |"
+    world = World(tuple(Thing(**_placed(it)) for it in game.get("things", ())))
+    playing = simulated(world)
+    now = playing.begin()
+    for text in game["dialogue"]:
+        world, event = _happening(playing, world, text)
+        turn = playing.take(now, event)
+        yield _row(playing, now, turn, text)
+        now = turn.run
+    yield ""
+
+
+def _happening(game: Game, world: World, text: str) -> tuple[World, object]:
+    """What a line makes happen: words, or a change of the scene that is then seen."""
+    match text.split():
+        case ["@", "put", number, right, away]:
+            after = world.moved(int(number), (int(right), int(away)))
+        case ["@", "take", number]:
+            after = world.moved(int(number), None)
+        case ["@", "point", number]:
+            after = world.pointed(int(number))
+        case _:
+            assert game.hear is not None
+            return world, game.hear(text)
+    after = after.looked()
+    return after, seen(after, world)
+
+
+def _placed(thing: Mapping[str, Any]) -> dict[str, Any]:
+    return {**thing, "place": tuple(thing["place"])}
+
+
+def _row(game: Game, before: Run, turn: Turn, text: str) -> str:
+    assert game.say is not None
+    said = [text if text.startswith("@") else f"U: {text}"]
+    said += [f"S: {sentence}" for it in turn.said for sentence in [game.say(it)]]
+    rules = dict.fromkeys(
+        f"`{step.rule.name}` {step.rule.doc.splitlines()[0]}"
+        for step in turn.trace
+        if step.rule.name not in ALWAYS
+    )
+    changes = [f"`{_short(it)}`" for it in _changes(before.state, turn.state)]
+    cells = (said, rules, changes)
+    return "| " + " | ".join("<br>".join(map(_cell, it)) for it in cells) + " |"
+
+
+def _changes(before: Record, after: Record) -> Iterator[str]:
+    for change in differences(in_short(before), in_short(after)):
+        if not change.startswith(UNSAID):
+            yield change
+
+
+def _short(change: str) -> str:
+    """A change in little room: a look without the world that it is at."""
+    change = re.sub(r'"(look\d+) of [^"]*"', r"\1", change)
+    return change if len(change) <= 130 else f"{change[:129]}…"
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|").replace("\n", " ")
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")

@@ -1,0 +1,151 @@
+"""What has been claimed and taught: which claims say the same, and which still stand.
+
+A claim is a content that says a word of things, `This is a cup`, or denies it. Things
+keep their names as long as they are in view, so that what was said of a thing in one
+look holds of it in the next; `shared.here` is what was said of things since they came.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+
+from kille.dialogue.meanings import (
+    CLAIMS,
+    claims,
+    denied,
+    is_denial,
+    theory,
+    word_of,
+)
+from kille.dialogue.reference import PARTS, thing_at, things_in
+from kille.dialogue.state import words
+from ttr import Pred, Record, RecordType
+
+__all__ = [
+    "LEARNED",
+    "REJECTED",
+    "act_of",
+    "affirmed",
+    "is_here",
+    "kind_of",
+    "lessons_in",
+    "remaining",
+    "said_here",
+    "same",
+    "signs_for",
+    "undone",
+    "weakened",
+]
+
+LEARNED = {"c": "Learned", "a": "LearnedQuality", "rel": "LearnedRelation"}
+"""What the robot says when it has learned a claim, by the claim's label."""
+
+REJECTED = {"c": "Rejected", "a": "RejectedQuality", "rel": "RejectedRelation"}
+"""What it says when it has learned that a claim does not hold."""
+
+
+def kind_of(content: RecordType) -> str | None:
+    """The label of the claim that a content makes, if it makes one."""
+    return next((label for label in CLAIMS if label in content), None)
+
+
+def act_of(content: RecordType) -> str:
+    """What the robot says when it has learned a content."""
+    acts = REJECTED if is_denial(content) else LEARNED
+    return next(acts[label] for label in acts if label in content)
+
+
+def affirmed(content: RecordType) -> RecordType:
+    """What a content says of its things, or what it denies of them."""
+    return denied(content) if is_denial(content) else content
+
+
+def same(claim: RecordType, other: RecordType) -> bool:
+    """Whether two claims say the same of the same things, be it in different looks.
+
+    >>> from kille.dialogue.meanings import noun, placed, set_at
+    >>> cup = set_at(placed(noun("cup"), "Naming"), "target.x", "o1")
+    >>> same(cup, set_at(cup, "look", "look2")), same(cup, denied(cup))
+    (True, False)
+    """
+    label = kind_of(claim)
+    return (
+        label is not None
+        and claim[label] == other.get(label)
+        and all(thing_at(claim, part) == thing_at(other, part) for part in PARTS)
+        and claim.get("frame") == other.get("frame")
+    )
+
+
+# --- what is said of the things in view ----------------------------------------------
+
+
+def remaining(here: Iterable[RecordType], kept: Collection[str]) -> list[RecordType]:
+    """What is still said of things in view, when only these have stayed."""
+    return [it for it in here if set(things_in(it)) <= set(kept)]
+
+
+def said_here(s: Record, said: Record) -> list[RecordType]:
+    """What is said of the things in view, after the robot has made a move.
+
+    These are the lessons about them, and what the robot claims. What it no longer
+    claims and was not taught is of no account.
+    """
+    fresh = (*s.shared.pending, *said.teaches)
+    kept = {*fresh, *(it.content for it in s.private.lessons)}
+    known = [it for it in s.shared.here if it in kept]
+    new = (it for it in fresh if it not in known and is_here(s, it))
+    return [*known, *new]
+
+
+def lessons_in(s: Record, claim: RecordType) -> list[Record]:
+    """The lessons that say what a claim says, about the very things it is about."""
+    here = s.shared.here if is_here(s, claim) else ()
+    return [
+        it
+        for it in s.private.lessons
+        if same(it.content, claim)
+        and (it.content["look"] == claim["look"] or it.content in here)
+    ]
+
+
+def is_here(s: Record, claim: RecordType) -> bool:
+    """Whether what a claim is about is still in view, or was when it was denied."""
+    now = theory()["Look"] @ s.view.look
+    return claim["look"] == now or bool({claim, denied(claim)} & {*s.shared.here})
+
+
+# --- what is to be learned and unlearned ---------------------------------------------
+
+
+def undone(s: Record, content: RecordType) -> list[str]:
+    """The keys of the lessons that say the opposite of a content."""
+    return [it.key for it in lessons_in(s, denied(content))]
+
+
+def weakened(
+    s: Record, wrong: Iterable[RecordType]
+) -> tuple[list[RecordType], list[str]]:
+    """What is learned and which lessons are unlearned when these claims are wrong.
+
+    A lesson that says so is unlearned. What the robot claimed, or nobody taught it, it
+    learns to be not so.
+    """
+    teaches: list[RecordType] = []
+    forgets: list[str] = []
+    for claim in wrong:
+        taught = lessons_in(s, claim)
+        forgets += (it.key for it in taught)
+        if not taught or any(same(claim, it) for it in s.shared.pending):
+            teaches.append(denied(claim))
+    return teaches, forgets
+
+
+def signs_for(s: Record, *contents: RecordType) -> Sequence[Record]:
+    """The words that these contents claim, as the tutor has said them."""
+    said = s.shared.latest.signs if "signs" in s.shared.latest else ()
+    found: dict[Pred, Record] = {}
+    for sign in (*said, *words(s), *(it.sign for it in s.private.lessons)):
+        if any(claims(it, sign) for it in contents):
+            found.setdefault(word_of(sign), sign)
+    return tuple(found.values())

@@ -1,0 +1,150 @@
+"""Saying which thing is meant: the shortest description that no other thing fits.
+
+A description is a phrase of words that the robot knows. It is good if the robot's own
+resolver finds that thing by it and no other: so it cannot say what it would not
+understand.
+
+Source: Roy 2002 (the context score: how much better the thing fits than any other).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations, product
+from typing import NamedTuple
+
+from kille.dialogue.meanings import word_of
+from kille.dialogue.reference import Judging, fits_well, front_of, meant_by, said_by
+from ttr import Model, Record, RecordType
+
+__all__ = ["Description", "describe"]
+
+_NOUNS, _RELATIONS, _NEARBY = 2, 2, 12
+"""How many nouns of a thing, relations to another, and places are tried."""
+
+Signs = tuple[Record, ...]
+
+
+class Description(NamedTuple):
+    """A phrase that is true of one thing only, and its words."""
+
+    phrase: RecordType
+    signs: tuple[Record, ...]
+
+
+def describe(
+    s: Record,
+    model: Model,
+    x: str,
+    *,
+    among: Sequence[str] = (),
+    nouns: Sequence[Record] = (),
+) -> Description | None:
+    """The shortest description of x that the resolver finds x by, if there is one.
+
+    It tells x from everything in view, or only from those `among` which it is; it has
+    one of these nouns, or one that the robot would call x. Of those that are as short
+    it is the one whose context score is the highest. A description that only just holds
+    is given if no longer one is clear.
+    """
+    describing = _Describing(s, model, x, tuple(among) or tuple(s.view.things))
+    shortest: Signs | None = None
+    for tried in describing.by_length(nouns):
+        scored = [(describing.context_score(words), words) for words in tried]
+        score, best = max(scored, key=lambda it: it[0], default=(0.0, ()))
+        if score > 0.0 and describing.is_clear(best):
+            return Description(meant_by(best), best)
+        if score > 0.0 and shortest is None:
+            shortest = best
+    return None if shortest is None else Description(meant_by(shortest), shortest)
+
+
+@dataclass(frozen=True)
+class _Describing:
+    """Descriptions of one thing in view, told from the things among which it is."""
+
+    s: Record
+    model: Model
+    x: str
+    among: tuple[str, ...]
+
+    @cached_property
+    def judging(self) -> Judging:
+        """The judgements that are made for it, each once."""
+        return Judging(self.s, self.model)
+
+    def context_score(self, words: Signs) -> float:
+        """How much more probably they are true of x than of any other thing.
+
+        It is not positive where the resolver would not take x, or not x alone.
+        """
+        fits = self.judging.fits_part(said_by(words), self.among)
+        if fits_well(self.s, fits) != [self.x]:
+            return 0.0
+        rivals = (fit.p for x, fit in fits.items() if x != self.x)
+        return fits[self.x].p - max(rivals, default=0.0)
+
+    def is_clear(self, words: Signs) -> bool:
+        """Whether they would lead to x in another look as well, with other noise.
+
+        Each word is well above what is likely, and no other thing is half as near as it
+        would have to be to be thought of.
+        """
+        bands = self.s.private.strategy.bands
+        fits = self.judging.fits_part(said_by(words), self.among)
+        fit = fits.pop(self.x)
+        near = any(it.p > bands.sure / 2 * fit.p for it in fits.values())
+        return bool(fit.weakest >= (bands.likely + bands.sure) / 2) and not near
+
+    def by_length(self, nouns: Sequence[Record]) -> Iterator[Iterable[Signs]]:
+        """Descriptions of x by words that are true of it, the shortest ones first.
+
+        What has no noun is "the red one".
+        """
+        nouns = nouns or self.nouns(self.x)
+        heads: list[Signs] = [(noun,) for noun in nouns] or [()]
+        qualities = self._true(self.s.private.adjectives, self.x)
+        described = [(one, *head) for head, one in product(heads, qualities)]
+        nearby = self._nearby()
+        yield heads if nouns else []
+        yield described
+        yield [head + where for head, where in product(heads, nearby)]
+        yield [(*both, *head) for head in heads for both in combinations(qualities, 2)]
+        yield [one + where for one, where in product(described, nearby)]
+        yield [head + where for head, where in product(heads, self._nearby(1))]
+
+    def nouns(self, x: str) -> Signs:
+        """What the robot would call a thing, the likeliest first."""
+        return self._true(self.s.private.nouns, x)[:_NOUNS]
+
+    def _nearby(self, adjectives: int = 0) -> list[Signs]:
+        """How x stands to other things, and what these are called, the likeliest first.
+
+        Each is called by a noun, with so many adjectives.
+        """
+        found = []
+        for y in self.s.view.placed:
+            if y == self.x:
+                continue
+            qualities = self._true(self.s.private.adjectives, y)
+            called = [
+                (*some, noun)
+                for noun in self.nouns(y)[:1]
+                for some in combinations(qualities, adjectives)
+            ]
+            stands = self._true(self.s.private.relations, self.x, y)[:_RELATIONS]
+            found += [(where, *words) for where, words in product(stands, called)]
+        return found[:_NEARBY]
+
+    def _true(self, signs: Iterable[Record], *things: str) -> Signs:
+        """The words that are likely true of a thing, or of two, the likeliest first."""
+        look, likely = self.s.view.look, self.s.private.strategy.bands.likely
+        front = [front_of(self.s, y) for y in things[1:]]
+        degrees = {
+            sign: self.judging.degree(word_of(sign), *things, look, *front)
+            for sign in signs
+        }
+        true = [sign for sign, p in degrees.items() if p >= likely]
+        return tuple(sorted(true, key=lambda sign: (-degrees[sign], sign.form)))

@@ -1,0 +1,154 @@
+"""What an answer gives besides its words: degrees, reasons, times and counts, in words.
+
+A move has them as they are: numbers, names of cues, a lesson and its age. How they are
+worded is in the lexicon, and which wording of the move is used depends on which of the
+slots there is something for: without a lesson there is none for {when}.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from kille.dialogue.lexicon import Lexicon
+from ttr import Record, record
+
+__all__ = ["details"]
+
+Section = Mapping[str, Any]
+
+_DAY = 24 * 60 * 60
+
+
+def details(lexicon: Lexicon, move: Record) -> dict[str, str]:
+    """The slots that a move fills besides those of its content and its rival.
+
+    >>> from kille.dialogue.lexicon import lexicon
+    >>> from ttr import record
+    >>> nothing = dict.fromkeys(("reasons", "recalls", "recalled", "lost"), ())
+    >>> details(lexicon(), record(degrees=[0.87, 0.08], **nothing))
+    {'degree': '.87', 'sureness': 'quite sure', 'rival_degree': '.08',
+     'distance': 'far behind'}
+    """
+    if "degrees" not in move:
+        return {}
+    data = lexicon.sections
+    slots = dict(_of_degrees(data, move.degrees)) if move.degrees else {}
+    slots |= dict(_of_reasons(data, move.reasons)) if move.reasons else {}
+    slots |= dict(_of_lost(data, move.lost)) if move.lost else {}
+    if move.recalls:
+        slots |= dict(_of_recalled(data, move.recalled or _untold(move.recalls)))
+        slots["type"] = str(move.content)
+    return slots
+
+
+# --- degrees -------------------------------------------------------------------------
+
+
+def _of_degrees(data: Section, degrees: Sequence[float]) -> Iterator[tuple[str, str]]:
+    yield "degree", _number(data, degrees[0])
+    yield "sureness", _band(data["sureness"], degrees[0])
+    for rival in degrees[1:]:
+        yield "rival_degree", _number(data, rival)
+        yield "distance", _band(data["distance"], degrees[0] - rival)
+
+
+def _number(data: Section, degree: float) -> str:
+    """A degree with two digits: .87, in the language's way to write it."""
+    whole, digits = f"{degree:.2f}".split(".")
+    return f"{whole.lstrip('0')}{data['knows']['point']}{digits}"
+
+
+def _band(bands: Mapping[str, float], degree: float) -> str:
+    """The words for the highest band that a degree reaches, or for the lowest."""
+    reached = (words for words, least in bands.items() if degree >= least)
+    return next(reached, list(bands)[-1])
+
+
+# --- reasons -------------------------------------------------------------------------
+
+
+def _of_reasons(data: Section, reasons: Sequence[Record]) -> Iterator[tuple[str, str]]:
+    [reason] = reasons
+    cues = list(_deciding(data, reason.cues))
+    if cues:
+        yield "cues", _listed(data, cues)
+    for reminder in reason.reminders:
+        yield "lesson", reminder.text.rstrip()
+        yield "turn", reminder.turn
+        yield "when", _when(data["ages"], reminder)
+
+
+def _deciding(data: Section, cues: Iterable[Record]) -> Iterator[str]:
+    """What the cues that decided are called, the most important first."""
+    names, reasons = data["cues"], data["reasons"]
+    shares: dict[str, float] = {}
+    for cue in cues:
+        name = names.get(cue.name, cue.name)
+        shares[name] = shares.get(name, 0.0) + cue.share
+    explained = 0.0
+    ordered = sorted(shares, key=lambda name: -shares[name])
+    for name in ordered[: reasons["most"]]:
+        if explained < reasons["enough"]:
+            yield name
+        explained += shares[name]
+
+
+def _when(ages: Section, reminder: Record) -> str:
+    """How long ago a lesson was, or on which day and when."""
+    for age in ages["recent"]:
+        if reminder.age < age["below"]:
+            count = int(reminder.age // age.get("unit", 1))
+            return str(age["says"]).format(n=count)
+    hours, minutes = map(int, reminder.time.split(":"))
+    days = int((hours * 60 + minutes) * 60 + reminder.age) // _DAY
+    wording = ages["days"][days] if days < len(ages["days"]) else ages["earlier"]
+    return str(wording).format(day=reminder.day, time=reminder.time)
+
+
+# --- words ---------------------------------------------------------------------------
+
+
+def _of_recalled(
+    data: Section, recalled: Sequence[Record]
+) -> Iterator[tuple[str, str]]:
+    knows = data["knows"]
+    most = knows["most"]
+    ordered = sorted(recalled, key=lambda it: (-it.lessons, it.sign.form))
+    words = [_counted(knows, it) for it in ordered[:most]]
+    if len(ordered) > most:
+        words.append(knows["rest"].format(n=len(ordered) - most))
+    yield "words", _listed(data, words)
+    if recalled[0].lessons:
+        yield "lessons", _lessons(knows, recalled[0].lessons)
+    if recalled[0].confused:
+        confused = [f'"{it.form}"' for it in recalled[0].confused]
+        yield "confused", _listed(data, confused)
+
+
+def _untold(words: Iterable[Record]) -> list[Record]:
+    """Words of which nothing was recalled, as if it were nothing to tell."""
+    return [record(sign=word, lessons=0.0, confused=[]) for word in words]
+
+
+def _counted(knows: Section, recalled: Record) -> str:
+    """A word with the number of its lessons, if there are any."""
+    form = str(recalled.sign.form)
+    if not recalled.lessons:
+        return form
+    lessons = _lessons(knows, recalled.lessons)
+    return str(knows["word"].format(word=form, lessons=lessons))
+
+
+def _lessons(knows: Section, count: float) -> str:
+    return str(knows["one" if count == 1 else "many"].format(n=int(count)))
+
+
+def _of_lost(data: Section, lost: Sequence[Record]) -> Iterator[tuple[str, str]]:
+    yield "lost", _listed(data, [f'"{sign.form}"' for sign in lost])
+
+
+def _listed(data: Section, words: Sequence[str]) -> str:
+    """Words as a list: this, that and the other."""
+    *before, last = words
+    return str(data["knows"]["and"]).join(filter(None, (", ".join(before), last)))

@@ -1,0 +1,80 @@
+"""The games of tutoring, a page each, as update rules over one typed state.
+
+What the tutor says becomes the latest move; its noun phrases are resolved; a game
+answers it by putting the type of the robot's next move on the agenda; when the robot
+has made that move, it is the latest. Every rule says in its docstring when it applies.
+The bands of certainty are numbers in the state, and degrees are those of judgements:
+nothing is decided elsewhere.
+
+Source: Dobnik and de Graaf 2017, section 3.
+"""
+
+from __future__ import annotations
+
+from kille.dialogue.games.acknowledging import ACKNOWLEDGING, EXEMPLIFYING
+from kille.dialogue.games.checking import CHECKING
+from kille.dialogue.games.clarifying import CLARIFYING
+from kille.dialogue.games.colouring import COLOURING
+from kille.dialogue.games.confirming import CONFIRMING
+from kille.dialogue.games.correcting import CORRECTING
+from kille.dialogue.games.counting import COUNTING
+from kille.dialogue.games.courtesy import COURTESY, REPEATING
+from kille.dialogue.games.explaining import EXPLAINING
+from kille.dialogue.games.finding import FINDING
+from kille.dialogue.games.forgetting import FORGETTING
+from kille.dialogue.games.framing import ASKING_FRAME, FRAMING, SETTLING
+from kille.dialogue.games.initiating import IDLING, INITIATING, STAYING
+from kille.dialogue.games.instructing import INSTRUCTING
+from kille.dialogue.games.knowing import KNOWING
+from kille.dialogue.games.listening import GLANCED, LISTENING, SAID, SEEN
+from kille.dialogue.games.mishearing import MISHEARD
+from kille.dialogue.games.naming import NAMING
+from kille.dialogue.games.offering import OFFER_ANSWERED, OFFERING
+from kille.dialogue.games.placing import PLACING
+from kille.dialogue.games.referring import REFERRING
+from kille.dialogue.games.surveying import SURVEYING
+from ttr.updates import first, maybe, seq
+
+__all__ = ["ANSWERING", "TUTORING"]
+
+ANSWERING = first(
+    ACKNOWLEDGING,
+    CONFIRMING,
+    CORRECTING,
+    INSTRUCTING,
+    NAMING,
+    PLACING,
+    CHECKING,
+    COLOURING,
+    FINDING,
+    SURVEYING,
+    COUNTING,
+    EXPLAINING,
+    KNOWING,
+    FORGETTING,
+    COURTESY,
+)
+"""What answers a move of the tutor's whose phrases are resolved."""
+
+TUTORING = first(
+    seq(
+        LISTENING,
+        first(
+            REPEATING,
+            MISHEARD,
+            OFFER_ANSWERED,
+            SETTLING,
+            seq(maybe(CLARIFYING), maybe(OFFERING)),
+        ),
+        maybe(FRAMING),
+        maybe(REFERRING),
+        maybe(ASKING_FRAME),
+        maybe(ANSWERING),
+        maybe(EXEMPLIFYING),
+    ),
+    SAID,
+    GLANCED,
+    seq(STAYING, SEEN, maybe(IDLING)),
+    seq(SEEN, maybe(INITIATING)),
+)
+"""What becomes of every event: something heard, said, glanced at or seen."""

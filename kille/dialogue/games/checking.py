@@ -1,0 +1,139 @@
+"""Is this a cup? The robot says yes or no, as far as it is certain.
+
+What it answers is a claim, which the tutor may confirm or deny.
+"""
+
+from __future__ import annotations
+
+from kille.dialogue.beliefs import Beliefs, believed, is_sure, knows
+from kille.dialogue.meanings import claims, denied
+from kille.dialogue.moves import answering, content_of, instead, plan
+from kille.dialogue.reference import thing_at
+from kille.dialogue.state import words
+from ttr import Model, Record, RecordType, replace
+from ttr.updates import first, rule, seq
+
+__all__ = ["CHECKING"]
+
+
+@rule(when=answering("AskWhether"))
+def miss_claimed(s: Record) -> Record | None:
+    """The tutor asks by a word that was never learned."""
+    sign = _asked(s)
+    if knows(words(s), sign):
+        return None
+    return plan(s, f"Unknown{sign.kind.capitalize()}", sign.meaning, signs=[sign])
+
+
+@rule(when=answering("AskWhether"))
+def miss_place(s: Record) -> Record | None:
+    """The tutor asks how things stand of which it does not know where they are."""
+    if _asked(s).kind != "relation" or set(_things(s)) <= set(s.view.placed):
+        return None
+    return plan(s, "NeedDepth")
+
+
+@rule(when=answering("AskWhether"))
+def weigh(s: Record, *, model: Model) -> Record | None:
+    """It judges the word that is asked about, and those it might be instead."""
+    things = _things(s)
+    if not things:
+        return None
+    return replace(s, {"private.beliefs": believed(s, model, _compared(s), *things)})
+
+
+@rule(when=answering("AskWhether"))
+def say_yes(s: Record) -> Record | None:
+    """It is sure that it is so."""
+    return _claimed(s, "SayYes", content_of(s)) if _is_so(s) else None
+
+
+@rule(when=answering("AskWhether"))
+def say_rather(s: Record) -> Record | None:
+    """It is sure of another word, and this one is not likely: it says which."""
+    best = s.private.beliefs[0]
+    if _p(s) >= s.private.strategy.bands.likely or not _sure_of_first(s):
+        return None
+    content = instead(content_of(s), best.sign)
+    signs = [*s.shared.latest.signs, best.sign]
+    rival = denied(content_of(s))
+    return plan(s, "SayRather", content, rival, signs=signs, pending=[content])
+
+
+@rule(when=answering("AskWhether"))
+def say_no(s: Record) -> Record | None:
+    """It is hardly possible that it is so."""
+    unlikely = _p(s) <= s.private.strategy.bands.unlikely
+    return _claimed(s, "SayNo", denied(content_of(s))) if unlikely else None
+
+
+@rule(when=answering("AskWhether"))
+def say_probably(s: Record) -> Record | None:
+    """It is more likely so than not."""
+    probable = _p(s) >= s.private.strategy.bands.probable
+    return _claimed(s, "SayProbably", content_of(s)) if probable else None
+
+
+@rule(when=answering("AskWhether"))
+def admit_whether(s: Record) -> Record:
+    """It does not know."""
+    return plan(s, "AdmitWhether")
+
+
+def _asked(s: Record) -> Record:
+    """The word that the tutor asks about."""
+    content = content_of(s)
+    asked: Record = next(it for it in s.shared.latest.signs if claims(content, it))
+    return asked
+
+
+def _things(s: Record) -> list[str]:
+    """The thing that is asked about, and what it is said to stand beside."""
+    labels = ("target", "landmark")
+    found = [thing_at(content_of(s), it) for it in labels if it in content_of(s)]
+    return [x for x in found if x is not None]
+
+
+def _compared(s: Record) -> list[Record]:
+    """The words it might be instead: of a thing one noun is true, and one colour."""
+    asked = _asked(s)
+    match asked.kind:
+        case "noun":
+            return list(s.private.nouns)
+        case "relation":
+            return list(s.private.relations)
+    return list(s.private.colours) if knows(s.private.colours, asked) else [asked]
+
+
+def _belief(s: Record) -> Beliefs:
+    """The belief about the word that is asked about."""
+    return [b for b in s.private.beliefs if knows([b.sign], _asked(s))]
+
+
+def _p(s: Record) -> float:
+    return max((b.p for b in _belief(s)), default=0.0)
+
+
+def _is_so(s: Record) -> bool:
+    """Whether it is sure; of nouns there must be no near rival."""
+    if _asked(s).kind == "noun":
+        return _sure_of_first(s) and knows([s.private.beliefs[0].sign], _asked(s))
+    return bool(_p(s) >= s.private.strategy.bands.sure)
+
+
+def _sure_of_first(s: Record) -> bool:
+    return is_sure(s, s.private.beliefs)
+
+
+def _claimed(s: Record, act: str, content: RecordType) -> Record:
+    return plan(s, act, content, signs=s.shared.latest.signs, pending=[content])
+
+
+CHECKING = first(
+    miss_claimed,
+    miss_place,
+    seq(
+        weigh,
+        first(say_yes, say_rather, say_no, say_probably, admit_whether),
+    ),
+)

@@ -1,0 +1,130 @@
+"""Clarification: the tutor answers a question that the robot asked about what was said.
+
+Such a question is an issue under discussion, and each of its options is the tutor's own
+move, made specific in one way. An answer makes an option the latest move, and the games
+go on as if it had been said so from the start. Whatever else is said drops the question
+and is heard as itself; what answers it badly is asked back once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from kille.dialogue.games.courtesy import reply
+from kille.dialogue.games.referring import UNANSWERED, about, asking, differing
+from kille.dialogue.moves import answering, content_of, plan
+from kille.dialogue.reference import Judging, fits_well, phrase_at
+from ttr import Model, Record, replace
+from ttr.updates import first, maybe, rule, seq
+
+__all__ = ["CLARIFYING"]
+
+AGAIN = {"AskReferent": "AskReferentAgain"}
+"""How a question is put on record when it is asked once more."""
+
+REFERENTS = ("AskReferent", "AskReferentAgain")
+"""The questions which thing was meant."""
+
+
+@rule(when=answering("Mention"))
+def take_described(s: Record, *, model: Model) -> Record | None:
+    """The tutor says which one: "the red one", "the second", "this one"."""
+    options = _described(s, model)
+    return taken(s, options[0]) if len(options) == 1 else None
+
+
+@rule(when=answering("Affirm"))
+def take_only(s: Record) -> Record | None:
+    """The tutor says yes to the only option there is."""
+    options = _options(s)
+    return taken(s, options[0]) if len(options) == 1 else None
+
+
+@rule(when=answering("Deny"))
+def take_none(s: Record) -> Record | None:
+    """The tutor means none of these things: the question is dropped."""
+    return plan(_dropped(s), "Resign") if _asked_which(s) else None
+
+
+@rule(when=answering("Mention"))
+def ask_fewer(s: Record, *, model: Model) -> Record | None:
+    """The answer leaves some of the things open: it asks about those."""
+    options = _described(s, model)
+    if not 1 < len(options) < len(_options(s)):
+        return None
+    return asking(_dropped(s), model, options, s.shared.qud[0].ask)
+
+
+@rule(when=answering("Mention"))
+def ask_once_more(s: Record, *, model: Model) -> Record | None:
+    """The answer does not say which one: it asks the same once more."""
+    return _asked_again(s, model)
+
+
+@rule(when=answering("Affirm"))
+def ask_yes_to_which(s: Record, *, model: Model) -> Record | None:
+    """The tutor says yes, but there are several things: it asks the same once more."""
+    return _asked_again(s, model)
+
+
+@rule(when=UNANSWERED)
+def drop_question(s: Record) -> Record | None:
+    """Something else is said: the question is dropped, and what was claimed before."""
+    return replace(_dropped(s), {"shared.pending": ()}) if s.shared.qud else None
+
+
+wonder_at_mention = reply(
+    "Mention", "Wonder", "The robot has asked nothing that this would answer."
+)
+
+
+def taken(s: Record, option: Record) -> Record:
+    """The state in which the tutor's move is this option of the question."""
+    answered = replace(s, {"shared.qud": s.shared.qud[1:], "shared.latest": option})
+    return about(answered, option.content)
+
+
+def _options(s: Record) -> Sequence[Record]:
+    """The options of the question under discussion, if there is one."""
+    options: Sequence[Record] = s.shared.qud[0].options if s.shared.qud else ()
+    return options
+
+
+def _asked_which(s: Record) -> bool:
+    """Whether the question under discussion is which thing was meant."""
+    return bool(s.shared.qud) and s.shared.qud[0].ask in REFERENTS
+
+
+def _described(s: Record, model: Model) -> Sequence[Record]:
+    """The options about a thing that the tutor's phrase is true of."""
+    if not _asked_which(s):
+        return ()
+    options = _options(s)
+    _, things = differing(options)
+    phrase = phrase_at(content_of(s), "target")
+    meant = fits_well(s, Judging(s, model).fits(phrase, things))
+    return [it for x, it in zip(things, options, strict=True) if x in meant]
+
+
+def _asked_again(s: Record, model: Model) -> Record | None:
+    """The plan to ask the same question again, if it was asked only once."""
+    if not s.shared.qud or s.shared.qud[0].ask not in AGAIN:
+        return None
+    return asking(_dropped(s), model, _options(s), AGAIN[s.shared.qud[0].ask])
+
+
+def _dropped(s: Record) -> Record:
+    """The state without the question under discussion."""
+    return replace(s, {"shared.qud": s.shared.qud[1:]})
+
+
+CLARIFYING = first(
+    take_described,
+    take_only,
+    take_none,
+    ask_fewer,
+    ask_once_more,
+    ask_yes_to_which,
+    seq(drop_question, maybe(wonder_at_mention)),
+    wonder_at_mention,
+)

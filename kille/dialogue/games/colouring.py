@@ -1,0 +1,35 @@
+"""What colour is this? The robot says as much as it is certain of."""
+
+from __future__ import annotations
+
+from kille.dialogue.beliefs import believed, certainty
+from kille.dialogue.moves import answering, content_of, plan, said_of
+from kille.dialogue.reference import thing_at
+from ttr import Model, Record, replace
+from ttr.updates import first, rule, seq
+
+__all__ = ["COLOURING"]
+
+
+@rule(when=answering("AskQuality"))
+def recognise_colour(s: Record, *, model: Model) -> Record | None:
+    """The tutor asks what colour a thing is: judge every colour of it."""
+    x = thing_at(content_of(s), "target")
+    if x is None:
+        return None
+    return replace(s, {"private.beliefs": believed(s, model, s.private.colours, x)})
+
+
+@rule(when=answering("AskQuality"))
+def say_colour(s: Record) -> Record:
+    """It says the colour as certainly as it knows it, or that it does not."""
+    how, beliefs = certainty(s, s.private.beliefs), s.private.beliefs
+    if how == "Admit":
+        return plan(s, "AdmitQuality", content_of(s), signs=s.shared.latest.signs)
+    named = beliefs[: 2 if how == "Hedge" else 1]
+    claims = [said_of(s, it.sign, it.sit.x, "Having") for it in named]
+    signs = [it.sign for it in named]
+    return plan(s, f"{how}Quality", *claims, signs=signs, pending=claims)
+
+
+COLOURING = first(seq(recognise_colour, say_colour))

@@ -1,0 +1,85 @@
+"""Game 3: the tutor agrees with what the robot has claimed, or does not.
+
+Source: Dobnik and de Graaf 2017, section 3; Larsson 2013 for what is rejected.
+"""
+
+from __future__ import annotations
+
+from kille.dialogue.commitments import act_of, affirmed, signs_for, undone, weakened
+from kille.dialogue.meanings import is_denial
+from kille.dialogue.moves import answering, plan, used
+from kille.dialogue.state import words
+from ttr import Record, RecordType
+from ttr.updates import first, rule
+
+__all__ = ["CONFIRMING"]
+
+
+@rule(when=answering("Affirm"))
+def learn_confirmed(s: Record) -> Record | None:
+    """The tutor confirms the robot's one claim: it is a lesson about that look."""
+    if len(s.shared.pending) != 1:
+        return None
+    return _learned(s, s.shared.pending[0])
+
+
+ASKED = {"c": "AskWhich", "a": "AskWhichQuality", "rel": "AskWhichPlace"}
+"""What it asks when it has claimed two things, by their label."""
+
+
+@rule(when=answering("Affirm"))
+def ask_which(s: Record) -> Record | None:
+    """The tutor confirms, but the robot had named two: it asks which."""
+    if len(s.shared.pending) != 2:
+        return None
+    content, rival = s.shared.pending
+    act = next(ASKED[label] for label in ASKED if label in content)
+    signs = used(words(s), content, rival)
+    return plan(s, act, content, rival, signs=signs, pending=s.shared.pending)
+
+
+@rule(when=answering("Affirm"))
+def wonder_what(s: Record) -> Record:
+    """The robot has claimed nothing to confirm."""
+    return plan(s, "Wonder")
+
+
+@rule(when=answering("Deny"))
+def learn_after_all(s: Record) -> Record | None:
+    """The robot said that something is not so, and the tutor rejects that: so it is."""
+    if len(s.shared.pending) != 1 or not is_denial(s.shared.pending[0]):
+        return None
+    return _learned(s, affirmed(s.shared.pending[0]))
+
+
+@rule(when=answering("Deny"))
+def ask_again(s: Record) -> Record | None:
+    """The tutor rejects what the robot claimed: it learns that, and asks."""
+    if not s.shared.pending:
+        return None
+    teaches, forgets = weakened(s, s.shared.pending)
+    signs = signs_for(s, *teaches)
+    return plan(s, "AskAgain", signs=signs, teaches=teaches, forgets=forgets)
+
+
+@rule(when=answering("Deny"))
+def wonder_why(s: Record) -> Record:
+    """The robot has claimed nothing to reject."""
+    return plan(s, "Wonder")
+
+
+def _learned(s: Record, content: RecordType) -> Record:
+    """The plan to learn what the tutor has settled."""
+    return plan(
+        s,
+        act_of(content),
+        content,
+        signs=signs_for(s, content),
+        teaches=[content],
+        forgets=undone(s, content),
+    )
+
+
+CONFIRMING = first(
+    learn_confirmed, ask_which, wonder_what, learn_after_all, ask_again, wonder_why
+)

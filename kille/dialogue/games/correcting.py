@@ -1,0 +1,157 @@
+"""The tutor sets something right: "No, this is a mug." "This is not a cup."
+
+What the robot claimed, and the tutor rejects, it learns not to be so in the look that
+it was claimed of; what it was taught by mistake it unlearns. Then it learns what is
+right, from the look in which it is told. Nothing else that is agreed on changes.
+
+Source: Larsson 2013, "Formal semantics for perceptual classification", for corrective
+feedback; docs/decisions/052-corrections-in-talk.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from kille.dialogue.commitments import (
+    act_of,
+    affirmed,
+    is_here,
+    kind_of,
+    lessons_in,
+    same,
+    signs_for,
+    undone,
+    weakened,
+)
+from kille.dialogue.meanings import denied, is_denial, set_to
+from kille.dialogue.moves import answering, content_of, plan
+from kille.dialogue.reference import PARTS, thing_at
+from ttr import Record, RecordType, rectype
+from ttr.updates import first, rule
+
+__all__ = ["CORRECTING"]
+
+CORRECTED = {"c": "Corrected", "a": "CorrectedQuality", "rel": "CorrectedRelation"}
+"""What the robot says when it has learned one claim in place of another."""
+
+DENIED = "denied"
+"""The label under which a correction says what it denies."""
+
+
+@rule(when=answering("Correct"))
+def correct(s: Record) -> Record | None:
+    """The tutor says what is so instead: learn that, and unlearn what was said."""
+    content = _right(s)
+    wrong = _wrong(s, content)
+    if not wrong or not _places_known(s, content):
+        return None
+    weaker, forgets = weakened(s, wrong)
+    teaches = [*weaker, content]
+    return plan(
+        s,
+        CORRECTED[kind_of(content) or ""],
+        content,
+        wrong[0],
+        signs=signs_for(s, *teaches, *wrong),
+        teaches=teaches,
+        forgets=[*forgets, *undone(s, content)],
+    )
+
+
+@rule(when=answering("Correct"))
+def accept(s: Record) -> Record | None:
+    """The tutor corrects what nobody has said: learn what is so."""
+    content = _right(s)
+    return _learned(s, content) if _places_known(s, content) else None
+
+
+@rule(when=answering("Reject"))
+def reject(s: Record) -> Record | None:
+    """The tutor says what is not so: unlearn that it is, or learn that it is not."""
+    content = content_of(s)
+    if not _places_known(s, content):
+        return None
+    wrong = affirmed(content)
+    was_taught = bool(lessons_in(s, wrong))
+    was_claimed = any(same(wrong, it) and is_here(s, it) for it in s.shared.pending)
+    if was_claimed or not was_taught:
+        return _learned(s, content)
+    return plan(
+        s,
+        act_of(content),
+        content,
+        signs=signs_for(s, content),
+        forgets=undone(s, content),
+    )
+
+
+@rule(when=answering("Correct"))
+def need_places_to_correct(s: Record) -> Record:
+    """The things are in view, but not where they are."""
+    return plan(s, "NeedDepth")
+
+
+@rule(when=answering("Reject"))
+def need_places_to_reject(s: Record) -> Record:
+    """The things are in view, but not where they are."""
+    return plan(s, "NeedDepth")
+
+
+def _learned(s: Record, content: RecordType) -> Record:
+    """The plan to learn a content, and to unlearn the lessons that it contradicts."""
+    return plan(
+        s,
+        act_of(content),
+        content,
+        signs=signs_for(s, content),
+        teaches=[content],
+        forgets=undone(s, content),
+    )
+
+
+def _places_known(s: Record, content: RecordType) -> bool:
+    """Whether it is known where the things are, if it is about that."""
+    things = {thing_at(content, part) for part in PARTS}
+    return "rel" not in content or things <= set(s.view.placed)
+
+
+def _right(s: Record) -> RecordType:
+    """What is so, by a correction."""
+    content = content_of(s)
+    return rectype({k: field for k, field in content.fields if k != DENIED})
+
+
+def _wrong(s: Record, content: RecordType) -> Sequence[RecordType]:
+    """What is not so, by a correction: what it names, or was claimed, or was taught."""
+    named = content_of(s).get(DENIED)
+    if isinstance(named, RecordType):
+        wrong = _in_place(content, denied(named))
+        return [] if same(wrong, content) else [wrong]
+    claimed = [it for it in s.shared.pending if _alike(it, content) and is_here(s, it)]
+    if claimed:
+        return [it for it in claimed if _rivals(it, content)]
+    taught = [it.content for it in s.private.lessons if _rivals(it.content, content)]
+    return [it for it in taught if it in s.shared.here][-1:]
+
+
+def _in_place(content: RecordType, wrong: RecordType) -> RecordType:
+    """The content with the claim of another one in place of its own."""
+    label = kind_of(wrong) or ""
+    return set_to(content, **{label: wrong[label]})
+
+
+def _alike(claim: RecordType, content: RecordType) -> bool:
+    """Whether two claims say something of the same kind about the same target."""
+    return kind_of(claim) == kind_of(content) and thing_at(claim, "target") == thing_at(
+        content, "target"
+    )
+
+
+def _rivals(claim: RecordType, content: RecordType) -> bool:
+    """Whether a claim says something else of the same kind about the same target."""
+    return _alike(claim, content) and not is_denial(claim) and not same(claim, content)
+
+
+CORRECTING = first(
+    correct, accept, reject, need_places_to_correct, need_places_to_reject
+)

@@ -1,0 +1,42 @@
+"""What the dialogue costs the tutor: turns, words, corrections and questions to answer.
+
+Source: Skočaj et al. 2011; Yu, Eshghi and Lemon 2017 (tutoring cost).
+"""
+
+from __future__ import annotations
+
+from kille.dialogue.meanings import claims, is_denial, theory
+from kille.dialogue.moves import used
+from kille.dialogue.state import STATE
+from ttr import Record, rectype, replace
+from ttr.updates import rule
+
+__all__ = ["ASKED", "CORRECTED"]
+
+
+@rule(when=rectype(shared=rectype(latest=theory()["Correcting"])))
+def count_correction(s: Record) -> Record:
+    """The tutor has corrected the robot, which has failed at the words of its claim."""
+    said = s.shared.latest
+    failed = [
+        sign
+        for sign in used(s.private.nouns, *s.shared.pending)
+        if not claims(said.content, sign) or is_denial(said.content)
+    ]
+    return _more(
+        replace(s, {"private.failed": (*s.private.failed, *failed)}), "corrections"
+    )
+
+
+@rule(when=STATE, on=theory()["Questioning"])
+def count_question(s: Record, said: Record) -> Record:
+    """The robot has asked the tutor something."""
+    return _more(s, "questions")
+
+
+def _more(s: Record, what: str) -> Record:
+    return replace(s, {f"private.cost.{what}": s.private.cost[what] + 1.0})
+
+
+CORRECTED = count_correction
+ASKED = count_question

@@ -1,0 +1,46 @@
+"""How many cups are there? The robot counts, and says which ones it is not sure of."""
+
+from __future__ import annotations
+
+from kille.dialogue.beliefs import knows
+from kille.dialogue.games.surveying import in_view
+from kille.dialogue.meanings import mentions
+from kille.dialogue.moves import answering, content_of, plan
+from kille.dialogue.reference import Judging, phrase_at
+from kille.dialogue.state import words
+from ttr import Model, Record, record
+from ttr.updates import first, rule
+
+__all__ = ["COUNTING"]
+
+
+@rule(when=answering("AskCount"))
+def miss_counted(s: Record) -> Record | None:
+    """The tutor asks how many there are of what was never learned."""
+    counted = phrase_at(content_of(s), "counted")
+    for sign in s.shared.latest.signs:
+        if mentions(counted, sign) and not knows(words(s), sign):
+            act = f"Unknown{sign.kind.capitalize()}"
+            return plan(s, act, sign.meaning, signs=[sign])
+    return None
+
+
+@rule(when=answering("AskCount"))
+def count(s: Record, *, model: Model) -> Record:
+    """It counts what it is sure of, and what may be one besides."""
+    counted = phrase_at(content_of(s), "counted")
+    bands = s.private.strategy.bands
+    found = Judging(s, model).fits(counted)
+    sign = record(meaning=counted)
+    fits = [
+        record(sit=record(x=x), sign=sign, p=fit.weakest)
+        for x, fit in found.items()
+        if fit.weakest >= bands.likely
+    ]
+    sure = [it for it in fits if it.p >= bands.sure]
+    likely = [it for it in fits if it.p < bands.sure]
+    content = in_view(s, sure, likely, ())
+    return plan(s, "TellCount", content, signs=s.shared.latest.signs)
+
+
+COUNTING = first(miss_counted, count)

@@ -1,0 +1,180 @@
+"""How sure are you? Why? The robot says how certain it is of a claim, and what decided.
+
+The reasons are looked for when the answer is made, by who sees and remembers: the cues
+that speak for the word, and the lesson that the thing is most like.
+"""
+
+from __future__ import annotations
+
+from kille.dialogue.beliefs import about, has_rival, knows, thinks
+from kille.dialogue.commitments import affirmed, kind_of, signs_for
+from kille.dialogue.meanings import (
+    claims,
+    is_denial,
+    meaning_in,
+    set_to,
+    value_at,
+)
+from kille.dialogue.moves import answering, content_of, plan
+from kille.dialogue.reference import thing_at
+from kille.dialogue.state import words
+from ttr import Model, Rec, Record, RecordType, record
+from ttr.updates import first, rule
+
+__all__ = ["EXPLAINING"]
+
+Update = tuple[Record, Model]
+
+EXPLAINED = {"c": "ExplainName", "a": "ExplainQuality", "rel": "ExplainRelation"}
+"""What the robot says to explain a claim, by its label."""
+
+TEMPLATES = {"c": "Naming", "a": "Having", "rel": "Relation"}
+"""What a word means as a claim, by the claim's label."""
+
+
+@rule(when=answering("AskCertainty"))
+def miss_certain(s: Record) -> Record | None:
+    """The tutor asks how certain something is in a word that was never learned."""
+    return _missed(s)
+
+
+@rule(when=answering("AskCertainty"))
+def tell_certainty(s: Record, *, model: Model) -> Update | None:
+    """It says how certain the claim is, and what else it might be."""
+    claim = _asked_about(s)
+    return None if claim is None else _told(s, model, claim)
+
+
+@rule(when=answering("AskWhy"))
+def miss_explained(s: Record) -> Record | None:
+    """The tutor asks why something is so in a word that was never learned."""
+    return _missed(s)
+
+
+@rule(when=answering("AskWhy"))
+def explain(s: Record, *, model: Model) -> Update | None:
+    """It thinks so: it says by which cues, and what it was reminded of."""
+    claim = _asked_about(s)
+    if claim is None or is_denial(claim):
+        return None
+    own, rival, model = _judged(s, model, claim)
+    if own is None or not thinks(s, [own]):
+        return None
+    p, other = _with_rival(s, claim, own, rival)
+    explained = plan(
+        s,
+        EXPLAINED[kind_of(claim) or ""],
+        claim,
+        other,
+        signs=signs_for(s, claim, other),
+        degrees=p,
+        explains=[claim],
+        pending=s.shared.pending,
+    )
+    return explained, model
+
+
+@rule(when=answering("AskWhy"))
+def doubt(s: Record, *, model: Model) -> Update | None:
+    """It does not think so: it says how certain it is instead."""
+    claim = _asked_about(s)
+    return None if claim is None else _told(s, model, claim)
+
+
+@rule(when=answering("AskCertainty"))
+def be_sure_of_nothing(s: Record) -> Record:
+    """It has claimed nothing that it could be sure of."""
+    return plan(s, "NoClaim")
+
+
+@rule(when=answering("AskWhy"))
+def explain_nothing(s: Record) -> Record:
+    """It has claimed nothing that it could explain."""
+    return plan(s, "NoClaim")
+
+
+def _missed(s: Record) -> Record | None:
+    """The plan to say that the word of the claim that is asked about is not known."""
+    content = content_of(s)
+    for sign in s.shared.latest.signs:
+        if claims(content, sign) and not knows(words(s), sign):
+            act = f"Unknown{sign.kind.capitalize()}"
+            return plan(s, act, sign.meaning, signs=[sign], pending=s.shared.pending)
+    return None
+
+
+def _asked_about(s: Record) -> RecordType | None:
+    """The claim that a question is about: the one in it, or what was claimed last."""
+    asked = content_of(s)
+    if kind_of(asked) is not None:
+        return asked
+    return s.shared.pending[0] if s.shared.pending else None
+
+
+def _told(s: Record, model: Model, claim: RecordType) -> Update:
+    """The plan to say how certain a claim is."""
+    own, rival, model = _judged(s, model, affirmed(claim))
+    if own is None:
+        return plan(s, "NoClaim"), model
+    p, other = _with_rival(s, claim, own, rival)
+    told = plan(
+        s,
+        "TellCertainty",
+        claim,
+        other,
+        signs=signs_for(s, claim, other),
+        degrees=p,
+        pending=s.shared.pending,
+    )
+    return told, model
+
+
+def _judged(
+    s: Record, model: Model, claim: RecordType
+) -> tuple[Record | None, Record | None, Model]:
+    """The robot's belief in a claim, and in the best other word of the same kind."""
+    sign = next((it for it in words(s) if claims(claim, it)), None)
+    if sign is None:
+        return None, None, model
+    compared = [sign] if sign.kind == "adjective" else s.private[f"{sign.kind}s"]
+    beliefs, model = about(model, _situation(claim), compared)
+    own = next(it for it in beliefs if it.sign == sign)
+    return own, next((it for it in beliefs if it is not own), None), model
+
+
+def _situation(claim: RecordType) -> Record:
+    """What a claim is about, as words are judged of it."""
+    look = value_at(claim, "look")
+    x = thing_at(claim, "target")
+    if "rel" not in claim:
+        return record(x=x, look=look)
+    return record(
+        look=look,
+        frame=value_at(claim, "frame"),
+        target=record(x=x, look=look),
+        landmark=record(x=thing_at(claim, "landmark"), look=look),
+    )
+
+
+def _with_rival(
+    s: Record, claim: RecordType, own: Record, rival: Record | None
+) -> tuple[list[float], RecordType]:
+    """How certain a claim is, and a rival to it that is worth naming, if any."""
+    if is_denial(claim):
+        return [1.0 - own.p], Rec
+    if rival is None or not has_rival(s, [own, rival]):
+        return [own.p], Rec
+    label = kind_of(claim) or ""
+    other = meaning_in(rival.sign.form, TEMPLATES[label])
+    return [own.p, rival.p], set_to(claim, **{label: other[label]})
+
+
+EXPLAINING = first(
+    miss_certain,
+    tell_certainty,
+    miss_explained,
+    explain,
+    doubt,
+    be_sure_of_nothing,
+    explain_nothing,
+)

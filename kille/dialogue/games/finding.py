@@ -1,0 +1,60 @@
+"""Show me the cup. The robot points at it, and says which one it is and where."""
+
+from __future__ import annotations
+
+from kille.dialogue.beliefs import believed, is_sure
+from kille.dialogue.games.placing import landmark_for
+from kille.dialogue.meanings import mentions, set_to
+from kille.dialogue.moves import (
+    answering,
+    content_of,
+    numbered,
+    plan,
+    said_of,
+    standing,
+)
+from kille.dialogue.reference import phrase_at, thing_at
+from ttr import Model, Record, RecordType, record, replace
+from ttr.updates import first, rule
+
+__all__ = ["FINDING"]
+
+
+@rule(when=answering("AskFind"))
+def point_out(s: Record, *, model: Model) -> Record | None:
+    """The tutor asks which thing it is: it points there, and says where that is."""
+    x = thing_at(content_of(s), "target")
+    if x is None:
+        return None
+    found = phrase_at(content_of(s), "target")
+    nouns = [it for it in s.shared.latest.signs if mentions(found, it)]
+    nouns = [it for it in nouns if it.kind == "noun"][:1]
+    content, beside = _where(s, model, x, nouns)
+    content = set_to(content, target=found, **numbered(s, x))
+    signs = tuple(dict.fromkeys((*s.shared.latest.signs, *beside)))
+    claims = [said_of(s, noun, x) for noun in nouns]
+    planned = plan(s, "PointOut", content, signs=signs, pending=claims, points=[x])
+    return replace(planned, {"view.focus": (x,)})
+
+
+def _where(
+    s: Record, model: Model, x: str, nouns: list[Record]
+) -> tuple[RecordType, list[Record]]:
+    """How it stands to the other thing it knows best, if it is sure of that."""
+    content = content_of(s)
+    is_placed = "landmark" in phrase_at(content, "target")
+    if not nouns or is_placed or x not in s.view.placed:
+        return content, []
+    thing = record(sit=record(x=x), sign=nouns[0])
+    landmark, model = landmark_for(s, model, thing)
+    if landmark is None:
+        return content, []
+    y, at = landmark.sit.x, landmark.sign
+    stands = believed(s, model, s.private.relations, x, y)
+    if not is_sure(s, stands):
+        return content, []
+    where = stands[0].sign
+    return standing(s, x, nouns[0], y, at, where), [at, where]
+
+
+FINDING = first(point_out)

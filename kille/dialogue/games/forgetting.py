@@ -1,0 +1,114 @@
+"""The tutor has the robot forget: a lesson, or a word with all its lessons.
+
+What is unlearned is as if it had never been taught. A word of which no lesson is left
+is no longer known.
+"""
+
+from __future__ import annotations
+
+from kille.dialogue.beliefs import knows
+from kille.dialogue.commitments import kind_of, lessons_in
+from kille.dialogue.meanings import is_denial, word_of
+from kille.dialogue.moves import answering, content_of, plan
+from kille.dialogue.reference import things_in
+from kille.dialogue.state import words
+from ttr import Record
+from ttr.updates import first, rule
+
+__all__ = ["FORGETTING"]
+
+FORGOT = {"c": "Forgot", "a": "ForgotQuality", "rel": "ForgotRelation"}
+"""What the robot says when it has forgotten a lesson, by the label of its claim."""
+
+FORGOT_NOT = {"c": "ForgotNot", "a": "ForgotNotQuality", "rel": "ForgotNotRelation"}
+"""What it says when the lesson was that something is not so."""
+
+FORGOT_WORD = {
+    "noun": "ForgotNoun",
+    "adjective": "ForgotAdjective",
+    "relation": "ForgotRelationWord",
+}
+"""What it says when it has forgotten a word of a kind."""
+
+
+@rule(when=answering("ForgetThat"))
+def forget_claim(s: Record) -> Record | None:
+    """The tutor says what is to be forgotten: all lessons that say so are unlearned."""
+    content = content_of(s)
+    if kind_of(content) is None:
+        return None
+    lessons = lessons_in(s, content)
+    return _forgotten(s, *lessons) if lessons else plan(s, "ForgetNothing")
+
+
+@rule(when=answering("ForgetThat"))
+def forget_that(s: Record) -> Record | None:
+    """The latest lesson about the thing that is talked of is unlearned."""
+    talked_of = set(s.shared.salient[:1] or s.view.focus)
+    lessons = [
+        it
+        for it in s.private.lessons
+        if it.content in s.shared.here and talked_of & set(things_in(it.content))
+    ]
+    return _forgotten(s, lessons[-1]) if lessons else None
+
+
+@rule(when=answering("ForgetLast"))
+def forget_last(s: Record) -> Record | None:
+    """The latest lesson is unlearned."""
+    return _forgotten(s, s.private.lessons[-1]) if s.private.lessons else None
+
+
+@rule(when=answering("ForgetWord"))
+def forget_word(s: Record) -> Record | None:
+    """A word is forgotten with all lessons in it, those of other dialogues too."""
+    known = list(words(s))
+    for said in s.shared.latest.signs:
+        if knows(known, said):
+            sign = next(it for it in known if word_of(it) is word_of(said))
+            act = FORGOT_WORD[sign.kind]
+            return plan(s, act, sign.meaning, signs=[sign], drops=[sign])
+    return None
+
+
+@rule(when=answering("ForgetWord"))
+def miss_forgotten(s: Record) -> Record:
+    """The word is not known, so that there is nothing to forget."""
+    sign = s.shared.latest.signs[0]
+    return plan(s, "UnknownWord", sign.meaning, signs=[sign])
+
+
+@rule(when=answering("ForgetThat"))
+def forget_no_such(s: Record) -> Record:
+    """Nothing was taught about the thing that is talked of."""
+    return plan(s, "ForgetNothing")
+
+
+@rule(when=answering("ForgetLast"))
+def forget_nothing(s: Record) -> Record:
+    """Nothing was taught in this dialogue."""
+    return plan(s, "ForgetNothing")
+
+
+def _forgotten(s: Record, *lessons: Record) -> Record:
+    """The plan to unlearn lessons that say the same."""
+    lesson = lessons[-1]
+    acts = FORGOT_NOT if is_denial(lesson.content) else FORGOT
+    return plan(
+        s,
+        acts[kind_of(lesson.content) or ""],
+        lesson.content,
+        signs=[lesson.sign],
+        forgets=[it.key for it in lessons],
+    )
+
+
+FORGETTING = first(
+    forget_claim,
+    forget_that,
+    forget_last,
+    forget_word,
+    miss_forgotten,
+    forget_no_such,
+    forget_nothing,
+)

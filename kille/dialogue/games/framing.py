@@ -1,0 +1,297 @@
+"""Whose left is it? The viewer's, or that of the thing beside which something stands.
+
+Where a landmark is known to face some way, its left need not be the viewer's. If the
+talk has not settled on a perspective, and what is said comes to something else in the
+other one, the robot asks. What is settled holds as long as the talk is about places; a
+correction changes it, and what was asked before is answered anew.
+
+Source: Dobnik, Howes and Kelleher 2015 (perspectives are aligned game by game).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from kille.dialogue.beliefs import nouns_of, relations_of
+from kille.dialogue.games.placing import landmark_for
+from kille.dialogue.games.referring import UNANSWERED, about, unanswered
+from kille.dialogue.meanings import (
+    named,
+    predicate_at,
+    set_at,
+    set_to,
+    spoken,
+    theory,
+    value_at,
+)
+from kille.dialogue.moves import answering, content_of, issue, plan, used
+from kille.dialogue.reference import (
+    LANDMARK,
+    OPEN,
+    PARTS,
+    VIEWER,
+    Judging,
+    contents,
+    denoted,
+    facing,
+    fits_well,
+    front_of,
+    phrase_at,
+    thing_at,
+)
+from kille.dialogue.state import words
+from ttr import Model, Record, RecordType, RecType, rectype, replace
+from ttr.updates import first, rule
+
+__all__ = ["ASKING_FRAME", "FRAMING", "SETTLING"]
+
+Update = tuple[Record, Model]
+
+ASKED = "AskFrame"
+"""The question whose perspective is meant: the viewer's, or else the landmark's."""
+
+FRAMES = (VIEWER, LANDMARK)
+"""The perspectives that the robot asks to choose from."""
+
+LESSONS = named("Relate") | named("Correct") | named("Reject")
+"""Moves by which a relation may be learned."""
+
+OTHER_GAMES = named("Instruct") | named("Describe") | named("AskName") | named("Leave")
+"""Moves that begin another game, in which no place is talked about."""
+
+# --- settling on a perspective -------------------------------------------------------
+
+
+@rule(when=answering("TakeFrame"))
+def ask_front(s: Record, *, model: Model) -> Record | None:
+    """The tutor takes the perspective of a thing, and how it faces was never said."""
+    content = content_of(s)
+    if _frame_in(content) != LANDMARK or _has_front(s, model, content):
+        return None
+    return plan(s, "AskFront", content, signs=s.shared.latest.signs)
+
+
+@rule(when=answering("TakeFrame"))
+def settle_frame(s: Record) -> Record | None:
+    """Asked whose perspective is meant, the tutor says whose."""
+    if not s.shared.qud or s.shared.qud[0].ask != ASKED:
+        return None
+    frame = _frame_in(content_of(s))
+    option = s.shared.qud[0].options[FRAMES.index(frame)]
+    changes = {"shared.qud": s.shared.qud[1:], "shared.latest": option}
+    return about(replace(_in(s, frame), changes), option.content)
+
+
+@rule(when=answering("TakeFrame"))
+def answer_anew(s: Record, *, model: Model) -> Update | None:
+    """The tutor corrects the perspective of an answer: the question is asked again."""
+    claim = next(iter(s.shared.pending), None)
+    if claim is None or "rel" not in claim:
+        return None
+    content = set_at(named("Asked"), "target.x", str(thing_at(claim, "target")))
+    asked = set_to(
+        spoken("Heard", "AskPlace"),
+        text=theory()["Text"] @ s.shared.latest.text,
+        signs=named("Heard")["signs"] @ (),
+        content=RecType @ content,
+    )
+    move, model = model.create(asked)
+    settled = _in(s, _frame_in(content_of(s)))
+    return replace(settled, {"shared.latest": move, "shared.pending": ()}), model
+
+
+@rule(when=answering("TakeFrame"))
+def learn_anew(s: Record) -> Record | None:
+    """The tutor corrects the perspective of a lesson: it is learned in the other."""
+    lesson = next(iter(s.private.lessons[-1:]), None)
+    if lesson is None or "rel" not in lesson.content:
+        return None
+    settled = _in(s, _frame_in(content_of(s)))
+    landmark = str(thing_at(lesson.content, "landmark"))
+    content = set_at(lesson.content, "frame", front_of(settled, landmark))
+    if content == lesson.content:
+        return None
+    signs = used(words(s), content)
+    forgets, teaches = [lesson.key], [content]
+    return plan(
+        settled,
+        "LearnedRelation",
+        content,
+        signs=signs,
+        teaches=teaches,
+        forgets=forgets,
+    )
+
+
+@rule(when=answering("TakeFrame"))
+def note_frame(s: Record) -> Record:
+    """The tutor says in whose perspective places will be talked about."""
+    return plan(_in(s, _frame_in(content_of(s))), "Noted")
+
+
+@rule(when=unanswered(OTHER_GAMES))
+def leave_places(s: Record) -> Record | None:
+    """Another game begins: nothing is settled any more about perspectives."""
+    if s.shared.frame == OPEN or next(_placing(content_of(s)), None) is not None:
+        return None
+    return _in(s, OPEN)
+
+
+@rule(when=UNANSWERED)
+def ask_frame_of_phrase(s: Record, *, model: Model) -> Record | None:
+    """A phrase means one thing to the viewer, and another as the landmark has it."""
+    label = next(_placing(content_of(s)), None)
+    if s.shared.frame != OPEN or not s.shared.turned or label is None:
+        return None
+    meant = [_meant(_in(s, frame), model) for frame in FRAMES]
+    if meant[0] == meant[1]:
+        return None
+    landmark = phrase_at(phrase_at(content_of(s), label), "landmark")
+    options = [replace(s.shared.latest, content=content) for content in meant]
+    return _asking(s, landmark, options)
+
+
+# --- asking for it -------------------------------------------------------------------
+
+
+@rule(when=answering("Orient"))
+def learn_front(s: Record) -> Record | None:
+    """The tutor says which way a thing faces."""
+    content = content_of(s)
+    x = thing_at(content, "target")
+    if x is None:
+        return None
+    others = (it for it in s.shared.turned if it.x != x)
+    turned = (*others, {"x": x, "front": value_at(content, "front")})
+    return plan(replace(s, {"shared.turned": turned}), "Noted")
+
+
+@rule(when=unanswered(LESSONS))
+def ask_frame_of_lesson(s: Record) -> Record | None:
+    """What is said of a place can be learned in one perspective or in the other."""
+    landmark = _open_landmark(s)
+    return _asking_of_claim(s, landmark) if landmark else None
+
+
+@rule(when=answering("AskWhether"))
+def ask_frame_of_question(s: Record, *, model: Model) -> Record | None:
+    """Things stand so in one perspective, and not in the other."""
+    landmark = _open_landmark(s)
+    if landmark is None:
+        return None
+    seen = [_verdict(_in(s, frame), model, landmark) for frame in FRAMES]
+    return _asking_of_claim(s, landmark) if seen[0] != seen[1] else None
+
+
+@rule(when=answering("AskPlace"))
+def ask_frame_of_place(s: Record, *, model: Model) -> Update | None:
+    """Where a thing is would be said in other words as the landmark has it."""
+    x = thing_at(content_of(s), "target")
+    if s.shared.frame != OPEN or not s.shared.turned or x not in s.view.placed:
+        return None
+    beliefs, model = nouns_of(s, model, str(x))
+    landmark, model = landmark_for(s, model, beliefs[0]) if beliefs else (None, model)
+    if landmark is None or facing(s, landmark.sit.x) is None:
+        return None
+    said = []
+    for frame in FRAMES:
+        stands, model = relations_of(_in(s, frame), model, str(x), landmark.sit.x)
+        said.append(stands[0].sign if stands else None)
+    if said[0] == said[1]:
+        return None
+    return _asking(
+        s,
+        landmark.sign.meaning,
+        [_seen_from(s, it) for it in _fronts(s, landmark.sit.x)],
+    ), model
+
+
+def _in(s: Record, frame: str) -> Record:
+    """The state in which this perspective is settled on."""
+    return replace(s, {"shared.frame": frame})
+
+
+def _frame_in(content: RecordType) -> str:
+    """The perspective that the tutor takes."""
+    return str(value_at(content, "by"))
+
+
+def _has_front(s: Record, model: Model, content: RecordType) -> bool:
+    """Whether a thing that the tutor may mean is known to face some way."""
+    turned = [str(it.x) for it in s.shared.turned]
+    if "landmark" not in content:
+        return bool(turned)
+    fits = Judging(s, model).fits(phrase_at(content, "landmark"))
+    return any(x in turned for x in fits_well(s, fits))
+
+
+def _placing(content: RecordType) -> Iterator[str]:
+    """The phrases that say of their thing what it stands beside."""
+    for label in PARTS:
+        if label in content and "landmark" in phrase_at(content, label):
+            yield label
+
+
+def _meant(s: Record, model: Model) -> RecordType:
+    """What the latest move is about if its phrases are resolved, or else as it is."""
+    content = content_of(s)
+    readings = denoted(s, contents(s, model, content))
+    return readings[0].content if len(readings) == 1 else content
+
+
+def _open_landmark(s: Record) -> str | None:
+    """The landmark of the latest move, if its perspective could be meant or not."""
+    content = content_of(s)
+    landmark = thing_at(content, "landmark")
+    if s.shared.frame != OPEN or "rel" not in content or landmark is None:
+        return None
+    return landmark if facing(s, landmark) is not None else None
+
+
+def _verdict(s: Record, model: Model, landmark: str) -> tuple[bool, bool]:
+    """Whether things surely stand as is asked, and whether they are likely to."""
+    content, bands = content_of(s), s.private.strategy.bands
+    target, look = thing_at(content, "target"), s.view.look
+    word, front = predicate_at(content, "rel"), front_of(s, landmark)
+    p = Judging(s, model).degree(word, target, landmark, look, front)
+    return bool(p >= bands.sure), bool(p >= bands.likely)
+
+
+def _asking_of_claim(s: Record, landmark: str) -> Record:
+    """The plan to ask in whose perspective a claim of the tutor's is meant."""
+    content = content_of(s)
+    options = [_seen_from(s, front) for front in _fronts(s, landmark)]
+    return _asking(s, phrase_at(content, "landmark"), options)
+
+
+def _fronts(s: Record, landmark: str) -> list[str]:
+    """What is forward in either perspective."""
+    return [front_of(_in(s, frame), landmark) for frame in FRAMES]
+
+
+def _seen_from(s: Record, front: str) -> Record:
+    """The latest move, made specific: this is forward."""
+    content = set_to(content_of(s), frame=theory()["Front"] @ front)
+    return replace(s.shared.latest, content=content)
+
+
+def _asking(s: Record, landmark: RecordType, options: Sequence[Record]) -> Record:
+    """The plan to ask whose perspective is meant; what was claimed stays pending."""
+    asked = rectype(look=theory()["Look"], landmark=landmark)
+    signs = used([*words(s), *s.shared.latest.signs], asked)
+    asks, pending = [issue(ASKED, options)], s.shared.pending
+    return plan(s, ASKED, asked, signs=signs, asks=asks, pending=pending)
+
+
+SETTLING = first(ask_front, settle_frame)
+"""What answers the question whose perspective is meant."""
+
+FRAMING = first(
+    ask_front, answer_anew, learn_anew, note_frame, leave_places, ask_frame_of_phrase
+)
+"""What the tutor says of perspectives, and phrases that depend on them."""
+
+ASKING_FRAME = first(
+    learn_front, ask_frame_of_lesson, ask_frame_of_question, ask_frame_of_place
+)
+"""What comes to something else in another perspective, with its phrases resolved."""

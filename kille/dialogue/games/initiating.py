@@ -1,0 +1,180 @@
+"""Game 4: the robot does something of its own accord, when the floor is free.
+
+It does one thing at a time, the one of which it expects most by its strategy, if it
+expects anything of it: to be silent costs nothing. It does nothing twice in a scene.
+What has just come into view, or is pointed at, is the tutor's to speak of first.
+
+Source: Dobnik and de Graaf 2017, section 3; Skočaj et al. 2011 for the modes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from kille.dialogue.beliefs import believed, doubt, is_sure, knows, lead, thinks
+from kille.dialogue.meanings import claims, named, set_at, set_to
+from kille.dialogue.moves import numbered, plan, said_of, standing
+from kille.dialogue.reference import thing_at
+from kille.dialogue.state import STATE
+from kille.dialogue.strategies import Option, Stake, best
+from ttr import Model, Record, record, replace
+from ttr.updates import first, rule
+
+__all__ = ["IDLING", "INITIATING", "STAYING"]
+
+
+class Initiative(NamedTuple):
+    """Something it might do: what is expected of it, about what, and the plan."""
+
+    option: Option
+    question: Record
+    planned: Record
+
+
+@rule(when=STATE, on=named("Seen"))
+def learn_alone(s: Record, seen: Record, *, model: Model) -> Record | None:
+    """It is so sure what a thing is that it learns this look of it by itself."""
+    wants = s.private.strategy.wants.learning
+    return _chosen(s, _lessons(s, model, Stake(wants.right, wants.wrong)))
+
+
+@rule(when=STATE, on=named("Seen"))
+def stay(s: Record, seen: Record) -> Record | None:
+    """All is as it was at the last look, and the tutor leaves the floor to it."""
+    view = seen.view
+    is_same = view.things == s.view.things and view.focus == s.view.focus
+    return s if is_same and set(view.things) <= set(seen.kept) else None
+
+
+@rule(when=STATE, on=named("Seen"))
+def ask_relation(s: Record, seen: Record, *, model: Model) -> Record | None:
+    """Two things it knows are in view, and how they stand it cannot say: it asks."""
+    return _chosen(s, _relations(s, model))
+
+
+@rule(when=STATE, on=named("Seen"))
+def ask(s: Record, seen: Record, *, model: Model) -> Record | None:
+    """It asks for what it would like to know most."""
+    return _chosen(s, [*_relations(s, model), *_things(s, model), *_examples(s)])
+
+
+def _chosen(s: Record, initiatives: Iterable[Initiative]) -> Record | None:
+    """The state in which it does the best of these that it has not done yet."""
+    new = {it.option: it for it in initiatives if it.question not in s.private.asked}
+    option = best(new)
+    if option is None:
+        return None
+    chosen = new[option]
+    return replace(
+        chosen.planned, {"private.asked": (*s.private.asked, chosen.question)}
+    )
+
+
+def _asking(s: Record, about: str, p: float) -> Option:
+    """The option to ask about something, which is needed with this probability."""
+    wants = s.private.strategy.wants
+    return Option(about, p, Stake(wants[about] - wants.asking, -wants.asking))
+
+
+def _question(act: str, *about: str, things: tuple[str, ...] = ()) -> Record:
+    return record(act=act, about=about, things=things)
+
+
+def _relations(s: Record, model: Model) -> Iterator[Initiative]:
+    """How two things stand that it knows, if it cannot say it."""
+    known = _known_pair(s, model)
+    if known is None or not _is_worth(s, "relation"):
+        return
+    target, landmark = known
+    x, y = target.sit.x, landmark.sit.x
+    stand = believed(s, model, s.private.relations, x, y)
+    if is_sure(s, stand):
+        return
+    signs = [target.sign, landmark.sign]
+    content = standing(s, x, target.sign, y, landmark.sign)
+    yield Initiative(
+        _asking(s, "relation", doubt(stand)),
+        _question("AskRelation", *sorted(it.form for it in signs)),
+        plan(s, "AskRelation", content, signs=signs),
+    )
+
+
+def _known_pair(s: Record, model: Model) -> tuple[Record, Record] | None:
+    """The two nearest things with a place that it recognises as different things."""
+    found: list[Record] = []
+    for x in s.view.placed:
+        beliefs = believed(s, model, s.private.nouns, x)
+        if not is_sure(s, beliefs) or knows([b.sign for b in found], beliefs[0].sign):
+            continue
+        found.append(beliefs[0])
+        if len(found) == 2:
+            return found[0], found[1]
+    return None
+
+
+def _things(s: Record, model: Model) -> Iterator[Initiative]:
+    """What a thing is that it does not know: the one in focus, and then the others."""
+    if not _is_worth(s, "thing"):
+        return
+    for x in sorted(s.view.things, key=lambda it: it not in s.view.focus):
+        beliefs = believed(s, model, s.private.nouns, x)
+        if thinks(s, beliefs) or _is_told(s, x):
+            continue
+        content = set_at(set_at(named("Asked"), "look", s.view.look), "target.x", x)
+        number = numbered(s, x) if len(s.view.things) > 1 else {}
+        planned = plan(s, "AskThing", set_to(content, **number), points=[x])
+        salient = (x, *(it for it in s.shared.salient if it != x))
+        yield Initiative(
+            _asking(s, "thing", doubt(beliefs)),
+            _question("AskThing", things=(x,)),
+            replace(planned, {"view.focus": (x,), "shared.salient": salient}),
+        )
+        return
+
+
+def _examples(s: Record) -> Iterator[Initiative]:
+    """Another example of a word that it has failed at."""
+    if not _is_worth(s, "example"):
+        return
+    for sign in dict.fromkeys(s.private.failed):
+        if not knows(s.private.nouns, sign):
+            continue
+        failed = sum(knows([it], sign) for it in s.private.failed)
+        taught = sum(claims(it.content, sign) for it in s.private.lessons)
+        yield Initiative(
+            _asking(s, "example", failed / (taught + failed)),
+            _question("AskExample", sign.form, str(failed)),
+            plan(s, "AskExample", sign.meaning, signs=[sign]),
+        )
+
+
+def _lessons(s: Record, model: Model, stake: Stake) -> Iterator[Initiative]:
+    """What things are, which it is sure of and has not been told."""
+    if stake.right <= 0.0:
+        return
+    for x in s.view.things:
+        beliefs = believed(s, model, s.private.nouns, x)
+        if not is_sure(s, beliefs) or _is_told(s, x):
+            continue
+        content, sign = said_of(s, beliefs[0].sign, x), beliefs[0].sign
+        yield Initiative(
+            Option(x, lead(beliefs), stake),
+            _question("LearnedAlone", things=(x,)),
+            plan(s, "LearnedAlone", content, signs=[sign], teaches=[content]),
+        )
+
+
+def _is_worth(s: Record, about: str) -> bool:
+    """Whether it could be worth to ask about this at all."""
+    return bool(s.private.strategy.wants[about] > s.private.strategy.wants.asking)
+
+
+def _is_told(s: Record, x: str) -> bool:
+    """Whether the tutor has said something of a thing since it came into view."""
+    return any(thing_at(it, "target") == x for it in s.shared.here)
+
+
+STAYING = stay
+INITIATING = first(learn_alone, ask_relation)
+IDLING = first(learn_alone, ask)

@@ -1,0 +1,63 @@
+"""What do you know? What is a cup? The robot tells of the words that it has learned."""
+
+from __future__ import annotations
+
+from kille.dialogue.meanings import word_of
+from kille.dialogue.moves import answering, plan
+from kille.dialogue.state import words
+from ttr import Record
+from ttr.updates import first, rule
+
+__all__ = ["KNOWING"]
+
+TOLD = {
+    "nouns": "TellNouns",
+    "adjectives": "TellAdjectives",
+    "relations": "TellRelations",
+}
+"""What the robot says of all words of a kind, by the place where they are known."""
+
+MEANT = {"noun": "MeanNoun", "adjective": "MeanAdjective", "relation": "MeanRelation"}
+"""What it says of what one word means, by the word's kind."""
+
+
+@rule(when=answering("AskKnowledge"))
+def tell_words(s: Record) -> Record | None:
+    """The tutor asks what it knows: it lists its words, kind by kind."""
+    state = s
+    for kind, act in TOLD.items():
+        known = s.private[kind]
+        if known:
+            claims = s.shared.pending
+            state = plan(state, act, signs=known, recalls=known, pending=claims)
+    return None if state is s else state
+
+
+@rule(when=answering("AskKnowledge"))
+def know_nothing(s: Record) -> Record:
+    """It has learned no word yet."""
+    return plan(s, "KnowNothing")
+
+
+@rule(when=answering("AskMeaning"))
+def tell_meaning(s: Record) -> Record | None:
+    """The tutor asks what a word means: it says the type, and how it learned it."""
+    known = {word_of(sign): sign for sign in words(s)}
+    for said in s.shared.latest.signs:
+        sign = known.get(word_of(said))
+        if sign is not None:
+            act, claims = MEANT[sign.kind], s.shared.pending
+            meaning = sign.meaning
+            return plan(s, act, meaning, signs=[sign], recalls=[sign], pending=claims)
+    return None
+
+
+@rule(when=answering("AskMeaning"))
+def miss_meaning(s: Record) -> Record:
+    """The word was never learned."""
+    sign = s.shared.latest.signs[0]
+    act = f"Unknown{sign.kind.capitalize()}"
+    return plan(s, act, sign.meaning, signs=[sign], pending=s.shared.pending)
+
+
+KNOWING = first(tell_words, know_nothing, tell_meaning, miss_meaning)

@@ -1,0 +1,169 @@
+"""Seeing, hearing and saying: what every game begins and ends with.
+
+What is heard may be read in several ways; the state decides between them. Then its
+noun phrases are resolved to things in view, and only then do the games answer it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import count, islice
+
+from kille.dialogue.beliefs import knows
+from kille.dialogue.commitments import remaining, said_here
+from kille.dialogue.games.costing import ASKED, CORRECTED
+from kille.dialogue.games.mishearing import MISHEARING
+from kille.dialogue.meanings import claims, is_denial, named
+from kille.dialogue.reference import things_in
+from kille.dialogue.state import STATE, words
+from kille.dialogue.weighing import FAINTLY, weighed
+from ttr import Model, Record, RecordType, replace
+from ttr.updates import NBest, first, maybe, rule, seq
+
+__all__ = ["GLANCED", "LISTENING", "SAID", "SEEN"]
+
+Update = tuple[Record, Model]
+
+# --- seeing --------------------------------------------------------------------------
+
+
+@rule(when=STATE, on=named("Seen"))
+def see(s: Record, seen: Record) -> Record:
+    """What is in view is what the latest look shows, and the robot has the floor."""
+    return _looked(s, seen)
+
+
+@rule(when=STATE, on=named("Glance"))
+def glance(s: Record, seen: Record) -> Record:
+    """What is in view is what the latest look shows, while the tutor has the floor."""
+    return _looked(s, seen)
+
+
+def _looked(s: Record, seen: Record) -> Record:
+    """The state after a look: what is gone is not talked about, what is shown is.
+
+    A question about what is gone is dropped.
+    """
+    view = seen.view
+    new = [x for x in view.things if x not in s.view.things]
+    turned_to = () if view.focus == s.view.focus or len(new) > 1 else view.focus
+    salient = _first(turned_to, (x for x in s.shared.salient if x in seen.kept))
+    turned = tuple(it for it in s.shared.turned if it.x in seen.kept)
+    asked = [it for it in s.private.asked if set(it.things) <= set(seen.kept)]
+    qud = [it for it in s.shared.qud if _things_of(it) <= set(seen.kept)]
+    changes = {
+        "view": view,
+        "private.asked": asked,
+        "shared.qud": qud,
+        "shared.salient": salient,
+        "shared.topic": turned_to or [x for x in s.shared.topic if x in seen.kept],
+        "shared.turned": turned,
+        "shared.here": remaining(s.shared.here, seen.kept),
+    }
+    return replace(s, changes)
+
+
+def _things_of(issue: Record) -> set[str]:
+    """The things that the options of a question are about."""
+    return {x for option in issue.options for x in things_in(option.content)}
+
+
+def _first(ahead: Iterable[str], rest: Iterable[str]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys((*ahead, *rest)))
+
+
+# --- hearing -------------------------------------------------------------------------
+
+
+@rule(when=STATE, on=named("Heard"), p=FAINTLY)
+def hear(s: Record, said: Record, *, nbest: object, model: Model) -> Record:
+    """What the tutor says is the latest move: the likeliest of what it may be."""
+    if isinstance(nbest, NBest):
+        said = weighed(s, model, nbest)[0].said
+    cost = s.private.cost
+    changes = {
+        "private.agenda": (),
+        "private.beliefs": (),
+        "private.cost.turns": cost.turns + 1.0,
+        "private.cost.words": cost.words + len(said.text.split()),
+        "shared.latest": said,
+    }
+    return replace(s, changes)
+
+
+# --- saying --------------------------------------------------------------------------
+
+
+@rule(when=STATE, on=named("Said"))
+def say(s: Record, said: Record) -> Record:
+    """What the robot has said is the latest move, and off its agenda."""
+    agenda, last = s.private.agenda, s.private.last
+    changes = {
+        "private.agenda": agenda[1:],
+        "private.last": last if agenda[0] in last else agenda,
+        "shared.latest": said,
+        "shared.here": said_here(s, said),
+        "shared.topic": things_in(said.content) or s.shared.topic,
+    }
+    return replace(s, changes)
+
+
+@rule(when=STATE, on=named("Said"))
+def keep(s: Record, said: Record) -> Record | None:
+    """What was learned is known and agreed on; what was unlearned is neither."""
+    if not (said.teaches or said.forgets or said.drops):
+        return None
+    state = s
+    keys = said.keys or _free_keys(s, len(said.teaches))
+    for content, key in zip(said.teaches, keys, strict=True):
+        state = _learned(state, key, content, said.signs)
+    return _lost(state, said)
+
+
+def _free_keys(s: Record, number: int) -> list[str]:
+    """Keys that no lesson has, where no memory has given any."""
+    taken = {lesson.key for lesson in s.private.lessons}
+    free = (f"lesson{n}" for n in count(1) if f"lesson{n}" not in taken)
+    return list(islice(free, number))
+
+
+def _learned(
+    s: Record, key: str, content: RecordType, signs: Iterable[Record]
+) -> Record:
+    sign = next(it for it in signs if claims(content, it))
+    agreed = s.shared.commitments
+    news = () if content in agreed else (content,)
+    lesson = {"key": key, "sign": sign, "content": content}
+    changes = {
+        "private.lessons": (*s.private.lessons, lesson),
+        "shared.commitments": agreed + news,
+    }
+    if not is_denial(content) and not knows(words(s), sign):
+        kind = f"private.{sign.kind}s"
+        changes[kind] = (*s.private[f"{sign.kind}s"], sign)
+    return replace(s, changes)
+
+
+def _lost(s: Record, said: Record) -> Record:
+    gone = {*said.forgets, *said.dropped}
+    lessons = [it for it in s.private.lessons if it.key not in gone]
+    kept = {it.content for it in lessons}
+    unlearned = {it.content for it in s.private.lessons if it.key in gone} - kept
+    changes: dict[str, object] = {
+        "private.lessons": lessons,
+        "shared.commitments": [
+            it for it in s.shared.commitments if it not in unlearned
+        ],
+    }
+    for kind in {sign.kind for sign in said.lost}:
+        known = s.private[f"{kind}s"]
+        changes[f"private.{kind}s"] = [it for it in known if not knows(said.lost, it)]
+    return replace(s, changes)
+
+
+# --- the algorithms ------------------------------------------------------------------
+
+SEEN = see
+GLANCED = glance
+LISTENING = seq(hear, maybe(first(MISHEARING, CORRECTED)))
+SAID = seq(say, maybe(keep), maybe(ASKED))

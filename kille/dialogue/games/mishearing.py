@@ -1,0 +1,62 @@
+"""What was not heard well: the robot asks whether it was that, or to hear it again.
+
+Each thing that may have been said is an option of the question, and the tutor's yes, or
+his saying it again, settles it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from kille.dialogue.meanings import named
+from kille.dialogue.moves import answering, issue, plan
+from kille.dialogue.state import STATE
+from kille.dialogue.weighing import FAINTLY, Weighed, weighed
+from ttr import Model, Record, replace
+from ttr.updates import NBest, first, rule
+
+__all__ = ["MISHEARING", "MISHEARD"]
+
+
+@rule(when=STATE, on=named("Heard"), p=FAINTLY)
+def ask_heard(s: Record, said: Record, *, nbest: object, model: Model) -> Record | None:
+    """Two things may have been said, or it hardly was the one: it asks which."""
+    if not isinstance(nbest, NBest):
+        return None
+    hearing, heard = s.private.strategy.hearing, weighed(s, model, nbest)
+    if _is_clear(s, heard) or heard[0].p < hearing.floor:
+        return None
+    near = [it.said for it in heard[:2] if heard[0].p - it.p < hearing.ahead]
+    act = "AskHeard" if len(near) == 2 else "AskHeardOne"
+    signs = tuple(dict.fromkeys(sign for it in near for sign in it.signs))
+    contents = [it.content for it in near]
+    return plan(s, act, *contents, signs=signs, asks=[issue("AskHeard", near)])
+
+
+@rule(when=STATE, on=named("Heard"), p=FAINTLY)
+def beg_pardon(
+    s: Record, said: Record, *, nbest: object, model: Model
+) -> Record | None:
+    """Nothing that may have been said is likely enough: it asks to hear it again."""
+    if not isinstance(nbest, NBest) or _is_clear(s, weighed(s, model, nbest)):
+        return None
+    return plan(s, "Pardon")
+
+
+@rule(when=answering("Deny"))
+def take_back_heard(s: Record) -> Record | None:
+    """It was none of these: the question is dropped, and it asks to hear it again."""
+    if not s.shared.qud or s.shared.qud[0].ask != "AskHeard":
+        return None
+    return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "Pardon")
+
+
+def _is_clear(s: Record, heard: Sequence[Weighed]) -> bool:
+    """Whether the likeliest is likely enough, and far enough ahead of the next."""
+    hearing = s.private.strategy.hearing
+    following = heard[1].p if len(heard) > 1 else 0.0
+    return bool(heard[0].p >= hearing.trust and heard[0].p - following >= hearing.ahead)
+
+
+MISHEARING = first(ask_heard, beg_pardon)
+MISHEARD = take_back_heard

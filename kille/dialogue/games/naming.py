@@ -1,0 +1,78 @@
+"""Game 2: what is this? The robot says as much as it is certain of.
+
+Source: Dobnik and de Graaf 2017, section 3.
+"""
+
+from __future__ import annotations
+
+from kille.dialogue.beliefs import believed, certainty
+from kille.dialogue.moves import answering, content_of, plan, said_of
+from kille.dialogue.reference import thing_at
+from ttr import Model, Record, RecordType, replace
+from ttr.updates import first, maybe, rule, seq
+
+__all__ = ["NAMING"]
+
+
+@rule(when=answering("AskName"))
+def recognise(s: Record, *, model: Model) -> Record | None:
+    """The tutor asks what a thing is: judge every noun of it."""
+    x = thing_at(content_of(s), "target")
+    if x is None or not s.private.nouns:
+        return None
+    beliefs = believed(s, model, s.private.nouns, x)
+    return replace(s, {"private.beliefs": beliefs})
+
+
+@rule(when=answering("AskName"))
+def assert_name(s: Record) -> Record | None:
+    """It is sure, and no rival is near: it says what this is."""
+    return _said(s, "Assert")
+
+
+@rule(when=answering("AskName"))
+def hedge_name(s: Record) -> Record | None:
+    """It has an opinion, but also a rival to it: it names both."""
+    if certainty(s, s.private.beliefs) != "Hedge":
+        return None
+    (content, sign), (rival, other) = _named(s, 0), _named(s, 1)
+    claims = [content, rival]
+    return plan(s, "HedgeName", content, rival, signs=[sign, other], pending=claims)
+
+
+@rule(when=answering("AskName"))
+def guess_name(s: Record) -> Record | None:
+    """It thinks so, is not sure of it, and has no rival to it."""
+    return _said(s, "Guess")
+
+
+@rule(when=answering("AskName"))
+def doubt_name(s: Record) -> Record | None:
+    """It has an opinion, and hardly more than that."""
+    return _said(s, "Doubt")
+
+
+@rule(when=answering("AskName"))
+def admit_name(s: Record) -> Record:
+    """It does not know what this is, and asks."""
+    return plan(s, "AdmitName")
+
+
+def _said(s: Record, how: str) -> Record | None:
+    """The plan to say its first belief in this way, if it is that certain."""
+    if certainty(s, s.private.beliefs) != how:
+        return None
+    content, sign = _named(s, 0)
+    return plan(s, f"{how}Name", content, signs=[sign], pending=[content])
+
+
+def _named(s: Record, rank: int) -> tuple[RecordType, Record]:
+    """What it says of the thing by its belief of this rank, and the sign it uses."""
+    belief = s.private.beliefs[rank]
+    return said_of(s, belief.sign, belief.sit.x), belief.sign
+
+
+NAMING = seq(
+    maybe(recognise),
+    first(assert_name, hedge_name, guess_name, doubt_name, admit_name),
+)

@@ -1,0 +1,88 @@
+"""A word that nearly is a known one: the robot offers that, and takes nothing silently.
+
+"This is a cupp." may be a slip of the hand, or a new word. The robot asks "Do you mean
+a cup?": yes takes the move as if it had been said with that word, no takes it as it was
+said, and so a new word is learned. Anything else drops the question.
+"""
+
+from __future__ import annotations
+
+from kille.dialogue.beliefs import knows
+from kille.dialogue.games.referring import UNANSWERED
+from kille.dialogue.meanings import claims, reworded, theory, word_of
+from kille.dialogue.moves import answering, issue, plan
+from kille.dialogue.reference import in_view
+from kille.dialogue.state import words
+from kille.dialogue.typos import is_slip, slip
+from ttr import Model, Record, replace
+from ttr.updates import first, rule
+
+__all__ = ["OFFERING", "OFFER_ANSWERED"]
+
+OFFER = "OfferWord"
+"""The question whether a known word was meant; its options are yes and no, in order."""
+
+
+@rule(when=UNANSWERED)
+def offer_word(s: Record, *, model: Model) -> Record | None:
+    """A word is not known, but nearly is one that is: was that meant?"""
+    said = s.shared.latest
+    for sign in said.signs:
+        known = _meant(s, model, sign)
+        if known is None:
+            continue
+        seen = replace(said, content=in_view(s, said.content))
+        options = [_with(seen, sign, known), seen]
+        asks = [issue(OFFER, options)]
+        return plan(s, OFFER, known.meaning, signs=[known], asks=asks)
+    return None
+
+
+@rule(when=answering("Affirm"))
+def take_offered(s: Record) -> Record | None:
+    """The tutor meant the known word: that is what was said."""
+    return _settled(s, 0) if _is_offered(s) else None
+
+
+@rule(when=answering("Deny"))
+def take_as_said(s: Record) -> Record | None:
+    """The tutor meant the new word: it was said as it was."""
+    return _settled(s, 1) if _is_offered(s) else None
+
+
+def _meant(s: Record, model: Model, sign: Record) -> Record | None:
+    """The one known word that a word may be a slip of, if it is not known itself.
+
+    What is taught is likelier a new word, so that there only the surest slips count.
+    """
+    known = [it for it in words(s) if it.kind == sign.kind]
+    if knows(known, sign) or word_of(sign) in model.facts.functions:
+        return None
+    said = s.shared.latest
+    taught = (
+        claims(said.content, sign) and model.judge(said, theory()["Teaching"]).holds
+    )
+    near = is_slip if taught else slip
+    found = [it for it in known if near(sign.form, it.form)]
+    return found[0] if len(found) == 1 else None
+
+
+def _with(said: Record, sign: Record, known: Record) -> Record:
+    """A move with one word in place of another."""
+    signs = [known if it == sign else it for it in said.signs]
+    return replace(said, content=reworded(said.content, sign, known), signs=signs)
+
+
+def _is_offered(s: Record) -> bool:
+    """Whether the question under discussion is whether a word was meant."""
+    return bool(s.shared.qud) and s.shared.qud[0].ask == OFFER
+
+
+def _settled(s: Record, chosen: int) -> Record:
+    """The state in which the tutor's move is the option that he chose."""
+    asked, *rest = s.shared.qud
+    return replace(s, {"shared.qud": rest, "shared.latest": asked.options[chosen]})
+
+
+OFFERING = offer_word
+OFFER_ANSWERED = first(take_offered, take_as_said)

@@ -1,0 +1,81 @@
+"""Where is the book? The robot says how it stands to the other thing it knows best."""
+
+from __future__ import annotations
+
+from kille.dialogue.beliefs import (
+    Beliefs,
+    certainty,
+    nouns_of,
+    relations_of,
+    thinks,
+)
+from kille.dialogue.moves import answering, content_of, plan, standing
+from kille.dialogue.reference import thing_at
+from ttr import Model, Record, RecordType, replace
+from ttr.updates import first, rule
+
+__all__ = ["PLACING", "landmark_for"]
+
+Update = tuple[Record, Model]
+
+
+@rule(when=answering("AskPlace"))
+def say_place(s: Record, *, model: Model) -> Update | None:
+    """The tutor asks where a thing is: say how it stands to the best-known other."""
+    x = thing_at(content_of(s), "target")
+    if x is None or x not in s.view.placed:
+        return None
+    beliefs, model = nouns_of(s, model, x)
+    if not beliefs:
+        return None
+    landmark, model = landmark_for(s, model, beliefs[0])
+    if landmark is None:
+        content = beliefs[0].sign.meaning
+        return plan(s, "NeedLandmark", content, signs=[beliefs[0].sign]), model
+    relations, model = relations_of(s, model, x, landmark.sit.x)
+    believing = replace(s, {"private.beliefs": relations})
+    return _place_said(believing, beliefs[0], landmark, relations), model
+
+
+@rule(when=answering("AskPlace"))
+def need_place(s: Record) -> Record:
+    """The thing is in view, but not where it is."""
+    return plan(s, "NeedDepth")
+
+
+def landmark_for(s: Record, model: Model, thing: Record) -> tuple[Record | None, Model]:
+    """The other thing with a place that it knows best, as a belief worth saying."""
+    best: Record | None = None
+    for y in s.view.placed:
+        beliefs, model = nouns_of(s, model, y)
+        if y == thing.sit.x or not thinks(s, beliefs) or beliefs[0].sign == thing.sign:
+            continue
+        if best is None or beliefs[0].p > best.p:
+            best = beliefs[0]
+    return best, model
+
+
+def _place_said(
+    s: Record, thing: Record, landmark: Record, relations: Beliefs
+) -> Record:
+    """The plan to say how the thing stands, as certain as the robot is of it."""
+
+    def stands(*relation: Record) -> RecordType:
+        return standing(
+            s, thing.sit.x, thing.sign, landmark.sit.x, landmark.sign, *relation
+        )
+
+    nouns = [thing.sign, landmark.sign]
+    how = certainty(s, relations)
+    if how == "Admit":
+        return plan(s, "AdmitPlace", stands(), signs=nouns)
+    best = relations[0].sign
+    content, signs = stands(best), [*nouns, best]
+    if how != "Hedge":
+        return plan(s, f"{how}Place", content, signs=signs, pending=[content])
+    other = relations[1].sign
+    rival, both = stands(other), [*signs, other]
+    return plan(s, "HedgePlace", content, rival, signs=both, pending=[content, rival])
+
+
+PLACING = first(say_place, need_place)

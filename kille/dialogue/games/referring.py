@@ -1,0 +1,169 @@
+"""What is talked about: noun phrases of the tutor's are set to things in view.
+
+Only then do the games answer it. What fits several things is asked about, and what fits
+nothing is said not to be there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+from kille.dialogue.beliefs import knows
+from kille.dialogue.describing import Description, describe
+from kille.dialogue.meanings import mentions, named, set_to, theory, word_of
+from kille.dialogue.moves import content_of, issue, plan
+from kille.dialogue.reference import (
+    PARTS,
+    Reading,
+    across,
+    contents,
+    denoted,
+    fitting,
+    in_view,
+    meant_by,
+    phrase_at,
+    phrases,
+    thing_at,
+    things_in,
+)
+from kille.dialogue.state import words
+from ttr import Model, Record, RecordType, TypeNode, rectype, replace
+from ttr.updates import first, rule
+
+__all__ = ["REFERRING", "UNANSWERED", "about", "asking", "differing", "unanswered"]
+
+
+def unanswered(move: TypeNode) -> RecordType:
+    """The states in which the latest move is of a type and not answered yet."""
+    planned = theory()["Agenda"] @ ()
+    return rectype(private=rectype(agenda=planned), shared=rectype(latest=move))
+
+
+UNANSWERED = unanswered(named("Heard"))
+"""The states in which the tutor has said something that is not answered yet."""
+
+
+@rule(when=UNANSWERED)
+def refer(s: Record, *, model: Model) -> Record | None:
+    """The tutor talks of things in view: the one way to take it that fits is meant."""
+    readings = _readings(s, model)
+    return about(s, readings[0].content) if len(readings) == 1 else None
+
+
+@rule(when=UNANSWERED)
+def ask_referent(s: Record, *, model: Model) -> Record | None:
+    """What is said fits several things: it asks which of them is meant."""
+    readings = _readings(s, model)
+    label = _left_open(readings)
+    if label is None:
+        return None
+    said = s.shared.latest
+    meant = {it.things[label]: phrase_at(it.content, label) for it in readings[::-1]}
+    options = [
+        replace(said, content=set_to(said.content, **{label: meant[x]}))
+        for x in across(s, model, meant)
+    ]
+    return asking(s, model, options, "AskReferent")
+
+
+@rule(when=UNANSWERED)
+def miss_word(s: Record, *, model: Model) -> Record | None:
+    """The tutor talks of things by a word that was never learned."""
+    said = s.shared.latest
+    for label in phrases(said.content):
+        for sign in said.signs:
+            if mentions(said.content[label], sign) and not _judges(s, model, sign):
+                act = f"Unknown{sign.kind.capitalize()}"
+                return plan(s, act, sign.meaning, signs=[sign])
+    return None
+
+
+@rule(when=UNANSWERED)
+def miss_thing(s: Record, *, model: Model) -> Record | None:
+    """The tutor talks of something that is not in view."""
+    content = content_of(s)
+    if not phrases(content):
+        return None
+    missing, signs = next(_missing(s, model, content), content), s.shared.latest.signs
+    if not s.view.things and not any(mentions(missing, it) for it in signs):
+        return plan(s, "SeeNothing")
+    return plan(s, "SeeNoSuch", missing, signs=signs)
+
+
+def about(s: Record, content: RecordType) -> Record:
+    """The state in which this is what the latest move is about, as it is seen now.
+
+    The things it is about are the topic, and the ones that were talked about last.
+    """
+    topic = things_in(content)
+    salient = dict.fromkeys((*topic, *s.shared.salient))
+    changes = {
+        "shared.latest.content": in_view(s, content),
+        "shared.salient": tuple(salient),
+        "shared.topic": topic or s.shared.topic,
+    }
+    return replace(s, changes)
+
+
+def asking(s: Record, model: Model, options: Sequence[Record], ask: str) -> Record:
+    """The plan to ask which of these moves was meant, where they differ in one thing.
+
+    Two things that can be told apart in words are offered. What was claimed before
+    stays pending.
+    """
+    label, things = differing(options)
+    said = options[0]
+    phrase = phrase_at(said.content, label)
+    nouns = [it for it in said.signs if it.kind == "noun" and mentions(phrase, it)]
+    told = [describe(s, model, x, among=things, nouns=nouns) for x in things]
+    match told:
+        case [Description() as one, Description() as other]:
+            content, rival = (_asked(it.phrase) for it in (one, other))
+            signs = dict.fromkeys((*one.signs, *other.signs))
+            move = partial(plan, s, "OfferReferents", content, rival, signs=signs)
+        case _:
+            move = partial(plan, s, "AskReferent", _asked(meant_by(nouns)), signs=nouns)
+    return move(asks=[issue(ask, options)], pending=s.shared.pending)
+
+
+def differing(options: Sequence[Record]) -> tuple[str, Sequence[str]]:
+    """The first phrase that these moves set to different things, and the things."""
+    for label in PARTS:
+        things = dict.fromkeys(thing_at(it.content, label) for it in options)
+        if len(things) > 1:
+            return label, [x for x in things if x is not None]
+    return "", ()
+
+
+def _readings(s: Record, model: Model) -> Sequence[Reading]:
+    """The ways to take the phrases of the latest move that are meant."""
+    content = content_of(s)
+    return denoted(s, contents(s, model, content)) if phrases(content) else ()
+
+
+def _asked(phrase: RecordType) -> RecordType:
+    """What a question is about that asks for the thing of a phrase."""
+    return rectype(look=theory()["Look"], target=phrase)
+
+
+def _left_open(readings: Sequence[Reading]) -> str | None:
+    """The first phrase that is set to different things in these readings."""
+    things = {label: {it.things.get(label) for it in readings} for label in PARTS}
+    return next((label for label in PARTS if len(things[label]) > 1), None)
+
+
+def _judges(s: Record, model: Model, sign: Record) -> bool:
+    """Whether the robot knows a word, or can judge it without having learned it."""
+    return knows(words(s), sign) or word_of(sign) in model.facts.functions
+
+
+def _missing(s: Record, model: Model, content: RecordType) -> Iterator[RecordType]:
+    """What is asked for by the phrases that fit nothing in view by themselves."""
+    for label in phrases(content):
+        alone = rectype(look=content["look"], target=content[label])
+        if not fitting(s, contents(s, model, alone)):
+            yield alone
+
+
+REFERRING = first(refer, ask_referent, miss_word, miss_thing)

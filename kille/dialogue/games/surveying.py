@@ -1,0 +1,67 @@
+"""What do you see? The robot lists what is in view, by how certain it is of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from kille.dialogue.beliefs import Beliefs, believed, is_sure, thinks
+from kille.dialogue.meanings import named, set_at, set_to
+from kille.dialogue.moves import answering, plan
+from ttr import Model, Record, RecordType
+from ttr.updates import first, rule
+
+__all__ = ["SURVEYING", "in_view"]
+
+SURE, LIKELY, UNKNOWN = "thing", "maybe", "unknown"
+"""How the parts of what is seen are labelled, with a number after it."""
+
+
+@rule(when=answering("AskView"))
+def see_nothing(s: Record) -> Record | None:
+    """Nothing is in view."""
+    return None if s.view.things else plan(s, "SeeNothing")
+
+
+@rule(when=answering("AskView"))
+def list_view(s: Record, *, model: Model) -> Record:
+    """It says what it is sure of, what it thinks, and how much it does not know."""
+    beliefs = {x: believed(s, model, s.private.nouns, x) for x in s.view.things}
+    sure = [it[0] for it in beliefs.values() if is_sure(s, it)]
+    likely = [it[0] for it in beliefs.values() if thinks(s, it) and not is_sure(s, it)]
+    unknown = [x for x, it in beliefs.items() if not thinks(s, it)]
+    content = in_view(s, _ranked(sure), _ranked(likely), unknown)
+    signs = tuple(dict.fromkeys(it.sign for it in _ranked([*sure, *likely])))
+    return plan(s, "ListView", content, signs=signs)
+
+
+def in_view(
+    s: Record, sure: Iterable[Record], likely: Iterable[Record], unknown: Iterable[str]
+) -> RecordType:
+    """The type of the situation in view: a part for each thing, and what it is.
+
+    The labels of the parts say how certain it is: thing01, maybe01, unknown01.
+    """
+    parts = {
+        **_labelled(SURE, [set_at(it.sign.meaning, "x", it.sit.x) for it in sure]),
+        **_labelled(LIKELY, [set_at(it.sign.meaning, "x", it.sit.x) for it in likely]),
+        **_labelled(UNKNOWN, [set_at(named("Phrase"), "x", x) for x in unknown]),
+    }
+    look = set_at(named("Scene"), "look", s.view.look)
+    return set_to(look, **parts)
+
+
+def _labelled(label: str, parts: Iterable[RecordType]) -> dict[str, RecordType]:
+    inner = named("Asked")["target"]
+    assert isinstance(inner, RecordType)
+    return {
+        f"{label}{n:02}": set_to(part, look=inner["look"])
+        for n, part in enumerate(parts, start=1)
+    }
+
+
+def _ranked(beliefs: Iterable[Record]) -> Beliefs:
+    """The most certain first."""
+    return sorted(beliefs, key=lambda it: (-it.p, it.sign.form))
+
+
+SURVEYING = first(see_nothing, list_view)

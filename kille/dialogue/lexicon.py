@@ -1,0 +1,177 @@
+"""What is known of a language besides its grammar: wordings, forms of words, articles.
+
+All of it is read from `grammars/lexicon.*.toml`; the comments there say what is what.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from itertools import chain
+from typing import Any
+
+from kille.dialogue.inflection import Articles, Inflection
+from ttr import Record
+
+__all__ = ["Lexicon", "Style", "lexicon"]
+
+Wordings = Mapping[str, tuple[str, ...]]
+"""The sentences for each act; the first of which all slots can be filled is used."""
+
+
+@dataclass(frozen=True)
+class Style:
+    """How noun phrases are built in one way: definite, indefinite …
+
+    `noun` and `adjective` name the forms that the words have in it; templates and forms
+    may differ by the noun's article.
+    """
+
+    templates: Mapping[str, str | Mapping[str, str]]
+
+    def at(self, name: str, article: str) -> str:
+        """The template or form of this name for nouns of this article, or nothing."""
+        found = self.templates.get(name, "")
+        if isinstance(found, str):
+            return found
+        return found.get(article, "")
+
+
+@dataclass(frozen=True)
+class Lexicon:
+    """The lexicon of a language."""
+
+    language: str
+    says: Wordings
+    tells: Wordings
+    examples: tuple[str, ...]
+    not_understood: str
+    pointing: str
+    articles: Articles
+    inflections: Mapping[str, tuple[Inflection, ...]]
+    main_forms: Mapping[str, str]
+    means: Mapping[str, str]
+    referring: Mapping[str, str]
+    values: Mapping[str, str]
+    marking: Mapping[str, str]
+    styles: Mapping[str, Style]
+    vocabulary: frozenset[str]
+    """The words that the lexicon itself names."""
+    sections: Mapping[str, Any]
+    """The whole file, for those who word something of their own."""
+
+    def article(self, sign: Record) -> str:
+        """The indefinite article of a word: as the tutor used it, or by its form."""
+        return self.articles.used(sign.form, sign.article)
+
+    def with_article(self, noun: str, article: str = "") -> str:
+        """The noun with its indefinite article.
+
+        >>> english = lexicon()
+        >>> english.with_article("apple"), english.with_article("unicorn")
+        ('an apple', 'a unicorn')
+        >>> lexicon("sv").with_article("äpple")
+        'ett äpple'
+        """
+        return f"{self.articles.used(noun, article)} {noun}"
+
+    def inflected(self, form: str, name: str, article: str = "") -> str:
+        """The form of this name of a word, or the word if it has none."""
+        kinds = self.inflections.get(name, ())
+        for inflection in kinds:
+            if inflection.article in ("", article):
+                return inflection.of(form)
+        return form
+
+    def agreeing(self, adjective: str, article: str) -> str:
+        """The form of an adjective that is said of a noun with this article."""
+        form = self.styles["predicative"].at("adjective", article)
+        return self.inflected(adjective, form, article)
+
+    def with_examples(self, wording: str) -> str:
+        """A wording with what the tutor may say in place of {examples}."""
+        return wording.replace("{examples}", "\n  ".join(self.examples))
+
+    def main_form(self, form: str) -> str:
+        """The form by which a word is known: "left of" is "to the left of"."""
+        return self.main_forms.get(form, form)
+
+
+@cache
+def lexicon(language: str = "en", wording: str = "paper") -> Lexicon:
+    """The packaged lexicon of a language, with the wordings of one set.
+
+    The wordings of a set stand under `says_` and its name; the others are those of all.
+    """
+    source = files("kille.grammars").joinpath(f"lexicon.{language}.toml")
+    data = tomllib.loads(source.read_text(encoding="utf-8"))
+    understands, phrases, articles = (
+        data["understands"],
+        data["phrases"],
+        data["articles"],
+    )
+    inflections = {
+        name: tuple(_inflections(table, phrases["complements"]))
+        for name, table in data["inflection"].items()
+    }
+    says = data["says"] | data.get(f"says_{wording}", {})
+    return Lexicon(
+        language=language,
+        says={act: _several(it) for act, it in says.items()},
+        tells={act: _several(it) for act, it in data["tutor"].items()},
+        examples=tuple(understands["examples"]),
+        not_understood=understands["not_understood"],
+        pointing=understands["pointing"],
+        articles=Articles(
+            articles.get("beginnings", {}),
+            articles.get("endings", {}),
+            tuple(articles.get("open", [""])),
+        ),
+        inflections=inflections,
+        main_forms={
+            variant: form
+            for form, variants in data["variants"].items()
+            for variant in variants
+        },
+        means=data["means"],
+        referring=phrases["referring"],
+        values=data.get("values", {}),
+        marking=phrases["marking"],
+        styles={
+            name: Style(table)
+            for name, table in phrases.items()
+            if name not in ("referring", "marking", "complements")
+        },
+        vocabulary=frozenset(
+            chain(
+                data["means"],
+                *articles.get("endings", {}).values(),
+                *(one.irregular for some in inflections.values() for one in some),
+            )
+        ),
+        sections=data,
+    )
+
+
+def _several(one_or_more: str | list[str]) -> tuple[str, ...]:
+    return (one_or_more,) if isinstance(one_or_more, str) else tuple(one_or_more)
+
+
+def _inflections(
+    table: Mapping[str, Any], complements: Iterable[str]
+) -> Iterable[Inflection]:
+    """The inflections of one form: one for all words, or one for each article."""
+    tables = {"": table} if "endings" in table else table
+    for article, one in tables.items():
+        yield Inflection(
+            irregular={
+                word: _several(forms)
+                for word, forms in one.get("irregular", {}).items()
+            },
+            endings=tuple((ending, new) for ending, new in one["endings"]),
+            complements=frozenset(complements),
+            article=article,
+        )

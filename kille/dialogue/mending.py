@@ -1,0 +1,54 @@
+"""A sentence that nearly is one of the language: what may have been meant by it."""
+
+from __future__ import annotations
+
+import re
+
+from kille.dialogue.language import understand
+from kille.dialogue.lexicon import Lexicon
+from kille.dialogue.typos import nearest_sentence, slip
+
+__all__ = ["suggested"]
+
+_WORD = re.compile(r"[^\W\d_]+")
+
+_LONGEST = 200
+"""Characters; of a longer text nobody mistyped a word only."""
+
+
+def suggested(lexicon: Lexicon, text: str) -> str:
+    """What could be said instead of a text that is not understood.
+
+    It is the text with its slips mended if that is understood, else the example that is
+    most like it, else the first.
+
+    >>> from kille.dialogue.lexicon import lexicon
+    >>> suggested(lexicon(), "Waht is teh blicket?")
+    'What is the blicket?'
+    >>> suggested(lexicon("sv"), "Vda är det här?"), suggested(lexicon(), "Xyzzy!")
+    ('Vad är det här?', 'This is a cup.')
+    """
+    return (
+        _mended(lexicon, text)
+        or nearest_sentence(text, lexicon.examples)
+        or lexicon.examples[0]
+    )
+
+
+def _mended(lexicon: Lexicon, text: str) -> str | None:
+    """The text with words of the examples in place of slips of them."""
+    if len(text) > _LONGEST:
+        return None
+    examples = " ".join(lexicon.examples).lower()
+    known: set[str] = set(_WORD.findall(examples))
+
+    def mend(found: re.Match[str]) -> str:
+        form = str(found[0]).lower()
+        near = [word for word in sorted(known) if slip(form, word)]
+        if form in known or len(near) != 1:
+            return str(found[0])
+        return near[0].capitalize() if form != found[0] else near[0]
+
+    mended: str = _WORD.sub(mend, text)
+    understood = all(it.readings for it in understand(mended, lexicon.language))
+    return mended if understood else None

@@ -1,0 +1,258 @@
+"""Every way to read a sentence by a grammar in Lark's notation.
+
+Lark reads the grammar. Sentences are parsed here, over whole words: with words that
+nobody has heard before almost everything can be read in several ways, and all of them
+are wanted, the simplest first, within a millisecond or two.
+
+Source: memoised descent that finds all parses, after Frost, Hafiz and Callaghan,
+"Modular and efficient top-down parsing for ambiguous left-recursive grammars" (2007),
+without the left recursion.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from lark.grammar import Rule, Symbol
+
+__all__ = ["Grammar", "GrammarError", "Tree", "Word", "parts", "words"]
+
+_WAYS = 24
+"""How many ways to read the same stretch of text are kept: those with fewest parts."""
+
+_MOST_WORDS = 120
+"""Words; no sentence of a tutor's has more, and a longer one is not parsed."""
+
+
+class GrammarError(ValueError):
+    """A grammar that cannot be used, and why."""
+
+
+class Word(NamedTuple):
+    """A stretch of text, and the terminal of the grammar that it is."""
+
+    terminal: str
+    text: str
+
+
+class Tree(NamedTuple):
+    """A part of a sentence: the rule that found it, what is in it, how many parts."""
+
+    rule: str
+    children: tuple[Tree | Word, ...]
+    size: int
+
+
+def parts(tree: Tree) -> list[Tree]:
+    """The parts that a part of a sentence has."""
+    return [child for child in tree.children if isinstance(child, Tree)]
+
+
+def words(tree: Tree) -> list[Word]:
+    """The words that stand in a part itself, not in parts of it."""
+    return [child for child in tree.children if isinstance(child, Word)]
+
+
+Row = tuple[Tree | Word, ...]
+Found = Mapping[int, list[Row]]
+"""Where a stretch can end, and the ways to read it so far."""
+
+
+@dataclass(frozen=True)
+class _Production:
+    """One way to make a rule: its symbols, and what becomes of what they find."""
+
+    name: str
+    symbols: tuple[Symbol, ...]
+    made: str | None
+    only_child: bool
+
+
+class Grammar:
+    """A grammar, ready to parse by.
+
+    Raises `GrammarError` for a text that is no grammar, and for a rule that begins with
+    itself.
+
+    >>> g = Grammar('start: A* b' + chr(10) + 'A: "a"' + chr(10) + 'b: "b" | "b" b')
+    >>> [tree.rule for tree in g.parse("aab")]
+    ['start']
+    >>> g.parse("aaba")
+    []
+    """
+
+    def __init__(self, source: str, *starts: str) -> None:
+        from lark import Lark
+        from lark.exceptions import LarkError
+
+        self.starts = starts or ("start",)
+        try:
+            read = Lark(source, parser=None, lexer="basic", start=list(self.starts))
+        except LarkError as mistake:
+            raise GrammarError(str(mistake)) from mistake
+        self._matchers = {
+            it.name: re.compile(it.pattern.to_regexp()).match for it in read.terminals
+        }
+        ignored = "|".join(
+            it.pattern.to_regexp()
+            for it in read.terminals
+            if it.name in read.ignore_tokens
+        )
+        self._between = re.compile(f"(?:{ignored})*").match
+        self._productions: dict[str, list[_Production]] = {}
+        for rule in read.rules:
+            made = _production(rule)
+            self._productions.setdefault(made.name, []).append(made)
+        self._refuse_left_recursion()
+
+    def parse(self, text: str, start: str = "start") -> list[Tree]:
+        """Every way to read the whole text, those with the fewest parts first."""
+        if len(text.split()) > _MOST_WORDS:
+            return []
+        chart = _Chart(self, text)
+        rows = chart.rule(start, chart.after(0)).get(len(text), [])
+        return [tree for row in rows for tree in row if isinstance(tree, Tree)]
+
+    def _refuse_left_recursion(self) -> None:
+        """Raise for a rule that may begin with itself: descent would never end."""
+        empty = self._can_be_empty()
+        begins = {
+            name: {first for it in made for first in _firsts(it, empty)}
+            for name, made in self._productions.items()
+        }
+        for name in begins:
+            reached, ahead = set[str](), list(begins[name])
+            while ahead:
+                first = ahead.pop()
+                if first not in reached:
+                    reached.add(first)
+                    ahead += begins[first]
+            if name in reached:
+                raise GrammarError(
+                    f"the rule {name} begins with itself, so that it would never end: "
+                    "write it the other way round"
+                )
+
+    def _can_be_empty(self) -> set[str]:
+        empty: set[str] = set()
+        while True:
+            found = {
+                name
+                for name, made in self._productions.items()
+                if any(all(s.name in empty for s in it.symbols) for it in made)
+            }
+            if found == empty:
+                return empty
+            empty = found
+
+
+def _production(rule: Rule) -> _Production:
+    """A rule of Lark's; its repetitions (`x*`) are turned to go from left to right."""
+    name = str(rule.origin.name)
+    symbols = tuple(rule.expansion)
+    if name.startswith("__") and symbols[0].name == name:
+        symbols = (*symbols[1:], symbols[0])
+    inlined = name.startswith("_") and not rule.alias
+    made = None if inlined else str(rule.alias or name)
+    return _Production(name, symbols, made, bool(rule.options.expand1))
+
+
+def _firsts(made: _Production, empty: set[str]) -> Iterator[str]:
+    """The rules that a production may begin with."""
+    for symbol in made.symbols:
+        if symbol.is_term:
+            return
+        yield str(symbol.name)
+        if symbol.name not in empty:
+            return
+
+
+class _Chart:
+    """What has been found in one text so far."""
+
+    def __init__(self, grammar: Grammar, text: str) -> None:
+        self._grammar = grammar
+        self._text = text
+        self._rules: dict[tuple[str, int], Found] = {}
+        self._terminals: dict[tuple[str, int], tuple[int, str] | None] = {}
+
+    def after(self, at: int) -> int:
+        """Where the next word begins."""
+        between = self._grammar._between(self._text, at)
+        return between.end() if between else at
+
+    def rule(self, name: str, at: int) -> Found:
+        """The ways in which a rule finds something from here on."""
+        known = self._rules.get((name, at))
+        if known is None:
+            known = self._rules[name, at] = self._by_rule(name, at)
+        return known
+
+    def _by_rule(self, name: str, at: int) -> Found:
+        found: dict[int, list[Row]] = {}
+        for production in self._grammar._productions[name]:
+            for end, rows in self._by_production(production, at).items():
+                found.setdefault(end, []).extend(_made(production, rows))
+        return {end: _simplest(rows) for end, rows in found.items()}
+
+    def _by_production(self, production: _Production, at: int) -> Found:
+        so_far: Found = {at: [()]}
+        for symbol in production.symbols:
+            further: dict[int, list[Row]] = {}
+            for here, rows in so_far.items():
+                for end, more in self._by_symbol(symbol, here).items():
+                    both = [(*row, *next_) for row in rows for next_ in more]
+                    further.setdefault(end, []).extend(both)
+            if not further:
+                return {}
+            so_far = {end: _simplest(rows) for end, rows in further.items()}
+        return so_far
+
+    def _by_symbol(self, symbol: Symbol, at: int) -> Found:
+        if not symbol.is_term:
+            return self.rule(symbol.name, at)
+        matched = self._terminal(symbol.name, at)
+        if matched is None:
+            return {}
+        end, text = matched
+        kept = not symbol.filter_out  # type: ignore[attr-defined]
+        return {end: [(Word(symbol.name, text),) if kept else ()]}
+
+    def _terminal(self, name: str, at: int) -> tuple[int, str] | None:
+        """Where the next word begins if here is this terminal, and its text."""
+        key = (name, at)
+        if key not in self._terminals:
+            found = self._grammar._matchers[name](self._text, at)
+            self._terminals[key] = (
+                (self.after(found.end()), found.group()) if found else None
+            )
+        return self._terminals[key]
+
+
+def _made(production: _Production, rows: list[Row]) -> Iterable[Row]:
+    """What a production makes of what it has found: a tree of it, mostly."""
+    if production.made is None:
+        return rows
+    if production.only_child:
+        return [row if len(row) == 1 else _tree(production.made, row) for row in rows]
+    return [_tree(production.made, row) for row in rows]
+
+
+def _tree(rule: str, row: Row) -> Row:
+    """The row of the one tree that a rule makes of a row."""
+    return (Tree(rule, row, 1 + _size(row)),)
+
+
+def _size(row: Row) -> int:
+    return sum(part.size for part in row if isinstance(part, Tree))
+
+
+def _simplest(rows: list[Row]) -> list[Row]:
+    """Those with the fewest parts, in the order in which the grammar has them."""
+    if len(rows) < 2:
+        return rows
+    return sorted(dict.fromkeys(rows), key=_size)[:_WAYS]

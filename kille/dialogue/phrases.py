@@ -1,0 +1,133 @@
+"""From what a noun phrase means to its words: the reverse of parsing one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from kille.dialogue.lexicon import Lexicon
+from ttr import Meet, Negation, Pred, PType, Record, RecordType, TypeNode
+
+__all__ = ["Words", "claimed", "noun_phrase", "phrase"]
+
+Words = Mapping[Pred, Record]
+"""The sign of each predicate that is a word."""
+
+
+def phrase(lexicon: Lexicon, part: RecordType, words: Words, style: str) -> str | None:
+    """The noun phrase for what a part of a content means, in one style of the lexicon.
+
+    None where there is no word for it.
+
+    >>> from kille.dialogue.lexicon import lexicon
+    >>> from kille.dialogue.meanings import adjective, noun, word_of
+    >>> from ttr import merge
+    >>> red, cup = adjective("red"), noun("cup")
+    >>> words = {word_of(sign): sign for sign in (red, cup)}
+    >>> phrase(lexicon(), merge(red.meaning, cup.meaning), words, "definite")
+    'the red cup'
+    """
+    nouns = [it for it in _predicates(part, "c") if it in words]
+    own = [words[it] for it in _predicates(part, "a") if it in words]
+    talk = [it.name for it in _discourse(part)]
+    beside = _beside(lexicon, part, words)
+    marked = [lexicon.marking[name] for name in talk if name in lexicon.marking]
+    alone = [lexicon.referring[name] for name in talk if name in lexicon.referring]
+    if not (nouns or own or marked or alone or beside):
+        return None
+    if alone and not (nouns or own or marked):
+        core = alone[0]
+    else:
+        pointing = [name for name in talk if name in lexicon.styles]
+        style = pointing[0] if pointing and style == "definite" else style
+        core = _core(lexicon, words[nouns[0]] if nouns else None, own, marked, style)
+    return f"{core} {beside}" if beside else core
+
+
+def noun_phrase(lexicon: Lexicon, noun: Record, style: str) -> str:
+    """The noun phrase of a noun alone, in one style of the lexicon.
+
+    >>> from kille.dialogue.lexicon import lexicon
+    >>> from kille.dialogue.meanings import noun
+    >>> noun_phrase(lexicon("sv"), noun("bok"), "definite")
+    'boken'
+    """
+    return _core(lexicon, noun, [], [], style)
+
+
+def _core(
+    lexicon: Lexicon,
+    noun: Record | None,
+    adjectives: list[Record],
+    marked: list[str],
+    style: str,
+) -> str:
+    """Noun and adjectives by the template of a style that fits what is there."""
+    has = lexicon.styles[style]
+    article = lexicon.article(noun) if noun is not None else ""
+    described = [
+        *marked,
+        *(
+            lexicon.inflected(it.form, has.at("adjective", article), article)
+            for it in adjectives
+        ),
+    ]
+    match noun is not None, bool(described):
+        case True, True:
+            name = "described"
+        case True, False:
+            name = "named"
+        case False, True:
+            name = "nameless"
+        case _:
+            name = "placed"
+    form = noun.form if noun is not None else ""
+    inflected = lexicon.inflected(form, has.at("noun", article), article)
+    first = described[0] if described else form
+    return has.at(name, article).format(
+        noun=inflected,
+        adjectives=" ".join(described),
+        article=_indefinite(lexicon, noun, first),
+    )
+
+
+def _indefinite(lexicon: Lexicon, noun: Record | None, first: str) -> str:
+    """The indefinite article before the first word of a phrase.
+
+    It goes by that word where articles go by sound, else by the noun.
+    """
+    if noun is None or (first != noun.form and lexicon.articles.beginnings):
+        return lexicon.articles.of(first)
+    return lexicon.article(noun)
+
+
+def _beside(lexicon: Lexicon, part: RecordType, words: Words) -> str | None:
+    """What a phrase says of where its thing is."""
+    landmark = part.get("landmark")
+    relation = next((it for it in _predicates(part, "rel") if it in words), None)
+    if relation is None or not isinstance(landmark, RecordType):
+        return None
+    named = phrase(lexicon, landmark, words, "definite")
+    return f"{words[relation].form} {named}" if named else None
+
+
+def claimed(field: TypeNode | None) -> Iterator[Pred]:
+    """The predicates that a field says, or denies, to be true."""
+    match field:
+        case PType(pred, _):
+            yield pred
+        case Meet(fields):
+            for one in fields:
+                yield from claimed(one)
+        case Negation(body):
+            yield from claimed(body)
+
+
+def _predicates(part: RecordType, label: str) -> Iterator[Pred]:
+    return claimed(part.get(label))
+
+
+def _discourse(part: RecordType) -> Iterator[Pred]:
+    """What a phrase says of how its thing stands in the talk: shown, the other …"""
+    for label, field in part.fields:
+        if label not in ("c", "a", "rel") and isinstance(field, PType | Meet):
+            yield from claimed(field)

@@ -1,0 +1,62 @@
+"""What noun phrases refer to: the things in view that most probably are of their types.
+
+A phrase means the merge of what its words mean, so to resolve it is to judge the things
+in view of one type, and of what it is said to stand beside. What the talk is about is
+judged like anything else: `shown` is true of what is in focus, `mentioned` of what was
+talked about last, `other` of the rest.
+
+Source: Kennington and Schlangen 2015 (words as classifiers, composed); Kelleher et al.
+2005 (salience).
+"""
+
+from __future__ import annotations
+
+from kille.dialogue.reference.perspectives import (
+    AWAY,
+    LANDMARK,
+    OPEN,
+    VIEWER,
+    facing,
+    front_of,
+)
+from kille.dialogue.reference.ranking import meant_by, ranking, said_by
+from kille.dialogue.reference.resolving import (
+    PARTS,
+    Judging,
+    Reading,
+    contents,
+    denoted,
+    fits_well,
+    fitting,
+    in_view,
+    phrase_at,
+    phrases,
+    thing_at,
+    things_in,
+)
+from kille.dialogue.reference.salience import across
+
+__all__ = [
+    "AWAY",
+    "LANDMARK",
+    "OPEN",
+    "PARTS",
+    "VIEWER",
+    "Judging",
+    "Reading",
+    "across",
+    "contents",
+    "denoted",
+    "facing",
+    "fits_well",
+    "fitting",
+    "front_of",
+    "in_view",
+    "meant_by",
+    "phrase_at",
+    "phrases",
+    "ranking",
+    "said_by",
+    "thing_at",
+    "things_in",
+]

@@ -1,0 +1,108 @@
+"""A noun phrase taken apart: what it says of its thing, and of what it stands beside.
+
+The parts of a record type are independent judgements, so that the degree of the whole
+is the product of those of its parts. Taken apart once, each part is judged once of each
+thing, and not again for every way in which the others can be filled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TypeVar
+
+from ttr import Meet, Pred, PType, RecordType, Singleton, TypeNode
+from ttr.objects import Object, Path
+
+__all__ = ["Claim", "Part", "put_together", "taken_apart"]
+
+_Some = TypeVar("_Some")
+
+Claim = tuple[Pred, tuple[Object, ...]]
+"""That a predicate is true of objects."""
+
+THING, LOOK, FRONT, OTHER = ("x",), ("look",), ("frame",), ("landmark", "x")
+"""Where a phrase has its thing, the look, the perspective, and what it is beside."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """What a phrase says: of its thing, of the thing and its landmark, of the talk.
+
+    `qualities` are those of the predicates that are adjectives.
+    """
+
+    thing: str | None
+    claims: tuple[PType, ...]
+    qualities: frozenset[Pred]
+    relations: tuple[PType, ...]
+    choices: tuple[Pred, ...]
+    landmark: Part | None
+
+    def said_of(self, x: str, look: str) -> Iterator[Claim]:
+        """What it says of the thing alone, if that is x."""
+        return _grounded(self.claims, {THING: x, LOOK: look})
+
+    def said_of_both(self, x: str, y: str, look: str, front: str) -> Iterator[Claim]:
+        """What it says of the thing and its landmark, if they are x and y."""
+        places = {THING: x, OTHER: y, LOOK: look, FRONT: front}
+        return _grounded(self.relations, places)
+
+
+def put_together(*parts: Part) -> Part:
+    """What phrases say together: the parts of the merge of their types."""
+    beside = [part.landmark for part in parts if part.landmark is not None]
+    return Part(
+        thing=next((it.thing for it in parts if it.thing is not None), None),
+        claims=_all(part.claims for part in parts),
+        qualities=frozenset().union(*(part.qualities for part in parts)),
+        relations=_all(part.relations for part in parts),
+        choices=_all(part.choices for part in parts),
+        landmark=put_together(*beside) if beside else None,
+    )
+
+
+def _all(several: Iterable[tuple[_Some, ...]]) -> tuple[_Some, ...]:
+    return tuple(dict.fromkeys(it for some in several for it in some))
+
+
+@lru_cache(1024)
+def taken_apart(phrase: RecordType, choosing: frozenset[Pred] = frozenset()) -> Part:
+    """The parts of a phrase; what the predicates for choosing say is kept apart."""
+    landmark = phrase.get("landmark")
+    said = [T for _, field in phrase.fields for T in _ptypes(field)]
+    plain = [T for T in said if T.pred not in choosing]
+    x = phrase["x"]
+    return Part(
+        thing=str(x.value) if isinstance(x, Singleton) else None,
+        claims=tuple(T for T in plain if not _mentions(T, OTHER)),
+        qualities=frozenset(T.pred for T in _ptypes(phrase.get("a"))),
+        relations=tuple(T for T in plain if _mentions(T, OTHER)),
+        choices=tuple(T.pred for T in said if T.pred in choosing),
+        landmark=taken_apart(landmark, choosing)
+        if isinstance(landmark, RecordType)
+        else None,
+    )
+
+
+def _ptypes(field: TypeNode | None) -> Iterator[PType]:
+    """The ptypes that a field is the meet of."""
+    if isinstance(field, PType):
+        yield field
+    elif isinstance(field, Meet):
+        for part in field.parts:
+            yield from _ptypes(part)
+
+
+def _mentions(T: PType, place: tuple[str, ...]) -> bool:
+    return any(isinstance(arg, Path) and arg.labels == place for arg in T.args)
+
+
+def _grounded(
+    claims: tuple[PType, ...], places: Mapping[tuple[str, ...], Object]
+) -> Iterator[Claim]:
+    """The claims, with what stands at these places in the place of their paths."""
+    for T in claims:
+        args = [places[a.labels] if isinstance(a, Path) else a for a in T.args]
+        yield T.pred, tuple(args)

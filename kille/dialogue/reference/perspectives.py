@@ -1,0 +1,32 @@
+"""Whose perspective talk about places is taken in: the viewer's or the landmark's.
+
+A perspective is a direction that is forward, in the robot's own axes: `away` is its
+own, and that of whoever looks where the robot looks. A landmark that faces some way has
+one of its own, which the talk may have settled on.
+
+Source: Dobnik, Howes and Kelleher 2015 (aligned in the talk, game by game).
+"""
+
+from __future__ import annotations
+
+from ttr import Record
+
+__all__ = ["AWAY", "LANDMARK", "OPEN", "VIEWER", "facing", "front_of"]
+
+AWAY = "away"
+"""Forward for the viewer."""
+
+OPEN, VIEWER, LANDMARK = "", "viewer", "landmark"
+"""What the talk has settled on: nothing yet, the viewer's frame, the landmark's."""
+
+
+def facing(s: Record, y: str) -> str | None:
+    """Which way a thing faces, if the tutor has said so."""
+    return next((str(it.front) for it in s.shared.turned if it.x == y), None)
+
+
+def front_of(s: Record, y: str) -> str:
+    """The direction that is forward when things are placed beside this landmark."""
+    if s.shared.frame != LANDMARK:
+        return AWAY
+    return facing(s, y) or AWAY

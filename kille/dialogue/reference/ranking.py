@@ -1,0 +1,73 @@
+"""How the things in view rank while a phrase is being said, word by word.
+
+Source: Kennington and Schlangen 2015 (words as classifiers, incremental resolution).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import reduce
+
+from kille.dialogue.meanings import meaning_in, named
+from kille.dialogue.reference.parts import Part, put_together, taken_apart
+from kille.dialogue.reference.resolving import Judging
+from ttr import Model, Record, RecordType, merge, rectype
+
+__all__ = ["meant_by", "ranking", "said_by"]
+
+
+def ranking(
+    s: Record, model: Model, words: Iterable[Record]
+) -> tuple[Mapping[str, float], ...]:
+    """How the things in view share the probability to be meant, after each word.
+
+    The words are signs, in the order of the phrase: "red", "cup", "to the left of",
+    "book". Where nothing fits, no thing has a share.
+    """
+    said: list[Record] = []
+    judging = Judging(s, model)
+    shares = []
+    for sign in words:
+        said.append(sign)
+        fits = judging.fits_part(said_by(said))
+        whole = sum(fit.p for fit in fits.values())
+        shares.append({x: fit.p / whole for x, fit in fits.items() if whole > 0.0})
+    return tuple(shares)
+
+
+def said_by(words: Sequence[Record]) -> Part:
+    """The parts of a phrase of these words, without putting its type together first."""
+    at = next((i for i, it in enumerate(words) if it.kind == "relation"), None)
+    before = [taken_apart(sign.meaning) for sign in words[:at]]
+    phrase = put_together(taken_apart(named("Phrase")), *before)
+    if at is None:
+        return phrase
+    nearby = taken_apart(meaning_in(words[at].form, "Nearby"))
+    return put_together(phrase, replace(nearby, landmark=said_by(words[at + 1 :])))
+
+
+def meant_by(words: Iterable[Record]) -> RecordType:
+    """The type of a phrase of these words: the merge of what they mean.
+
+    What follows a relation is said of what the thing stands beside.
+
+    >>> from kille.dialogue.meanings import adjective, noun
+    >>> print(meant_by([adjective("red"), noun("cup")]))
+    [look : Look, x : Ind, a : is_red(x, look), c : cup(x, look)]
+    """
+    phrase = named("Phrase")
+    words = list(words)
+    for i, sign in enumerate(words):
+        if sign.kind == "relation":
+            beside = meaning_in(sign.form, "Nearby")
+            landmark = rectype(landmark=meant_by(words[i + 1 :]))
+            return reduce(_merged, [named("Beside"), beside, landmark], phrase)
+        phrase = _merged(phrase, sign.meaning)
+    return phrase
+
+
+def _merged(S: RecordType, T: RecordType) -> RecordType:
+    merged = merge(S, T)
+    assert isinstance(merged, RecordType)
+    return merged

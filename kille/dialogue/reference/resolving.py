@@ -1,0 +1,332 @@
+"""Setting the noun phrases of what is said to things in view, all of them together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+from math import prod
+from typing import TypeVar
+
+from kille.dialogue.meanings import named, set_at, set_to, theory
+from kille.dialogue.reference.parts import Claim, Part, taken_apart
+from kille.dialogue.reference.perspectives import front_of
+from kille.dialogue.reference.salience import (
+    choosing,
+    chosen,
+    in_talk,
+    just_mentioned,
+)
+from ttr import Model, Pred, Record, RecordType, Singleton, rectype
+from ttr.objects import Object
+
+__all__ = [
+    "PARTS",
+    "Fit",
+    "Judging",
+    "Reading",
+    "contents",
+    "denoted",
+    "fits_well",
+    "fitting",
+    "in_view",
+    "phrase_at",
+    "phrases",
+    "thing_at",
+    "things_in",
+]
+
+PARTS = ("target", "landmark")
+"""The labels of the noun phrases in a content."""
+
+
+@dataclass(frozen=True)
+class Fit:
+    """How well a thing fits a phrase: all that is said, and the weakest of it.
+
+    `firm` is the weakest of what is not vague, as adjectives are. `things` is the thing
+    itself, what it stands beside, what that stands beside …
+    """
+
+    p: float
+    weakest: float
+    firm: float
+    things: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A way to set the phrases of a content to things, and how probably they fit."""
+
+    s: Record
+    open: RecordType
+    fits: tuple[tuple[str, Fit], ...]
+
+    @cached_property
+    def p(self) -> float:
+        """How probably all phrases are true of their things."""
+        return prod(fit.p for _, fit in self.fits)
+
+    @property
+    def weakest(self) -> float:
+        """How probable the least probable claim is."""
+        return min((fit.weakest for _, fit in self.fits), default=1.0)
+
+    @property
+    def firm(self) -> float:
+        """How probable the least probable claim is of those that are not vague."""
+        return min((fit.firm for _, fit in self.fits), default=1.0)
+
+    @property
+    def things(self) -> dict[str, str]:
+        """The thing of each phrase."""
+        return {label: fit.things[0] for label, fit in self.fits}
+
+    @cached_property
+    def content(self) -> RecordType:
+        """The content with its phrases set to these things, and its perspectives."""
+        s, content = self.s, self.open
+        for label, fit in self.fits:
+            phrase = _set(s, phrase_at(content, label), fit.things)
+            content = set_to(content, **{label: phrase})
+        return in_view(s, content)
+
+
+_Found = TypeVar("_Found", Fit, Reading)
+
+
+def phrases(content: RecordType) -> tuple[str, ...]:
+    """The labels of the phrases in a content that are not set to any thing yet."""
+    return tuple(
+        label
+        for label in PARTS
+        if label in content and thing_at(content, label) is None
+    )
+
+
+def thing_at(content: RecordType, label: str) -> str | None:
+    """The thing that a phrase is set to."""
+    part = content.get(label)
+    if isinstance(part, RecordType) and isinstance(part["x"], Singleton):
+        return str(part["x"].value)
+    return None
+
+
+def phrase_at(content: RecordType, label: str) -> RecordType:
+    """The phrase of a content that has this label."""
+    phrase = content[label]
+    if not isinstance(phrase, RecordType):
+        raise TypeError(f"the phrase {label} of {content} is no record type")
+    return phrase
+
+
+def in_view(s: Record, content: RecordType) -> RecordType:
+    """The content as it is seen now: in the latest look, and in its perspective.
+
+    The perspective is that of the talk, where the content does not have one of its own.
+    """
+    if "look" not in content:
+        return content
+    content = set_at(content, "look", s.view.look)
+    landmark = thing_at(content, "landmark")
+    if landmark is None or "frame" not in content:
+        return content
+    if isinstance(content["frame"], Singleton):
+        return content
+    return set_at(content, "frame", front_of(s, landmark))
+
+
+def things_in(content: RecordType) -> list[str]:
+    """The things that a content is set to, those of its phrases first."""
+    things = [thing_at(content, label) for label in PARTS]
+    inside = [
+        x
+        for label in PARTS
+        if isinstance(part := content.get(label), RecordType)
+        for x in things_in(part)
+    ]
+    return list(dict.fromkeys(x for x in (*things, *inside) if x is not None))
+
+
+def contents(s: Record, model: Model, content: RecordType) -> Sequence[Reading]:
+    """The ways in which the phrases of a content can be set, the most probable first.
+
+    Two phrases are set to two things. Ways of no probability are left out.
+    """
+    judging = Judging(s, model)
+    open_ = phrases(content)
+    taken = {thing_at(content, label) for label in PARTS if label not in open_}
+    choices = [
+        [
+            (label, fit)
+            for x, fit in judging.fits(phrase, _spoken_of(s, phrase)).items()
+            if fit.p > 0.0 and x not in taken
+        ]
+        for label in open_
+        for phrase in (phrase_at(content, label),)
+    ]
+    readings = [
+        Reading(s, content, fits)
+        for fits in product(*choices)
+        if len({fit.things[0] for _, fit in fits}) == len(fits)
+    ]
+    return sorted(readings, key=lambda it: -it.p)
+
+
+def _spoken_of(s: Record, phrase: RecordType) -> Sequence[str] | None:
+    """What a phrase without words may be about: "No, a mug." None for other phrases.
+
+    It is what the robot has claimed something of, or else what is shown.
+    """
+    if phrase.labels != named("Phrase").labels:
+        return None
+    claimed = {thing_at(claim, "target") for claim in s.shared.pending[:1]}
+    return [x for x in s.view.things if x in claimed] or list(s.view.focus)
+
+
+def fitting(s: Record, readings: Iterable[Reading]) -> list[Reading]:
+    """The readings worth thinking of, the most probable first."""
+    return _worth_thinking_of(s, readings)
+
+
+def fits_well(s: Record, fits: Mapping[str, Fit]) -> list[str]:
+    """The things that fit a phrase so well that they are worth thinking of."""
+    return [fit.things[0] for fit in _worth_thinking_of(s, fits.values())]
+
+
+def _worth_thinking_of(s: Record, found: Iterable[_Found]) -> list[_Found]:
+    """Those that are likely, and not much less probable than the best is.
+
+    Each word must be likely enough to be true. But qualities are vague: if nothing is
+    likely to be a red apple, the only one that might be is meant.
+    """
+    bands, found = s.private.strategy.bands, list(found)
+    likely = [it for it in found if it.weakest >= bands.likely]
+    near = _near(bands.sure, likely)
+    if near:
+        return near
+    vague = [
+        it for it in found if it.firm >= bands.likely and it.weakest >= bands.might
+    ]
+    near = _near(bands.sure, vague)
+    return near if len(near) == 1 else []
+
+
+def _near(share: float, found: Sequence[_Found]) -> list[_Found]:
+    """Those that are at least this share as probable as the best, the best first."""
+    best = max((it.p for it in found), default=0.0)
+    return sorted((it for it in found if it.p >= share * best), key=lambda it: -it.p)
+
+
+def denoted(s: Record, readings: Iterable[Reading]) -> list[Reading]:
+    """The readings that are meant: one, unless the talk leaves open which.
+
+    Of several things that a phrase fits it is the one that was just talked about.
+    """
+    meant = fitting(s, readings)
+    for label in PARTS:
+        things = {it.things[label] for it in meant if label in it.things}
+        latest = just_mentioned(s, things)
+        if latest is not None and not _chooses(phrase_at(meant[0].open, label)):
+            meant = [it for it in meant if it.things[label] == latest]
+    return meant
+
+
+def _chooses(phrase: RecordType) -> bool:
+    """Whether a phrase says by itself which of several things it speaks of."""
+    return bool(taken_apart(phrase, choosing()).choices)
+
+
+class Judging:
+    """Judges phrases of the things in view, in one state: each claim once."""
+
+    def __init__(self, s: Record, model: Model) -> None:
+        self._s, self._model = s, in_talk(s, model)
+        self._degrees: dict[Claim, float] = {}
+
+    def fits(
+        self, phrase: RecordType, among: Sequence[str] | None = None
+    ) -> dict[str, Fit]:
+        """How well each thing in view, or each of these, fits a phrase."""
+        return self.fits_part(taken_apart(phrase, choosing()), among)
+
+    def fits_part(
+        self, part: Part, among: Sequence[str] | None = None
+    ) -> dict[str, Fit]:
+        """How well each thing in view, or each of these, fits a phrase taken apart."""
+        return self._fits(part, self._s.view.things if among is None else among)
+
+    def _fits(self, part: Part, among: Sequence[str]) -> dict[str, Fit]:
+        things = among if part.thing is None else [part.thing]
+        found = {x: fit for x in things if (fit := self._alone(part, x)).p > 0.0}
+        if part.landmark is not None:
+            found = dict(self._beside(part, part.landmark, found))
+        for pred in part.choices:
+            left = chosen(self._s, self._model, pred, fits_well(self._s, found))
+            found = {x: found[x] for x in left}
+        return found
+
+    def _alone(self, part: Part, x: str) -> Fit:
+        claims = list(part.said_of(x, self._s.view.look))
+        degrees = [self.degree(P, *args) for P, args in claims]
+        firm = [
+            p
+            for p, (P, _) in zip(degrees, claims, strict=True)
+            if P not in part.qualities
+        ]
+        weakest = min(degrees, default=1.0)
+        return Fit(prod(degrees), weakest, min(firm, default=1.0), (x,))
+
+    def _beside(
+        self, part: Part, landmark: Part, found: dict[str, Fit]
+    ) -> Iterator[tuple[str, Fit]]:
+        """Each thing with the landmark that fits it best."""
+        beside = self._fits(landmark, self._s.view.things)
+        nearby = sorted(beside.values(), key=lambda fit: -fit.p)
+        for x, alone in found.items():
+            best: Fit | None = None
+            for other in nearby:
+                if best is not None and alone.p * other.p <= best.p:
+                    break  # no relation is more than certain
+                if other.things[0] != x:
+                    both = self._both(part, alone, other)
+                    best = both if best is None or both.p > best.p else best
+            if best is not None and best.p > 0.0:
+                yield x, best
+
+    def _both(self, part: Part, alone: Fit, other: Fit) -> Fit:
+        (x,), (y, *_) = alone.things, other.things
+        s = self._s
+        claims = part.said_of_both(x, y, s.view.look, front_of(s, y))
+        degrees = [self.degree(P, *args) for P, args in claims]
+        return Fit(
+            alone.p * other.p * prod(degrees),
+            min((alone.weakest, other.weakest, *degrees)),
+            min((alone.firm, other.firm, *degrees)),
+            (x, *other.things),
+        )
+
+    def degree(self, pred: Pred, *args: Object) -> float:
+        """How probable a claim is, by the witness function of its predicate."""
+        claim = pred, args
+        known = self._degrees.get(claim)
+        if known is None:
+            seen = self._model.facts.perceived(None, pred(*args))
+            known = self._degrees[claim] = 0.0 if seen is None else seen.lo
+        return known
+
+
+def _set(s: Record, phrase: RecordType, things: tuple[str, ...]) -> RecordType:
+    """The phrase set to a thing, and to what that stands beside, as seen from there.
+
+    What was true of it only at that point of the talk is no part of it any more.
+    """
+    x, *beside = things
+    fields = {label: T for label, T in phrase.fields if label != "d"}
+    fields["x"] = theory()["Ind"] @ x
+    if beside:
+        landmark = phrase_at(phrase, "landmark")
+        fields["landmark"] = _set(s, landmark, tuple(beside))
+        fields["frame"] = theory()["Front"] @ front_of(s, beside[0])
+    return rectype(fields)

@@ -1,0 +1,97 @@
+"""What the talk is about, as witness functions of the state.
+
+Some words are true of a thing by itself: `shown` of what is in focus. Others choose
+among the things that the rest of the phrase is true of: "the other cup" is a cup, but
+not the one that was talked about last, and "the second cup" is counted among the cups.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from functools import cache
+
+from kille.dialogue.meanings import theory
+from ttr import Model, Pred, Record
+
+__all__ = [
+    "across",
+    "choosing",
+    "chosen",
+    "in_talk",
+    "just_mentioned",
+    "most_salient",
+]
+
+Choice = Callable[[Record, Model, Sequence[str]], Sequence[str]]
+"""What a word chooses, in a state, of the things that the rest of its phrase fits."""
+
+
+def in_talk(s: Record, model: Model) -> Model:
+    """The model in which the talk says what is shown and what was mentioned."""
+    latest = s.shared.salient[:1] or s.view.focus
+    return model.witnessed(
+        theory()["shown"], by=lambda x, look: x in s.view.focus
+    ).witnessed(theory()["mentioned"], by=lambda x, look: x in latest)
+
+
+def most_salient(s: Record, things: Iterable[str]) -> str | None:
+    """The one of the things that was talked about last, if any was."""
+    among = set(things)
+    return next((str(x) for x in s.shared.salient if x in among), None)
+
+
+def just_mentioned(s: Record, things: Collection[str]) -> str | None:
+    """The one of the things that was just talked about, if one and no other was."""
+    mentioned = [str(x) for x in s.shared.topic if x in things]
+    return mentioned[0] if len(mentioned) == 1 else None
+
+
+def across(s: Record, model: Model, things: Iterable[str]) -> list[str]:
+    """The things from left to right as they are seen.
+
+    How far to the right a thing is says the witness function of `across`; without one
+    the order is that of the view.
+    """
+    place = theory()["across"]
+    order = {str(x): i for i, x in enumerate(s.view.things)}
+
+    def rightness(x: str) -> tuple[float, int]:
+        degree = model.facts.perceived(x, place(x, s.view.look))
+        return (degree.lo if degree else 0.0), order.get(x, len(order))
+
+    return sorted(things, key=rightness)
+
+
+def _other(s: Record, model: Model, things: Sequence[str]) -> Sequence[str]:
+    latest = most_salient(s, things) or next(iter(s.view.focus), None)
+    return [x for x in things if x != latest]
+
+
+def _nth(n: int) -> Choice:
+    def counted(s: Record, model: Model, things: Sequence[str]) -> Sequence[str]:
+        return across(s, model, things)[n:][:1]
+
+    return counted
+
+
+CHOICES: Mapping[str, Choice] = {
+    "other": _other,
+    "leftmost": _nth(0),
+    "first": _nth(0),
+    "second": _nth(1),
+    "third": _nth(2),
+    "last": _nth(-1),
+    "rightmost": _nth(-1),
+}
+"""The words that choose, by the names of their predicates."""
+
+
+@cache
+def choosing() -> frozenset[Pred]:
+    """The predicates that choose among the things that fit the rest of a phrase."""
+    return frozenset(theory()[name] for name in CHOICES)
+
+
+def chosen(s: Record, model: Model, pred: Pred, things: Sequence[str]) -> Sequence[str]:
+    """Those of the things of which the predicate is true, where only they fit."""
+    return CHOICES[pred.name](s, model, things)

@@ -1,0 +1,156 @@
+"""How the robot decides: by what it expects of each thing that it could say or do.
+
+A strategy is a value in the state: the bands of certainty from which on it says a thing
+in each way, and what it is worth to it to speak, to ask and to learn. The bands follow
+from the worth of being right and wrong: a way of speaking begins where more is expected
+of it than of the weaker ones.
+
+Source: Lison 2013 (utilities decide what a robot says); Skočaj et al. 2011 (driven,
+assisted and autonomous learning).
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from functools import cache
+from importlib.resources import files
+from typing import Any, NamedTuple
+
+from ttr import Record, record
+
+__all__ = [
+    "MODES",
+    "WORDINGS",
+    "Option",
+    "Stake",
+    "best",
+    "expected",
+    "strategy",
+    "threshold",
+]
+
+MODES = ("driven", "assisted", "autonomous")
+"""Who brings learning about: the tutor, both, or the robot as well by itself."""
+
+WORDINGS = ("paper", "four")
+"""The ways to word what one is sure of: the paper's, and the four bands after it."""
+
+_DIGITS = 9
+"""Decimals of a threshold: what is worked out from decimals is one again."""
+
+
+class Stake(NamedTuple):
+    """What saying or doing something is worth, if it is right and if it is wrong."""
+
+    right: float
+    wrong: float
+
+
+class Option(NamedTuple):
+    """Something that could be done, how probably it is right, and what it is worth."""
+
+    name: str
+    p: float
+    stake: Stake
+
+
+def expected(stake: Stake, p: float) -> float:
+    """What is expected of something that is right with a probability.
+
+    >>> expected(Stake(right=1.0, wrong=-1.0), 0.75)
+    0.5
+    """
+    return p * stake.right + (1.0 - p) * stake.wrong
+
+
+def best(options: Iterable[Option], nothing: float = 0.0) -> Option | None:
+    """The option of which most is expected, the first of equals; None for nothing.
+
+    Of what is done more has to be expected than of doing `nothing`.
+
+    >>> ask = Option("ask", 0.5, Stake(1.0, -1.0))
+    >>> say = Option("say", 0.9, Stake(1.0, -1.0))
+    >>> best([ask, say]).name
+    'say'
+    >>> best([ask])
+    """
+    chosen = max(options, key=lambda it: expected(it.stake, it.p), default=None)
+    if chosen is None or expected(chosen.stake, chosen.p) <= nothing:
+        return None
+    return chosen
+
+
+def threshold(stronger: Stake, weaker: Stake) -> float:
+    """The probability from which on at least as much is expected of the stronger one.
+
+    p·r₁ + (1 − p)·w₁ = p·r₂ + (1 − p)·w₂ at p = (w₂ − w₁) / ((r₁ − w₁) − (r₂ − w₂)).
+    Where it never is, 1 and more; where it always is, 0.
+
+    >>> threshold(Stake(1.0, -1.0), Stake(0.0, 0.0))
+    0.5
+    """
+    steeper = (stronger.right - stronger.wrong) - (weaker.right - weaker.wrong)
+    behind = weaker.wrong - stronger.wrong
+    if steeper <= 0.0:
+        return 2.0 if behind > 0.0 else 0.0
+    return max(0.0, round(behind / steeper, _DIGITS))
+
+
+def strategy(mode: str = "", wording: str = "") -> Record:
+    """A strategy of `strategies.toml`: by default the one that it names there.
+
+    Raises `ValueError` for a mode or a wording that it does not have.
+
+    >>> bands = strategy(wording="four").bands
+    >>> bands.sure, bands.think, bands.likely
+    (0.8, 0.5, 0.3)
+    """
+    return _strategy(mode, wording)
+
+
+@cache
+def _strategy(mode: str, wording: str) -> Record:
+    data = _data()
+    mode = mode or data["default"]["mode"]
+    wording = wording or data["default"]["wording"]
+    wants, words = _found(data["modes"], mode), _found(data["wordings"], wording)
+    learning = Stake(**wants["learning"])
+    return record(
+        mode=mode,
+        wording=wording,
+        bands=record(_bands(words)),
+        examples=float(words["examples"]),
+        yes_below=words["yes_below"],
+        no_below=words["no_below"],
+        hearing=record(data["hearing"]),
+        wants=record(
+            {name: it for name, it in wants.items() if name != "learning"},
+            learning=record(learning._asdict()),
+        ),
+    )
+
+
+def _bands(words: Mapping[str, Any]) -> dict[str, float]:
+    """The bands that follow from the stakes of a wording, and those that are set."""
+    stakes = {name: Stake(**it) for name, it in words["stakes"].items()}
+    likely = threshold(stakes["doubt"], Stake(0.0, 0.0))
+    think = max(likely, threshold(stakes["think"], stakes["doubt"]))
+    sure = max(think, threshold(stakes["assert"], stakes["think"]))
+    set_ = ("margin", "might", "probable", "unlikely")
+    return {"sure": sure, "think": think, "likely": likely} | {
+        name: words[name] for name in set_
+    }
+
+
+def _found(table: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    if name not in table:
+        raise ValueError(f"there is no {name}: choose one of {', '.join(table)}")
+    found: Mapping[str, Any] = table[name]
+    return found
+
+
+@cache
+def _data() -> Mapping[str, Any]:
+    source = files("kille.grammars").joinpath("strategies.toml")
+    return tomllib.loads(source.read_text(encoding="utf-8"))

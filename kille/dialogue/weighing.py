@@ -1,0 +1,109 @@
+"""What was said, when it was not heard for certain: words and what is seen decide.
+
+Each alternative is as probable as its text was heard, times how well it fits: known
+words come before new ones, few before many, and where texts differ, what is said to be
+so fits as well as what is seen says that it is so.
+
+Source: Lison 2013, for combining what is heard with what is known before deciding.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import groupby
+from typing import NamedTuple
+
+from kille.dialogue.beliefs import degree, knows
+from kille.dialogue.meanings import CLAIMS, claims, is_denial, theory, value_at
+from kille.dialogue.reference import PARTS, contents, phrases, thing_at
+from kille.dialogue.state import words
+from ttr import Model, PType, Record, RecordType
+from ttr.updates import NBest
+
+__all__ = ["FAINTLY", "Weighed", "weighed"]
+
+FAINTLY = 1e-6
+"""How probably something must have been said at least to be answered at all."""
+
+UNKNOWN = 0.1
+"""How much less likely a reading is for every part of a word that is not known."""
+
+LONGER = 0.9
+"""How much less likely a reading is for every word more."""
+
+
+_ROUNDING = 1e-9
+
+
+class Weighed(NamedTuple):
+    """What the tutor may have said, and how probable that is."""
+
+    said: Record
+    p: float
+
+
+def weighed(s: Record, model: Model, heard: NBest) -> Sequence[Weighed]:
+    """The likeliest reading of each text, the most probable first.
+
+    What is missing to 1 is that it was something else, which fits as `strange` says.
+    """
+    texts = [list(them) for _, them in groupby(_by_text(heard), key=_text)]
+    other = max(0.0, 1.0 - sum(p for them in texts for _, p in them))
+    if len(texts) == 1 and other < _ROUNDING:
+        said, _ = max(texts[0], key=lambda it: it[1] * _wording(s, it[0]))
+        return [Weighed(said, 1.0)]
+    fits = [_best(s, model, them) for them in texts]
+    strange = s.private.strategy.hearing.strange
+    whole = sum(it.p for it in fits) + other * strange
+    shares = [Weighed(it.said, it.p / whole if whole else 0.0) for it in fits]
+    return sorted(shares, key=lambda it: -it.p)
+
+
+def _by_text(heard: NBest) -> Iterable[tuple[Record, float]]:
+    return sorted(heard, key=_text)
+
+
+def _text(alternative: tuple[Record, float]) -> str:
+    return str(alternative[0].text)
+
+
+def _best(s: Record, model: Model, readings: Sequence[tuple[Record, float]]) -> Weighed:
+    """The likeliest reading of a text, and the weight of the text."""
+    fits = [
+        Weighed(said, _wording(s, said) * _seen(s, model, said)) for said, _ in readings
+    ]
+    best = max(fits, key=lambda it: it.p)
+    return Weighed(best.said, best.p * sum(p for _, p in readings))
+
+
+def _wording(s: Record, said: Record) -> float:
+    """How likely a reading is, by its words: known ones, and few of them."""
+    new = [sign for sign in said.signs if not knows(words(s), sign)]
+    parts = sum(len(sign.form.split()) for sign in new)
+    return float(LONGER ** len(said.signs) * UNKNOWN**parts)
+
+
+def _seen(s: Record, model: Model, said: Record) -> float:
+    """How likely it is that this is said, by what is seen."""
+    content, strange = said.content, s.private.strategy.hearing.strange
+    if not phrases(content):
+        return 1.0
+    ways = contents(s, model, content)
+    teaches = model.judge(said, theory()["Teaching"]).holds
+    true = [
+        way.p * (_truth(s, model, said, way.content) if teaches else 1.0)
+        for way in ways
+    ]
+    return float(strange + (1.0 - strange) * max(true, default=0.0))
+
+
+def _truth(s: Record, model: Model, said: Record, content: RecordType) -> float:
+    """How probable a lesson is; a word that is not known may be true of anything."""
+    if not all(knows(words(s), it) for it in said.signs if claims(content, it)):
+        return 1.0
+    claim = next((content[label] for label in CLAIMS if label in content), None)
+    if not isinstance(claim, PType) or is_denial(content):
+        return 1.0
+    things = [x for x in (thing_at(content, it) for it in PARTS) if x is not None]
+    front = [value_at(content, "frame")] if "frame" in content else []
+    return degree(model, claim.pred(*things, s.view.look, *front))

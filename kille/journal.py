@@ -1,0 +1,69 @@
+"""What is said in a dialogue, turn by turn, as a memory keeps it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from datetime import datetime
+
+from kille.memory import Memory, Turn
+
+__all__ = ["Journal"]
+
+
+class Journal:
+    """The turns of one dialogue, numbered from 1; `turn` is what goes on now.
+
+    A look in which nothing is said or learned is no turn. MemoryFileError as the memory
+    raises it.
+    """
+
+    def __init__(self, memory: Memory, now: Callable[[], datetime]) -> None:
+        self._memory, self._now = memory, now
+        self._dialogue = memory.begin_dialogue(self._time())
+        self._turns = 0
+        self.turn = self._next("world", "")
+
+    def looking(self) -> None:
+        """The robot looks of its own accord."""
+        self.turn = self._next("world", "")
+
+    def heard(self, text: str) -> None:
+        """The tutor says something."""
+        self.turn = self._kept(self._next("tutor", text))
+
+    def understood(self, judgement: str) -> None:
+        """What the tutor said was taken to be this."""
+        completed = dataclasses.replace(self.turn, judgement=judgement)
+        self._memory.record_turn(completed)
+
+    def said(self, text: str, judgement: str = "") -> None:
+        """The robot says something, or did not understand."""
+        self._kept(self._next("robot", text, judgement))
+
+    def source(self) -> Turn:
+        """What goes on now, on record: where a lesson comes from."""
+        return self._kept(self.turn)
+
+    @contextmanager
+    def whole(self) -> Iterator[None]:
+        """What is done inside counts, or, if anything fails, no turn of it."""
+        turns = self._turns
+        try:
+            yield
+        except BaseException:
+            self._turns = turns
+            raise
+
+    def _next(self, speaker: str, text: str, judgement: str = "") -> Turn:
+        number = self._turns + 1
+        return Turn(self._dialogue, number, speaker, text, judgement, self._time())
+
+    def _kept(self, turn: Turn) -> Turn:
+        self._memory.record_turn(turn)
+        self._turns = max(self._turns, turn.number)
+        return turn
+
+    def _time(self) -> str:
+        return self._now().isoformat(timespec="milliseconds")

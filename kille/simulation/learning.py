@@ -1,0 +1,208 @@
+"""Words that learn: what a word is true of, as a value that lessons make another of.
+
+A word judges what is seen by how near it is to what it was said, or denied, to be true
+of. With p the sum of a kernel over the lessons that say so, and n over those that deny
+it, the degree is p / (p + n + r), where r is how little a word is sure of from afar. A
+word is judged by its own lessons only, so that what one word learns changes no other,
+and to take a lesson away is to have never had it.
+
+An adjective may speak of the colour or of the size: that aspect counts in which things
+that it is true of are alike, and those that it is not true of are not.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+from typing import NamedTuple
+
+from kille.dialogue.meanings import word_of
+from kille.simulation.perceiving import (
+    Vector,
+    colour,
+    direction,
+    number_of,
+    size,
+    traits,
+)
+from kille.simulation.worlds import COLOURS, World
+from ttr import Record
+
+__all__ = ["Observation", "Taught", "Word", "observed"]
+
+Observation = tuple[Vector, ...]
+"""What is seen, aspect by aspect."""
+
+ASPECTS = {
+    "noun": ("features",),
+    "adjective": ("colour", "size"),
+    "relation": ("configuration",),
+}
+"""What words of a kind may speak of."""
+
+UNKNOWN = (0.0, 1.0)
+BACKGROUND = 0.25
+"""How much speaks against every word, wherever nothing else does."""
+
+WIDTH = 0.3
+"""How far apart two things may be, and still be alike."""
+
+LEAST = 0.02
+"""How much an aspect always counts."""
+
+
+class Taught(NamedTuple):
+    """A lesson: its key, what was seen, and whether the word was said to hold of it."""
+
+    key: str
+    of: Observation
+    holds: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class Word:
+    """What a word is true of, as far as its lessons go; called to judge its predicate.
+
+    `prior` is what is known of it without any lesson, `count` how many it has had.
+
+    >>> from kille.dialogue.meanings import noun
+    >>> from kille.simulation.worlds import Thing
+    >>> things = Thing("cup", "red", place=(2, 3)), Thing("car", "red", place=(5, 3))
+    >>> world = World(things)
+    >>> cup = Word(noun("cup")).taught("o1", world.name)
+    >>> cup("o1", world.name), round(cup("o2", world.name), 3)
+    (0.8, ...)
+    """
+
+    sign: Record
+    lessons: tuple[Taught, ...] = ()
+    prior: tuple[Taught, ...] = ()
+    count: int = 0
+
+    @classmethod
+    def known(cls, sign: Record) -> Word:
+        """A word that was never taught: colours are known all the same."""
+        shade = COLOURS.get(word_of(sign).name.removeprefix("is_"))
+        if sign.kind != "adjective" or shade is None:
+            return cls(sign)
+        return cls(sign, prior=(Taught("", (shade,)),))
+
+    def __call__(self, *args: str) -> float | tuple[float, float]:
+        """The degree to which it is true of a thing, or two, in a look."""
+        of = observed(self.sign.kind, *args)
+        if of is None or not (self.lessons or self.prior):
+            return UNKNOWN if of is None or self.sign.kind == "adjective" else 0.0
+        return self.degree(of)
+
+    def degree(self, of: Observation) -> float:
+        """The degree to which it is true of what is seen."""
+        shares = self.weights()
+        return math.fsum(
+            share * self._degree(aspect, of) for aspect, share in enumerate(shares)
+        )
+
+    def taught(self, *args: str, holds: bool = True) -> Word:
+        """The word after one more lesson, which is about this in a look."""
+        of = observed(self.sign.kind, *args)
+        if of is None:
+            raise ValueError(
+                f"{args} is not to be seen, so that nothing is to be learned"
+            )
+        count = self.count + 1
+        lesson = Taught(f"{word_of(self.sign).name}/{count}", of, holds)
+        return replace(self, lessons=(*self.lessons, lesson), count=count)
+
+    def without(self, key: str) -> Word:
+        """The word as if it had never had this lesson."""
+        left = tuple(lesson for lesson in self.lessons if lesson.key != key)
+        return replace(self, lessons=left)
+
+    @property
+    def is_known(self) -> bool:
+        """Whether it is known to be true of anything."""
+        return any(lesson.holds for lesson in (*self.prior, *self.lessons))
+
+    def nearest(self, of: Observation) -> Taught | None:
+        """Of the lessons that say that it holds, the one most like what is seen."""
+        holding = [lesson for lesson in self.lessons if lesson.holds]
+        return max(holding, key=lambda it: self._alike(it.of, of), default=None)
+
+    def cues(self, of: Observation) -> Sequence[tuple[str, float]]:
+        """What speaks for it, and how much of all that does: the most first."""
+        speaks = {
+            name: share * self._degree(aspect, of)
+            for aspect, (name, share) in enumerate(
+                zip(ASPECTS[self.sign.kind], self.weights(), strict=False)
+            )
+        }
+        whole = math.fsum(speaks.values())
+        shares = [(name, it / whole) for name, it in speaks.items() if it > 0.0]
+        return sorted(shares, key=lambda it: -it[1])
+
+    def weights(self) -> Sequence[float]:
+        """How much of it each aspect counts."""
+        if self.prior:
+            return (1.0,)
+        kinds = ASPECTS[self.sign.kind]
+        if len(kinds) == 1:
+            return (1.0,)
+        agreement = [self._agreement(aspect) for aspect in range(len(kinds))]
+        whole = math.fsum(agreement)
+        return [one / whole for one in agreement]
+
+    def _agreement(self, aspect: int) -> float:
+        """How well an aspect tells what the word is true of from what it is not."""
+        same, apart = [], []
+        for one, other in combinations(self.lessons, 2):
+            if one.holds and other.holds:
+                same.append(self._kernel(one.of, other.of, aspect))
+            elif one.holds or other.holds:
+                apart.append(self._kernel(one.of, other.of, aspect))
+        return max(LEAST, _mean(same, 1.0) - _mean(apart, 0.0))
+
+    def _degree(self, aspect: int, of: Observation) -> float:
+        speaks = {True: 0.0, False: 0.0}
+        for lesson in (*self.prior, *self.lessons):
+            speaks[lesson.holds] += self._kernel(lesson.of, of, aspect)
+        return speaks[True] / (speaks[True] + speaks[False] + BACKGROUND)
+
+    def _alike(self, one: Observation, other: Observation) -> float:
+        shares = self.weights()
+        return math.fsum(w * self._kernel(one, other, i) for i, w in enumerate(shares))
+
+    def _kernel(self, one: Observation, other: Observation, aspect: int) -> float:
+        """How alike two observations are in an aspect."""
+        alike = _cosine if self.sign.kind == "relation" else _gaussian
+        return alike(one[aspect], other[aspect])
+
+
+def observed(kind: str, *args: str) -> Observation | None:
+    """What is seen of what a word is said of; None if it is not in view."""
+    *things, look = args[:3] if kind == "relation" else args
+    world = World.named(look)
+    numbers = [number_of(x) for x in things]
+    if world is None or not all(number in world for number in numbers):
+        return None
+    match kind:
+        case "noun":
+            return (traits(world, numbers[0]),)
+        case "adjective":
+            return colour(world, numbers[0]), size(world, numbers[0])
+    way = direction(world, numbers[0], numbers[1], args[3])
+    return None if way is None else (way,)
+
+
+def _cosine(a: Vector, b: Vector) -> float:
+    """How alike two directions are: the cosine of the angle between them, if any."""
+    return max(0.0, math.fsum(p * q for p, q in zip(a, b, strict=True)))
+
+
+def _gaussian(a: Vector, b: Vector) -> float:
+    far = math.fsum((p - q) ** 2 for p, q in zip(a, b, strict=True))
+    return math.exp(-far / WIDTH**2)
+
+
+def _mean(values: Sequence[float], none: float) -> float:
+    return math.fsum(values) / len(values) if values else none

@@ -1,0 +1,18 @@
+"""A tutor who knows what is in real captures talks to the whole robot about them."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+import pytest
+
+SCRIPT = Path(__file__).parents[2] / "benchmarks" / "real_dialogues.py"
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_dialogue_about_real_scenes(data: Path, seed: int) -> None:
+    # Every turn is checked as it is played: see the script.
+    played = runpy.run_path(str(SCRIPT))["played"]
+    counts = played(seed, 12, data / "ycbv_scenes")
+    assert counts["turns"] >= 12
