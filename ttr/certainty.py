@@ -20,6 +20,7 @@ from ttr.probability import CERTAIN, REFUTED
 from ttr.substitution import Around, grounded
 from ttr.syntax import (
     Basic,
+    Join,
     ListOf,
     NonEmpty,
     Object,
@@ -215,8 +216,35 @@ def _ptype(facts: Assignment, sit: Object, T: PType, around: Around) -> bool:
     return ground is not None and _atom(facts, sit, ground)
 
 
+def _join(facts: Assignment, sit: Object, T: Join, around: Around) -> bool:
+    """One certain part is enough; uncertain ones may be certain together."""
+    possible = [part for part in T.parts if not _excluded(facts, sit, part)]
+    if len(possible) < 2:
+        return any(_certain(facts, sit, part, around) for part in possible)
+    return (
+        any(_certain(facts, sit, part, around) for part in possible)
+        or derivation(facts, sit, T, around).p == CERTAIN
+    )
+
+
+def _excluded(facts: Assignment, sit: Object, T: TypeNode) -> bool:
+    """Whether sit plainly cannot be of T; where this says no, it may be or not."""
+    if isinstance(T, PType):
+        return not facts.can_be(sit, T.pred)
+    if not isinstance(T, RecordType):
+        return False
+    if not isinstance(sit, Record):
+        return True
+    found = sit._fields
+    return any(
+        label not in found or _excluded(facts, found[label], field)
+        for label, field in _telling_first(T)
+    )
+
+
 _PLAIN: dict[type[TypeNode], Callable[..., bool]] = {
     RecordType: _record,
+    Join: _join,
     Singleton: _singleton,
     ListOf: _list,
     NonEmpty: _list,

@@ -9,6 +9,7 @@ from typing import assert_never
 
 from ttr.assignments import Assignment
 from ttr.cases import cases, splits
+from ttr.certainty import certainly
 from ttr.circles import circle
 from ttr.errors import Refused, TTRError
 from ttr.hypothetical import Hypothetical
@@ -382,9 +383,7 @@ def _further_out(path: Path) -> Path:
 
 def _surely(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
     """The assignment itself if sit certainly is of T, else one told so."""
-    if derivation(facts, sit, T).p == CERTAIN:
-        return facts
-    return told(facts, sit, T)
+    return facts if certainly(facts, sit, T) else told(facts, sit, T)
 
 
 def _merged(facts: Assignment, S: TypeNode, T: TypeNode) -> TypeNode:

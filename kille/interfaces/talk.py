@@ -143,16 +143,15 @@ class _Conversation:
         return answer
 
     def _picture(self, path: Path) -> str:
-        answer = self._robot.look()
-        if self._robot.view is None:
-            return answer
+        """Writes a picture of what is in view now; the floor stays with the tutor."""
+        view = self._robot.gaze.look()
         try:
-            write_picture(path, overview(self._robot.view.look))
+            write_picture(path, overview(view.look))
         except OSError as error:
             complain(f"the picture cannot be written to {path}: {error.strerror}")
-            return answer
+            return ""
         self._print(f"The picture is in {path}.")
-        return answer
+        return ""
 
     def _reminder(self, path: Path) -> str:
         """Writes the picture of the lesson that the robot was reminded of."""

@@ -77,7 +77,7 @@ def say_probably(s: Record) -> Record | None:
 @rule(when=answering("AskWhether"))
 def admit_whether(s: Record) -> Record:
     """It does not know."""
-    return plan(s, "AdmitWhether")
+    return plan(s, "AdmitWhether", content_of(s), signs=s.shared.latest.signs)
 
 
 def _asked(s: Record) -> Record:

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from kille.dialogue.beliefs import nouns_of, relations_of
+from kille.dialogue.commitments import affirmed
 from kille.dialogue.games.placing import landmark_for
 from kille.dialogue.games.referring import UNANSWERED, about, unanswered
 from kille.dialogue.meanings import (
@@ -36,8 +37,10 @@ from kille.dialogue.reference import (
     facing,
     fits_well,
     front_of,
+    in_view,
     phrase_at,
     thing_at,
+    things_in,
 )
 from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, RecType, rectype, replace
@@ -58,6 +61,15 @@ LESSONS = named("Relate") | named("Correct") | named("Reject")
 
 OTHER_GAMES = named("Instruct") | named("Describe") | named("AskName") | named("Leave")
 """Moves that begin another game, in which no place is talked about."""
+
+CHECKED = (
+    named("SayYes")
+    | named("SayNo")
+    | named("SayRather")
+    | named("SayProbably")
+    | named("AdmitWhether")
+)
+"""Answers to whether things stand so."""
 
 # --- settling on a perspective -------------------------------------------------------
 
@@ -85,18 +97,18 @@ def settle_frame(s: Record) -> Record | None:
 @rule(when=answering("TakeFrame"))
 def answer_anew(s: Record, *, model: Model) -> Update | None:
     """The tutor corrects the perspective of an answer: the question is asked again."""
-    claim = next(iter(s.shared.pending), None)
-    if claim is None or "rel" not in claim:
-        return None
-    content = set_at(named("Asked"), "target.x", str(thing_at(claim, "target")))
-    asked = set_to(
-        spoken("Heard", "AskPlace"),
-        text=theory()["Text"] @ s.shared.latest.text,
-        signs=named("Heard")["signs"] @ (),
-        content=RecType @ content,
-    )
-    move, model = model.create(asked)
     settled = _in(s, _frame_in(content_of(s)))
+    asked = _asked_last(settled)
+    if asked is None:
+        return None
+    act, content = asked
+    question = set_to(
+        spoken("Heard", act),
+        text=theory()["Text"] @ s.shared.latest.text,
+        signs=named("Heard")["signs"] @ tuple(used(words(s), content)),
+        content=RecType @ in_view(settled, content),
+    )
+    move, model = model.create(question)
     return replace(settled, {"shared.latest": move, "shared.pending": ()}), model
 
 
@@ -204,6 +216,29 @@ def ask_frame_of_place(s: Record, *, model: Model) -> Update | None:
         landmark.sign.meaning,
         [_seen_from(s, it) for it in _fronts(s, landmark.sit.x)],
     ), model
+
+
+def _asked_last(s: Record) -> tuple[str, RecordType] | None:
+    """The question of places that the robot has answered last, and what it is about.
+
+    It was whether things stand so, or else where the thing is of which it has claimed
+    that. There is none of what is no longer in view.
+    """
+    checked = next((it for it in s.private.last[-1:] if it <= CHECKED), None)
+    if checked is not None:
+        rather = checked <= named("SayRather")
+        about = value_at(checked, "rival" if rather else "content")
+        assert isinstance(about, RecordType)
+        act, content = "AskWhether", affirmed(about)
+    elif s.shared.pending:
+        act, content = "AskPlace", s.shared.pending[0]
+    else:
+        return None
+    if "rel" not in content or not set(things_in(content)) <= set(s.view.things):
+        return None
+    if act == "AskWhether":
+        return act, set_to(content, frame=theory()["Front"])
+    return act, set_at(named("Asked"), "target.x", str(thing_at(content, "target")))
 
 
 def _in(s: Record, frame: str) -> Record:
