@@ -135,7 +135,8 @@ def tutored(new: Callable[[int], str], clock: Callable[[], float]) -> list[float
     """The milliseconds of each turn of tutoring: heard, taken, answered in words."""
     game = tutoring([noun(form) for form in NOUNS], model=seeing())
     view = record(look="look1", things=["o1"], placed=["o1"], focus=["o1"])
-    begun = game.take(game.begin(), record(view=view)).run
+    seen = record(view=view, kept=[], floor="tutor")
+    begun = game.take(game.begin(), seen).run
     times = []
     for number in range(ROUNDS):
         so_far = begun
@@ -210,7 +211,12 @@ def dialogues(count: int) -> None:
 
     start = time.perf_counter()
     found = Suite(
-        talking.game, tutor=talking.tutor, roles=talking.roles, examples=count, turns=10
+        talking.game,
+        tutor=talking.tutor,
+        properties=talking.properties,
+        roles=talking.roles,
+        examples=count,
+        turns=10,
     ).run()
     spent = time.perf_counter() - start
     print(f"{count:,} dialogues of ten turns: {spent:.0f} s; limit for 10,000: 300 s")

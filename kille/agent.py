@@ -11,6 +11,7 @@ from types import TracebackType
 from typing import Self
 
 from kille.body import Body
+from kille.dialogue.games.clarifying import asked_which
 from kille.dialogue.language import Sentence, understand
 from kille.dialogue.meanings import (
     set_to,
@@ -31,14 +32,7 @@ from kille.recollection import sign_of
 from kille.sensors.sensor import Sensor, SensorError
 from kille.witness import Witnesses, thing
 from kille.words import Vocabulary
-from ttr import (
-    Judgement,
-    Model,
-    Record,
-    RecType,
-    Singleton,
-    record,
-)
+from ttr import Judgement, Model, Record, RecType, Singleton, TTRError, record
 from ttr.perceptual import Meaning, Speaker
 from ttr.probability import CERTAIN
 from ttr.updates import Game, Run, Step
@@ -237,7 +231,10 @@ class Agent:
         except BaseException as error:
             self.gaze.attention = attention
             self._witnesses.reconsider()
-            raise _cause(error) from error
+            cause = _cause(error)
+            if cause is None:
+                raise
+            raise cause from cause.__cause__
         self._now_at = after
         self.exchanges.append(exchange)
         return exchange.answer
@@ -253,7 +250,8 @@ class Agent:
                 return self._looking()
             words = self._lexicon.pointing
         exchange, now = Exchange(text, None, (), ()), self._now_at
-        for sentence in understand(words, self.language):
+        for said in self._sentences(words, text if len(numbers) == 1 else ""):
+            sentence = self._in_full(said, now.state)
             exchange, now = self._answering(sentence, heard(sentence), exchange, now)
         return exchange, now
 
@@ -298,6 +296,23 @@ class Agent:
             self._journal.said(it.text, str(it.judgement))
         return Exchange("", None, turn.trace, said), turn.run
 
+    def _sentences(self, words: str, numbered: str) -> tuple[Sentence, ...]:
+        """The sentences of a text; its number, if need be, as "this": "What is #2?"."""
+        sentences = understand(words, self.language)
+        if not numbered or all(it.readings for it in sentences):
+            return sentences
+        this = self._lexicon.referring["shown"]
+        named = understand(_POINTING.sub(f" {this} ", numbered), self.language)
+        return named if all(it.readings for it in named) else sentences
+
+    def _in_full(self, sentence: Sentence, s: Record) -> Sentence:
+        """What is no sentence by itself, but answers which thing was meant: "Red."."""
+        if sentence.readings or not asked_which(s):
+            return sentence
+        text = self._lexicon.answering.replace("{text}", sentence.text)
+        first, *more = understand(text, self.language)
+        return sentence if more else Sentence(sentence.text, first.readings)
+
     # --- seeing ----------------------------------------------------------------------
 
     def _seeing(self, kind: str, floor: str, now: Run) -> Played:
@@ -331,12 +346,14 @@ def _opened(memory: Memory | Path | str | None) -> Memory:
     return Memory.open(Path(memory))
 
 
-def _cause(error: BaseException) -> BaseException:
-    """What failed: the body's own error, where a move failed because of it."""
-    cause: BaseException | None = error
-    while cause is not None and not isinstance(cause, SensorError | MemoryFileError):
+def _cause(error: BaseException) -> SensorError | MemoryFileError | None:
+    """What failed in the body, where a move of the game failed because of it."""
+    cause = error.__cause__ if isinstance(error, TTRError) else None
+    while cause is not None:
+        if isinstance(cause, SensorError | MemoryFileError):
+            return cause
         cause = cause.__cause__
-    return error if cause is None else cause
+    return None
 
 
 def _judged(sentence: Sentence, steps: Sequence[Step], model: Model) -> Judgement:
@@ -355,9 +372,10 @@ def _judged(sentence: Sentence, steps: Sequence[Step], model: Model) -> Judgemen
 
 
 def _looks_of(s: Record) -> set[str]:
-    """The looks that the tutor may still confirm or make clear something about."""
+    """The looks that the tutor may still confirm or set right something about."""
     open_ = [option.content for issue in s.shared.qud for option in issue.options]
-    looks = [it.get("look") for it in (*s.shared.pending, *open_)]
+    taught = [it.content for it in s.private.lessons[-1:]]
+    looks = [it.get("look") for it in (*s.shared.pending, *open_, *taught)]
     return {str(look.value) for look in looks if isinstance(look, Singleton)}
 
 

@@ -66,8 +66,8 @@ class Assignment:
 
     `known` has an entry for every object that a fact is about, or that a ptype with a
     fact mentions; `told` has the objects that were told to be of a type, each with its
-    number, so that they have an order; `created` counts the names given out, `facts`
-    the facts told.
+    number, so that they have an order, and is another for a type of which anything was
+    told anew; `created` counts the names given out, `facts` the facts told.
     """
 
     theory: Signature
@@ -248,9 +248,8 @@ class Assignment:
                 known = known.set(name, _EMPTY)
         mine = self.told.get(T, _EMPTY)
         number = self.facts + 1
-        told = (
-            self.told if key in mine else self.told.set(T, mine.set(key, (number, sit)))
-        )
+        entry = (mine[key][0], sit) if key in mine else (number, sit)
+        told = self.told.set(T, mine.set(key, entry))
         return replace(self, known=known, told=told, facts=number)
 
     def _opening(self, T: Atom, p: Degree) -> Map[Head, bool]:

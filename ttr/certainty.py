@@ -8,14 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
+from operator import is_
 from typing import TypeAlias
+from weakref import ref
 
 from ttr.assignments import Assignment
 from ttr.errors import Refused
 from ttr.judging import derivation, reduced
 from ttr.levels import why_outside
-from ttr.objects import Unresolved
-from ttr.paths import escaping
+from ttr.objects import Unresolved, lasts
+from ttr.paths import escaping, occurring
 from ttr.probability import CERTAIN, REFUTED
 from ttr.substitution import Around, grounded
 from ttr.syntax import (
@@ -33,7 +35,7 @@ from ttr.syntax import (
     identity,
 )
 
-__all__ = ["certainly", "certainly_also"]
+__all__ = ["certainly", "certainly_also", "note"]
 
 
 def certainly(facts: Assignment, sit: Object, T: TypeNode) -> bool:
@@ -164,11 +166,14 @@ def _certain(facts: Assignment, sit: Object, T: TypeNode, around: Around) -> boo
 def _record(facts: Assignment, sit: Object, T: RecordType, around: Around) -> bool:
     if not isinstance(sit, Record):
         return False
+    if _is_noted(facts, sit, T):
+        return True
     found = sit._fields
     inside = (found, *around)
     for label, field in _telling_first(T):
         if label not in found or not _certain(facts, found[label], field, inside):
             return False
+    note(facts, sit, T)
     return True
 
 
@@ -179,6 +184,61 @@ def _telling_first(T: RecordType) -> tuple[tuple[str, TypeNode], ...]:
     What is of which basic type is mostly the same, but not which predicate is true.
     """
     return tuple(sorted(T.fields, key=lambda field: not isinstance(field[1], PType)))
+
+
+# --- what need not be judged twice ---------------------------------------------------
+
+
+Grounds: TypeAlias = tuple[object, ...]
+"""Witness functions, and what was told of some basic types: as long as these are the
+same objects, the same is of types made of them."""
+
+
+def note(facts: Assignment, sit: Record, T: RecordType) -> None:
+    """Notes that a record is certainly of T, so that it need not be judged again."""
+    basics = _basics(T)
+    if basics is None or not lasts(sit) or not _alone(facts, basics):
+        return
+    noted = sit._noted
+    if noted is None:
+        noted = {}
+        object.__setattr__(sit, "_noted", noted)
+    noted[T] = _grounds(facts, basics)
+
+
+def _is_noted(facts: Assignment, sit: Record, T: RecordType) -> bool:
+    noted = sit._noted
+    grounds = noted.get(T) if noted is not None else None
+    if grounds is None:
+        return False
+    functions, *told = grounds
+    if functions() is not facts.functions:
+        return False
+    basics = _basics(T) or ()
+    now = facts.told
+    return all(map(is_, told, [now.get(one) for one in basics])) and _alone(
+        facts, basics
+    )
+
+
+def _grounds(facts: Assignment, basics: tuple[Basic, ...]) -> Grounds:
+    told = facts.told
+    return (ref(facts.functions), *[told.get(one) for one in basics])
+
+
+def _alone(facts: Assignment, basics: tuple[Basic, ...]) -> bool:
+    """Whether nothing but what was told and seen says what is of these types."""
+    return facts.theory.related.isdisjoint(basics)
+
+
+@lru_cache(4096)
+def _basics(T: RecordType) -> tuple[Basic, ...] | None:
+    """The basic types in a type of lists, records and universes; None for another."""
+    within = (Basic, Universe, ListOf, RecordType)
+    found = list(occurring([T]))
+    if not all(isinstance(part, within) for part in found):
+        return None
+    return tuple(part for part in found if isinstance(part, Basic))
 
 
 def _singleton(facts: Assignment, sit: Object, T: Singleton, around: Around) -> bool:

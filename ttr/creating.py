@@ -16,7 +16,7 @@ from ttr.hypothetical import Hypothetical
 from ttr.judging import derivation, reduced
 from ttr.merging import merge
 from ttr.objects import Unresolved
-from ttr.paths import escaping, moved, occurring, replace_paths
+from ttr.paths import escaping, moved, parts, replace_paths
 from ttr.places import ITSELF, step
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED
@@ -157,9 +157,30 @@ def created(facts: Assignment, T: TypeNode, size: int = 0) -> tuple[Object, Assi
         if settled is T:
             raise
         sit, facts = _Making(size).one(facts, settled)
-    if any(isinstance(part, Negation) for part in occurring([T])):
+    if _denies(T):
         _check(facts, sit, T)
     return sit, facts
+
+
+def _denies(value: Object) -> bool:
+    """Whether a negation stands in the value."""
+    if type(value) is str:
+        return False
+    if isinstance(value, Negation):
+        return True
+    if not isinstance(value, TypeNode):
+        return _denies_inside(value)
+    try:
+        return value._denies
+    except AttributeError:
+        found = _denies_inside(value)
+    object.__setattr__(value, "_denies", found)
+    return found
+
+
+def _denies_inside(value: Object) -> bool:
+    same, inner = parts(value)
+    return any(map(_denies, same)) or any(map(_denies, inner))
 
 
 def _settled(T: TypeNode) -> TypeNode:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import islice
 from typing import TYPE_CHECKING, Literal, TypeAlias, assert_never
 
@@ -178,14 +179,20 @@ class Judgement(Drawn):
     """s : T with a probability: a situation, a type, an interval and the reason.
 
     Two judgements are equal when situation, type and probability are the same. `model`
-    is the model that has what was judged on the way.
+    is the model that has what was judged on the way. The reason may be derived when it
+    is first asked for.
     """
 
     sit: Object
     type: TypeNode
     p: Degree
-    why: Why
+    reason: Why | Callable[[], Why] = field(repr=False)
     model: Model = field(repr=False)
+
+    @cached_property
+    def why(self) -> Why:
+        """The derivation."""
+        return self.reason if isinstance(self.reason, Why) else self.reason()
 
     @property
     def holds(self) -> bool:

@@ -351,11 +351,13 @@ class Record(Drawn):
     ('fido', 3, True)
     """
 
-    __slots__ = ("__weakref__", "_fields", "_hash", "_lasts")
+    __slots__ = ("__weakref__", "_fields", "_hash", "_lasts", "_noted")
 
+    # `ttr.certainty` notes what a record was found to be of.
     _fields: dict[str, Object]
     _hash: int | None
     _lasts: bool | None
+    _noted: dict[Any, tuple[Any, ...]] | None
 
     def __init__(self, fields: Mapping[str, object]) -> None:
         for label in fields:
@@ -363,6 +365,7 @@ class Record(Drawn):
         object.__setattr__(self, "_fields", {k: freeze(v) for k, v in fields.items()})
         object.__setattr__(self, "_hash", None)
         object.__setattr__(self, "_lasts", None)
+        object.__setattr__(self, "_noted", None)
 
     def __getattr__(self, label: str) -> Object:
         if not label.startswith("_") and label in self._fields:

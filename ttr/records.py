@@ -50,6 +50,7 @@ def _with(r: Record, label: str, value: Object) -> Record:
     object.__setattr__(changed, "_fields", {**r._fields, label: value})
     object.__setattr__(changed, "_hash", None)
     object.__setattr__(changed, "_lasts", None)
+    object.__setattr__(changed, "_noted", None)
     return changed
 
 

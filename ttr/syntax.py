@@ -83,10 +83,12 @@ class TypeNode(Node):
     functions from S to T, `T @ a` a singleton; `S <= T` asks for subtyping.
     """
 
-    __slots__ = ("_applies", "_escaping", "_level")
+    __slots__ = ("_applies", "_denies", "_escaping", "_level")
 
-    # What was worked out of it once, by `ttr.paths`, `ttr.judging` and `ttr.levels`.
+    # What was worked out of it once, by `ttr.paths`, `ttr.judging`, `ttr.creating` and
+    # `ttr.levels`.
     _applies: bool
+    _denies: bool
     _escaping: frozenset[Path]
     _level: int
 

@@ -131,7 +131,8 @@ def has_rival(s: Record, beliefs: Beliefs) -> bool:
 
 def knows(words: Iterable[Record], sign: Record) -> bool:
     """Whether a word with the sign's predicate is among these."""
-    return any(word_of(known) is word_of(sign) for known in words)
+    own = word_of(sign)
+    return any(word_of(known) is own for known in words)
 
 
 def recognised(s: Record, model: Model, x: str) -> tuple[Record | None, Model]:

@@ -50,6 +50,7 @@ class Lexicon:
     examples: tuple[str, ...]
     not_understood: str
     pointing: str
+    answering: str
     articles: Articles
     inflections: Mapping[str, tuple[Inflection, ...]]
     main_forms: Mapping[str, str]
@@ -125,6 +126,7 @@ def lexicon(language: str = "en", wording: str = "paper") -> Lexicon:
         examples=tuple(understands["examples"]),
         not_understood=understands["not_understood"],
         pointing=understands["pointing"],
+        answering=understands["answering"],
         articles=Articles(
             articles.get("beginnings", {}),
             articles.get("endings", {}),

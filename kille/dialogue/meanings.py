@@ -28,6 +28,7 @@ from ttr import (
     record,
     rectype,
 )
+from ttr.paths import escaping
 from ttr.syntax import Object
 
 __all__ = [
@@ -101,7 +102,20 @@ def set_to(T: RecordType, **fields: TypeNode) -> RecordType:
     >>> print(set_to(rectype(x=Ind), x=Ind @ "o1"))
     [x = o1 : Ind]
     """
-    return rectype({**dict(T.fields), **fields})
+    types = {**dict(T.fields), **fields}
+    if all(label in T and _is_set(T[label], to) for label, to in fields.items()):
+        return RecordType(tuple(types.items()))
+    return rectype(types)
+
+
+def _is_set(field: TypeNode, to: TypeNode) -> bool:
+    """Whether a field is only set to an object, by which paths fit as they did."""
+    base = _unset(to)
+    return base is _unset(field) and escaping(base) == escaping(to) == escaping(field)
+
+
+def _unset(T: TypeNode) -> TypeNode:
+    return _unset(T.base) if isinstance(T, Singleton) else T
 
 
 def predicate_name(form: str) -> str:

@@ -136,11 +136,11 @@ def _beliefs(turn: Exchange) -> tuple[Record, ...]:
 
 
 def _belief(belief: Record) -> str:
-    """A belief as a judgement of the situation that makes the word's ptype true."""
+    """A belief as a judgement: that something makes the word's ptype true."""
     sit = belief.sit
-    for label, field in belief.sign.meaning.fields:
-        if isinstance(field, PType) and label in sit:
-            return f"{sit[label]} : {grounded(field, (sit,))}   p = {belief.p:.2f}"
+    for _, field in belief.sign.meaning.fields:
+        if isinstance(field, PType):
+            return f"some : {grounded(field, (sit,))}   p = {belief.p:.2f}"
     return f"{sit} : {belief.sign.meaning}   p = {belief.p:.2f}"
 
 

@@ -2,8 +2,20 @@
 
 from generators import models, objects, record_types, records, types
 from hypothesis import assume, given
+from hypothesis import strategies as st
 
-from ttr import ListOf, NonEmpty, TTRError, amerge, meet, merge
+from ttr import (
+    Basic,
+    ListOf,
+    Model,
+    NonEmpty,
+    TTRError,
+    amerge,
+    meet,
+    merge,
+    record,
+    rectype,
+)
 from ttr.certainty import certainly, certainly_also
 from ttr.probability import CERTAIN
 
@@ -39,3 +51,30 @@ def test_what_is_known_of_records_need_not_be_judged_again(T, known, M):
     for asked in (T, known, merge(T, known), amerge(known, T)):
         found = certainly_also(M.facts, r, asked, known)
         assert found == certainly(M.facts, r, asked)
+
+
+@given(record_types(), models(), st.sampled_from([0.0, 0.5, 1.0]), st.data())
+def test_what_was_told_anew_is_judged_anew(T, M, p, data):
+    try:
+        r, M = M.create(T)
+    except TTRError:
+        assume(False)
+    assert certainly(M.facts, r, T)
+    told = [(r[label], F) for label, F in T.fields if isinstance(F, Basic)]
+    assume(told)
+    try:
+        M = M.given(*data.draw(st.sampled_from(told)), p)
+    except TTRError:
+        assume(False)
+    assert certainly(M.facts, r, T) == (M.judge(r, T).p == CERTAIN)
+
+
+def test_other_witness_functions_judge_anew():
+    A = Basic("A")
+    r, T = record(x="a"), rectype(x=A)
+    short = Model().witnessed(A, by=lambda a: len(a) == 1)
+    assert certainly(short.facts, r, T)
+    long = short.witnessed(A, by=lambda a: len(a) > 1)
+    assert not certainly(long.facts, r, T)
+    assert not certainly(short.given("a", A, 0.5).facts, r, T)
+    assert certainly(short.facts, r, T)

@@ -18,12 +18,13 @@ import talking
 import travelling
 
 from kille.dialogue.moves import answering, plan
-from ttr import ListOf, Record, RecType, TypeNode, rectype, replace
+from ttr import ListOf, Model, Record, RecType, TypeNode, rectype, replace
 from ttr.questions import top
+from ttr.testing import ALL, Property
 from ttr.updates import Game, Rule
 from ttr.updates.algorithms import replaced
 
-__all__ = ["GAMES", "MUTANTS", "Mutant"]
+__all__ = ["GAMES", "MUTANTS", "Mutant", "properties_of"]
 
 GAMES: dict[str, ModuleType] = {
     "asking": asking,
@@ -32,6 +33,12 @@ GAMES: dict[str, ModuleType] = {
     "travel": travelling,
 }
 """The correct games, each with its tutor and its roles."""
+
+
+def properties_of(name: str) -> tuple[Property, ...]:
+    """What should hold of a game: its own properties, if it has any."""
+    return getattr(GAMES[name], "properties", ALL)
+
 
 Change = Callable[[Game], Game]
 
@@ -310,7 +317,7 @@ def one_lesson_only(game: Game) -> Game:
     def only(before: Record, found: Record) -> Record:
         return replace(found, {"shared.commitments": found.shared.commitments[-1:]})
 
-    return after(game, "keep_noun", only)
+    return after(game, "keep", only)
 
 
 @mutant("tutoring", "a rule that does not apply has cleared what is pending")
@@ -336,10 +343,11 @@ def latest_is_text(game: Game) -> Game:
 
 @mutant("tutoring", "nobody looks whether there is anything in view")
 def looks_at_nothing(game: Game) -> Game:
-    rule = rule_of(game, "learn_word")
+    rule = rule_of(game, "refer")
 
-    def effect(s: Record) -> object:
-        return replace(rule.effect(s) or s, {"view.focus": (s.view.focus[0],)})
+    def effect(s: Record, *, model: Model) -> object:
+        shown = replace(s, {"shared.salient": (s.view.focus[0],)})
+        return rule.effect(shown, model=model)
 
     return with_effect(game, rule.name, effect)
 

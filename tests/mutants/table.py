@@ -15,7 +15,7 @@ from hypothesis.errors import Flaky
 
 sys.path.append(str(Path(__file__).parent))
 
-from mutants import GAMES, MUTANTS, Mutant
+from mutants import GAMES, MUTANTS, Mutant, properties_of
 
 from ttr.strategies import dialogues
 from ttr.testing import ALL, Coverage, Dialogue
@@ -29,6 +29,7 @@ NAMES = (STATIC, *sorted((one.name for one in ALL), key=lambda name: int(name[1:
 def killers(mutant: Mutant, count: int) -> set[str]:
     """What finds the mutant: the static checks, and properties by their names."""
     game, beside = mutant.made, GAMES[mutant.game]
+    properties = properties_of(mutant.game)
     found = {STATIC} if faults_of(game) else set()
     coverage = Coverage(game)
 
@@ -44,7 +45,7 @@ def killers(mutant: Mutant, count: int) -> set[str]:
     @given(dialogues(game, beside.tutor))
     def look(dialogue: Dialogue) -> None:
         coverage.add(dialogue)
-        for one in ALL:
+        for one in properties:
             if one.name not in found and one.breach(dialogue, beside.roles):
                 found.add(one.name)
 
@@ -52,7 +53,9 @@ def killers(mutant: Mutant, count: int) -> set[str]:
         look()
     except Flaky:
         found.add("P3")
-    return found | {one.name for one in ALL if one.overall and one.overall(coverage)}
+    return found | {
+        one.name for one in properties if one.overall and one.overall(coverage)
+    }
 
 
 def table(count: int, named: str) -> Iterator[str]:

@@ -1,7 +1,8 @@
-"""The games of the robot, as a game that can be played without seeing anything.
+"""Games of the robot, as a game that can be played without seeing anything.
 
-What it would see is made up: of a thing in a look each word is true to a degree that
-depends on nothing but their names.
+They are those of the paper, without what only other strategies, other games or what is
+misheard bring about. What it would see is made up: of a thing in a look each word is
+true to a degree that depends on nothing but their names.
 """
 
 from __future__ import annotations
@@ -10,17 +11,73 @@ from dataclasses import replace
 from functools import cache, partial
 from zlib import crc32
 
+from kille.dialogue.games.clarifying import (
+    ask_once_more,
+    ask_yes_to_which,
+    drop_question,
+    take_described,
+    take_none,
+    wonder_at_mention,
+)
+from kille.dialogue.games.confirming import (
+    ask_again,
+    ask_which,
+    learn_confirmed,
+    wonder_what,
+    wonder_why,
+)
+from kille.dialogue.games.costing import CORRECTED
+from kille.dialogue.games.courtesy import COURTESY, REPEATING
+from kille.dialogue.games.initiating import ask_relation
+from kille.dialogue.games.instructing import learn_relation, learn_word, need_places
+from kille.dialogue.games.listening import GLANCED, SAID, SEEN, hear
+from kille.dialogue.games.naming import (
+    admit_name,
+    assert_name,
+    guess_name,
+    hedge_name,
+    recognise,
+)
+from kille.dialogue.games.placing import PLACING
+from kille.dialogue.games.referring import REFERRING
 from kille.dialogue.meanings import noun, predicate_at, relation, theory, word_of
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
+from kille.simulation.properties import RETRACTED
 from ttr import Judgement, Model, PType, Record, RecordType, TypeNode, record
-from ttr.syntax import Object
-from ttr.testing import Roles, Tutor
+from ttr.testing import ALL, Roles, Tutor
+from ttr.updates import first, maybe, seq
 
-NOUNS = [noun(form) for form in ("cup", "book", "box")]
-RELATIONS = [relation("to the left of")]
+SIGNS = [*map(noun, ("cup", "book", "box")), relation("to the left of")]
 LOOKS = tuple(f"look{number}" for number in range(1, 13))
 THINGS = ("o1", "o2", "o3")
+
+
+# --- the games -----------------------------------------------------------------------
+
+CLARIFYING = first(
+    take_described,
+    take_none,
+    ask_once_more,
+    ask_yes_to_which,
+    seq(drop_question, maybe(wonder_at_mention)),
+    wonder_at_mention,
+)
+CONFIRMING = first(learn_confirmed, ask_which, wonder_what, ask_again, wonder_why)
+INSTRUCTING = first(learn_word, learn_relation, need_places)
+NAMING = seq(maybe(recognise), first(assert_name, hedge_name, guess_name, admit_name))
+RULES = first(
+    seq(
+        hear,
+        maybe(CORRECTED),
+        first(REPEATING, maybe(CLARIFYING)),
+        maybe(REFERRING),
+        maybe(first(CONFIRMING, INSTRUCTING, NAMING, PLACING, COURTESY)),
+    ),
+    SAID,
+    GLANCED,
+    seq(SEEN, maybe(ask_relation)),
+)
 
 
 # --- what it sees --------------------------------------------------------------------
@@ -39,27 +96,35 @@ def degree(word: str, *seen: str) -> float:
     return likely[number % 4][rank]
 
 
+def degree_beside(word: str, x: str, y: str, look: str, front: str) -> float:
+    """How probable a relation is of two things: the same in every perspective."""
+    return degree(word, x, y, look)
+
+
 def witnessed(model: Model, signs: list[Record]) -> Model:
     """The model in which these words are judged of what is seen."""
     for sign in signs:
         word = word_of(sign)
-        model = model.witnessed(word, by=partial(degree, word.name))
+        by = degree_beside if sign.kind == "relation" else degree
+        model = model.witnessed(word, by=partial(by, word.name))
     return model
 
 
-def seen(look: str) -> Record:
-    """What is to be seen in a look: up to three things, mostly with their places."""
+def seen(look: str, floor: str = "robot") -> Record:
+    """What is to be seen in a look: up to three things, mostly with their places.
+
+    A thing that is still there has kept its name.
+    """
     number = int(look.removeprefix("look"))
     things = THINGS[: number % 5]
     placed = things if number % 4 else ()
-    return record(
-        view=record(look=look, things=things, placed=placed, focus=things[:1])
-    )
+    view = record(look=look, things=things, placed=placed, focus=things[:1])
+    return record(view=view, kept=things, floor=floor)
 
 
 def model() -> Model:
     """What there is before the dialogue begins."""
-    found = witnessed(blank_model(), [*NOUNS, *RELATIONS])
+    found = witnessed(blank_model(), SIGNS)
     for look in LOOKS:
         found = found.given(look, theory()["Look"])
     for x in THINGS:
@@ -70,10 +135,10 @@ def model() -> Model:
 # --- what it does --------------------------------------------------------------------
 
 
-def act(planned: TypeNode, so_far: Model) -> tuple[Object, Model]:
+def act(planned: TypeNode, so_far: Model) -> tuple[Record, Model]:
     """Makes a move; a lesson makes the robot able to judge a new word."""
     move, so_far = so_far.create(planned)
-    if act_of(planned) in ("learned", "learned_relation"):
+    if move.teaches:
         so_far = witnessed(so_far, list(move.signs))
     return move, so_far
 
@@ -84,49 +149,62 @@ def act_of(T: TypeNode) -> str:
     return predicate_at(T, "e").name
 
 
-plain = tutoring(NOUNS, RELATIONS, model=model(), act=act)
-game = replace(plain, hear=cache(plain.hear))
+game = tutoring(SIGNS, rules=RULES, model=model(), act=act)
+assert game.hear is not None
+game = replace(game, hear=cache(game.hear))
 
 
 # --- the tutor -----------------------------------------------------------------------
 
-SEEN = tuple(map(seen, LOOKS))
+LOOKED = tuple(map(seen, LOOKS))
+GLIMPSED = tuple(seen(look, "tutor") for look in LOOKS[::4])
 SAYS = (
     "What is this?",
     "This is a cup.",
     "This is a ball.",
     "Where is the book?",
+    "Where is the box?",
     "Where is the ball?",
     "The book is to the left of the cup.",
     "The cup is behind the box.",
     "The ball is near the book.",
     "Yes.",
     "No.",
-    "No, it is a box.",
+    "The first one.",
+    "Say that again.",
     "Hello.",
     "Thank you.",
+    "OK.",
     "Goodbye.",
     "Help.",
     "Colourless green ideas.",
 )
-CLAIMS = ("Yes.", "No.", "No, it is a box.")
+CLAIMS = ("Yes.", "Yes.", "No.", "No.", "This is a box.")
+UNCLEAR = {"look4", "look8"}
+"""Where two things might be a box."""
+
+CHOICES = ("The first one.", "The book.", "The ball.", "Yes.", "No.", SAYS[0])
 REPLIES = {
     "admit_name": ("This is a cup.", "This is a ball."),
     "ask_again": ("This is a cup.", "This is a box."),
     "ask_which": ("This is a cup.", "Yes."),
     "ask_relation": ("The book is to the left of the cup.", "The cup is near the box."),
     "admit_place": ("The book is to the left of the cup.", "The cup is near the box."),
-    "unknown_word": ("This is a ball.",),
+    "unknown_noun": ("This is a ball.",),
 }
 
 
 def replies(state: Record, model: Model) -> tuple[object, ...]:
-    """What answers what the robot said, or a new look and a question."""
+    """What answers what the robot said, or else a lesson, a question or a new look."""
+    if state.shared.qud:
+        return CHOICES
     if state.shared.pending:
         return CLAIMS
     if not state.view.focus:
-        return (*SEEN, *SAYS[:3])
-    return REPLIES.get(latest_act(state, model), (*SAYS[:6], *SEEN))
+        return (*LOOKED, *SAYS[:3])
+    if state.view.look in UNCLEAR:
+        return ("Where is the box?", SAYS[0], SAYS[0], SAYS[1])
+    return REPLIES.get(latest_act(state, model), (*SAYS[:7], *LOOKED))
 
 
 def latest_act(state: Record, model: Model) -> str:
@@ -138,44 +216,57 @@ def latest_act(state: Record, model: Model) -> str:
     return next((T.pred.name for T in types), "")
 
 
-tutor = Tutor(moves=(*SAYS, *SEEN), replies=replies, answers=0.6, wanders=0.3)
+tutor = Tutor(
+    moves=(*SAYS, *LOOKED[::2], *GLIMPSED), replies=replies, answers=0.6, wanders=0.3
+)
 
+MISSING = {"see_nothing", "see_no_such"}
+ASKING = {"ask_referent", "offer_referents"}
 FITTING = {
-    "instruct": {"learned", "see_nothing"},
-    "ask_name": {
-        "assert_name",
-        "hedge_name",
-        "guess_name",
-        "admit_name",
-        "see_nothing",
-    },
-    "affirm": {"learned", "learned_relation", "ask_which", "ask_which_place", "wonder"},
-    "deny": {"ask_again", "wonder"},
-    "relate": {"learned_relation", "unknown_word", "see_no_such", "need_depth"},
+    "instruct": {"learned", *MISSING},
+    "ask_name": {"assert_name", "hedge_name", "guess_name", "admit_name", *MISSING},
+    "affirm": {"learned", "learned_relation", "ask_which", "ask_which_place", "wonder"}
+    | ASKING,
+    "deny": {"ask_again", "wonder", "resign"},
+    "relate": {"learned_relation", "unknown_noun", "same_thing", "need_depth"}
+    | MISSING
+    | ASKING,
     "ask_place": {
-        *("assert_place", "hedge_place", "guess_place", "admit_place", "see_no_such"),
-        *("need_landmark", "need_depth", "unknown_word"),
-    },
+        *("assert_place", "hedge_place", "guess_place", "admit_place"),
+        *("need_landmark", "need_depth", "unknown_noun"),
+    }
+    | MISSING
+    | ASKING,
     "ask_help": {"give_help"},
     "greet": {"greet_back"},
     "thank": {"welcome"},
+    "okay": {"noted"},
     "leave": {"part"},
 }
 """What the robot may answer to what the tutor does."""
+
+FITTING["mention"] = {"what_about"} | FITTING["relate"] | FITTING["ask_place"]
+"""Which thing was meant: what answers the move that this was asked about."""
 
 
 def fits(event: Judgement | None, move: Judgement) -> bool:
     """Whether the robot's move is an answer to what was said or seen."""
     if event is None:
         return False
+    assert isinstance(event.type, RecordType)
     if "view" in event.type:
         return act_of(move.type) == "ask_relation"
-    return act_of(move.type) in FITTING[act_of(event.type)]
+    asked = act_of(event.type)
+    return asked == "ask_repeat" or act_of(move.type) in FITTING[asked]
 
 
 roles = Roles(
+    qud="shared.qud",
     commitments="shared.commitments",
     latest="shared.latest",
     fits=fits,
+    retracts=frozenset({"keep"}),
     moves=1,
 )
+properties = (RETRACTED, *(one for one in ALL if one.name != RETRACTED.name))
+"""What is taken back is told exactly by the moves of these games."""

@@ -16,9 +16,10 @@ from ttr.files import why_unread
 from ttr.interning import identity
 from ttr.notation import trees
 from ttr.notation.drafts import Draft, Names, is_declared, meaning
-from ttr.notation.grammar import blocks, statement, vetted
+from ttr.notation.plain import plain_statement
+from ttr.notation.scanning import blocks, vetted
 from ttr.notation.statements import Declaring, mentioned
-from ttr.notation.trees import Part, Source
+from ttr.notation.trees import Part, Source, Statement
 from ttr.theories import Mistakes, Theory
 
 __all__ = ["Unreadable", "theory_of_file", "theory_of_text"]
@@ -117,6 +118,16 @@ def _contents(path: Path) -> tuple[Path, str]:
         raise Unreadable(f"{str(path)!r} is no path of a file") from None
 
 
+def _statement(source: Source, start: int, end: int) -> Statement:
+    """text[start:end] as a statement; the grammar is made ready where it is needed."""
+    plain = plain_statement(source, start, end)
+    if plain is not None:
+        return plain
+    from ttr.notation import grammar
+
+    return grammar.statement(source, start, end)
+
+
 _DECLARES = re.compile(
     r"(basic|pred|object)\s+(.*)|(?:rule|strategy|game)\s+(\w+)|(\w+)\s*:="
 )
@@ -165,7 +176,7 @@ class _File:
     def go_on(self, start: int, end: int) -> None:
         """Reads the statement text[start:end]."""
         try:
-            tree = statement(self.source, start, end)
+            tree = _statement(self.source, start, end)
             if not mentioned(tree).isdisjoint(self.spoilt):
                 self._spoil(start)
             elif isinstance(tree, trees.Import):

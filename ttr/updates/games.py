@@ -16,7 +16,7 @@ from ttr.errors import Endless, NotHeard, TTRError, UpdateError, suggestion
 from ttr.judgements import Judgement
 from ttr.models import Model, as_model
 from ttr.printing import notation
-from ttr.probability import REFUTED
+from ttr.probability import CERTAIN, REFUTED
 from ttr.syntax import (
     Object,
     Record,
@@ -181,7 +181,7 @@ class Game:
                     f"no rule takes the move {planned[0]}, so it stays on the agenda",
                     hint="write a rule that takes it off when it has been made",
                 )
-            said.append(model.judge(move, planned[0]))
+            said.append(_judged(move, planned[0], model))
             after = following
         return Turn(event, happened, tuple(said), after)
 
@@ -277,6 +277,13 @@ class Game:
             f"the act of the game {self.name} gives an event and a model, but it gave "
             f"{in_short(made)}"
         )
+
+
+def _judged(move: Object, T: TypeNode, model: Model) -> Judgement:
+    """The judgement that a move is of the planned type; why, is derived when asked."""
+    if not certainly(model.facts, move, T):
+        return model.judge(move, T)
+    return Judgement(move, T, CERTAIN, lambda: model.judge(move, T).why, model)
 
 
 def _shown(event: Object | NBest) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from linecache import checkcache, getlines
 from typing import TypeAlias
 
 from ttr.errors import Span, TTRError, UpdateError
@@ -220,17 +221,16 @@ def _written_at(effect: Effect) -> Span | None:
     code = getattr(effect, "__code__", None)
     if code is None:
         return None
-    try:
-        lines, first = inspect.getsourcelines(effect)
-    except (OSError, TypeError):
-        return None
-    for number, line in enumerate(lines):
+    first = code.co_firstlineno
+    checkcache(code.co_filename)
+    lines = getlines(code.co_filename, getattr(effect, "__globals__", None))
+    for number, line in enumerate(lines[first - 1 :], first):
         column = line.find(f"def {code.co_name}")
         if column >= 0:
             column += len("def ")
             length = len(code.co_name)
             text = line.rstrip("\n")
-            return Span(code.co_filename, first + number, column + 1, length, text)
+            return Span(code.co_filename, number, column + 1, length, text)
     return None
 
 

@@ -7,7 +7,7 @@ fails, or a state that leaves its type, changes nothing.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf
 from time import perf_counter
@@ -157,12 +157,29 @@ def continued(
 # --- playing -------------------------------------------------------------------------
 
 
+class _Asked:
+    """Of which conditions one state was found to be or not, in one model."""
+
+    def __init__(self) -> None:
+        self._about: tuple[Record, Model] | None = None
+        self._answers: dict[TypeNode, bool] = {}
+
+    def about(self, state: Record, model: Model) -> dict[TypeNode, bool]:
+        """The answers so far, none where it is another state or model."""
+        known = self._about
+        if known is None or known[0] is not state or known[1] is not model:
+            self._about = (state, model)
+            self._answers = {}
+        return self._answers
+
+
 @dataclass(frozen=True)
 class _Player:
     """Plays one event; its methods give the run so far, or None if nothing applies."""
 
     type: RecordType
     event: Object | NBest
+    asked: _Asked = field(default_factory=_Asked)
 
     def play(self, algorithm: Algorithm, so_far: Run) -> Run | None:
         match algorithm:
@@ -321,7 +338,12 @@ class _Player:
         return Heard(None if isinstance(self.event, NBest) else self.event, CERTAIN)
 
     def _holds(self, when: TypeNode, state: Record, model: Model) -> bool:
-        return certainly_also(model.facts, state, when, self.type)
+        """Whether the state is of a condition; several rules may have the same."""
+        answers = self.asked.about(state, model)
+        known = answers.get(when)
+        if known is None:
+            known = answers[when] = certainly_also(model.facts, state, when, self.type)
+        return known
 
     def _bound(
         self, rule: Rule, state: Record, event: Heard, model: Model

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from operator import is_
 
-from ttr.certainty import certainly
+from ttr.certainty import certainly, note
 from ttr.errors import NoState, UpdateError
 from ttr.models import Model
 from ttr.objects import lasts
@@ -37,13 +38,25 @@ def still_of(before: Record, after: Record, T: RecordType, model: Model) -> bool
     What is the same object in both, cannot have changed inside, and is of a type that
     mentions nothing else, need not be judged again.
     """
+    if _depends(T):
+        return False
     was, found = before._fields, after._fields
+    keeps = _keeps(before, model)
     for label, field in T.fields:
-        if label not in found or escaping(field):
+        if label not in found:
             return False
+        if keeps and was[label] is found[label]:
+            continue
         if not _part_still_of(was[label], found[label], field, model):
             return False
+    note(model.facts, after, T)
     return True
+
+
+@lru_cache(4096)
+def _depends(T: RecordType) -> bool:
+    """Whether what is in one field depends on what is in another, or further out."""
+    return any(escaping(field) for _, field in T.fields)
 
 
 def _part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> bool:

@@ -17,7 +17,7 @@ from kille.dialogue.reference import Judging, fits_well, phrase_at
 from ttr import Model, Record, replace
 from ttr.updates import first, maybe, rule, seq
 
-__all__ = ["CLARIFYING"]
+__all__ = ["CLARIFYING", "asked_which"]
 
 AGAIN = {"AskReferent": "AskReferentAgain"}
 """How a question is put on record when it is asked once more."""
@@ -43,7 +43,7 @@ def take_only(s: Record) -> Record | None:
 @rule(when=answering("Deny"))
 def take_none(s: Record) -> Record | None:
     """The tutor means none of these things: the question is dropped."""
-    return plan(_dropped(s), "Resign") if _asked_which(s) else None
+    return plan(_dropped(s), "Resign") if asked_which(s) else None
 
 
 @rule(when=answering("Mention"))
@@ -74,7 +74,7 @@ def drop_question(s: Record) -> Record | None:
 
 
 wonder_at_mention = reply(
-    "Mention", "Wonder", "The robot has asked nothing that this would answer."
+    "Mention", "WhatAbout", "The robot has asked nothing that this would answer."
 )
 
 
@@ -90,14 +90,14 @@ def _options(s: Record) -> Sequence[Record]:
     return options
 
 
-def _asked_which(s: Record) -> bool:
+def asked_which(s: Record) -> bool:
     """Whether the question under discussion is which thing was meant."""
     return bool(s.shared.qud) and s.shared.qud[0].ask in REFERENTS
 
 
 def _described(s: Record, model: Model) -> Sequence[Record]:
     """The options about a thing that the tutor's phrase is true of."""
-    if not _asked_which(s):
+    if not asked_which(s):
         return ()
     options = _options(s)
     _, things = differing(options)

@@ -1,4 +1,4 @@
-"""Answers that need no thought: greetings, thanks, help, the same again, farewell."""
+"""Answers that need no thought: a greeting, thanks, help, OK, farewell, say again."""
 
 from __future__ import annotations
 
@@ -38,5 +38,6 @@ COURTESY = first(
     reply("AskHelp", "GiveHelp", "It says what it understands."),
     reply("Greet", "GreetBack", "A greeting is returned."),
     reply("Thank", "Welcome", "Thanks are acknowledged."),
+    reply("Okay", "Noted", "The tutor has taken something in, or lets it be."),
     reply("Leave", "Part", "The tutor takes leave, and so does the robot."),
 )

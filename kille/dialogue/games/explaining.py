@@ -6,8 +6,10 @@ that speak for the word, and the lesson that the thing is most like.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from kille.dialogue.beliefs import about, has_rival, knows, thinks
-from kille.dialogue.commitments import affirmed, kind_of, signs_for
+from kille.dialogue.commitments import affirmed, kind_of, same, signs_for
 from kille.dialogue.meanings import (
     claims,
     is_denial,
@@ -69,7 +71,7 @@ def explain(s: Record, *, model: Model) -> Update | None:
         signs=signs_for(s, claim, other),
         degrees=p,
         explains=[claim],
-        pending=s.shared.pending,
+        pending=_still_claimed(s, claim),
     )
     return explained, model
 
@@ -111,6 +113,13 @@ def _asked_about(s: Record) -> RecordType | None:
     return s.shared.pending[0] if s.shared.pending else None
 
 
+def _still_claimed(s: Record, claim: RecordType) -> Sequence[RecordType]:
+    """What was claimed and may be confirmed: nothing, if he asks of another claim."""
+    pending: Sequence[RecordType] = s.shared.pending
+    asked = affirmed(claim)
+    return pending if any(same(asked, affirmed(it)) for it in pending) else ()
+
+
 def _told(s: Record, model: Model, claim: RecordType) -> Update:
     """The plan to say how certain a claim is."""
     own, rival, model = _judged(s, model, affirmed(claim))
@@ -124,7 +133,7 @@ def _told(s: Record, model: Model, claim: RecordType) -> Update:
         other,
         signs=signs_for(s, claim, other),
         degrees=p,
-        pending=s.shared.pending,
+        pending=_still_claimed(s, claim),
     )
     return told, model
 

@@ -116,7 +116,7 @@ def answer_anew(s: Record, *, model: Model) -> Update | None:
 def learn_anew(s: Record) -> Record | None:
     """The tutor corrects the perspective of a lesson: it is learned in the other."""
     lesson = next(iter(s.private.lessons[-1:]), None)
-    if lesson is None or "rel" not in lesson.content:
+    if lesson is None or "rel" not in lesson.content or not _just_learned(s, lesson):
         return None
     settled = _in(s, _frame_in(content_of(s)))
     landmark = str(thing_at(lesson.content, "landmark"))
@@ -239,6 +239,11 @@ def _asked_last(s: Record) -> tuple[str, RecordType] | None:
     if act == "AskWhether":
         return act, set_to(content, frame=theory()["Front"])
     return act, set_at(named("Asked"), "target.x", str(thing_at(content, "target")))
+
+
+def _just_learned(s: Record, lesson: Record) -> bool:
+    """Whether it is of this lesson that the robot has spoken last."""
+    return any(lesson.content in value_at(it, "teaches") for it in s.private.last)
 
 
 def _in(s: Record, frame: str) -> Record:

@@ -80,6 +80,14 @@ def miss_word(s: Record, *, model: Model) -> Record | None:
 
 
 @rule(when=UNANSWERED)
+def miss_second(s: Record, *, model: Model) -> Record | None:
+    """The tutor talks of two things, and only one and the same is in view for both."""
+    content = content_of(s)
+    both = len(phrases(content)) > 1 and not any(_missing(s, model, content))
+    return plan(s, "SameThing") if both else None
+
+
+@rule(when=UNANSWERED)
 def miss_thing(s: Record, *, model: Model) -> Record | None:
     """The tutor talks of something that is not in view."""
     content = content_of(s)
@@ -166,4 +174,4 @@ def _missing(s: Record, model: Model, content: RecordType) -> Iterator[RecordTyp
             yield alone
 
 
-REFERRING = first(refer, ask_referent, miss_word, miss_thing)
+REFERRING = first(refer, ask_referent, miss_word, miss_second, miss_thing)

@@ -31,7 +31,7 @@ MISSPELT = {
     ("talk", "synthetic"): "there is no synthetic",
     ("demo", "--seed", "x"): "x is no whole number",
     ("demo", "--seed", "-1"): "-1 is no whole number",
-    ("talk", "--lang", "sv"): "there is no sv: try en",
+    ("talk", "--lang", "fr"): "there is no fr: try en, sv",
     ("memory", "list", "--jsn"): "did you mean --json?",
     ("doctor", "--jason"): "did you mean --json?",
     ("--verison",): "did you mean --version?",

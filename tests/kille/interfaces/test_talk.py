@@ -140,10 +140,10 @@ def test_a_trace_shows_the_judgements_and_fits_the_line(kille: Run) -> None:
     said = talked(kille, f"{SHOWN}This is a cup.\nWhat is this?\n", "--trace")
     assert all(len(line) <= 100 for line in said)
     text = re.sub(r"\s+", " ", " ".join(said))
-    assert "content = [look : Look, x : Ind, c : cup(x, look)] : RecType" in text
-    assert "e : instruct(spkr, addr)]" in text
-    assert "learn_word: The tutor names the thing in focus" in text
-    assert re.search(r"judged e\d+ : cup\(o1, look\d\) p = 0\.\d\d|p = 1\.00", text)
+    assert re.search(r"heard s\d+ : instruct\(tutor, robot\)", text)
+    assert 'word "cup", noun : [look : Look, x : Ind, c : cup(x, look)]' in text
+    assert "learn_word: The tutor names a thing in view" in text
+    assert re.search(r"judged some : cup\(o1, look\d\) p = 0\.\d\d|p = 1\.00", text)
     assert re.search(r"said s\d+ : assert_name\(robot, tutor\)", text)
 
 
