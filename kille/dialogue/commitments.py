@@ -17,6 +17,7 @@ from kille.dialogue.meanings import (
     theory,
     word_of,
 )
+from kille.dialogue.moves import plan
 from kille.dialogue.reference import PARTS, thing_at, things_in
 from kille.dialogue.state import words
 from ttr import Pred, Record, RecordType
@@ -28,6 +29,7 @@ __all__ = [
     "affirmed",
     "is_here",
     "kind_of",
+    "learning",
     "lessons_in",
     "remaining",
     "said_here",
@@ -149,3 +151,15 @@ def signs_for(s: Record, *contents: RecordType) -> Sequence[Record]:
         if any(claims(it, sign) for it in contents):
             found.setdefault(word_of(sign), sign)
     return tuple(found.values())
+
+
+def learning(s: Record, content: RecordType) -> Record:
+    """The plan to learn a content, and to unlearn the lessons that it contradicts."""
+    return plan(
+        s,
+        act_of(content),
+        content,
+        signs=signs_for(s, content),
+        teaches=[content],
+        forgets=undone(s, content),
+    )

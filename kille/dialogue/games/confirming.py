@@ -5,11 +5,16 @@ Source: Dobnik and de Graaf 2017, section 3; Larsson 2013 for what is rejected.
 
 from __future__ import annotations
 
-from kille.dialogue.commitments import act_of, affirmed, signs_for, undone, weakened
+from kille.dialogue.commitments import (
+    affirmed,
+    learning,
+    signs_for,
+    weakened,
+)
 from kille.dialogue.meanings import is_denial
 from kille.dialogue.moves import answering, plan, used
 from kille.dialogue.state import words
-from ttr import Record, RecordType
+from ttr import Record
 from ttr.updates import first, rule
 
 __all__ = ["CONFIRMING"]
@@ -20,7 +25,7 @@ def learn_confirmed(s: Record) -> Record | None:
     """The tutor confirms the robot's one claim: it is a lesson about that look."""
     if len(s.shared.pending) != 1:
         return None
-    return _learned(s, s.shared.pending[0])
+    return learning(s, s.shared.pending[0])
 
 
 ASKED = {"c": "AskWhich", "a": "AskWhichQuality", "rel": "AskWhichPlace"}
@@ -49,7 +54,7 @@ def learn_after_all(s: Record) -> Record | None:
     """The robot said that something is not so, and the tutor rejects that: so it is."""
     if len(s.shared.pending) != 1 or not is_denial(s.shared.pending[0]):
         return None
-    return _learned(s, affirmed(s.shared.pending[0]))
+    return learning(s, affirmed(s.shared.pending[0]))
 
 
 @rule(when=answering("Deny"))
@@ -66,18 +71,6 @@ def ask_again(s: Record) -> Record | None:
 def wonder_why(s: Record) -> Record:
     """The robot has claimed nothing to reject."""
     return plan(s, "Wonder")
-
-
-def _learned(s: Record, content: RecordType) -> Record:
-    """The plan to learn what the tutor has settled."""
-    return plan(
-        s,
-        act_of(content),
-        content,
-        signs=signs_for(s, content),
-        teaches=[content],
-        forgets=undone(s, content),
-    )
 
 
 CONFIRMING = first(

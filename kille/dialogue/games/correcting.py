@@ -17,6 +17,7 @@ from kille.dialogue.commitments import (
     affirmed,
     is_here,
     kind_of,
+    learning,
     lessons_in,
     same,
     signs_for,
@@ -62,7 +63,7 @@ def correct(s: Record) -> Record | None:
 def accept(s: Record) -> Record | None:
     """The tutor corrects what nobody has said: learn what is so."""
     content = _right(s)
-    return _learned(s, content) if _places_known(s, content) else None
+    return learning(s, content) if _places_known(s, content) else None
 
 
 @rule(when=answering("Reject"))
@@ -75,7 +76,7 @@ def reject(s: Record) -> Record | None:
     was_taught = bool(lessons_in(s, wrong))
     was_claimed = any(same(wrong, it) and is_here(s, it) for it in s.shared.pending)
     if was_claimed or not was_taught:
-        return _learned(s, content)
+        return learning(s, content)
     return plan(
         s,
         act_of(content),
@@ -95,18 +96,6 @@ def need_places_to_correct(s: Record) -> Record:
 def need_places_to_reject(s: Record) -> Record:
     """The things are in view, but not where they are."""
     return plan(s, "NeedDepth")
-
-
-def _learned(s: Record, content: RecordType) -> Record:
-    """The plan to learn a content, and to unlearn the lessons that it contradicts."""
-    return plan(
-        s,
-        act_of(content),
-        content,
-        signs=signs_for(s, content),
-        teaches=[content],
-        forgets=undone(s, content),
-    )
 
 
 def _places_known(s: Record, content: RecordType) -> bool:
