@@ -14,80 +14,58 @@ import argparse
 import json
 import time
 from collections import Counter
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Iterator
 
-from kille.simulation.playing import simulated
 from kille.simulation.properties import OF_TUTORING
-from kille.simulation.tutoring import roles
+from kille.simulation.robots import ROBOTS, Robot
+from kille.simulation.tutoring import roles_in
 from kille.simulation.tutors import tutoring
-from kille.simulation.worlds import drawn
 from ttr.testing import ALL, Report, Suite
 
-
-@dataclass(frozen=True)
-class Robot:
-    """Who the tutor talks to, in which language, in which share of the dialogues."""
-
-    name: str
-    share: float
-    language: str = "en"
-    strategy: Mapping[str, str] = field(default_factory=dict)
-    world: Mapping[str, Any] = field(default_factory=dict)
+BATCH = 40
+"""How many dialogues there are in one world."""
 
 
-ROBOTS = (
-    Robot("assisted", 0.3),
-    Robot("assisted, seeing flat pictures", 0.05, world={"deep": False}),
-    Robot("assisted, seeing badly", 0.1, world={"noise": 0.12, "things": 5}),
-    Robot("assisted, Swedish", 0.15, "sv"),
-    Robot("assisted, four bands", 0.1, strategy={"wording": "four"}),
-    Robot("autonomous", 0.1, strategy={"mode": "autonomous"}),
-    Robot(
-        "autonomous, four bands",
-        0.1,
-        strategy={"mode": "autonomous", "wording": "four"},
-    ),
-    Robot("driven", 0.1, strategy={"mode": "driven"}),
-)
-
-
-def played(robot: Robot, count: int, options: argparse.Namespace) -> Report:
-    """What comes of so many dialogues with a robot."""
-    world = drawn(options.seed, **robot.world)
+def played(robot: Robot, count: int, options: argparse.Namespace) -> Iterator[Report]:
+    """What comes of so many dialogues with a robot, in one world after the other."""
     checked = () if options.plain else (*OF_TUTORING, *ALL)
-    suite = Suite(
-        simulated(world, language=robot.language, **robot.strategy),
-        tutoring(robot.language),
-        # What no dialogue of one robot applied may be for another: it is told below.
-        properties=tuple(one for one in checked if one.name != "P6"),
-        roles=roles,
-        turns=options.turns,
-        examples=count,
-        seed=options.seed,
-    )
-    return suite.run()
+    for number, left in enumerate(range(count, 0, -BATCH)):
+        seed = options.seed + len(ROBOTS) * number + ROBOTS.index(robot)
+        yield Suite(
+            robot.game(seed),
+            tutoring(robot.language),
+            # What no dialogue of one robot applied may be for another: told below.
+            properties=tuple(one for one in checked if one.name != "P6"),
+            roles=roles_in(robot.language),
+            turns=options.turns,
+            examples=min(BATCH, left),
+            seed=seed,
+        ).played()
 
 
 def facts(options: argparse.Namespace) -> Iterator[dict[str, object]]:
-    """What came of the dialogues with each robot."""
+    """What came of the dialogues with each robot, up to the first that went wrong."""
     for robot in ROBOTS:
         count = max(1, round(options.dialogues * robot.share))
-        start = time.process_time()
-        report = played(robot, count, options)
+        start, wrong = time.process_time(), ""
+        dialogues, turns, rules = 0, 0, Counter[str]()
+        for report in played(robot, count, options):
+            dialogues += report.coverage.dialogues
+            turns += report.coverage.turns
+            rules.update(
+                {name: report.coverage.rules[name] for name in report.coverage.names}
+            )
+            if wrong := report.told():
+                break
         spent = time.process_time() - start
-        turns = report.coverage.turns
         yield {
             "robot": robot.name,
-            "dialogues": report.coverage.dialogues,
+            "dialogues": dialogues,
             "turns": turns,
             "seconds": round(spent, 1),
             "milliseconds a turn": round(1000 * spent / max(1, turns), 2),
-            "wrong": report.told(),
-            "rules": {
-                name: report.coverage.rules[name] for name in report.coverage.names
-            },
+            "wrong": wrong,
+            "rules": dict(rules),
         }
 
 

@@ -6,7 +6,8 @@ The whole robot looks at the scenes of `ycbv_scenes` (in `../shared/data`, or wh
 KILLE_DATA says). The tutor points at things, names them, asks, confirms, corrects,
 forgets, contradicts himself, talks nonsense and goes to another scene. Each turn has an
 answer and leads to a state; what is learned was said. How often the robot names a thing
-rightly that it was taught is told at the end: other scenes count as well.
+rightly that it was taught is told at the end: other scenes count as well. A frame that
+was seen before is not taken apart again. Ctrl-C tells of what was played so far.
 """
 
 from __future__ import annotations
@@ -17,15 +18,26 @@ import os
 import time
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import cache, lru_cache
 from pathlib import Path
 from random import Random
 
 from kille.agent import Agent
-from kille.dialogue.meanings import named, predicate_at, word_of
+from kille.dialogue.commitments import affirmed
+from kille.dialogue.meanings import is_denial, named, predicate_at, word_of
+from kille.gaze import Attention
+from kille.perception.look import Sighting, look
+from kille.scene import Frame, Look
+from kille.sensors.sensor import SensorError
+from kille.sensors.sources import open_sensor
 
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = ("0001", "0002", "0050")
+KEPT = 800
+"""How many looks are kept, with what was found in them."""
+
 NONSENSE = ("", "?!", "Colourless green ideas sleep.", "The unicorn.", "no no no")
 FORGOTTEN = ("Forget that.", "Forget the last thing.")
 ASKED = (
@@ -50,6 +62,65 @@ def captures() -> Path:
     return Path(data) / "ycbv_scenes"
 
 
+@cache
+def frames_of(scene: Path) -> tuple[Frame, ...]:
+    """The frames of a scene, in order of time."""
+    recording, frames = open_sensor(f"{scene}?loop=no"), []
+    with suppress(SensorError):
+        while True:
+            frames.append(recording.frame())
+    recording.close()
+    return tuple(frames)
+
+
+@dataclass
+class Frames:
+    """A source that gives these frames, one after the other, again and again."""
+
+    name: str
+    frames: tuple[Frame, ...]
+    given: int = 0
+
+    def frame(self) -> Frame:
+        """The next frame."""
+        self.given += 1
+        return self.frames[(self.given - 1) % len(self.frames)]
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+
+class Scene(Frames):
+    """The frames of a scene, in which the same look is taken only once."""
+
+    def look(self, scans: int, pointed: Sighting | None) -> Look:
+        """The look that is taken now, at what the tutor points at."""
+        following = tuple(self.frame() for _ in range(scans))
+        return LOOKS(following, *(() if pointed is None else (Outline(pointed),)))
+
+
+class Outline:
+    """What is pointed at in a frame, which is the same where its pixels are."""
+
+    def __init__(self, pointed: Sighting) -> None:
+        self.pointed = pointed
+        self.key = id(pointed[0]), pointed[1].mask.tobytes()
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Outline) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+
+def _look(frames: tuple[Frame, ...], at: Outline | None = None) -> Look:
+    return look(Frames("", frames), len(frames), None if at is None else at.pointed)
+
+
+LOOKS = lru_cache(KEPT)(_look)
+"""The looks that were taken last."""
+
+
 @dataclass
 class Tutor:
     """A tutor in front of a robot: what it points at, and what came of what it said."""
@@ -71,7 +142,9 @@ class Tutor:
 
     def go(self) -> None:
         """Go to a scene."""
-        self.do(f"scene {self.scenes / self.random.choice(SCENES)}")
+        gaze = self.robot.gaze
+        gaze.sensor, gaze.attention = opened(self.scenes, self.random), Attention()
+        self.do("look")
         self.show()
 
     def show(self) -> None:
@@ -124,8 +197,9 @@ class Tutor:
         claim = pending[0]
         if "c" not in claim:
             return "other"
-        form = _forms(self.robot).get(predicate_at(claim, "c").name, "")
-        return "right" if form == _spoken(self.shown) else "wrong"
+        word = predicate_at(affirmed(claim), "c").name
+        is_so = _forms(self.robot).get(word, "") == _spoken(self.shown)
+        return "right" if is_so is not is_denial(claim) else "wrong"
 
     def hear(self, text: str) -> None:
         """Say something, which has an answer; who says nothing may get none."""
@@ -160,10 +234,16 @@ def _forms(robot: Agent) -> dict[str, str]:
     return {word_of(sign).name: sign.form for sign in nouns}
 
 
+def opened(scenes: Path, random: Random) -> Scene:
+    """One of the scenes, from its first frame on."""
+    scene = scenes / random.choice(SCENES)
+    return Scene(str(scene), frames_of(scene))
+
+
 def played(seed: int, turns: int, scenes: Path) -> Counter[str]:
     """What came of a dialogue."""
     random = Random(seed)
-    with Agent(str(scenes / random.choice(SCENES)), scans=1) as robot:
+    with Agent(opened(scenes, random), scans=1) as robot:
         tutor = Tutor(robot, random, scenes)
         tutor.show()
         while tutor.counts["turns"] < turns:
@@ -172,9 +252,13 @@ def played(seed: int, turns: int, scenes: Path) -> Counter[str]:
 
 
 def all_played(dialogues: int, turns: int, seed: int) -> Iterator[Counter[str]]:
-    """What came of each of so many dialogues."""
-    for number in range(dialogues):
-        yield played(seed + number, turns, captures())
+    """What came of each of so many dialogues; what went wrong names its seed."""
+    for number in range(seed, seed + dialogues):
+        try:
+            yield played(number, turns, captures())
+        except Exception as error:
+            error.add_note(f"in the dialogue of --seed {number}")
+            raise
 
 
 def main() -> None:
@@ -185,15 +269,18 @@ def main() -> None:
     parser.add_argument("--json", action="store_true", help="print JSON, one object")
     options = parser.parse_args()
     counts = Counter[str]()
-    for one in all_played(options.dialogues, options.turns, options.seed):
-        counts.update(one)
-    counts["dialogues"] = options.dialogues
+    with suppress(KeyboardInterrupt):
+        for one in all_played(options.dialogues, options.turns, options.seed):
+            counts.update(one)
+            counts["dialogues"] += 1
     if options.json:
         print(json.dumps(counts))
         return
     for what, count in sorted(counts.items()):
         print(f"{count:>8,} {what}")
-    print(f"{counts['milliseconds'] / counts['turns']:>8.0f} milliseconds a turn")
+    if counts["turns"]:
+        spent = counts["milliseconds"] / counts["turns"]
+        print(f"{spent:>8.0f} milliseconds a turn")
 
 
 if __name__ == "__main__":

@@ -5,7 +5,8 @@
 A dialogue of a hundred different turns in front of three things: each is parsed, taken,
 judged, answered and worded; what is seen is a prepared answer. It is played again and
 again, so that sentences are remembered; then with sentences that were never heard. The
-first turn counts from the start of the process. `--profile` says where the time goes.
+first turn counts from the start of the process. Last, what naming all that is on a full
+table takes beyond its ten scans. `--profile` says where the time goes.
 """
 
 from __future__ import annotations
@@ -18,16 +19,23 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from functools import partial
+from itertools import product
 from statistics import median, quantiles
 from tempfile import TemporaryDirectory
 
 from _measuring import Result, arguments, clock_of, report
+from threadpoolctl import threadpool_limits
 
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import adjective, noun, relation, theory, word_of
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
+from kille.perception.look import look
+from kille.perception.objects import ObjectMemory
+from kille.sensors.sensor import At, SensorError, Stage
+from kille.sensors.sources import open_sensor
 from ttr import Model, Record, record
 from ttr.updates import Game, Run
 
@@ -36,6 +44,9 @@ ROUNDS = 10
 
 STARTS = 5
 """How often a process is started."""
+
+TAUGHT = 4
+"""How often each thing was taught, and how many tables are then named."""
 
 Clock = Callable[[], float]
 
@@ -209,6 +220,45 @@ def first() -> list[float]:
     return times[1:]
 
 
+def full_table(seed: int) -> Stage:
+    """A stage with ten things, each where it finds a place."""
+    stage = open_sensor(f"synthetic:empty?seed={seed}")
+    assert isinstance(stage, Stage)
+    spots = product((0.0, -0.15, 0.15, -0.3, 0.3), (0.0, 0.15, -0.15))
+    free = [At(right, away) for right, away in spots]
+    for name in stage.things():
+        for spot in free:
+            with suppress(SensorError):
+                stage.place(name, spot)
+                free.remove(spot)
+                break
+    return stage
+
+
+def naming(clock: Clock) -> list[float]:
+    """The milliseconds to name all on a full table, its ten scans' own time aside.
+
+    Each of the things was taught four times. Nothing of what is on the table was asked
+    about before: its traits are measured, and its features compared.
+    """
+    learned = ObjectMemory()
+    for seed in range(TAUGHT):
+        stage = open_sensor(f"synthetic:empty?seed={seed}")
+        assert isinstance(stage, Stage)
+        for name in stage.things():
+            stage.show(name)
+            learned.learn_one(look(stage, scans=1).percepts[0], name)
+            stage.remove(name)
+    times = []
+    for seed in range(TAUGHT, 2 * TAUGHT):
+        seen = look(full_table(seed)).percepts
+        assert all(tuple(percept.scans) for percept in seen)
+        start = clock()
+        assert all(learned.evidence(percept).degrees() for percept in seen)
+        times.append(1000 * (clock() - start))
+    return times
+
+
 def timed(
     task: str, times: Sequence[float], middle: float = 0, most: float = 0
 ) -> Iterator[Result]:
@@ -226,6 +276,8 @@ def measured(clock: Clock) -> Iterator[Result]:
     yield from timed("a turn of new sentences", turns(new, clock))
     yield from timed("parsing a new sentence", parsed(clock), 5.0)
     yield from timed("from start to first answer", first(), 300.0)
+    with threadpool_limits(1):
+        yield from timed("naming a full table", naming(clock), 60.0)
 
 
 def profiled() -> None:

@@ -33,6 +33,7 @@ from kille.sensors.sensor import Sensor, SensorError
 from kille.witness import Witnesses, thing
 from kille.words import Vocabulary
 from ttr import Judgement, Model, Record, RecType, Singleton, TTRError, record
+from ttr.errors import UpdateError
 from ttr.perceptual import Meaning, Speaker
 from ttr.probability import CERTAIN
 from ttr.updates import Game, Run, Step
@@ -87,8 +88,13 @@ class Agent:
         knowledge = Knowledge(memory)
         witnesses = Witnesses.of(knowledge)
         colours = tuple(self._colour_words(knowledge.colours.labels))
-        taught = [sign_of(word) for word in memory.words()]
-        known = list({word_of(it): it for it in (*colours, *taught)}.values())
+        counts = memory.counts()
+        taught = [
+            record(sign=sign_of(it), lessons=float(counts[it.kind, it.name]))
+            for it in memory.words()
+        ]
+        signs = (*colours, *(it.sign for it in taught))
+        known = list({word_of(it): it for it in signs}.values())
         self._looks = 0
         self.memory, self._knowledge, self._witnesses = memory, knowledge, witnesses
         self._journal = Journal(memory, self._now)
@@ -101,6 +107,7 @@ class Agent:
             model=witnesses.in_model(blank_model(), known),
             act=body.act,
             colours=colours,
+            taught=taught,
         )
         self._now_at = self.game.begin()
 
@@ -135,8 +142,10 @@ class Agent:
     def hear_perhaps(self, *texts: tuple[str, float]) -> str:
         """Take in what the tutor perhaps says: one of these texts, each so probable.
 
-        Each is one move. What was not heard well enough, the robot asks about.
+        Each is one move. What was not heard well enough, the robot asks about. Raises
+        `UpdateError` for probabilities that are none, or come to more than 1.
         """
+        _check_probable(texts)
         return self._taking(lambda: self._overhearing(texts))
 
     def look(self) -> str:
@@ -377,6 +386,17 @@ def _looks_of(s: Record) -> set[str]:
     taught = [it.content for it in s.private.lessons[-1:]]
     looks = [it.get("look") for it in (*s.shared.pending, *open_, *taught)]
     return {str(look.value) for look in looks if isinstance(look, Singleton)}
+
+
+def _check_probable(texts: Sequence[tuple[str, float]]) -> None:
+    if not texts:
+        raise UpdateError("nothing was perhaps said: give texts and probabilities")
+    for text, p in texts:
+        if not 0 < p <= 1:
+            raise UpdateError(
+                f"what was perhaps said has a probability above 0 and at most 1, but "
+                f"{text[:40]!r} has {p}"
+            )
 
 
 def _legible(text: str) -> str:

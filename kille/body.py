@@ -43,8 +43,10 @@ class Body:
         keys = tuple(str(self._learn(it, move.signs)) for it in move.teaches)
         recollection = Recollection(self._knowledge, self._witnesses, self._now())
         dropped = recollection.dropped(move.drops)
-        lost = self._unlearned((*move.forgets, *dropped))
-        if keys or move.forgets or dropped:
+        undone = recollection.latest(len(move.undoes))
+        undone_keys = [it.key for it in undone]
+        lost = self._unlearned((*move.forgets, *dropped, *undone_keys))
+        if keys or move.forgets or dropped or undone:
             self._witnesses.reconsider()
             model = self._witnesses.in_model(model, move.signs)
         for x in move.points:
@@ -52,6 +54,7 @@ class Body:
         done = {
             "keys": keys,
             "dropped": dropped,
+            "undone": undone or move.undone,
             "lost": lost,
             "reasons": [recollection.reason(it, move.signs) for it in move.explains],
             "recalled": recollection.recalled(*move.recalls),

@@ -68,15 +68,11 @@ class Recollection:
         denied in the turn in which it was taught, the most often first.
         """
         alone = len(words) == 1
-        taught = Counter(
-            (it.word.kind, it.word.name)
-            for it in self._knowledge.memory.lessons()
-            if it.holds
-        )
+        taught = self._knowledge.memory.counts()
         return [
             record(
                 sign=word,
-                lessons=float(taught[KINDS[word.kind], word_of(word).name]),
+                lessons=float(taught.get((KINDS[word.kind], word_of(word).name), 0)),
                 confused=self._confused(word) if alone else [],
             )
             for word in words
@@ -85,6 +81,12 @@ class Recollection:
     def dropped(self, words: Iterable[Record]) -> tuple[str, ...]:
         """The keys of all lessons in some words."""
         return tuple(str(key) for word in words for key in self._keys(word))
+
+    def latest(self, count: int) -> list[Record]:
+        """So many of the newest lessons, of whatever dialogue, as `Reminder`."""
+        if not count:
+            return []
+        return [self._reminder(it) for it in self._knowledge.memory.latest(count)]
 
     def _keys(self, word: Record) -> tuple[int, ...]:
         kind, name = KINDS[word.kind], word_of(word).name
@@ -125,6 +127,8 @@ class Recollection:
         at = then.astimezone()
         return record(
             key=str(lesson.key),
+            sign=sign_of(lesson.word),
+            examples=float(lesson.holds),
             text=lesson.turn.text,
             dialogue=str(lesson.turn.dialogue),
             turn=str(lesson.turn.number),

@@ -13,8 +13,9 @@ from typing import TypeAlias
 from weakref import ref
 
 from ttr.assignments import Assignment
+from ttr.demands import Sieve, demands_of
 from ttr.errors import Refused
-from ttr.judging import derivation, reduced
+from ttr.judging import derivation, reduced, stands
 from ttr.levels import why_outside
 from ttr.objects import Unresolved, lasts
 from ttr.paths import escaping, occurring
@@ -215,15 +216,12 @@ def _is_noted(facts: Assignment, sit: Record, T: RecordType) -> bool:
     if functions() is not facts.functions:
         return False
     basics = _basics(T) or ()
-    now = facts.told
-    return all(map(is_, told, [now.get(one) for one in basics])) and _alone(
-        facts, basics
-    )
+    now = map(facts.told.get, basics)
+    return all(map(is_, told, now)) and _alone(facts, basics)
 
 
 def _grounds(facts: Assignment, basics: tuple[Basic, ...]) -> Grounds:
-    told = facts.told
-    return (ref(facts.functions), *[told.get(one) for one in basics])
+    return (ref(facts.functions), *map(facts.told.get, basics))
 
 
 def _alone(facts: Assignment, basics: tuple[Basic, ...]) -> bool:
@@ -233,8 +231,11 @@ def _alone(facts: Assignment, basics: tuple[Basic, ...]) -> bool:
 
 @lru_cache(4096)
 def _basics(T: RecordType) -> tuple[Basic, ...] | None:
-    """The basic types in a type of lists, records and universes; None for another."""
-    within = (Basic, Universe, ListOf, RecordType)
+    """The basic types in a type of lists, records and universes; None for another.
+
+    Its fields may be set to names, and to lists of names.
+    """
+    within = (Basic, Universe, ListOf, RecordType, Singleton, str, tuple)
     found = list(occurring([T]))
     if not all(isinstance(part, within) for part in found):
         return None
@@ -247,8 +248,10 @@ def _singleton(facts: Assignment, sit: Object, T: Singleton, around: Around) -> 
 
 def _is_value(facts: Assignment, sit: Object, T: Singleton, around: Around) -> bool:
     value = T.value
-    if value == () or isinstance(value, str):
+    if isinstance(value, str):
         return value is sit or value == sit
+    if value is sit and stands(T):
+        return True
     wanted = _worked_out(facts, value, around)
     return wanted is not None and (
         wanted is sit or bool(identity(wanted) == identity(sit))
@@ -278,13 +281,20 @@ def _ptype(facts: Assignment, sit: Object, T: PType, around: Around) -> bool:
 
 def _join(facts: Assignment, sit: Object, T: Join, around: Around) -> bool:
     """One certain part is enough; uncertain ones may be certain together."""
-    possible = [part for part in T.parts if not _excluded(facts, sit, part)]
+    left = _sieve(T).left(sit, facts)
+    possible = [T.parts[n] for n in left if not _excluded(facts, sit, T.parts[n])]
     if len(possible) < 2:
         return any(_certain(facts, sit, part, around) for part in possible)
     return (
         any(_certain(facts, sit, part, around) for part in possible)
         or derivation(facts, sit, T, around).p == CERTAIN
     )
+
+
+@lru_cache(4096)
+def _sieve(T: Join) -> Sieve:
+    """What leaves out the parts of a join that something cannot be of."""
+    return Sieve(map(demands_of, T.parts))
 
 
 def _excluded(facts: Assignment, sit: Object, T: TypeNode) -> bool:

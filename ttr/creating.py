@@ -13,7 +13,7 @@ from ttr.certainty import certainly
 from ttr.circles import circle
 from ttr.errors import Refused, TTRError
 from ttr.hypothetical import Hypothetical
-from ttr.judging import derivation, reduced
+from ttr.judging import derivation, reduced, stands
 from ttr.merging import merge
 from ttr.objects import Unresolved
 from ttr.paths import escaping, moved, parts, replace_paths
@@ -248,6 +248,8 @@ class _Making:
     # --- lists, strings, records ---
 
     def _list(self, facts: Assignment, item: TypeNode, size: int) -> Made:
+        if size == 0:
+            return (), facts
         kinds = cases(item) or (item,)
         items: list[Object] = []
         for _, kind in zip(range(size), cycle(kinds), strict=False):
@@ -280,6 +282,12 @@ class _Making:
     def _record(self, facts: Assignment, T: RecordType) -> Made:
         fields: dict[str, Object] = {}
         for label, field in T.fields:
+            if type(field) is Singleton and stands(field):
+                fields[label] = value = field.value
+                empty = type(value) is tuple and not value
+                if not (empty and isinstance(field.base, ListOf)):
+                    facts = _surely(facts, value, field.base)
+                continue
             try:
                 ground = grounded(field, (fields,))
             except Unresolved as unresolved:

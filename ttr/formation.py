@@ -6,6 +6,7 @@ A scope is here a record type; that of a binder has one field, for its variable.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import NamedTuple, TypeVar
 
 from ttr.circles import circle
@@ -121,10 +122,42 @@ def _check(
 ) -> None:
     """What stands in a scope leads somewhere in it, and to what fits."""
     paths = [path for path in escaping(inside) if path.up == 0]
-    for path in sorted(paths, key=lambda p: p.labels):
-        target(path, scope.fields)
-    if paths:
+    found = {
+        path: target(path, scope.fields)
+        for path in sorted(paths, key=lambda p: p.labels)
+    }
+    if not paths:
+        return
+    wanted = _wanted(inside) if isinstance(inside, TypeNode) else None
+    if wanted is None or any(_bare(found[path]) is not T for path, T in wanted):
         _check_domains(inside, (scope,), where, theory)
+
+
+@lru_cache(4096)
+def _wanted(inside: TypeNode) -> tuple[tuple[Path, TypeNode], ...] | None:
+    """The paths out of a value that are arguments of predicates, and of which type.
+
+    None where it takes more to see whether they fit: functions, several arities.
+    """
+    wanted: list[tuple[Path, TypeNode]] = []
+    waiting: list[tuple[Object, int]] = [(inside, 0)]
+    while waiting:
+        value, depth = waiting.pop()
+        if isinstance(value, Application):
+            return None
+        if isinstance(value, PType):
+            if len(value.pred.arities) > 1:
+                return None
+            pairs = zip(value.args, value.pred.arities[0], strict=True)
+            wanted += [
+                (Path(0, arg.labels), T)
+                for arg, T in pairs
+                if isinstance(arg, Path) and arg.up == depth
+            ]
+        same, inner = parts(value)
+        waiting += [(part, depth) for part in same]
+        waiting += [(part, depth + 1) for part in inner]
+    return tuple(wanted)
 
 
 def target(path: Path, T: RecordType) -> TypeNode:

@@ -54,7 +54,7 @@ from ttr.syntax import (
     identity,
 )
 
-__all__ = ["claims_of", "derivation", "reduced"]
+__all__ = ["claims_of", "derivation", "reduced", "stands"]
 
 TRIED = 100
 """How many known objects a function is tried on."""
@@ -373,6 +373,16 @@ def _applied(facts: Assignment, function: Object, argument: Object) -> Object:
 
 def _where(why: Why) -> str:
     return f" in the field {why.path()}" if why.path() else ""
+
+
+def stands(T: TypeNode) -> bool:
+    """Whether nothing in a type is to be worked out: no path leads out, no function.
+
+    >>> from ttr.syntax import Ind, this
+    >>> stands(Ind @ "a"), stands(Ind @ this.x)
+    (True, False)
+    """
+    return not _applies(T) and not escaping(T)
 
 
 def _applies(value: Object) -> bool:

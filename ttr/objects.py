@@ -8,7 +8,7 @@ itself, compared by identity; a type is an object as well.
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import chain, groupby
 from types import NoneType
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
@@ -368,9 +368,10 @@ class Record(Drawn):
         object.__setattr__(self, "_noted", None)
 
     def __getattr__(self, label: str) -> Object:
-        if not label.startswith("_") and label in self._fields:
-            return self._fields[label]
-        raise AttributeError(f"no label {label} in {self}")
+        try:
+            return _fields_of(self)[label]
+        except KeyError:
+            raise AttributeError(f"no label {label} in {self}") from None
 
     def __getitem__(self, path: str) -> Object:
         value: Object = self
@@ -434,6 +435,10 @@ class Record(Drawn):
         return self
 
 
+_fields_of: Callable[[Record], dict[str, Object]] = Record._fields.__get__  # type: ignore[misc, attr-defined]
+"""The fields of a record, however it is asked for them: labels are asked for often."""
+
+
 def record(fields: Mapping[str, object] | None = None, /, **labels: object) -> Record:
     """The record with these labels, as keywords or as one mapping.
 
@@ -451,6 +456,8 @@ def lasts(value: Object) -> bool:
     >>> lasts(record(x=("a", 1))), lasts(record(x=bytearray()))
     (True, False)
     """
+    if type(value) is str:
+        return True
     if isinstance(value, Record):
         if value._lasts is None:
             found = all(map(lasts, value._fields.values()))

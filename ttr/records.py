@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ttr.errors import TTRError, suggestion
-from ttr.objects import labelled
+from ttr.objects import labelled, lasts
 from ttr.printing import notation
 from ttr.syntax import Object, Record, freeze, identity
 
@@ -25,33 +25,64 @@ def replace(
     >>> print(replace(r, {"bg.size": 4}, x="sam"))
     {bg = {size = 4}, x = sam}
     """
+    new = _Changing(r)
     for path, value in labelled("replace", changes, labels).items():
         if not isinstance(path, str):
             raise TTRError(f"a path is written as a text, as in 'bg.x', found {path!r}")
-        r = _replaced(r, tuple(path.split(".")), freeze(value))
-    return r
+        new.set(path.split("."), freeze(value))
+    return new.record
 
 
-def _replaced(r: Record, path: tuple[str, ...], value: Object) -> Record:
-    label, *rest = path
-    if not isinstance(r, Record) or label not in r:
-        known = r if isinstance(r, Record) else ()
-        raise TTRError(
-            f"{'.'.join(path)} is not in {r}, so it cannot be replaced",
-            hint=suggestion(label, known),
-        )
-    inner = _replaced(r._fields[label], tuple(rest), value) if rest else value
-    return _with(r, label, inner)
+class _Changing:
+    """A record that is being changed: what is in it is copied once, where it changes.
+
+    Nobody else has seen the copies, so that they may be written to until they are done.
+    """
+
+    def __init__(self, r: Record) -> None:
+        self.record = r
+        self._copies: dict[int, Record] = {}
+
+    def set(self, path: list[str], value: Object) -> None:
+        """Puts a frozen object at a path that is there."""
+        *outer, last = path
+        here = self.record = self._copy(self.record)
+        on_the_way = [here]
+        for label in outer:
+            inner = self._copy(_at(here, label, path))
+            here._fields[label] = inner
+            here = inner
+            on_the_way.append(here)
+        _at(here, last, path)
+        here._fields[last] = value
+        if not lasts(value):
+            for one in on_the_way:
+                _write(one, "_lasts", None)
+
+    def _copy(self, r: Object) -> Record:
+        """The record if it is a copy, or its copy; what is no record is as it is."""
+        if id(r) in self._copies or not isinstance(r, Record):
+            return r  # type: ignore[no-any-return]
+        copy = object.__new__(Record)
+        _write(copy, "_fields", {**r._fields})
+        _write(copy, "_hash", None)
+        _write(copy, "_lasts", r._lasts or None)
+        _write(copy, "_noted", None)
+        self._copies[id(copy)] = copy
+        return copy
 
 
-def _with(r: Record, label: str, value: Object) -> Record:
-    """The record with a frozen value at a label that it has: nothing needs checking."""
-    changed = object.__new__(Record)
-    object.__setattr__(changed, "_fields", {**r._fields, label: value})
-    object.__setattr__(changed, "_hash", None)
-    object.__setattr__(changed, "_lasts", None)
-    object.__setattr__(changed, "_noted", None)
-    return changed
+_write = object.__setattr__
+
+
+def _at(r: Object, label: str, path: list[str]) -> Object:
+    """What a record has at a label on the way along a path."""
+    if isinstance(r, Record) and label in r._fields:
+        return r._fields[label]
+    raise TTRError(
+        f"{'.'.join(path)} is not in {r}, so it cannot be replaced",
+        hint=suggestion(label, r if isinstance(r, Record) else ()),
+    )
 
 
 def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:

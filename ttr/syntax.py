@@ -228,6 +228,10 @@ class Singleton(TypeNode):
     def _normal(base: TypeNode, value: object) -> tuple[object, ...]:
         return as_type(base), freeze(value)
 
+    @staticmethod
+    def _key(base: TypeNode, value: Object) -> tuple[object, ...]:
+        return base, identity(value)
+
 
 @node
 class Meet(TypeNode):
@@ -426,6 +430,10 @@ class RecordType(TypeNode):
 
     fields: tuple[tuple[str, TypeNode], ...]
     _types: Mapping[str, TypeNode] = field(init=False)
+
+    @staticmethod
+    def _key(fields: tuple[tuple[str, TypeNode], ...]) -> tuple[object, ...]:
+        return (fields,) if type(fields) is tuple else (identity(fields),)
 
     def __post_init__(self) -> None:
         try:

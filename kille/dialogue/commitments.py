@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 
+from kille.dialogue.beliefs import Beliefs
 from kille.dialogue.meanings import (
     CLAIMS,
     claims,
@@ -20,13 +21,14 @@ from kille.dialogue.meanings import (
 from kille.dialogue.moves import plan
 from kille.dialogue.reference import PARTS, thing_at, things_in
 from kille.dialogue.state import words
-from ttr import Pred, Record, RecordType
+from ttr import Pred, Record, RecordType, replace
 
 __all__ = [
     "LEARNED",
     "REJECTED",
     "act_of",
     "affirmed",
+    "as_told",
     "is_here",
     "kind_of",
     "learning",
@@ -109,6 +111,22 @@ def lessons_in(s: Record, claim: RecordType) -> list[Record]:
         if same(it.content, claim)
         and (it.content["look"] == claim["look"] or it.content in here)
     ]
+
+
+def as_told(s: Record, beliefs: Beliefs) -> Beliefs:
+    """What it believes of things in view, where what it was told of them is certain.
+
+    The tutor decides what words mean: of the thing that he has just called red it does
+    not say that it is none, whatever most people would call it.
+    """
+    told = {
+        (word_of(it.sign), thing_at(it.content, "target")): not is_denial(it.content)
+        for it in s.private.lessons
+        if it.content in s.shared.here and "rel" not in it.content
+    }
+    known = ((it, told.get((word_of(it.sign), it.sit.x))) for it in beliefs)
+    certain = [it if so is None else replace(it, p=float(so)) for it, so in known]
+    return sorted(certain, key=lambda it: (-it.p, it.sign.form))
 
 
 def is_here(s: Record, claim: RecordType) -> bool:

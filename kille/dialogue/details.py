@@ -25,8 +25,8 @@ def details(lexicon: Lexicon, move: Record) -> dict[str, str]:
 
     >>> from kille.dialogue.lexicon import lexicon
     >>> from ttr import record
-    >>> nothing = dict.fromkeys(("reasons", "recalls", "recalled", "lost"), ())
-    >>> details(lexicon(), record(degrees=[0.87, 0.08], **nothing))
+    >>> nothing = ("reasons", "recalls", "recalled", "lost", "undone")
+    >>> details(lexicon(), record(dict.fromkeys(nothing, ()), degrees=[0.87, 0.08]))
     {'degree': '.87', 'sureness': 'quite sure', 'rival_degree': '.08',
      'distance': 'far behind'}
     """
@@ -36,6 +36,8 @@ def details(lexicon: Lexicon, move: Record) -> dict[str, str]:
     slots = dict(_of_degrees(data, move.degrees)) if move.degrees else {}
     slots |= dict(_of_reasons(data, move.reasons)) if move.reasons else {}
     slots |= dict(_of_lost(data, move.lost)) if move.lost else {}
+    for reminder in move.undone:
+        slots |= {"lesson": _quoted(reminder), "when": _when(data["ages"], reminder)}
     if move.recalls:
         slots |= dict(_of_recalled(data, move.recalled or _untold(move.recalls)))
         slots["type"] = str(move.content)
@@ -74,9 +76,14 @@ def _of_reasons(data: Section, reasons: Sequence[Record]) -> Iterator[tuple[str,
     if cues:
         yield "cues", _listed(data, cues)
     for reminder in reason.reminders:
-        yield "lesson", reminder.text.rstrip()
+        yield "lesson", _quoted(reminder)
         yield "turn", reminder.turn
         yield "when", _when(data["ages"], reminder)
+
+
+def _quoted(reminder: Record) -> str:
+    """The words of a lesson."""
+    return str(reminder.text).rstrip()
 
 
 def _deciding(data: Section, cues: Iterable[Record]) -> Iterator[str]:

@@ -3,7 +3,7 @@
 The grammar says which words belong together, the theory what that means, and they meet
 by name. A rule with a type of its name means that type merged with what its parts mean;
 a rule without one is the label under which its part's meaning stands. A rule whose type
-has a place for a word finds a word.
+has a place for a word finds a word, and one whose type is basic, as a number, a text.
 
 What can be read in several ways has several readings. They are alternatives of one
 event, and the state of the dialogue decides between them.
@@ -12,11 +12,11 @@ event, and the state of the dialogue decides between them.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
-from itertools import islice, product
+from itertools import islice, product, zip_longest
 
 from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.meanings import (
@@ -32,9 +32,16 @@ from kille.dialogue.meanings import (
 )
 from kille.dialogue.parsing import Grammar, Tree, Word, parts, words
 from kille.dialogue.transcribing import CLOSELY, LOOSELY, robot_rules
-from ttr import Rec, Record, RecordType, RecType, merge, rectype
+from ttr import Rec, Record, RecordType, RecType, TypeNode, merge, rectype
 
-__all__ = ["LANGUAGES", "Sentence", "Utterance", "overhear", "understand"]
+__all__ = [
+    "LANGUAGES",
+    "Sentence",
+    "Utterance",
+    "grammar_text",
+    "overhear",
+    "understand",
+]
 
 LANGUAGES = ("en", "sv")
 """The languages that there is a grammar and a lexicon of."""
@@ -87,6 +94,7 @@ class Sentence:
     readings: tuple[Utterance, ...]
 
 
+@lru_cache(_REMEMBERED)
 def understand(text: str, language: str = "en") -> tuple[Sentence, ...]:
     """What a tutor's text says, move by move.
 
@@ -140,16 +148,17 @@ def _sentences(text: str, language: str) -> tuple[Sentence, ...]:
 
 @cache
 def _grammar(language: str) -> Grammar:
-    return Grammar(_source(language))
+    return Grammar(grammar_text(language))
 
 
 @cache
 def _robots_grammar(language: str) -> Grammar:
-    source = _source(language)
+    source = grammar_text(language)
     return Grammar(source + robot_rules(lexicon(language), source), CLOSELY, LOOSELY)
 
 
-def _source(language: str) -> str:
+def grammar_text(language: str) -> str:
+    """The packaged grammar of a language, in Lark's notation."""
     source = files("kille.grammars").joinpath(f"tutor.{language}.lark")
     return source.read_text(encoding="utf-8")
 
@@ -172,7 +181,8 @@ class _Reader:
 
     def readings(self, text: str, moves: Iterable[Tree]) -> tuple[Utterance, ...]:
         """The different readings of a move."""
-        types = (T for move in moves for T in self._heard(text, move))
+        each = [self._heard(text, move) for move in moves]
+        types = (T for them in zip_longest(*each) for T in them if T is not None)
         return tuple(
             Utterance(text, T) for T in islice(dict.fromkeys(types), _READINGS)
         )
@@ -199,9 +209,9 @@ class _Reader:
             )
 
     def _together(self, tree: Tree) -> list[Meant]:
-        """What the parts of a tree mean together, in every way."""
+        """What the parts of a tree mean together, in every way, the likeliest first."""
         ways = []
-        for meant in product(*(self._meanings(part) for part in parts(tree))):
+        for meant in _by_rank([self._meanings(part) for part in parts(tree)]):
             together: RecordType = Rec
             for _, meaning in meant:
                 together = _merged(together, meaning)
@@ -211,6 +221,9 @@ class _Reader:
     def _meanings_anew(self, tree: Tree) -> list[Meant]:
         """What a part of an utterance means, from what its own parts mean."""
         name = _type_name(tree.rule)
+        if name in theory().names and not isinstance(theory()[name], RecordType):
+            text = " ".join(word.text for word in words(tree))
+            return [((), rectype({tree.rule: theory()["Text"] @ text}))]
         if kind_in(name) is not None:
             return [((it,), placed(it, name)) for it in self._signs(tree, name)]
         together = self._together(tree)
@@ -247,14 +260,32 @@ class _Reader:
         yield from sorted(found_forms, key=lambda it: it[0] not in known)[:_FORMS]
 
 
+def _by_rank(several: Sequence[Sequence[Meant]]) -> Iterator[tuple[Meant, ...]]:
+    """One out of each, in every way: those first that come first in theirs."""
+    ranked = product(*(enumerate(them) for them in several))
+    for chosen in sorted(ranked, key=lambda it: sum(rank for rank, _ in it)):
+        yield tuple(meant for _, meant in chosen)
+
+
 def _apart(all_of_it: RecordType) -> tuple[RecordType, RecordType]:
     """The content, and its rival: what is not said of that is as in the content."""
     rival = all_of_it.get("rival")
     content = rectype({k: T for k, T in all_of_it.fields if k != "rival"})
     if not isinstance(rival, RecordType):
         return content, Rec
-    same = rectype({k: T for k, T in content.fields if k not in CLAIMS})
+    same = rectype(
+        {
+            k: T
+            for k, T in content.fields
+            if k not in CLAIMS and not _is_described(rival.get(k))
+        }
+    )
     return content, _merged(same, rival)
+
+
+def _is_described(part: TypeNode | None) -> bool:
+    """Whether it is the phrase for a thing, and says something of it."""
+    return isinstance(part, RecordType) and part.labels > named("Phrase").labels
 
 
 @cache

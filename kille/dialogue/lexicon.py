@@ -48,7 +48,7 @@ class Lexicon:
     says: Wordings
     tells: Wordings
     examples: tuple[str, ...]
-    not_understood: str
+    not_understood: tuple[str, ...]
     pointing: str
     answering: str
     articles: Articles
@@ -63,6 +63,18 @@ class Lexicon:
     """The words that the lexicon itself names."""
     sections: Mapping[str, Any]
     """The whole file, for those who word something of their own."""
+
+    @property
+    def wordings(self) -> Wordings:
+        """All sentences for each act, those of every set of wordings."""
+        sets = [it for name, it in self.sections.items() if name.startswith("says")]
+        acts = dict.fromkeys(act for one in sets for act in one)
+        return {
+            act: tuple(
+                dict.fromkeys(w for one in sets for w in _several(one.get(act, [])))
+            )
+            for act in acts
+        }
 
     def article(self, sign: Record) -> str:
         """The indefinite article of a word: as the tutor used it, or by its form."""
@@ -94,6 +106,8 @@ class Lexicon:
 
     def with_examples(self, wording: str) -> str:
         """A wording with what the tutor may say in place of {examples}."""
+        if "{examples}" not in wording:
+            return wording
         return wording.replace("{examples}", "\n  ".join(self.examples))
 
     def main_form(self, form: str) -> str:
@@ -114,9 +128,10 @@ def lexicon(language: str = "en", wording: str = "paper") -> Lexicon:
         data["phrases"],
         data["articles"],
     )
+    forms, complements = data["inflection"], phrases["complements"]
     inflections = {
-        name: tuple(_inflections(table, phrases["complements"]))
-        for name, table in data["inflection"].items()
+        name: tuple(_inflections(forms[table.get("like", name)], complements))
+        for name, table in forms.items()
     }
     says = data["says"] | data.get(f"says_{wording}", {})
     return Lexicon(
@@ -124,7 +139,7 @@ def lexicon(language: str = "en", wording: str = "paper") -> Lexicon:
         says={act: _several(it) for act, it in says.items()},
         tells={act: _several(it) for act, it in data["tutor"].items()},
         examples=tuple(understands["examples"]),
-        not_understood=understands["not_understood"],
+        not_understood=_several(understands["not_understood"]),
         pointing=understands["pointing"],
         answering=understands["answering"],
         articles=Articles(

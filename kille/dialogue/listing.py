@@ -2,6 +2,7 @@
 
 A content that says what is in view has a part for each thing: thing01, thing02 … for
 those that the robot is sure of, maybe01 … for what may be so, unknown01 … for the rest.
+A question which thing was meant has choice01, choice02 … for those that it may be.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from kille.dialogue.lexicon import Lexicon
 from kille.dialogue.phrases import Words, phrase
 from ttr import RecordType
 
-__all__ = ["listed"]
+__all__ = ["either", "listed"]
 
 Section = Mapping[str, Any]
 
@@ -22,7 +23,7 @@ Section = Mapping[str, Any]
 def listed(
     lexicon: Lexicon, content: RecordType, words: Words
 ) -> Iterator[tuple[str, str]]:
-    """The slots that the parts of a view fill: {things}, {count} and {maybe_count}.
+    """The slots that such parts fill: {things}, {count}, {maybe_count}, {choices}.
 
     >>> from kille.dialogue.games.surveying import in_view
     >>> from kille.dialogue.lexicon import lexicon
@@ -50,13 +51,26 @@ def listed(
     ]
     if named:
         yield "things", _joined(data, named)
-    counted = content.get("counted")
-    if isinstance(counted, RecordType):
-        noun = phrase(lexicon, counted, words, "bare")
-        yield from [("several", lexicon.inflected(noun, "PLURAL"))] if noun else []
+    if "choice" in seen:
+        yield "choices", either(lexicon, list(_choices(lexicon, seen["choice"], words)))
     for slot, label in (("count", "thing"), ("maybe_count", "maybe")):
         if count[label]:
             yield slot, _number(data, count[label])
+
+
+def either(lexicon: Lexicon, parts: Sequence[str]) -> str:
+    """Words of which one is so: this, that or the other.
+
+    >>> from kille.dialogue.lexicon import lexicon
+    >>> either(lexicon(), ["a cup"]), either(lexicon(), ["red", "blue", "green"])
+    ('a cup', 'red, blue or green')
+    """
+    data = lexicon.sections["listing"]
+    *before, last = parts
+    if not before:
+        return last
+    wording: str = data["either"]
+    return wording.format(data["between"].join(before), last)
 
 
 def _named(
@@ -73,8 +87,23 @@ def _named(
         if noun is None:
             continue
         one = phrase(lexicon, first[noun], words, "indefinite")
-        several = f"{_number(data, count)} {lexicon.inflected(noun, 'PLURAL')}"
+        all_of_them = phrase(lexicon, first[noun], words, "counted")
+        several = f"{_number(data, count)} {all_of_them}"
         yield wording.format(one if count == 1 else several)
+
+
+def _choices(
+    lexicon: Lexicon, parts: Sequence[RecordType], words: Words
+) -> Iterator[str]:
+    """Phrases to choose from; one noun is said once, where all have adjectives."""
+    nouns = {part.get("c") for part in parts}
+    alike = len(nouns) == 1 and None not in nouns
+    plain = all("a" in part and "landmark" not in part for part in parts)
+    style = "elided" if alike and plain else "definite"
+    *before, last = parts
+    for part in before:
+        yield phrase(lexicon, part, words, style) or ""
+    yield phrase(lexicon, last, words, "definite") or ""
 
 
 def _unknown(data: Section, count: int) -> Iterator[str]:

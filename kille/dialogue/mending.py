@@ -16,23 +16,19 @@ _LONGEST = 200
 """Characters; of a longer text nobody mistyped a word only."""
 
 
-def suggested(lexicon: Lexicon, text: str) -> str:
-    """What could be said instead of a text that is not understood.
+def suggested(lexicon: Lexicon, text: str) -> str | None:
+    """What could be said instead of a text that is not understood, if anything is near.
 
     It is the text with its slips mended if that is understood, else the example that is
-    most like it, else the first.
+    most like it, if one is much like it.
 
     >>> from kille.dialogue.lexicon import lexicon
     >>> suggested(lexicon(), "Waht is teh blicket?")
     'What is the blicket?'
     >>> suggested(lexicon("sv"), "Vda är det här?"), suggested(lexicon(), "Xyzzy!")
-    ('Vad är det här?', 'This is a cup.')
+    ('Vad är det här?', None)
     """
-    return (
-        _mended(lexicon, text)
-        or nearest_sentence(text, lexicon.examples)
-        or lexicon.examples[0]
-    )
+    return _mended(lexicon, text) or nearest_sentence(text, lexicon.examples)
 
 
 def _mended(lexicon: Lexicon, text: str) -> str | None:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from functools import cache
 
 from kille.dialogue.meanings import (
+    claims,
     mentions,
     named,
     placed,
@@ -24,6 +25,7 @@ __all__ = [
     "content_of",
     "instead",
     "issue",
+    "nouns_said",
     "numbered",
     "plan",
     "said_of",
@@ -33,7 +35,7 @@ __all__ = [
 
 NOTHING_PLANNED = theory()["Agenda"] @ ()
 
-DOES = ("drops", "degrees", "explains", "recalls", "points")
+DOES = ("drops", "degrees", "explains", "recalls", "points", "undoes")
 """What a move of the robot's may do besides, by the labels of Said."""
 
 CLAIMED = {
@@ -72,13 +74,14 @@ def plan(
     discussion. `teaches` and `forgets` are what it learns and unlearns before it says
     so, and `does` what else it does, under the labels that the type Said has for it.
     """
-    done = {"teaches": teaches, "forgets": forgets, **dict.fromkeys(DOES, ()), **does}
+    said = named("Said")
+    done = {"signs": signs, "teaches": teaches, "forgets": forgets, **does}
+    some = {label: found for label, it in done.items() if (found := tuple(it))}
     move = set_to(
-        spoken("Said", act),
-        signs=named("Said")["signs"] @ tuple(signs),
+        _saying(act),
         content=RecType @ content,
         rival=RecType @ rival,
-        **{label: named("Said")[label] @ tuple(them) for label, them in done.items()},
+        **{label: said[label] @ them for label, them in some.items()},
     )
     return replace(
         s,
@@ -90,6 +93,14 @@ def plan(
     )
 
 
+@cache
+def _saying(act: str) -> RecordType:
+    """The type of saying something, and doing nothing else."""
+    said = named("Said")
+    does = ("signs", "teaches", "forgets", *DOES)
+    return set_to(spoken("Said", act), **{label: said[label] @ () for label in does})
+
+
 def issue(ask: str, options: Iterable[Record]) -> Record:
     """A question about what the tutor said: which of these moves it was."""
     return record(ask=ask, options=tuple(options))
@@ -99,6 +110,18 @@ def content_of(s: Record) -> RecordType:
     """What the latest move is about."""
     content: RecordType = s.shared.latest.content
     return content
+
+
+def nouns_said(said: Record, phrase: RecordType) -> list[Record]:
+    """The nouns that a phrase of a move calls its thing, not what that stands beside.
+
+    >>> from kille.dialogue.meanings import noun, relation
+    >>> from kille.dialogue.reference import meant_by
+    >>> words = [noun("cup"), relation("behind"), noun("book")]
+    >>> [it.form for it in nouns_said(record(signs=words), meant_by(words))]
+    ['cup']
+    """
+    return [it for it in said.signs if it.kind == "noun" and claims(phrase, it)]
 
 
 def said_of(s: Record, sign: Record, x: str, template: str = "Naming") -> RecordType:

@@ -1,8 +1,8 @@
 """Every way to read a sentence by a grammar in Lark's notation.
 
-Lark reads the grammar. Sentences are parsed here, over whole words: with words that
-nobody has heard before almost everything can be read in several ways, and all of them
-are wanted, the simplest first, within a millisecond or two.
+Sentences are parsed over whole words: with words that nobody has heard before almost
+everything can be read in several ways, and all of them are wanted, the simplest first,
+within a millisecond or two.
 
 Source: memoised descent that finds all parses, after Frost, Hafiz and Callaghan,
 "Modular and efficient top-down parsing for ambiguous left-recursive grammars" (2007),
@@ -12,12 +12,10 @@ without the left recursion.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from lark.grammar import Rule, Symbol
+from kille.dialogue.grammars import GrammarError, Production, Symbol, read
 
 __all__ = ["Grammar", "GrammarError", "Tree", "Word", "parts", "words"]
 
@@ -26,10 +24,6 @@ _WAYS = 24
 
 _MOST_WORDS = 120
 """Words; no sentence of a tutor's has more, and a longer one is not parsed."""
-
-
-class GrammarError(ValueError):
-    """A grammar that cannot be used, and why."""
 
 
 class Word(NamedTuple):
@@ -57,19 +51,12 @@ def words(tree: Tree) -> list[Word]:
     return [child for child in tree.children if isinstance(child, Word)]
 
 
+Matcher = Callable[[str, int], re.Match[str] | None]
+"""Finds a terminal in a text, at a place."""
+
 Row = tuple[Tree | Word, ...]
 Found = Mapping[int, list[Row]]
 """Where a stretch can end, and the ways to read it so far."""
-
-
-@dataclass(frozen=True)
-class _Production:
-    """One way to make a rule: its symbols, and what becomes of what they find."""
-
-    name: str
-    symbols: tuple[Symbol, ...]
-    made: str | None
-    only_child: bool
 
 
 class Grammar:
@@ -86,26 +73,13 @@ class Grammar:
     """
 
     def __init__(self, source: str, *starts: str) -> None:
-        from lark import Lark
-        from lark.exceptions import LarkError
-
         self.starts = starts or ("start",)
-        try:
-            read = Lark(source, parser=None, lexer="basic", start=list(self.starts))
-        except LarkError as mistake:
-            raise GrammarError(str(mistake)) from mistake
-        self._matchers = {
-            it.name: re.compile(it.pattern.to_regexp()).match for it in read.terminals
-        }
-        ignored = "|".join(
-            it.pattern.to_regexp()
-            for it in read.terminals
-            if it.name in read.ignore_tokens
-        )
+        self._source = read(source, self.starts)
+        ignored = "|".join(self._source.ignored)
         self._between = re.compile(f"(?:{ignored})*").match
-        self._productions: dict[str, list[_Production]] = {}
-        for rule in read.rules:
-            made = _production(rule)
+        self._matchers: dict[str, Matcher] = {}
+        self._productions: dict[str, list[Production]] = {}
+        for made in self._source.productions:
             self._productions.setdefault(made.name, []).append(made)
         self._refuse_left_recursion()
 
@@ -116,6 +90,14 @@ class Grammar:
         chart = _Chart(self, text)
         rows = chart.rule(start, chart.after(0)).get(len(text), [])
         return [tree for row in rows for tree in row if isinstance(tree, Tree)]
+
+    def matcher(self, terminal: str) -> Matcher:
+        """What finds a terminal; it is made when it is first looked for."""
+        known = self._matchers.get(terminal)
+        if known is None:
+            known = re.compile(self._source.pattern(terminal)).match
+            self._matchers[terminal] = known
+        return known
 
     def _refuse_left_recursion(self) -> None:
         """Raise for a rule that may begin with itself: descent would never end."""
@@ -150,18 +132,7 @@ class Grammar:
             empty = found
 
 
-def _production(rule: Rule) -> _Production:
-    """A rule of Lark's; its repetitions (`x*`) are turned to go from left to right."""
-    name = str(rule.origin.name)
-    symbols = tuple(rule.expansion)
-    if name.startswith("__") and symbols[0].name == name:
-        symbols = (*symbols[1:], symbols[0])
-    inlined = name.startswith("_") and not rule.alias
-    made = None if inlined else str(rule.alias or name)
-    return _Production(name, symbols, made, bool(rule.options.expand1))
-
-
-def _firsts(made: _Production, empty: set[str]) -> Iterator[str]:
+def _firsts(made: Production, empty: set[str]) -> Iterator[str]:
     """The rules that a production may begin with."""
     for symbol in made.symbols:
         if symbol.is_term:
@@ -199,7 +170,7 @@ class _Chart:
                 found.setdefault(end, []).extend(_made(production, rows))
         return {end: _simplest(rows) for end, rows in found.items()}
 
-    def _by_production(self, production: _Production, at: int) -> Found:
+    def _by_production(self, production: Production, at: int) -> Found:
         so_far: Found = {at: [()]}
         for symbol in production.symbols:
             further: dict[int, list[Row]] = {}
@@ -219,21 +190,21 @@ class _Chart:
         if matched is None:
             return {}
         end, text = matched
-        kept = not symbol.filter_out  # type: ignore[attr-defined]
+        kept = not symbol.filter_out
         return {end: [(Word(symbol.name, text),) if kept else ()]}
 
     def _terminal(self, name: str, at: int) -> tuple[int, str] | None:
         """Where the next word begins if here is this terminal, and its text."""
         key = (name, at)
         if key not in self._terminals:
-            found = self._grammar._matchers[name](self._text, at)
+            found = self._grammar.matcher(name)(self._text, at)
             self._terminals[key] = (
                 (self.after(found.end()), found.group()) if found else None
             )
         return self._terminals[key]
 
 
-def _made(production: _Production, rows: list[Row]) -> Iterable[Row]:
+def _made(production: Production, rows: list[Row]) -> Iterable[Row]:
     """What a production makes of what it has found: a tree of it, mostly."""
     if production.made is None:
         return rows

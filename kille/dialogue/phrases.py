@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from kille.dialogue.lexicon import Lexicon
-from ttr import Meet, Negation, Pred, PType, Record, RecordType, TypeNode
+from ttr import Join, Meet, Negation, Pred, PType, Record, RecordType, TypeNode
 
 __all__ = ["Words", "claimed", "noun_phrase", "phrase"]
 
@@ -30,15 +30,18 @@ def phrase(lexicon: Lexicon, part: RecordType, words: Words, style: str) -> str 
     own = [words[it] for it in _predicates(part, "a") if it in words]
     talk = [it.name for it in _discourse(part)]
     beside = _beside(lexicon, part, words)
-    marked = [lexicon.marking[name] for name in talk if name in lexicon.marking]
+    marking = [name for name in talk if name in lexicon.marking]
     alone = [lexicon.referring[name] for name in talk if name in lexicon.referring]
-    if not (nouns or own or marked or alone or beside):
+    if not (nouns or own or marking or alone or beside):
         return None
-    if alone and not (nouns or own or marked):
+    if alone and not (nouns or own or marking):
         core = alone[0]
     else:
         pointing = [name for name in talk if name in lexicon.styles]
         style = pointing[0] if pointing and style == "definite" else style
+        has_own = [name for name in marking if f"{style}_{name}" in lexicon.styles]
+        marked = [lexicon.marking[name] for name in marking if name not in has_own]
+        style = f"{style}_{has_own[0]}" if has_own else style
         core = _core(lexicon, words[nouns[0]] if nouns else None, own, marked, style)
     return f"{core} {beside}" if beside else core
 
@@ -115,7 +118,7 @@ def claimed(field: TypeNode | None) -> Iterator[Pred]:
     match field:
         case PType(pred, _):
             yield pred
-        case Meet(fields):
+        case Meet(fields) | Join(fields):
             for one in fields:
                 yield from claimed(one)
         case Negation(body):

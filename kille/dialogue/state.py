@@ -22,11 +22,13 @@ def initial(
     signs: Iterable[Record] = (),
     strategy: Record | None = None,
     colours: Iterable[Record] = (),
+    taught: Iterable[Record] = (),
 ) -> Record:
     """The state in which a dialogue begins: words are known, nothing has been said.
 
     The strategy is a value of `kille.dialogue.strategies`; `colours` are those of the
-    adjectives that answer what colour something is.
+    adjectives that answer what colour something is; `taught` says how many lessons
+    there were in a word before, as `Taught`.
 
     >>> from kille.dialogue.meanings import noun
     >>> s = initial([noun("cup")])
@@ -41,6 +43,7 @@ def initial(
             beliefs=[],
             asked=[],
             lessons=[],
+            taught=list(taught),
             last=[],
             failed=[],
             colours=list(colours),

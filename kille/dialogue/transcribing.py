@@ -8,7 +8,7 @@ it says can be understood again.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from string import Formatter
 
 from kille.dialogue.lexicon import Lexicon
@@ -17,6 +17,9 @@ __all__ = ["CLOSELY", "LOOSELY", "robot_rules"]
 
 CLOSELY, LOOSELY = "closely", "loosely"
 """The rules for what the robot says: all of it known, or with any text in a place."""
+
+_ASKS = "_ASKS"
+"""The terminal of the grammar for a question mark at the end."""
 
 _FREE = "_FREE_TEXT"
 """The terminal of a slot that may hold any text."""
@@ -27,37 +30,45 @@ def robot_rules(lexicon: Lexicon, grammar: str) -> str:
 
     A slot that the grammar has no rule for is any text.
     """
-    slots = set(re.findall(r"^slot_(\w+)\s*:", grammar, re.MULTILINE))
+    rules = re.findall(r"^(_?slot_(\w+))\s*:", grammar, re.MULTILINE)
+    slots = {slot: rule for rule, slot in rules}
     terminals: dict[str, str] = {}
-    rules: list[str] = []
+    wordings: list[str] = []
     starts = {CLOSELY: "", LOOSELY: ""}
-    for act, wordings in lexicon.says.items():
-        for wording in wordings:
+    for act, sentences in lexicon.wordings.items():
+        for wording in sentences:
             symbols = list(_symbols(lexicon.with_examples(wording), slots, terminals))
-            name = f"wording_{len(rules)}"
-            rules.append(f"{name}: {' '.join(symbols)} -> {act}")
-            start = LOOSELY if _FREE in symbols else CLOSELY
+            name = f"wording_{len(wordings)}"
+            wordings.append(f"{name}: {' '.join(symbols)} -> {act}")
+            start = LOOSELY if any(map(_is_loose, symbols)) else CLOSELY
             starts[start] += f" | {name}" if starts[start] else name
     return "\n".join(
         [
             "",
-            *(f"{start}: {ways or _FREE}" for start, ways in starts.items()),
-            *rules,
+            *(f"{start}: ({ways or _FREE}) {_ASKS}?" for start, ways in starts.items()),
+            *wordings,
             *(f"{name}: /{pattern}/i" for pattern, name in terminals.items()),
-            _FREE + r": /\S.*?(?=\W*$|[.,?!:;])/s",
+            _FREE + r": /\S.*?(?=\W*$|\s*[.,?!:;()])/s",
             "",
         ]
     )
 
 
-def _symbols(wording: str, slots: set[str], terminals: dict[str, str]) -> Iterator[str]:
+def _is_loose(symbol: str) -> bool:
+    """Whether a symbol finds a text that it makes nothing of."""
+    return symbol == _FREE or symbol.startswith("_slot_")
+
+
+def _symbols(
+    wording: str, slots: Mapping[str, str], terminals: dict[str, str]
+) -> Iterator[str]:
     """What a wording is made of, as symbols of the grammar."""
     for literal, slot in _pieces(wording):
         pattern = _pattern(literal)
         if pattern:
             yield terminals.setdefault(pattern, f"_SAYS_{len(terminals)}")
         if slot:
-            yield f"slot_{slot}" if slot in slots else _FREE
+            yield slots.get(slot, _FREE)
 
 
 def _pieces(wording: str) -> Iterator[tuple[str, str | None]]:
@@ -68,9 +79,9 @@ def _pieces(wording: str) -> Iterator[tuple[str, str | None]]:
 def _pattern(literal: str) -> str:
     """The regular expression of some words of a wording, or nothing.
 
-    Marks before the first word are skipped; a quotation mark at the end is not.
+    Marks before it that mean nothing are skipped; a quotation mark at the end is not.
     """
-    text = re.sub(r"^\W+", "", literal).rstrip()
+    text = re.sub(r"^[\s.,!?;:…\"“”]+", "", literal).rstrip()
     words = [re.escape(word).replace("/", r"\/") for word in text.split()]
     pattern = r"\s+".join(words)
     return f"{pattern}\\b" if pattern and text[-1].isalnum() else pattern

@@ -8,7 +8,7 @@ checked, tested and changed by themselves.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import partial
+from functools import lru_cache, partial
 
 from kille.dialogue.games import TUTORING
 from kille.dialogue.language import Sentence, understand
@@ -34,13 +34,15 @@ def tutoring(
     mode: str = "",
     wording: str = "",
     colours: Iterable[Record] = (),
+    taught: Iterable[Record] = (),
 ) -> Game:
     """The games of tutoring as one, by a robot that knows these words.
 
     `model` judges what they are true of, by witness functions of their predicates;
     `act` makes a planned move, where more is to be done for it than to create it.
     `mode` and `wording` name its strategy in `strategies.toml`; `colours` are those of
-    its adjectives that are colours.
+    its adjectives that are colours; `taught` says of words in how many lessons they
+    were taught before.
 
     >>> game = tutoring()
     >>> turn = game.take(game.begin(), game.hear("What is this?"))
@@ -51,7 +53,7 @@ def tutoring(
     return Game(
         "tutoring",
         STATE,
-        initial(signs, deciding, colours),
+        initial(signs, deciding, colours, taught),
         rules,
         blank_model() if model is None else model,
         agenda="private.agenda",
@@ -63,6 +65,7 @@ def tutoring(
     )
 
 
+@lru_cache(1024)
 def hear(text: str, language: str = "en") -> RecordType | NBest | None:
     """The event of saying this, or None if it is not understood.
 

@@ -16,7 +16,7 @@ from collections.abc import Iterable
 
 __all__ = ["nearest", "nearest_sentence", "slip"]
 
-_ALIKE = 0.6
+_ALIKE = 0.72
 """Share of characters in common, in their order, that makes two sentences alike."""
 
 _LONG = 5

@@ -9,15 +9,15 @@ Source: Lison 2013, for combining what is heard with what is known before decidi
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Set
 from itertools import groupby
 from typing import NamedTuple
 
 from kille.dialogue.beliefs import degree, knows
-from kille.dialogue.meanings import CLAIMS, claims, is_denial, theory, value_at
+from kille.dialogue.meanings import CLAIMS, claims, is_denial, theory, value_at, word_of
 from kille.dialogue.reference import PARTS, contents, phrases, thing_at
 from kille.dialogue.state import words
-from ttr import Model, PType, Record, RecordType
+from ttr import Model, Pred, PType, Record, RecordType
 from ttr.updates import NBest
 
 __all__ = ["FAINTLY", "Weighed", "weighed"]
@@ -49,10 +49,11 @@ def weighed(s: Record, model: Model, heard: NBest) -> Sequence[Weighed]:
     """
     texts = [list(them) for _, them in groupby(_by_text(heard), key=_text)]
     other = max(0.0, 1.0 - sum(p for them in texts for _, p in them))
+    known = frozenset(map(word_of, words(s)))
     if len(texts) == 1 and other < _ROUNDING:
-        said, _ = max(texts[0], key=lambda it: it[1] * _wording(s, it[0]))
+        said, _ = max(texts[0], key=lambda it: it[1] * _wording(known, it[0]))
         return [Weighed(said, 1.0)]
-    fits = [_best(s, model, them) for them in texts]
+    fits = [_best(s, model, known, them) for them in texts]
     strange = s.private.strategy.hearing.strange
     whole = sum(it.p for it in fits) + other * strange
     shares = [Weighed(it.said, it.p / whole if whole else 0.0) for it in fits]
@@ -67,18 +68,24 @@ def _text(alternative: tuple[Record, float]) -> str:
     return str(alternative[0].text)
 
 
-def _best(s: Record, model: Model, readings: Sequence[tuple[Record, float]]) -> Weighed:
+def _best(
+    s: Record,
+    model: Model,
+    known: Set[Pred],
+    readings: Sequence[tuple[Record, float]],
+) -> Weighed:
     """The likeliest reading of a text, and the weight of the text."""
     fits = [
-        Weighed(said, _wording(s, said) * _seen(s, model, said)) for said, _ in readings
+        Weighed(said, _wording(known, said) * _seen(s, model, said))
+        for said, _ in readings
     ]
     best = max(fits, key=lambda it: it.p)
     return Weighed(best.said, best.p * sum(p for _, p in readings))
 
 
-def _wording(s: Record, said: Record) -> float:
+def _wording(known: Set[Pred], said: Record) -> float:
     """How likely a reading is, by its words: known ones, and few of them."""
-    new = [sign for sign in said.signs if not knows(words(s), sign)]
+    new = [sign for sign in said.signs if word_of(sign) not in known]
     parts = sum(len(sign.form.split()) for sign in new)
     return float(LONGER ** len(said.signs) * UNKNOWN**parts)
 

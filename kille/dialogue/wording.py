@@ -10,15 +10,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
 from string import Formatter
 
 from kille.dialogue.details import details
 from kille.dialogue.lexicon import Lexicon, Wordings, lexicon
-from kille.dialogue.listing import listed
+from kille.dialogue.listing import either, listed
 from kille.dialogue.meanings import word_of
 from kille.dialogue.mending import suggested
 from kille.dialogue.phrases import Words, claimed, noun_phrase, phrase
-from ttr import Negation, Rec, Record, RecordType, Singleton
+from ttr import Join, Negation, Rec, Record, RecordType, Singleton
 
 __all__ = ["did_not_understand", "lexicon", "say", "tell"]
 
@@ -27,9 +28,6 @@ _SHOWN = 60
 
 _CLAIMS = {"c": "word", "a": "quality", "rel": "relation"}
 """The slots of what is said of a target, by the label of its claim."""
-
-_SAID = (str, float, int)
-"""The values of fields that are said as they are."""
 
 _PARTS = ("target", "landmark")
 """The labels of what is said by a noun phrase."""
@@ -58,7 +56,7 @@ def tell(lexicon: Lexicon, act: str, move: Record) -> str:
 def did_not_understand(lexicon: Lexicon, text: str) -> str:
     """One sentence: that it was not understood, and what could be said instead.
 
-    That is the text with its slips mended, or an example that is like it.
+    That is the text with its slips mended, or an example that is much like it.
 
     >>> print(did_not_understand(lexicon("en"), "Where is teh book?"))
     Sorry, I did not understand "Where is teh book?". You could say
@@ -67,7 +65,9 @@ def did_not_understand(lexicon: Lexicon, text: str) -> str:
     shown = re.sub(r"\s+", " ", text).strip()
     shown = "".join(c if c.isprintable() else "�" for c in shown)
     shown = shown if len(shown) <= _SHOWN else shown[: _SHOWN - 3] + "…"
-    return lexicon.not_understood.format(text=shown, nearest=suggested(lexicon, shown))
+    nearest = suggested(lexicon, shown)
+    slots = {"text": shown} | ({} if nearest is None else {"nearest": nearest})
+    return _fitting(lexicon.not_understood, slots).format_map(slots)
 
 
 def _worded(lexicon: Lexicon, wordings: Wordings, act: str, move: Record) -> str:
@@ -85,15 +85,15 @@ def _fitting(wordings: Iterable[str], slots: Mapping[str, str]) -> str:
     """The first wording of which all slots are filled, or else the last."""
     wording = ""
     for wording in wordings:
-        if all(slot in slots for slot in _slots_in(wording)):
+        if _slots_in(wording) <= slots.keys():
             return wording
     return wording
 
 
-def _slots_in(wording: str) -> Iterator[str]:
-    for _, slot, _, _ in Formatter().parse(wording):
-        if slot and slot != "examples":
-            yield slot
+@lru_cache(1024)
+def _slots_in(wording: str) -> frozenset[str]:
+    found = {slot for _, slot, _, _ in Formatter().parse(wording)}
+    return frozenset(slot for slot in found if slot and slot != "examples")
 
 
 def _of_rival(slot: str) -> str:
@@ -129,13 +129,21 @@ def _claim_slots(
     """The words that a content claims to be true, or not."""
     alone = "x" in content
     for label in _CLAIMS:
-        sign = next((words[p] for p in claimed(content.get(label)) if p in words), None)
-        if sign is None:
+        signs = [words[p] for p in claimed(content.get(label)) if p in words]
+        if not signs:
             continue
-        slots = dict(_forms(lexicon, (_WORDS if alone else _CLAIMS)[label], sign))
+        several = signs if isinstance(content[label], Join) else signs[:1]
+        forms = [
+            dict(_forms(lexicon, (_WORDS if alone else _CLAIMS)[label], sign))
+            for sign in several
+        ]
         if label == "a" and not alone:
             article = _gender(lexicon, content, words)
-            slots["so"] = lexicon.agreeing(sign.form, article)
+            for its, sign in zip(forms, several, strict=True):
+                its["so"] = lexicon.agreeing(sign.form, article)
+        slots = {
+            slot: either(lexicon, [its[slot] for its in forms]) for slot in forms[0]
+        }
         yield from slots.items()
         if isinstance(content[label], Negation):
             yield from ((f"not_{slot}", text) for slot, text in slots.items())

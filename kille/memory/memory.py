@@ -65,6 +65,11 @@ class MemoryReader:
         with explained(self.place):
             return reading.words(self._connection)
 
+    def counts(self) -> dict[tuple[Kind, str], int]:
+        """In how many lessons each word was said to hold, by its kind and name."""
+        with explained(self.place):
+            return reading.counts(self._connection)
+
     def dialogues(self) -> tuple[Dialogue, ...]:
         """All dialogues, in the order in which they began."""
         with explained(self.place):

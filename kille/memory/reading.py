@@ -73,6 +73,8 @@ TOLD = f"""
     WHERE lessons.id = ?
 """
 
+COUNTS = "SELECT kind, name, count(*) FROM lessons WHERE holds GROUP BY kind, name"
+
 KEYS_OF_WORD = "SELECT id FROM lessons WHERE kind = ? AND name = ? ORDER BY id"
 
 OBJECTS = f"""
@@ -125,6 +127,12 @@ def words(connection: sqlite3.Connection) -> tuple[Word, ...]:
     It is as it was said when that was first taught, with the first article it had.
     """
     return tuple(Word(*row) for row in connection.execute(WORDS))
+
+
+def counts(connection: sqlite3.Connection) -> dict[tuple[Kind, str], int]:
+    """In how many lessons each word was said to hold, by its kind and name."""
+    rows = connection.execute(COUNTS)
+    return {(kind, name): number for kind, name, number in rows}
 
 
 def dialogues(connection: sqlite3.Connection) -> tuple[Dialogue, ...]:

@@ -14,6 +14,7 @@ on from any of its states. The tutor, in `tutors`, needs hypothesis.
 from kille.simulation.learning import Word
 from kille.simulation.perceiving import glanced, seen
 from kille.simulation.playing import simulated, words, world_of
+from kille.simulation.schooling import schooled
 from kille.simulation.worlds import Thing, World, drawn
 
 __all__ = [
@@ -22,6 +23,7 @@ __all__ = [
     "World",
     "drawn",
     "glanced",
+    "schooled",
     "seen",
     "simulated",
     "words",

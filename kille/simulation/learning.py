@@ -54,11 +54,15 @@ LEAST = 0.02
 
 
 class Taught(NamedTuple):
-    """A lesson: its key, what was seen, and whether the word was said to hold of it."""
+    """A lesson: its key, what was seen, and whether the word was said to hold of it.
+
+    Lessons of all words are numbered in the order in which they were given.
+    """
 
     key: str
     of: Observation
     holds: bool = True
+    number: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +107,7 @@ class Word:
             share * self._degree(aspect, of) for aspect, share in enumerate(shares)
         )
 
-    def taught(self, *args: str, holds: bool = True) -> Word:
+    def taught(self, *args: str, holds: bool = True, number: int = 0) -> Word:
         """The word after one more lesson, which is about this in a look."""
         of = observed(self.sign.kind, *args)
         if of is None:
@@ -111,7 +115,7 @@ class Word:
                 f"{args} is not to be seen, so that nothing is to be learned"
             )
         count = self.count + 1
-        lesson = Taught(f"{word_of(self.sign).name}/{count}", of, holds)
+        lesson = Taught(f"{word_of(self.sign).name}/{count}", of, holds, number)
         return replace(self, lessons=(*self.lessons, lesson), count=count)
 
     def without(self, key: str) -> Word:

@@ -8,13 +8,13 @@ learning replaces. So a dialogue can be played again, and go on from any of its 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from kille.dialogue.meanings import claims, is_denial, theory, value_at, word_of
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
-from kille.simulation.learning import Word, observed
+from kille.simulation.learning import Taught, Word, observed
 from kille.simulation.perceiving import across, number_of, thing, view
 from kille.simulation.vocabulary import vocabulary
 from kille.simulation.worlds import World
@@ -24,10 +24,17 @@ from ttr.updates import Game
 __all__ = ["act", "known", "simulated", "word", "world_of"]
 
 
-def simulated(world: World, signs: Iterable[Record] = (), **settings: Any) -> Game:
+def simulated(
+    world: World,
+    signs: Iterable[Record] = (),
+    *,
+    colours: Iterable[Record] | None = None,
+    **settings: Any,
+) -> Game:
     """The games of tutoring, played in front of this world by a robot of these words.
 
-    It has not been taught them; `settings` are those of `tutoring`.
+    It has not been taught them; it knows these `colours`, or else all. `settings` are
+    those of `tutoring`.
 
     >>> from kille.simulation.worlds import Thing
     >>> game = simulated(World((Thing("cup", "red", place=(2, 3)),)))
@@ -35,7 +42,9 @@ def simulated(world: World, signs: Iterable[Record] = (), **settings: Any) -> Ga
     >>> [game.say(move) for turn in turns for move in turn.said]
     ['OK, I learned a cup.', 'This is a cup.']
     """
-    colours = vocabulary(settings.get("language", "en")).colours
+    if colours is None:
+        colours = vocabulary(settings.get("language", "en")).colours
+    colours = tuple(colours)
     signs = [*signs, *colours]
     game = tutoring(
         signs, model=model_of(world, signs), act=act, colours=colours, **settings
@@ -104,12 +113,15 @@ def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
         key, model = _learned(model, sign, content)
         keys.append(key)
     dropped = [key for sign in move.drops for key in keys_of(model, sign)]
-    lost, model = _unlearned(model, (*move.forgets, *dropped))
+    undone = _latest(model, len(move.undoes))
+    keys_undone = [it.key for it in undone]
+    lost, model = _unlearned(model, (*move.forgets, *dropped, *keys_undone))
     explained = [_reason(model, claim) for claim in move.explains]
     recalled = [_recalled(model, sign) for sign in move.recalls]
     done = {
         "keys": keys,
         "dropped": dropped,
+        "undone": undone or move.undone,
         "lost": lost,
         "reasons": explained,
         "recalled": recalled,
@@ -126,8 +138,9 @@ def keys_of(model: Model, sign: Record) -> tuple[str, ...]:
 def _learned(model: Model, sign: Record, content: RecordType) -> tuple[str, Model]:
     """The model in which a content was learned, and the key of the lesson."""
     pred = word_of(sign)
-    taught = (word(model, pred) or Word.known(sign)).taught(
-        *arguments(sign, content), holds=not is_denial(content)
+    number = max((it.number for _, it in _lessons(model)), default=0) + 1
+    taught = (word(model, pred) or Word(sign)).taught(
+        *arguments(sign, content), holds=not is_denial(content), number=number
     )
     return taught.lessons[-1].key, model.witnessed(pred, by=taught)
 
@@ -161,6 +174,19 @@ def _unlearned(model: Model, keys: Iterable[str]) -> tuple[tuple[Record, ...], M
     return tuple(lost), model
 
 
+def _lessons(model: Model) -> Iterator[tuple[Record, Taught]]:
+    """All lessons, each with the sign that it is about."""
+    for it in words(model):
+        for lesson in it.lessons:
+            yield it.sign, lesson
+
+
+def _latest(model: Model, count: int) -> list[Record]:
+    """So many of the lessons that were given last, as reminders."""
+    ordered = sorted(_lessons(model), key=lambda it: -it[1].number)
+    return [_reminder(sign, lesson) for sign, lesson in ordered[:count]]
+
+
 def _recalled(model: Model, sign: Record) -> Record:
     return record(sign=sign, lessons=float(len(keys_of(model, sign))), confused=[])
 
@@ -177,13 +203,15 @@ def _reason(model: Model, claim: RecordType) -> Record:
         return record(claim=claim, p=0.0, cues=[], reminders=[])
     cues = [record(name=name, share=share) for name, share in known.cues(of)]
     nearest = known.nearest(of)
-    reminders = [] if nearest is None else [_reminder(nearest.key, sign)]
+    reminders = [] if nearest is None else [_reminder(sign, nearest)]
     return record(claim=claim, p=known.degree(of), cues=cues, reminders=reminders)
 
 
-def _reminder(key: str, sign: Record) -> Record:
+def _reminder(sign: Record, lesson: Taught) -> Record:
     return record(
-        key=key,
+        key=lesson.key,
+        sign=sign,
+        examples=float(lesson.holds),
         text=sign.form,
         dialogue="0",
         turn="0",

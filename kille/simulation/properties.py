@@ -50,7 +50,9 @@ def _retracts_more(dialogue: Dialogue, roles: Roles) -> Checked:
 
 
 def _forgets(move: Record) -> Iterable[str]:
-    return (*move.forgets, *move.dropped)
+    """The keys of what a move unlearns; what is only told once more is none of it."""
+    undone = move.undone if move.undoes else ()
+    return (*move.forgets, *move.dropped, *(it.key for it in undone))
 
 
 # --- P11 -----------------------------------------------------------------------------

@@ -21,7 +21,20 @@ from kille.simulation.vocabulary import vocabulary
 from kille.simulation.worlds import World
 from ttr import Rec, Record, RecordType, merge, record, rectype
 
-__all__ = ["NOTHING", "THIS", "Claim", "Phrase", "Saying", "acts", "sayings", "true_of"]
+__all__ = [
+    "NOTHING",
+    "THIS",
+    "Claim",
+    "Matter",
+    "Phrase",
+    "Saying",
+    "acts",
+    "coloured",
+    "phrases_of",
+    "sayings",
+    "settled",
+    "true_of",
+]
 
 TEMPLATES = {"noun": "Naming", "adjective": "Having", "relation": "Relation"}
 """What a claim means, by the kind of its word."""
@@ -139,10 +152,15 @@ def sayings(language: str, act: str, world: World) -> tuple[Saying, ...]:
     >>> sayings("en", "instruct", world)[0].text
     'This is a cup.'
     """
-    return _sayings(language, act, replace(world, glance=0))
+    return _sayings(language, act, settled(world))
 
 
-@lru_cache(4096)
+def settled(world: World) -> World:
+    """A world as it is, however often it was looked at: what may be said of it."""
+    return replace(world, glance=0)
+
+
+@lru_cache(1024)
 def _sayings(language: str, act: str, world: World) -> tuple[Saying, ...]:
     found = (
         Saying(language, act, about)
@@ -183,7 +201,7 @@ def _about(
         case ["the_landmark"]:
             return (_perspective(Phrase("", (noun,))) for noun in nouns)
         case ["by"]:
-            return [Matter(named("ByViewer"))]
+            return [Matter(named("ByViewer")), Matter(named("ByLandmark"))]
     return ()
 
 

@@ -5,13 +5,19 @@ ttr test kille.simulation.tutoring:game
 
 from __future__ import annotations
 
+from functools import lru_cache
+
+from hypothesis import strategies as st
+
+from kille.simulation.answering import DROPPING, answers_in
 from kille.simulation.playing import simulated
+from kille.simulation.robots import ROBOTS
 from kille.simulation.tutors import tutoring
 from kille.simulation.worlds import drawn
-from ttr import Record
+from ttr import Model, Record
 from ttr.testing import Roles
 
-__all__ = ["game", "roles", "tutor", "words"]
+__all__ = ["game", "roles", "roles_in", "starts", "tutor", "words"]
 
 
 def words(event: Record) -> str | None:
@@ -19,15 +25,38 @@ def words(event: Record) -> str | None:
     return str(event.text) if "text" in event else None
 
 
+def roles_in(language: str) -> Roles:
+    """Where in a state the things are that properties speak of, in a language."""
+    return Roles(
+        qud="shared.qud",
+        commitments="shared.commitments",
+        latest="shared.latest",
+        words=words,
+        answers=answers_in(language),
+        drops=DROPPING,
+        retracts=frozenset({"keep"}),
+        moves=8,  # where each of the things that there are is
+    )
+
+
 game = simulated(drawn(1))
 """The games, in front of a table with four things on it and four beside it."""
 
 tutor = tutoring()
-roles = Roles(
-    qud="shared.qud",
-    commitments="shared.commitments",
-    latest="shared.latest",
-    words=words,
-    retracts=frozenset({"keep"}),
-    moves=3,  # of what the robot knows: words for things, how they are, and where
-)
+roles = roles_in("en")
+
+WORLDS = 4
+"""In how many worlds each robot begins."""
+
+_ENGLISH = [robot for robot in ROBOTS if robot.language == "en"]
+
+
+@lru_cache(len(_ENGLISH) * WORLDS)
+def _begun(robot: int, seed: int) -> tuple[Record, Model]:
+    """The state and the model in which a dialogue with a robot begins."""
+    begun = _ENGLISH[robot].game(seed)
+    return begun.start, begun.model
+
+
+starts = st.builds(_begun, st.integers(0, len(_ENGLISH) - 1), st.integers(1, WORLDS))
+"""Where dialogues begin: with every robot that speaks English, in some worlds."""

@@ -7,17 +7,16 @@ asks, confirms, corrects, points, forgets, talks nonsense, and moves things.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from functools import lru_cache, partial
-from itertools import product
+from itertools import chain, product
 from random import Random
 
 from hypothesis import strategies as st
 
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import CLAIMS, is_denial, value_at, word_of
-from kille.dialogue.state import words
 from kille.dialogue.tutoring import heard
+from kille.simulation.leading import Situation, by_side, leads, situation
 from kille.simulation.perceiving import glanced, number_of, seen
 from kille.simulation.playing import world_of
 from kille.simulation.sayings import (
@@ -26,9 +25,9 @@ from kille.simulation.sayings import (
     Claim,
     Saying,
     acts,
-    coloured,
     phrases_of,
     sayings,
+    settled,
     true_of,
 )
 from kille.simulation.vocabulary import vocabulary
@@ -75,13 +74,17 @@ def tutoring(language: str = "en", **shares: float) -> Tutor:
 def _moves(language: str, s: Record, model: Model) -> Options:
     """All that may be said or done, each kind of thing as often as any other."""
     world = world_of(s)
-    everything = _all(language, replace(world, glance=0))
-    said = [_spoken(it) for it in everything]
+    return [*_anything(language, settled(world)), *[_happened(world)] * OTHERS]
+
+
+@lru_cache(256)
+def _anything(language: str, world: World) -> Options:
+    """All that may be said, clearly or not."""
+    everything = _all(language, world)
     unclear = [_mumbled(everything)] * OTHERS
-    return [*said, *unclear, *[_happened(world)] * OTHERS, st.sampled_from(NONSENSE)]
+    return [*map(_spoken, everything), *unclear, st.sampled_from(NONSENSE)]
 
 
-@lru_cache(4096)
 def _all(language: str, world: World) -> Sequence[Talk]:
     """All that may be said, move by move."""
     said = (sayings(language, act, world) for act in acts(language))
@@ -89,20 +92,36 @@ def _all(language: str, world: World) -> Sequence[Talk]:
 
 
 def _replies(language: str, s: Record, model: Model) -> Options:
-    """What answers what the robot has said, or else a lesson or a question."""
+    """What answers what the robot has said, or else a lesson or a question.
+
+    Half of what needs no answer is what leads on from the state.
+    """
     world = world_of(s)
     if s.shared.qud:
-        return _choosing(language, world)
+        return _choosing(language, world, s.shared.qud[0].ask)
+    now = situation(language, s)
+    leading = [*_leading(now), _idled(world)]
     if s.shared.pending:
-        return _judging(language, world, s.shared.pending)
-    known = frozenset(word_of(sign) for sign in words(s))
-    free = _free(language, replace(world, glance=0), known)
-    said = [_spoken(it) for it in (*free, *_turned(language, world, s.shared.turned))]
-    others = [_mumbled(free), _misspelt(free, known), _happened(world)]
-    return [*said, *others * OTHERS]
+        judging = _judging(language, world, s.shared.pending)
+        return [*judging, *judging, st.one_of(leading)]
+    said = [*_chatting(language, now.world, now.known), *[_happened(world)] * OTHERS]
+    return [*said, *leading * (len(said) // len(leading))]
 
 
-@lru_cache(4096)
+@lru_cache(256)
+def _leading(now: Situation) -> Sequence[st.SearchStrategy[object]]:
+    """What leads on, topic by topic."""
+    return [*map(_spoken, leads(now))]
+
+
+@lru_cache(256)
+def _chatting(language: str, world: World, known: frozenset[Pred]) -> Options:
+    """What a tutor may say who was not asked anything, clearly or not."""
+    free = _free(language, world, known)
+    unclear = [_mumbled(free), _misspelt(free, known)]
+    return [*map(_spoken, free), *unclear * OTHERS]
+
+
 def _free(language: str, world: World, known: frozenset[Pred]) -> Sequence[Talk]:
     """What a tutor may say who was not asked anything, mostly in words that are known.
 
@@ -123,36 +142,21 @@ def _free(language: str, world: World, known: frozenset[Pred]) -> Sequence[Talk]
     return [*everything, *[lessons] * len(everything)]
 
 
-def _turned(language: str, world: World, turned: Sequence[Record]) -> Sequence[Talk]:
-    """Where things are beside what faces some way: as a viewer says, or as it would."""
-    known = vocabulary(language)
-    said = []
-    for it in turned:
-        y = number_of(it.x)
-        beside = [x for x in world.in_view if x != y]
-        if y not in world:
-            continue
-        landmark = coloured(language, world, y)
-        for x, front in product(beside, ("away", it.front)):
-            relation = known.relation_of(world, x, y, front)
-            if relation is not None:
-                said.append(Claim(relation, coloured(language, world, x), landmark))
-    acts_ = ("relate", "ask_whether", "correct") if said else ()
-    return [[Saying(language, act, claim) for claim in said] for act in acts_] * 3
-
-
 def _judging(language: str, world: World, pending: Sequence[RecordType]) -> Options:
     """Whether what the robot claims is so: yes if it is, and no if it is not.
 
-    What is not so is mostly corrected.
+    What is not so is mostly corrected. Now and then he errs.
     """
     true = [claim for claim in pending if is_true(language, world, claim)]
     agreeing = _spoken(_agreeing(language, "affirm" if true else "deny"))
+    erring = _spoken(_agreeing(language, "deny" if true else "affirm"))
     asking = [_spoken(_agreeing(language, act)) for act in _WONDERING]
+    if _label(pending[0]) == "rel":
+        asking.append(_spoken(by_side(language, world)))
     if true and len(pending) == 1:
-        return [agreeing, agreeing, *asking]
+        return [agreeing, agreeing, erring, *asking]
     right = list(_corrections(language, world, pending[0]))
-    return [agreeing, *asking, *[_spoken(right)] * (3 if right else 0)]
+    return [agreeing, erring, *asking, *[_spoken(right)] * (3 if right else 0)]
 
 
 _WONDERING = ("ask_certainty", "ask_why")
@@ -165,7 +169,8 @@ def _corrections(language: str, world: World, content: RecordType) -> Iterator[S
     if x not in world:
         return
     label = _label(content)
-    for phrase in (THIS, *phrases_of(language, world, x), NOTHING):
+    shortly = [] if label == "rel" else [NOTHING]
+    for phrase in (THIS, *phrases_of(language, world, x), *shortly):
         for claim in true_of(language, world, x, phrase):
             if _label(claim.content) == label:
                 yield Saying(language, "correct", claim)
@@ -209,16 +214,32 @@ def _teaching(claim: Claim) -> str:
     return {"noun": "instruct", "adjective": "describe"}.get(kind, "relate")
 
 
-def _choosing(language: str, world: World) -> Options:
+def _choosing(language: str, world: World, asked: str) -> Options:
     """Which of several moves was meant: in words, by pointing, or none of them."""
-    agreeing = [*_agreeing(language, "affirm"), *_agreeing(language, "deny")]
+    agreeing = [it for act in _YES_OR_NO for it in _agreeing(language, act)]
+    settling = _settling(language, world, asked)
+    mentions = sayings(language, "mention", world)
     pointing = [(glanced, world.pointed(x)) for x in world.in_view]
     return [
         _spoken(agreeing),
-        _spoken(sayings(language, "mention", world)),
-        _spoken(sayings(language, "take_frame", world)),
+        _spoken(settling),
+        _spoken(settling),
+        _spoken([it for it in mentions if len(it.about.signs) == 1]),
         *([_shown(world, pointing)] if pointing else []),
     ]
+
+
+_YES_OR_NO = ("affirm", "deny")
+
+
+def _settling(language: str, world: World, asked: str) -> Talk:
+    """What plainly answers a question of the robot's."""
+    match asked:
+        case "AskFrame":
+            return by_side(language, world)
+        case "OfferWord" | "AskHeard":
+            return [it for act in _YES_OR_NO for it in _agreeing(language, act)]
+    return sayings(language, "mention", world)
 
 
 def _agreeing(language: str, act: str) -> Talk:
@@ -268,9 +289,22 @@ def _misspelt(said: Sequence[Talk], known: frozenset[Pred]) -> st.SearchStrategy
 
 
 def _happened(world: World) -> st.SearchStrategy[Record]:
-    """One of the things that may happen, as the event in which it is seen."""
-    after = [(look, it) for it in happenings(world) for look in (glanced, seen)]
-    return _shown(world, after)
+    """One of the things that may happen, as the event in which it is seen.
+
+    Each kind of thing happens as often as any other.
+    """
+    looks = (glanced, seen)
+    kinds = [_shown(world, list(product(looks, it))) for it in _kinds(world)]
+    return st.one_of(kinds)
+
+
+def _idled(world: World) -> st.SearchStrategy[Record]:
+    """The robot looks, and it is its turn: all is as it was, or other things are there.
+
+    What is pointed at is the tutor's to speak of.
+    """
+    changed = [it for it in happenings(world) if it.focus == world.focus]
+    return _shown(world, [(seen, it) for it in (world.looked(), *changed)])
 
 
 def _shown(world: World, after: Sequence[Look]) -> st.SearchStrategy[Record]:
@@ -278,17 +312,25 @@ def _shown(world: World, after: Sequence[Look]) -> st.SearchStrategy[Record]:
     return st.sampled_from(after).map(lambda one: one[0](one[1], world))
 
 
-@lru_cache(4096)
 def happenings(world: World) -> tuple[World, ...]:
     """What may become of a world: things are put, taken, moved, pointed at."""
+    return tuple(chain.from_iterable(_kinds(world)))
+
+
+@lru_cache(256)
+def _kinds(world: World) -> Sequence[Sequence[World]]:
+    """What may become of a world, kind by kind."""
     random = Random(world.name)
     free = list(world.free())
     hidden = [n for n in range(1, len(world.things) + 1) if n not in world.in_view]
-    flat, cleared = world.seen_flat(), world.cleared()
-    after = [world.looked(), *map(world.pointed, world.in_view), flat, cleared]
-    for number in hidden:
-        after.append(world.moved(number, random.choice(free)))
+    kinds = [
+        [world.looked()],
+        [world.seen_flat()],
+        [world.cleared()],
+        [world.pointed(number) for number in world.in_view],
+        [world.moved(number, random.choice(free)) for number in hidden],
+    ]
     if world.in_view:
-        after.append(world.moved(random.choice(world.in_view), None))
-        after.append(world.moved(random.choice(world.in_view), random.choice(free)))
-    return tuple(after)
+        one, other = random.choices(world.in_view, k=2)
+        kinds += [[world.moved(one, None)], [world.moved(other, random.choice(free))]]
+    return tuple(kind for kind in kinds if kind)

@@ -29,6 +29,7 @@ from kille.memory import MemoryFileError, ObjectLesson
 from kille.scene import Frame
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic import Synthetic, open_synthetic
+from ttr.errors import UpdateError
 
 NOON = datetime(2026, 1, 31, 12, 0, tzinfo=UTC)
 
@@ -555,3 +556,23 @@ def test_the_rules_that_ran_are_in_the_trace() -> None:
         heard = robot.exchanges[-1].heard
         assert heard is not None
         assert heard.type <= named("Instruct")
+
+
+@pytest.mark.parametrize(
+    ("texts", "told"),
+    [
+        ((), "nothing was perhaps said: give texts and probabilities"),
+        ((("This is a cup.", 0.0),), "'This is a cup.' has 0.0"),
+        ((("This is a cup.", math.nan),), "'This is a cup.' has nan"),
+        ((("This is a cup.", 0.7), ("This is a cap.", 0.6)), "at most 1, found 1.3"),
+    ],
+)
+def test_what_was_perhaps_said_is_probable(
+    texts: tuple[tuple[str, float], ...], told: str
+) -> None:
+    with awake() as robot:
+        state = robot.state
+        with pytest.raises(UpdateError) as wrong:
+            robot.hear_perhaps(*texts)
+        assert str(wrong.value).endswith(told)
+        assert robot.state is state

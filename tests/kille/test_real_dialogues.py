@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import runpy
+import sys
 from pathlib import Path
 
 import pytest
@@ -16,3 +17,12 @@ def test_a_dialogue_about_real_scenes(data: Path, seed: int) -> None:
     played = runpy.run_path(str(SCRIPT))["played"]
     counts = played(seed, 12, data / "ycbv_scenes")
     assert counts["turns"] >= 12
+
+
+def test_what_was_not_played_is_told_as_well(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # As after Ctrl-C in the first dialogue.
+    monkeypatch.setattr(sys, "argv", [str(SCRIPT), "--dialogues", "0"])
+    runpy.run_path(str(SCRIPT), run_name="__main__")
+    assert capsys.readouterr().out == ""

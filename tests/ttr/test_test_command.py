@@ -91,6 +91,19 @@ def test_the_tutor_and_the_roles_beside_a_game_in_python(capsys):
     assert "P10 (no commitments)" in printed
 
 
+def test_dialogues_begin_where_the_starts_beside_a_game_say(capsys, folder):
+    (folder / "begun.py").write_text(
+        "import ttr\n"
+        "from hypothesis import strategies as st\n"
+        "game = ttr.load('bad.ttr').games['forget']\n"
+        "starts = st.just((ttr.record(facts=['hi']), game.model))\n"
+    )
+    assert main(["test", "begun.py:game", "--examples", "20"]) == 1
+    printed = capsys.readouterr().out
+    assert "turn 1: " in printed
+    assert "@ start {facts = [hi]}" in printed
+
+
 def test_the_same_seed_tells_the_same(capsys):
     def told(seed):
         main(["test", "good.ttr", "--examples", "20", "--seed", seed, "--json"])

@@ -204,7 +204,7 @@ def _broken(report: Report, place: Setting) -> dict[str, Any] | None:
 
 def _outcome(place: Setting, options: argparse.Namespace) -> _Outcome:
     from ttr.testing import Suite
-    from ttr.testing.companions import roles_of, tutor_of
+    from ttr.testing.companions import roles_of, starts_of, tutor_of
     from ttr.testing.processes import differing
 
     watch = _Watch(place.game, options.examples)
@@ -215,6 +215,7 @@ def _outcome(place: Setting, options: argparse.Namespace) -> _Outcome:
         turns=options.turns,
         examples=options.examples,
         seed=options.seed,
+        starts=starts_of(place.game),
         after_each=watch.see,
     )
     report, across = None, ""

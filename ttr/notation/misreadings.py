@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
-
-from lark.exceptions import UnexpectedInput
+from typing import TYPE_CHECKING
 
 from ttr.errors import NotationError, Span, suggestion
 from ttr.notation.trees import Source
+
+if TYPE_CHECKING:
+    from lark.exceptions import UnexpectedInput
 
 __all__ = ["KEYWORDS", "explained", "shown", "stopped"]
 

@@ -1,4 +1,4 @@
-"""What stands beside a game in the modules that have it: its name, tutor and roles."""
+"""What stands beside a game in the modules that have it: its tutor, roles, starts."""
 
 from __future__ import annotations
 
@@ -6,11 +6,15 @@ import sys
 from collections.abc import Iterator
 from types import ModuleType
 
+from hypothesis import strategies as st
+
+from ttr.models import Model
 from ttr.strategies.roles import Roles
 from ttr.strategies.tutors import Tutor
+from ttr.syntax import Record
 from ttr.updates.games import Game
 
-__all__ = ["named_in", "roles_of", "tutor_of"]
+__all__ = ["named_in", "roles_of", "starts_of", "tutor_of"]
 
 
 def named_in(game: Game) -> tuple[ModuleType, str] | None:
@@ -28,6 +32,12 @@ def roles_of(game: Game) -> Roles | None:
     """The roles that a module of the game calls `roles`."""
     found = (getattr(module, "roles", None) for module, _ in _places(game))
     return next((one for one in found if isinstance(one, Roles)), None)
+
+
+def starts_of(game: Game) -> st.SearchStrategy[tuple[Record, Model]] | None:
+    """What a module of the game calls `starts`: it draws states, and their models."""
+    found = (getattr(module, "starts", None) for module, _ in _places(game))
+    return next((one for one in found if isinstance(one, st.SearchStrategy)), None)
 
 
 def _places(game: Game) -> Iterator[tuple[ModuleType, str]]:

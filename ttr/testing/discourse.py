@@ -140,11 +140,13 @@ def _counts_again(dialogue: Dialogue, trial: Trial, roles: Roles) -> str:
     answered = _is_answer(trial, trial.before.state, roles)
     if not answered or _is_answer(trial, state, roles):
         return ""
-    again = taken(dialogue.game, trial.after, trial.given).after.state
-    gone = _gone(_items(state, roles.qud), _items(again, roles.qud))
+    again = taken(dialogue.game, trial.after, trial.given)
+    # A question that a rule takes away to ask it anew is still there at the end.
+    left = _gone(_items(state, roles.qud), _items(again.after.state, roles.qud))
+    gone = [question for question in _resolved(again, roles) if question in left]
     if gone:
         return f"the same answer once more takes away {_shown(gone)}"
-    twice = _doubled(_items(again, roles.commitments))
+    twice = _doubled(_items(again.after.state, roles.commitments))
     if twice > _doubled(_items(state, roles.commitments)):
         return f"the same answer is on {roles.commitments} once more"
     return ""

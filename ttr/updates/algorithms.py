@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TypeAlias
 
+from ttr.demands import Demands, Sieve, any_of, demands_of
 from ttr.errors import UpdateError, suggestion
 from ttr.syntax import Record, kind_of
 from ttr.updates.rules import Rule
@@ -52,6 +54,11 @@ class First:
 
     def __str__(self) -> str:
         return _written("first", self.parts)
+
+    @cached_property
+    def sieve(self) -> Sieve:
+        """What leaves out the parts that cannot apply: they need not be tried."""
+        return Sieve(map(_demands, self.parts))
 
 
 @dataclass(frozen=True)
@@ -251,3 +258,17 @@ def replaced(algorithm: Algorithm, rules: Mapping[str, Rule]) -> Algorithm:
             return ByClass(tuple(new))
     parts = tuple(replaced(part, rules) for part in algorithm.parts)
     return replace(algorithm, parts=parts)
+
+
+def _demands(algorithm: Algorithm) -> Demands:
+    """What is demanded of every state to which a strategy applies."""
+    match algorithm:
+        case Rule(on=None):
+            return demands_of(algorithm.when)
+        case Repeat(part) | Seq((part, *_)):
+            return _demands(part)
+        case ByClass(classes):
+            return any_of(_demands(one) for _, members in classes for one in members)
+        case First(parts) | All(parts) | Ask(parts) if parts:
+            return any_of(map(_demands, parts))
+    return {}

@@ -24,10 +24,14 @@ class failing:
     ttr.errors.RuleFailed: the rule hear failed: ZeroDivisionError: division by zero
     """
 
-    __slots__ = ("_what",)
+    __slots__ = ("_told",)
 
-    def __init__(self, what: object) -> None:
-        self._what = what
+    def __init__(self, *what: object) -> None:
+        self._told = what
+
+    @property
+    def _what(self) -> str:
+        return " ".join(map(str, self._told))
 
     def __enter__(self) -> None:
         return None

@@ -181,7 +181,7 @@ class Game:
                     f"no rule takes the move {planned[0]}, so it stays on the agenda",
                     hint="write a rule that takes it off when it has been made",
                 )
-            said.append(_judged(move, planned[0], model))
+            said.append(self._judged(move, planned[0], model))
             after = following
         return Turn(event, happened, tuple(said), after)
 
@@ -268,7 +268,7 @@ class Game:
     def _made(self, planned: TypeNode, model: Model) -> tuple[Object, Model]:
         if self.act is None:
             return model.create(planned)
-        with failing(f"to make the move {planned}"):
+        with failing("to make the move", planned):
             made = self.act(planned, model)
         match made:
             case (event, Model() as after):
@@ -278,12 +278,14 @@ class Game:
             f"{in_short(made)}"
         )
 
+    def _judged(self, move: Object, T: TypeNode, model: Model) -> Judgement:
+        """The judgement that a move is of the planned type; why, is found when asked.
 
-def _judged(move: Object, T: TypeNode, model: Model) -> Judgement:
-    """The judgement that a move is of the planned type; why, is derived when asked."""
-    if not certainly(model.facts, move, T):
-        return model.judge(move, T)
-    return Judgement(move, T, CERTAIN, lambda: model.judge(move, T).why, model)
+        What was created of a type is of it, but an act may have made something else.
+        """
+        if self.act is not None and not certainly(model.facts, move, T):
+            return model.judge(move, T)
+        return Judgement(move, T, CERTAIN, lambda: model.judge(move, T).why, model)
 
 
 def _shown(event: Object | NBest) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ttr.certainty import certainly
 from ttr.errors import UpdateError
@@ -78,8 +79,7 @@ def _pair(one: object) -> tuple[Object, float]:
     )
 
 
-@dataclass(frozen=True)
-class Heard:
+class Heard(NamedTuple):
     """What a rule takes of an event: the likeliest alternative of its type.
 
     `p` is how probable it is that the event is of the type.

@@ -186,8 +186,11 @@ class _Player:
             case Rule():
                 return self._apply(algorithm, so_far)
             case First(parts):
-                tried = (self.play(part, so_far) for part in parts)
-                return next((after for after in tried if after is not None), None)
+                for number in algorithm.sieve.left(so_far.state, so_far.model.facts):
+                    after = self.play(parts[number], so_far)
+                    if after is not None:
+                        return after
+                return None
             case All(parts):
                 return self._each(parts, so_far)
             case ByClass(classes):
@@ -351,7 +354,7 @@ class _Player:
         if rule.where is None:
             return {}, model
         variables = dict(zip(rule.names, (state, event.event), strict=False))
-        with failing(f"the rule {rule}"):
+        with failing("the rule", rule):
             return found(rule.where, variables, model)
 
     def _effect(
@@ -367,7 +370,7 @@ class _Player:
         if rule.takes:
             extras = {"model": model, "p": event.p, "nbest": self.event, **bindings}
             asked = {name: extras[name] for name in rule.takes}
-        with failing(f"the rule {rule}"):
+        with failing("the rule", rule):
             return rule.effect(*args, **asked)
 
     def _check(self, rule: Rule, so_far: Run, after: Record, model: Model) -> None:

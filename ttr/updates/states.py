@@ -43,14 +43,17 @@ def still_of(before: Record, after: Record, T: RecordType, model: Model) -> bool
     was, found = before._fields, after._fields
     keeps = _keeps(before, model)
     for label, field in T.fields:
-        if label not in found:
-            return False
-        if keeps and was[label] is found[label]:
+        had, has = was[label], found.get(label, _NOTHING)
+        if had is has and keeps:
             continue
-        if not _part_still_of(was[label], found[label], field, model):
+        if has is _NOTHING or not _part_still_of(had, has, field, model):
             return False
     note(model.facts, after, T)
     return True
+
+
+_NOTHING = object()
+"""What a record has at a label that it lacks."""
 
 
 @lru_cache(4096)

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from kille.dialogue.games.acknowledging import ACKNOWLEDGING, EXEMPLIFYING
 from kille.dialogue.games.checking import CHECKING
-from kille.dialogue.games.clarifying import CLARIFYING
+from kille.dialogue.games.clarifying import CLARIFYING, MENTIONED
 from kille.dialogue.games.colouring import COLOURING
 from kille.dialogue.games.confirming import CONFIRMING
 from kille.dialogue.games.correcting import CORRECTING
@@ -32,6 +32,7 @@ from kille.dialogue.games.naming import NAMING
 from kille.dialogue.games.offering import OFFER_ANSWERED, OFFERING
 from kille.dialogue.games.placing import PLACING
 from kille.dialogue.games.referring import REFERRING
+from kille.dialogue.games.several import SEVERAL
 from kille.dialogue.games.surveying import SURVEYING
 from ttr.updates import first, maybe, seq
 
@@ -42,6 +43,7 @@ ANSWERING = first(
     CONFIRMING,
     CORRECTING,
     INSTRUCTING,
+    SEVERAL,
     NAMING,
     PLACING,
     CHECKING,
@@ -53,6 +55,7 @@ ANSWERING = first(
     KNOWING,
     FORGETTING,
     COURTESY,
+    MENTIONED,
 )
 """What answers a move of the tutor's whose phrases are resolved."""
 

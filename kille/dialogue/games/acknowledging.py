@@ -7,7 +7,13 @@ sure of, and from a no nothing; and it spoke of how many examples it had been sh
 from __future__ import annotations
 
 from kille.dialogue.beliefs import degree
-from kille.dialogue.meanings import CLAIMS, is_denial, predicate_at, value_at
+from kille.dialogue.meanings import (
+    CLAIMS,
+    is_denial,
+    predicate_at,
+    value_at,
+    word_of,
+)
 from kille.dialogue.moves import answering, changed_act, plan
 from kille.dialogue.reference import PARTS, thing_at
 from kille.dialogue.state import STATE
@@ -56,10 +62,11 @@ LEARNING = ("learned", "learned_quality", "learned_relation")
 
 
 def _examples(s: Record, content: RecordType) -> int:
-    """How many examples of its word there are with this one."""
+    """How many examples of its word there are with this one, of all dialogues."""
     word = _claim(content).pred
     lessons = (it.content for it in s.private.lessons if not is_denial(it.content))
-    return 1 + sum(_claim(it).pred is word for it in lessons)
+    before = sum(it.lessons for it in s.private.taught if word_of(it.sign) is word)
+    return 1 + sum(_claim(it).pred is word for it in lessons) + int(before)
 
 
 def _degree(model: Model, content: RecordType) -> float:

@@ -6,6 +6,7 @@ What it answers is a claim, which the tutor may confirm or deny.
 from __future__ import annotations
 
 from kille.dialogue.beliefs import Beliefs, believed, is_sure, knows
+from kille.dialogue.commitments import as_told
 from kille.dialogue.meanings import claims, denied
 from kille.dialogue.moves import answering, content_of, instead, plan
 from kille.dialogue.reference import thing_at
@@ -39,7 +40,8 @@ def weigh(s: Record, *, model: Model) -> Record | None:
     things = _things(s)
     if not things:
         return None
-    return replace(s, {"private.beliefs": believed(s, model, _compared(s), *things)})
+    beliefs = as_told(s, believed(s, model, _compared(s), *things))
+    return replace(s, {"private.beliefs": beliefs})
 
 
 @rule(when=answering("AskWhether"))

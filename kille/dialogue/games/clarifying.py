@@ -17,7 +17,7 @@ from kille.dialogue.reference import Judging, fits_well, phrase_at
 from ttr import Model, Record, replace
 from ttr.updates import first, maybe, rule, seq
 
-__all__ = ["CLARIFYING", "asked_which"]
+__all__ = ["CLARIFYING", "MENTIONED", "asked_which"]
 
 AGAIN = {"AskReferent": "AskReferentAgain"}
 """How a question is put on record when it is asked once more."""
@@ -128,3 +128,5 @@ CLARIFYING = first(
     seq(drop_question, maybe(wonder_at_mention)),
     wonder_at_mention,
 )
+MENTIONED = wonder_at_mention
+"""What answers a phrase that turns out to have been said, when it was hardly heard."""

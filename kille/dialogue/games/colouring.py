@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from kille.dialogue.beliefs import believed, certainty
+from kille.dialogue.commitments import as_told
 from kille.dialogue.moves import answering, content_of, plan, said_of
 from kille.dialogue.reference import thing_at
 from ttr import Model, Record, replace
@@ -17,7 +18,8 @@ def recognise_colour(s: Record, *, model: Model) -> Record | None:
     x = thing_at(content_of(s), "target")
     if x is None:
         return None
-    return replace(s, {"private.beliefs": believed(s, model, s.private.colours, x)})
+    beliefs = as_told(s, believed(s, model, s.private.colours, x))
+    return replace(s, {"private.beliefs": beliefs})
 
 
 @rule(when=answering("AskQuality"))

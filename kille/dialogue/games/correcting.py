@@ -27,7 +27,7 @@ from kille.dialogue.commitments import (
 from kille.dialogue.meanings import denied, is_denial, set_to
 from kille.dialogue.moves import answering, content_of, plan
 from kille.dialogue.reference import PARTS, thing_at
-from ttr import Record, RecordType, rectype
+from ttr import Record, RecordType, join, rectype
 from ttr.updates import first, rule
 
 __all__ = ["CORRECTING"]
@@ -52,7 +52,7 @@ def correct(s: Record) -> Record | None:
         s,
         CORRECTED[kind_of(content) or ""],
         content,
-        wrong[0],
+        _either(wrong),
         signs=signs_for(s, *teaches, *wrong),
         teaches=teaches,
         forgets=[*forgets, *undone(s, content)],
@@ -129,15 +129,23 @@ def _in_place(content: RecordType, wrong: RecordType) -> RecordType:
     return set_to(content, **{label: wrong[label]})
 
 
+def _either(claims: Sequence[RecordType]) -> RecordType:
+    """That one of these claims about the same target is true."""
+    first, *others = claims
+    if not others:
+        return first
+    label = kind_of(first) or ""
+    return set_to(first, **{label: join(*(it[label] for it in claims))})
+
+
 def _alike(claim: RecordType, content: RecordType) -> bool:
-    """Whether two claims say something of the same kind about the same target."""
-    return kind_of(claim) == kind_of(content) and thing_at(claim, "target") == thing_at(
-        content, "target"
-    )
+    """Whether two claims say something of the same kind about the same things."""
+    things = [(thing_at(claim, part), thing_at(content, part)) for part in PARTS]
+    return kind_of(claim) == kind_of(content) and all(x == y for x, y in things)
 
 
 def _rivals(claim: RecordType, content: RecordType) -> bool:
-    """Whether a claim says something else of the same kind about the same target."""
+    """Whether a claim says something else of the same kind about the same things."""
     return _alike(claim, content) and not is_denial(claim) and not same(claim, content)
 
 

@@ -6,22 +6,24 @@ Source: Skočaj et al. 2011; Yu, Eshghi and Lemon 2017 (tutoring cost).
 from __future__ import annotations
 
 from kille.dialogue.meanings import claims, is_denial, theory
-from kille.dialogue.moves import used
 from kille.dialogue.state import STATE
-from ttr import Record, rectype, replace
+from ttr import Model, Record, rectype, replace
 from ttr.updates import rule
 
 __all__ = ["ASKED", "CORRECTED"]
 
 
 @rule(when=rectype(shared=rectype(latest=theory()["Correcting"])))
-def count_correction(s: Record) -> Record:
-    """The tutor has corrected the robot, which has failed at the words of its claim."""
+def count_correction(s: Record, *, model: Model) -> Record | None:
+    """The tutor has corrected the robot, which has failed at the nouns of its claim."""
     said = s.shared.latest
+    if s.shared.qud and model.judge(said, theory()["Deny"]).holds:
+        return None  # a no to its question
     failed = [
         sign
-        for sign in used(s.private.nouns, *s.shared.pending)
-        if not claims(said.content, sign) or is_denial(said.content)
+        for sign in s.private.nouns
+        if any(claims(it, sign) for it in s.shared.pending)
+        and (is_denial(said.content) or not claims(said.content, sign))
     ]
     return _more(
         replace(s, {"private.failed": (*s.private.failed, *failed)}), "corrections"

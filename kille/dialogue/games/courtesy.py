@@ -34,6 +34,7 @@ def repeat(s: Record) -> Record | None:
 
 REPEATING = repeat
 COURTESY = first(
+    repeat,
     reply("AskRepeat", "NothingSaid", "It has said nothing that it could say again."),
     reply("AskHelp", "GiveHelp", "It says what it understands."),
     reply("Greet", "GreetBack", "A greeting is returned."),

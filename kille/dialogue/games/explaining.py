@@ -9,15 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from kille.dialogue.beliefs import about, has_rival, knows, thinks
-from kille.dialogue.commitments import affirmed, kind_of, same, signs_for
+from kille.dialogue.commitments import affirmed, as_told, kind_of, same, signs_for
 from kille.dialogue.meanings import (
     claims,
     is_denial,
-    meaning_in,
-    set_to,
     value_at,
 )
-from kille.dialogue.moves import answering, content_of, plan
+from kille.dialogue.moves import answering, content_of, instead, plan
 from kille.dialogue.reference import thing_at
 from kille.dialogue.state import words
 from ttr import Model, Rec, Record, RecordType, record
@@ -29,9 +27,6 @@ Update = tuple[Record, Model]
 
 EXPLAINED = {"c": "ExplainName", "a": "ExplainQuality", "rel": "ExplainRelation"}
 """What the robot says to explain a claim, by its label."""
-
-TEMPLATES = {"c": "Naming", "a": "Having", "rel": "Relation"}
-"""What a word means as a claim, by the claim's label."""
 
 
 @rule(when=answering("AskCertainty"))
@@ -141,12 +136,17 @@ def _told(s: Record, model: Model, claim: RecordType) -> Update:
 def _judged(
     s: Record, model: Model, claim: RecordType
 ) -> tuple[Record | None, Record | None, Model]:
-    """The robot's belief in a claim, and in the best other word of the same kind."""
+    """The robot's belief in a claim, and in the best other word of the same kind.
+
+    How a thing is that it was told about is certain, as when it is asked whether.
+    """
     sign = next((it for it in words(s) if claims(claim, it)), None)
     if sign is None:
         return None, None, model
     compared = [sign] if sign.kind == "adjective" else s.private[f"{sign.kind}s"]
     beliefs, model = about(model, _situation(claim), compared)
+    if sign.kind == "adjective":
+        beliefs = as_told(s, beliefs)
     own = next(it for it in beliefs if it.sign == sign)
     return own, next((it for it in beliefs if it is not own), None), model
 
@@ -173,9 +173,7 @@ def _with_rival(
         return [1.0 - own.p], Rec
     if rival is None or not has_rival(s, [own, rival]):
         return [own.p], Rec
-    label = kind_of(claim) or ""
-    other = meaning_in(rival.sign.form, TEMPLATES[label])
-    return [own.p, rival.p], set_to(claim, **{label: other[label]})
+    return [own.p, rival.p], instead(claim, rival.sign)
 
 
 EXPLAINING = first(

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import believed, is_sure
 from kille.dialogue.games.placing import landmark_for
-from kille.dialogue.meanings import mentions, set_to
+from kille.dialogue.meanings import set_to
 from kille.dialogue.moves import (
     answering,
     content_of,
+    nouns_said,
     numbered,
     plan,
     said_of,
@@ -17,31 +18,32 @@ from kille.dialogue.reference import phrase_at, thing_at
 from ttr import Model, Record, RecordType, record, replace
 from ttr.updates import first, rule
 
-__all__ = ["FINDING"]
+__all__ = ["FINDING", "pointed_out"]
 
 
 @rule(when=answering("AskFind"))
 def point_out(s: Record, *, model: Model) -> Record | None:
     """The tutor asks which thing it is: it points there, and says where that is."""
     x = thing_at(content_of(s), "target")
-    if x is None:
-        return None
-    found = phrase_at(content_of(s), "target")
-    nouns = [it for it in s.shared.latest.signs if mentions(found, it)]
-    nouns = [it for it in nouns if it.kind == "noun"][:1]
-    content, beside = _where(s, model, x, nouns)
+    return None if x is None else pointed_out(s, model, "PointOut", content_of(s), x)
+
+
+def pointed_out(s: Record, model: Model, act: str, asked: RecordType, x: str) -> Record:
+    """The plan to point at the thing that is asked for, and to say where it is."""
+    found = phrase_at(asked, "target")
+    nouns = nouns_said(s.shared.latest, found)[:1]
+    content, beside = _where(s, model, asked, x, nouns)
     content = set_to(content, target=found, **numbered(s, x))
     signs = tuple(dict.fromkeys((*s.shared.latest.signs, *beside)))
     claims = [said_of(s, noun, x) for noun in nouns]
-    planned = plan(s, "PointOut", content, signs=signs, pending=claims, points=[x])
+    planned = plan(s, act, content, signs=signs, pending=claims, points=[x])
     return replace(planned, {"view.focus": (x,)})
 
 
 def _where(
-    s: Record, model: Model, x: str, nouns: list[Record]
+    s: Record, model: Model, content: RecordType, x: str, nouns: list[Record]
 ) -> tuple[RecordType, list[Record]]:
     """How it stands to the other thing it knows best, if it is sure of that."""
-    content = content_of(s)
     is_placed = "landmark" in phrase_at(content, "target")
     if not nouns or is_placed or x not in s.view.placed:
         return content, []

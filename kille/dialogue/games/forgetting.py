@@ -85,9 +85,9 @@ def forget_no_such(s: Record) -> Record:
 
 
 @rule(when=answering("ForgetLast"))
-def forget_nothing(s: Record) -> Record:
-    """Nothing was taught in this dialogue."""
-    return plan(s, "ForgetNothing")
+def forget_earlier(s: Record) -> Record:
+    """Nothing is left of this dialogue: the latest of all lessons is unlearned."""
+    return plan(s, "ForgotLast", undoes=["latest"])
 
 
 def _forgotten(s: Record, *lessons: Record) -> Record:
@@ -110,5 +110,5 @@ FORGETTING = first(
     forget_word,
     miss_forgotten,
     forget_no_such,
-    forget_nothing,
+    forget_earlier,
 )

@@ -12,9 +12,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from kille.dialogue.beliefs import nouns_of, relations_of
+from kille.dialogue.beliefs import relations_of
 from kille.dialogue.commitments import affirmed
-from kille.dialogue.games.placing import landmark_for
+from kille.dialogue.games.placing import asked_for, landmark_for
 from kille.dialogue.games.referring import UNANSWERED, about, unanswered
 from kille.dialogue.meanings import (
     named,
@@ -201,8 +201,8 @@ def ask_frame_of_place(s: Record, *, model: Model) -> Update | None:
     x = thing_at(content_of(s), "target")
     if s.shared.frame != OPEN or not s.shared.turned or x not in s.view.placed:
         return None
-    beliefs, model = nouns_of(s, model, str(x))
-    landmark, model = landmark_for(s, model, beliefs[0]) if beliefs else (None, model)
+    thing, model = asked_for(s, model, str(x))
+    landmark, model = landmark_for(s, model, thing) if thing else (None, model)
     if landmark is None or facing(s, landmark.sit.x) is None:
         return None
     said = []

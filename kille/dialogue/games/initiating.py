@@ -61,11 +61,11 @@ def ask(s: Record, seen: Record, *, model: Model) -> Record | None:
 
 def _chosen(s: Record, initiatives: Iterable[Initiative]) -> Record | None:
     """The state in which it does the best of these that it has not done yet."""
-    new = {it.option: it for it in initiatives if it.question not in s.private.asked}
-    option = best(new)
+    new = [it for it in initiatives if it.question not in s.private.asked]
+    option = best(it.option for it in new)
     if option is None:
         return None
-    chosen = new[option]
+    chosen = next(it for it in new if it.option == option)
     return replace(
         chosen.planned, {"private.asked": (*s.private.asked, chosen.question)}
     )

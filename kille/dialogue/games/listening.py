@@ -6,23 +6,22 @@ noun phrases are resolved to things in view, and only then do the games answer i
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from itertools import count, islice
 
 from kille.dialogue.beliefs import knows
 from kille.dialogue.commitments import remaining, said_here
 from kille.dialogue.games.costing import ASKED, CORRECTED
 from kille.dialogue.games.mishearing import MISHEARING
-from kille.dialogue.meanings import claims, is_denial, named
+from kille.dialogue.meanings import claims, is_denial, named, set_to, word_of
 from kille.dialogue.reference import things_in
 from kille.dialogue.state import STATE, words
 from kille.dialogue.weighing import FAINTLY, weighed
-from ttr import Model, Record, RecordType, replace
+from ttr import Model, Pred, Record, RecordType, replace
 from ttr.updates import NBest, first, maybe, rule, seq
 
 __all__ = ["GLANCED", "LISTENING", "SAID", "SEEN"]
-
-Update = tuple[Record, Model]
 
 # --- seeing --------------------------------------------------------------------------
 
@@ -100,7 +99,7 @@ def say(s: Record, said: Record) -> Record:
     agenda, last = s.private.agenda, s.private.last
     changes = {
         "private.agenda": agenda[1:],
-        "private.last": last if agenda[0] in last else agenda,
+        "private.last": last if agenda[0] in last else _made(agenda, said),
         "shared.latest": said,
         "shared.here": said_here(s, said),
         "shared.topic": things_in(said.content) or s.shared.topic,
@@ -108,10 +107,20 @@ def say(s: Record, said: Record) -> Record:
     return replace(s, changes)
 
 
+def _made(agenda: Sequence[RecordType], said: Record) -> Sequence[RecordType]:
+    """The planned moves, as they can be said again: what was undone stays the same."""
+    planned, *others = agenda
+    if not said.undoes:
+        return agenda
+    none, undone = named("Said")["undoes"] @ (), named("Said")["undone"] @ said.undone
+    return (set_to(planned, undoes=none, undone=undone), *others)
+
+
 @rule(when=STATE, on=named("Said"))
 def keep(s: Record, said: Record) -> Record | None:
     """What was learned is known and agreed on; what was unlearned is neither."""
-    if not (said.teaches or said.forgets or said.drops):
+    undone = said.undone if said.undoes else ()
+    if not (said.teaches or said.forgets or said.drops or undone):
         return None
     state = s
     keys = said.keys or _free_keys(s, len(said.teaches))
@@ -145,7 +154,7 @@ def _learned(
 
 
 def _lost(s: Record, said: Record) -> Record:
-    gone = {*said.forgets, *said.dropped}
+    gone = {*said.forgets, *said.dropped, *(it.key for it in said.undone)}
     lessons = [it for it in s.private.lessons if it.key not in gone]
     kept = {it.content for it in lessons}
     unlearned = {it.content for it in s.private.lessons if it.key in gone} - kept
@@ -154,11 +163,25 @@ def _lost(s: Record, said: Record) -> Record:
         "shared.commitments": [
             it for it in s.shared.commitments if it not in unlearned
         ],
+        "private.taught": _taught(s, said),
+        "shared.here": [it for it in s.shared.here if it not in unlearned],
     }
     for kind in {sign.kind for sign in said.lost}:
         known = s.private[f"{kind}s"]
         changes[f"private.{kind}s"] = [it for it in known if not knows(said.lost, it)]
     return replace(s, changes)
+
+
+def _taught(s: Record, said: Record) -> list[Record]:
+    """How often words were taught before this dialogue, less what is forgotten."""
+    fewer = Counter[Pred]()
+    for it in said.undone:
+        fewer[word_of(it.sign)] += it.examples
+    less = (
+        replace(it, lessons=it.lessons - fewer[word_of(it.sign)])
+        for it in s.private.taught
+    )
+    return [it for it in less if it.lessons > 0.0 and not knows(said.drops, it.sign)]
 
 
 # --- the algorithms ------------------------------------------------------------------

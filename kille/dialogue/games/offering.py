@@ -12,7 +12,6 @@ from kille.dialogue.games.referring import UNANSWERED
 from kille.dialogue.meanings import claims, reworded, theory, word_of
 from kille.dialogue.moves import answering, issue, plan
 from kille.dialogue.reference import in_view
-from kille.dialogue.state import words
 from kille.dialogue.typos import is_slip, slip
 from ttr import Model, Record, replace
 from ttr.updates import first, rule
@@ -55,7 +54,7 @@ def _meant(s: Record, model: Model, sign: Record) -> Record | None:
 
     What is taught is likelier a new word, so that there only the surest slips count.
     """
-    known = [it for it in words(s) if it.kind == sign.kind]
+    known = s.private[f"{sign.kind}s"]
     if knows(known, sign) or word_of(sign) in model.facts.functions:
         return None
     said = s.shared.latest

@@ -5,16 +5,17 @@ from __future__ import annotations
 from kille.dialogue.beliefs import (
     Beliefs,
     certainty,
+    knows,
     nouns_of,
     relations_of,
     thinks,
 )
-from kille.dialogue.moves import answering, content_of, plan, standing
-from kille.dialogue.reference import thing_at
-from ttr import Model, Record, RecordType, replace
+from kille.dialogue.moves import answering, content_of, nouns_said, plan, standing
+from kille.dialogue.reference import phrase_at, thing_at
+from ttr import Model, Record, RecordType, record, replace
 from ttr.updates import first, rule
 
-__all__ = ["PLACING", "landmark_for"]
+__all__ = ["PLACING", "asked_for", "landmark_for"]
 
 Update = tuple[Record, Model]
 
@@ -25,16 +26,15 @@ def say_place(s: Record, *, model: Model) -> Update | None:
     x = thing_at(content_of(s), "target")
     if x is None or x not in s.view.placed:
         return None
-    beliefs, model = nouns_of(s, model, x)
-    if not beliefs:
+    thing, model = asked_for(s, model, x)
+    if thing is None:
         return None
-    landmark, model = landmark_for(s, model, beliefs[0])
+    landmark, model = landmark_for(s, model, thing)
     if landmark is None:
-        content = beliefs[0].sign.meaning
-        return plan(s, "NeedLandmark", content, signs=[beliefs[0].sign]), model
+        return plan(s, "NeedLandmark", thing.sign.meaning, signs=[thing.sign]), model
     relations, model = relations_of(s, model, x, landmark.sit.x)
     believing = replace(s, {"private.beliefs": relations})
-    return _place_said(believing, beliefs[0], landmark, relations), model
+    return _place_said(believing, thing, landmark, relations), model
 
 
 @rule(when=answering("AskPlace"))
@@ -43,12 +43,29 @@ def need_place(s: Record) -> Record:
     return plan(s, "NeedDepth")
 
 
+def asked_for(s: Record, model: Model, x: str) -> tuple[Record | None, Model]:
+    """The thing of which the tutor asks where it is, by the noun for it in the answer.
+
+    That is his own, if he has used one, or else the one that fits the thing best.
+    """
+    target = phrase_at(content_of(s), "target")
+    for noun in nouns_said(s.shared.latest, target):
+        return record(sit=record(x=x), sign=noun), model
+    beliefs, model = nouns_of(s, model, x)
+    return (beliefs[0] if beliefs else None), model
+
+
 def landmark_for(s: Record, model: Model, thing: Record) -> tuple[Record | None, Model]:
-    """The other thing with a place that it knows best, as a belief worth saying."""
+    """The other thing with a place that it knows best, as a belief worth saying.
+
+    It is called something else: "The cup is to the left of the cup." would say nothing.
+    """
     best: Record | None = None
     for y in s.view.placed:
         beliefs, model = nouns_of(s, model, y)
-        if y == thing.sit.x or not thinks(s, beliefs) or beliefs[0].sign == thing.sign:
+        if y == thing.sit.x or not thinks(s, beliefs):
+            continue
+        if knows([thing.sign], beliefs[0].sign):
             continue
         if best is None or beliefs[0].p > best.p:
             best = beliefs[0]

@@ -6,13 +6,13 @@ nothing is said not to be there.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 
 from kille.dialogue.beliefs import knows
 from kille.dialogue.describing import Description, describe
 from kille.dialogue.meanings import mentions, named, set_to, theory, word_of
-from kille.dialogue.moves import content_of, issue, plan
+from kille.dialogue.moves import content_of, issue, nouns_said, plan
 from kille.dialogue.reference import (
     PARTS,
     Reading,
@@ -39,6 +39,9 @@ def unanswered(move: TypeNode) -> RecordType:
     planned = theory()["Agenda"] @ ()
     return rectype(private=rectype(agenda=planned), shared=rectype(latest=move))
 
+
+OFFERED = 4
+"""How many things are offered to choose from, at most."""
 
 UNANSWERED = unanswered(named("Heard"))
 """The states in which the tutor has said something that is not answered yet."""
@@ -117,22 +120,35 @@ def about(s: Record, content: RecordType) -> Record:
 def asking(s: Record, model: Model, options: Sequence[Record], ask: str) -> Record:
     """The plan to ask which of these moves was meant, where they differ in one thing.
 
-    Two things that can be told apart in words are offered. What was claimed before
-    stays pending.
+    Things that can be told apart in words are offered, if they are not too many. What
+    was claimed before stays pending.
     """
     label, things = differing(options)
     said = options[0]
     phrase = phrase_at(said.content, label)
-    nouns = [it for it in said.signs if it.kind == "noun" and mentions(phrase, it)]
-    told = [describe(s, model, x, among=things, nouns=nouns) for x in things]
-    match told:
-        case [Description() as one, Description() as other]:
-            content, rival = (_asked(it.phrase) for it in (one, other))
-            signs = dict.fromkeys((*one.signs, *other.signs))
-            move = partial(plan, s, "OfferReferents", content, rival, signs=signs)
-        case _:
+    nouns = nouns_said(said, phrase)
+    told = _told_apart(s, model, things, nouns)
+    signs = tuple(dict.fromkeys(sign for it in told for sign in it.signs))
+    match [it.phrase for it in told]:
+        case []:
             move = partial(plan, s, "AskReferent", _asked(meant_by(nouns)), signs=nouns)
+        case [one, other]:
+            both = _asked(one), _asked(other)
+            move = partial(plan, s, "OfferReferents", *both, signs=signs)
+        case several:
+            move = partial(plan, s, "OfferReferents", _among(several), signs=signs)
     return move(asks=[issue(ask, options)], pending=s.shared.pending)
+
+
+def _told_apart(
+    s: Record, model: Model, things: Sequence[str], nouns: Sequence[Record]
+) -> list[Description]:
+    """How to say which of these things is meant; nothing if that takes too much."""
+    if len(things) > OFFERED:
+        return []
+    told = [describe(s, model, x, among=things, nouns=nouns) for x in things]
+    found = [it for it in told if it is not None]
+    return found if len(found) == len(things) else []
 
 
 def differing(options: Sequence[Record]) -> tuple[str, Sequence[str]]:
@@ -153,6 +169,12 @@ def _readings(s: Record, model: Model) -> Sequence[Reading]:
 def _asked(phrase: RecordType) -> RecordType:
     """What a question is about that asks for the thing of a phrase."""
     return rectype(look=theory()["Look"], target=phrase)
+
+
+def _among(phrases: Iterable[RecordType]) -> RecordType:
+    """What a question is about that asks for one of the things of several phrases."""
+    choices = {f"choice{n:02}": it for n, it in enumerate(phrases, start=1)}
+    return set_to(named("Scene"), **choices)
 
 
 def _left_open(readings: Sequence[Reading]) -> str | None:

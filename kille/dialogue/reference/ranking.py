@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import reduce
 
-from kille.dialogue.meanings import meaning_in, named
+from kille.dialogue.meanings import named, placed
 from kille.dialogue.reference.parts import Part, put_together, taken_apart
 from kille.dialogue.reference.resolving import Judging
 from ttr import Model, Record, RecordType, merge, rectype
@@ -43,7 +43,7 @@ def said_by(words: Sequence[Record]) -> Part:
     phrase = put_together(taken_apart(named("Phrase")), *before)
     if at is None:
         return phrase
-    nearby = taken_apart(meaning_in(words[at].form, "Nearby"))
+    nearby = taken_apart(placed(words[at], "Nearby"))
     return put_together(phrase, replace(nearby, landmark=said_by(words[at + 1 :])))
 
 
@@ -60,7 +60,7 @@ def meant_by(words: Iterable[Record]) -> RecordType:
     words = list(words)
     for i, sign in enumerate(words):
         if sign.kind == "relation":
-            beside = meaning_in(sign.form, "Nearby")
+            beside = placed(sign, "Nearby")
             landmark = rectype(landmark=meant_by(words[i + 1 :]))
             return reduce(_merged, [named("Beside"), beside, landmark], phrase)
         phrase = _merged(phrase, sign.meaning)

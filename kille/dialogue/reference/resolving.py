@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from math import prod
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from kille.dialogue.meanings import named, set_at, set_to, theory
 from kille.dialogue.reference.parts import Claim, Part, taken_apart
@@ -41,8 +41,7 @@ PARTS = ("target", "landmark")
 """The labels of the noun phrases in a content."""
 
 
-@dataclass(frozen=True)
-class Fit:
+class Fit(NamedTuple):
     """How well a thing fits a phrase: all that is said, and the weakest of it.
 
     `firm` is the weakest of what is not vague, as adjectives are. `things` is the thing
@@ -128,7 +127,8 @@ def in_view(s: Record, content: RecordType) -> RecordType:
     """
     if "look" not in content:
         return content
-    content = set_at(content, "look", s.view.look)
+    now = theory()["Look"] @ s.view.look
+    content = content if content["look"] is now else set_to(content, look=now)
     landmark = thing_at(content, "landmark")
     if landmark is None or "frame" not in content:
         return content

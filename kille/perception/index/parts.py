@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
+from itertools import pairwise, starmap
 from threading import Event
 from typing import NamedTuple
 
@@ -16,7 +17,7 @@ from kille.perception.index.views import (
     Descriptors,
     Rows,
     View,
-    distances,
+    apart,
     rooted,
     stacked,
 )
@@ -27,6 +28,7 @@ NEIGHBOURS = 10
 NOBODY = -1
 """The column of a view that was forgotten."""
 
+_AT_ONCE = 256  # descriptors that are compared with all others: what a cache can hold
 _SPARE = 30  # neighbours more, where some of what is found may have been forgotten
 
 
@@ -53,7 +55,8 @@ class Exact:
             np.array([columns[view.label] for view in ordered], np.intp),
             [len(view.descriptors) for view in ordered],
         )
-        self._words, self._firsts = np.unique(owners, return_index=True)
+        self._words, firsts = np.unique(owners, return_index=True)
+        self._spans = list(starmap(slice, pairwise([*firsts.tolist(), len(owners)])))
         self._rows = rooted(stacked(ordered))
 
     def neighbours(self, query: Rows) -> Neighbours:
@@ -61,8 +64,13 @@ class Exact:
         words = np.broadcast_to(self._words, (len(query), len(self._words)))
         if not len(self._words):
             return Neighbours(words, np.empty((len(query), 0), np.float32))
-        apart = distances(query, self._rows)
-        return Neighbours(words, np.minimum.reduceat(apart, self._firsts, axis=1))
+        alike = np.empty((len(query), len(self._words)), np.float32)
+        for start in range(0, len(query), _AT_ONCE):
+            some = slice(start, start + _AT_ONCE)
+            products = query[some] @ self._rows.T
+            for word, own in enumerate(self._spans):
+                products[:, own].max(axis=1, out=alike[some, word])
+        return Neighbours(words, apart(alike))
 
 
 class Part:
@@ -121,12 +129,12 @@ class Part:
         some = np.maximum(rows, 0)
         views = np.searchsorted(self._starts, some, side="right") - 1
         words = np.where(rows < 0, NOBODY, owners[views])
-        near = rooted(self._descriptors(views.ravel(), some.ravel()))
-        near = near.reshape(*rows.shape, LENGTH)
-        alike = np.matmul(near, query[:, :, None])[:, :, 0]
-        apart = np.sqrt(np.maximum(2 - 2 * alike, 0))
-        apart[words == NOBODY] = np.inf
-        return Neighbours(words, apart)
+        once, places = np.unique(some, return_inverse=True)
+        owning = np.searchsorted(self._starts, once, side="right") - 1
+        near = rooted(self._descriptors(owning, once))[places.reshape(rows.shape)]
+        far = apart(np.matmul(near, query[:, :, None])[:, :, 0])
+        far[words == NOBODY] = np.inf
+        return Neighbours(words, far)
 
     @cached_property
     def _blocks(self) -> list[Descriptors]:

@@ -44,11 +44,19 @@ def rooted(descriptors: Descriptors) -> Rows:
 
 def distances(query: Rows, others: Rows) -> Rows:
     """The distances (n, m) between descriptors of length 1."""
-    apart: Rows = query @ others.T
-    apart *= -2
-    apart += 2
-    np.maximum(apart, 0, out=apart)
-    return np.sqrt(apart, out=apart)
+    products: Rows = query @ others.T
+    return apart(products)
+
+
+def apart(products: Rows) -> Rows:
+    """The distances between descriptors of length 1 that have these products.
+
+    It is written over the products. The greater the product, the smaller the distance.
+    """
+    products *= -2
+    products += 2
+    np.maximum(products, 0, out=products)
+    return np.sqrt(products, out=products)
 
 
 def stacked(views: Sequence[View]) -> Descriptors:

@@ -208,3 +208,30 @@ def test_nothing_is_there(scene: Scenes) -> None:
     empty = scene(0, **WORDS)
     assert empty.hear("Where is the cup?") == "I do not see a cup here."
     assert empty.acts("What is this?") == ["see_nothing"]
+
+
+# --- phrases that name a landmark ----------------------------------------------------
+
+BOTH_LEFT = {**KNOWN, ("to_the_left_of", "o2", "o3"): 0.9}
+
+
+@pytest.mark.parametrize(
+    ("text", "adjectives", "asked"),
+    [
+        ("Where is the cup to the left of the book?", ["red", "blue"], WHICH),
+        ("Show me the cup to the left of the book.", [], "Which cup do you mean?"),
+        ("Show me the one to the left of the book.", [], "Which one do you mean?"),
+    ],
+)
+def test_a_landmark_is_not_what_is_asked_for(
+    scene: Scenes, text: str, adjectives: list[str], asked: str
+) -> None:
+    words = {**WORDS, "adjectives": adjectives}
+    assert scene(3, known=BOTH_LEFT, **words).hear(text) == asked
+
+
+def test_what_is_found_beside_a_landmark_is_not_called_like_it(table: Any) -> None:
+    table.hear("Show me the red one to the left of the book.")
+    assert table.state.shared.pending == ()
+    table.hear("Show me the red cup to the left of the book.")
+    assert [it["c"].pred.name for it in table.state.shared.pending] == ["cup"]

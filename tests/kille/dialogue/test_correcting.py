@@ -64,6 +64,14 @@ def test_a_correction_of_a_hedge_weakens_both(scene: Callable[..., Any]) -> None
     assert taught(one.state) == ["not book", "not mug", "cup"]
 
 
+def test_a_correction_of_a_hedge_names_both(scene: Callable[..., Any]) -> None:
+    known = {("cup", "o1"): 0.6, ("bowl", "o1"): 0.5}
+    one = scene(nouns=["cup", "bowl", "mug"], known=known)
+    one.hear("What is this?")
+    said = one.hear("No, this is a mug.")
+    assert said == "OK, this is a mug, not a bowl or a cup."
+
+
 def test_a_correction_of_a_hedge_to_one_of_the_two(scene: Callable[..., Any]) -> None:
     known = {("book", "o1"): 0.4, ("mug", "o1"): 0.35}
     one = scene(nouns=["book", "mug"], known=known)
@@ -194,6 +202,21 @@ def test_what_is_gone_is_not_corrected_in_another_thing(table: Any) -> None:
     table._take(gone)
     assert table.hear("No, this is a cup.") == "OK, I learned a cup."
     assert taught(table.state) == ["mug", "cup"]
+
+
+@pytest.mark.parametrize("first", ["Where is the cup?", "The cup is near the book."])
+def test_what_stands_beside_one_thing_may_stand_beside_another(
+    scene: Callable[..., Any], first: str
+) -> None:
+    known = {("cup", "o1"): 0.9, ("book", "o2"): 0.9, ("box", "o3"): 0.7}
+    known |= {("near", "o1", "o2"): 0.9}
+    nouns = ["cup", "book", "box"]
+    robot = scene(3, nouns=nouns, relations=["near"], known=known)
+    robot.hear(first)
+    before = robot.state.private.lessons
+    answer = robot.hear("No, the cup is near the box.")
+    assert answer == 'OK, this relation is called "near".'
+    assert robot.state.private.lessons[:-1] == before
 
 
 def test_what_was_claimed_of_another_thing_is_not_corrected(table: Any) -> None:

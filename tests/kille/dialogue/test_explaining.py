@@ -25,6 +25,8 @@ KNOWN = {
 
 REMINDER = record(
     key="7",
+    sign=noun("cup"),
+    examples=1.0,
     text="This is a cup.",
     dialogue="1",
     turn="3",
@@ -90,6 +92,16 @@ def test_how_sure_it_is_of_what_is_asked(table: Any, text: str, answer: str) -> 
     assert table.hear(text).startswith(answer)
 
 
+def test_it_is_as_sure_of_what_it_was_told_as_it_has_said(table: Any) -> None:
+    table.hear("This is blue.")
+    assert table.hear("Is it blue?") == "Yes, it is blue."
+    assert table.hear("How sure are you?") == "I am very sure (1.00)."
+    assert table.acts("Why?") == ["explain_quality"]
+    table.hear("This is not red.")
+    assert table.hear("Is it red?") == "No, it is not red."
+    assert table.hear("How sure are you?") == "I am very sure (1.00)."
+
+
 def test_what_was_claimed_may_still_be_confirmed(table: Any) -> None:
     table.hear("What is this?")
     table.hear("How sure are you?")
@@ -106,7 +118,9 @@ def test_who_has_claimed_nothing_is_sure_of_nothing(table: Any) -> None:
 @given(st.floats(0, 1), st.floats(0, 1))
 def test_more_certain_words_need_a_higher_degree(p: float, q: float) -> None:
     def rank(degree: float) -> int:
-        nothing = dict.fromkeys(("reasons", "recalls", "recalled", "lost"), ())
+        nothing = dict.fromkeys(
+            ("reasons", "recalls", "recalled", "lost", "undone"), ()
+        )
         worded = details(lexicon(), record(degrees=[degree], **nothing))
         return list(lexicon().sections["sureness"]).index(worded["sureness"])
 

@@ -70,10 +70,19 @@ def test_what_was_agreed_on_of_something_else_stays(table: Any) -> None:
 
 def test_nothing_to_forget(table: Any) -> None:
     assert table.acts("Forget that.") == ["forget_nothing"]
-    assert table.acts("Forget the last thing.") == ["forget_nothing"]
+    assert table.acts("Forget the last thing.") == ["forgot_last"]
     table.hear("The book is blue.")
     table.hear("What is this?")
     assert table.acts("Forget it.") == ["forget_nothing"]
+
+
+def test_what_is_forgotten_is_no_more_said_of_what_is_in_view(table: Any) -> None:
+    table.hear("This is red.")
+    table.hear("This is a mug.")
+    table.hear("Forget that.")
+    assert [str(it["a"].pred.name) for it in table.state.shared.here] == ["is_red"]
+    table.hear("Forget the last thing.")
+    assert table.state.shared.here == ()
 
 
 def test_what_is_gone_is_not_what_is_talked_of(table: Any) -> None:

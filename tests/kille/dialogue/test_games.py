@@ -188,6 +188,25 @@ def test_it_says_where_things_are_as_certainly_as_it_knows(
     assert len(robot.state.shared.pending) == expected
 
 
+@pytest.mark.parametrize(
+    ("asked", "noun"), [("the book", "book"), ("the first one", "mug")]
+)
+def test_a_thing_whose_place_is_asked_keeps_the_tutors_noun(
+    scene: Make, asked: str, noun: str
+) -> None:
+    known = TWO | {("mug", "o1"): 0.95, ("near", "o1", "o2"): 0.9}
+    robot = scene(2, nouns=("book", "box", "mug"), relations=("near",), known=known)
+    assert robot.hear(f"Where is {asked}?") == f"The {noun} is near the box."
+
+
+def test_a_thing_is_not_placed_beside_what_is_called_the_same(scene: Make) -> None:
+    """The word is the same with another article, as a Swedish question has it."""
+    known = {("bok", "o1"): 0.9, ("bok", "o2"): 0.8, ("nära", "o1", "o2"): 0.9}
+    robot = scene(2, nouns=("bok",), relations=("nära",), known=known, language="sv")
+    assert robot.acts("Var är den första boken?") == ["need_landmark"]
+    assert robot.hear("Visa mig den första boken.") == "Det här är boken: #1."
+
+
 def test_what_is_alone_stands_nowhere(scene: Make) -> None:
     robot = scene(things=1, nouns=("book",), known=TWO)
     assert robot.acts(ASKING) == ["need_landmark"]

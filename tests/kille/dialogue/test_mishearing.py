@@ -44,6 +44,24 @@ def test_near_ties_are_asked_about_and_settled(scene: Make) -> None:
     assert not robot.state.shared.qud
 
 
+@pytest.mark.parametrize(
+    ("text", "answer"),
+    [
+        ("This_cup.", "What about it?"),
+        ("What_did_you_say?", "Pardon? I did not hear you well."),
+        ("Yes.", "I have not said anything that you could confirm."),
+        ("Okay.", "OK."),
+    ],
+)
+def test_whatever_was_said_after_all_is_answered(
+    scene: Make, text: str, answer: str
+) -> None:
+    robot = scene(nouns=("cup",), known=CUP)
+    robot.perhaps(**{text: 0.12})
+    assert [it.ask for it in robot.state.shared.qud] == ["AskHeard"]
+    assert robot.hear("Yes.") == answer
+
+
 def test_a_word_that_is_known_is_rather_heard(scene: Make) -> None:
     robot = scene(nouns=("cup",))
     tie = dict.fromkeys(TEACHING, 0.5)

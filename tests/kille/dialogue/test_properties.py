@@ -14,7 +14,8 @@ from kille.dialogue.meanings import named
 from kille.simulation.perceiving import glanced
 from kille.simulation.playing import simulated, words, world_of
 from kille.simulation.properties import OF_TUTORING
-from kille.simulation.tutoring import roles
+from kille.simulation.robots import ROBOTS
+from kille.simulation.tutoring import roles_in
 from kille.simulation.tutors import NONSENSE, tutoring
 from kille.simulation.worlds import drawn
 from ttr.strategies import play
@@ -35,7 +36,7 @@ def played(examples: int, language: str = "en", seed: int = 0, **strategy: str) 
         simulated(drawn(1 + seed), language=language, **strategy),
         tutoring(language),
         properties=PROPERTIES,
-        roles=roles,
+        roles=roles_in(language),
         turns=TURNS,
         examples=examples,
         seed=seed,
@@ -63,6 +64,20 @@ def test_guided_dialogues_with_an_autonomous_robot():
 
 def test_guided_dialogues_with_a_robot_that_only_does_what_it_is_told():
     assert played(EXAMPLES // 6, seed=3, mode="driven") == ""
+
+
+def test_what_was_taught_on_another_day_is_unlearned_by_name_only():
+    robot = next(it for it in ROBOTS if it.name == "assisted, on another day")
+    suite = Suite(
+        robot.game(18 + ROBOTS.index(robot)),
+        tutoring(),
+        properties=PROPERTIES,
+        roles=roles_in("en"),
+        turns=12,
+        examples=40,
+        seed=18 + ROBOTS.index(robot),
+    )
+    assert suite.played().told() == ""
 
 
 # --- misheard, and corrected (P15) ---------------------------------------------------

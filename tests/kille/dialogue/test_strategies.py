@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from kille.dialogue.lexicon import lexicon
+from kille.dialogue.meanings import noun
 from kille.dialogue.strategies import (
     MODES,
     WORDINGS,
@@ -22,6 +23,7 @@ from kille.dialogue.strategies import (
     threshold,
 )
 from kille.dialogue.strategies import _data as shipped
+from ttr import record
 
 Make = Callable[..., Any]
 
@@ -238,6 +240,35 @@ def test_it_asks_for_examples_of_what_it_failed_at(scene: Make) -> None:
     assert robot.look() == []
 
 
+def test_of_equals_it_asks_for_the_first(scene: Make) -> None:
+    robot = scene(nouns=("cup", "mug"), known={("cup", "o1"): 0.4, ("mug", "o1"): 0.3})
+    robot.hear("What is this?")
+    robot.hear("No.")
+    assert [it.form for it in robot.state.private.failed] == ["cup", "mug"]
+    for word in ("cup", "mug"):
+        assert robot.look() == ["ask_example"]
+        assert [it.form for it in robot.state.shared.latest.signs] == [word]
+
+
+@pytest.mark.parametrize("answer", ["No, the cup is behind the book.", "No."])
+def test_who_fails_at_a_place_has_not_failed_at_the_things(
+    scene: Make, answer: str
+) -> None:
+    known = {("cup", "o1"): 0.9, ("book", "o2"): 0.9, ("near", "o1", "o2"): 0.9}
+    robot = scene(2, nouns=["cup", "book"], relations=["near"], known=known)
+    assert robot.hear("Where is the cup?") == "The cup is near the book."
+    robot.hear(answer)
+    assert robot.state.private.cost.corrections == 1
+    assert robot.state.private.failed == ()
+
+
+def test_a_no_to_a_question_of_its_own_is_no_correction(scene: Make) -> None:
+    robot = scene(nouns=["cup"], known={("cup", "o1"): 0.9})
+    assert robot.hear("This is a cupp.") == "Do you mean a cup?"
+    robot.hear("No.")
+    assert robot.state.private.cost.corrections == 0
+
+
 def test_who_is_autonomous_learns_what_it_is_sure_of_once(scene: Make) -> None:
     robot = scene(nouns=("cup",), known={("cup", "o1"): 0.95}, mode="autonomous")
     assert robot.look() == ["learned_alone"]
@@ -266,3 +297,10 @@ def test_what_it_costs_is_counted(scene: Make) -> None:
     robot.look()
     cost = robot.state.private.cost
     assert (cost.turns, cost.words, cost.corrections, cost.questions) == (2, 8, 1, 1)
+
+
+def test_examples_of_earlier_dialogues_count(scene: Callable[..., Any]) -> None:
+    before = [record(sign=noun("cup"), lessons=4.0)]
+    one = scene(nouns=["cup"], taught=before, wording="four")
+    assert one.hear("This is a cup.") == "I am learning cup."
+    assert one.hear("This is a cup.") == "I am updating my systems on cup."

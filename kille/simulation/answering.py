@@ -1,0 +1,105 @@
+"""Which moves of a tutor's answer which question of the robot's, for the properties.
+
+What a phrase is true of, and which thing a perspective is of, depends on the state: the
+rules that settle such a question are among those that may drop it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+
+from kille.dialogue.language import understand
+from kille.dialogue.meanings import predicate_at, value_at
+from ttr import PType, Record, RecordType
+from ttr.syntax import Object
+
+__all__ = ["DROPPING", "answers_in"]
+
+DROPPING = frozenset(
+    {
+        "drop_question",
+        "see",
+        "glance",
+        "take_described",
+        "ask_fewer",
+        "ask_once_more",
+        "ask_yes_to_which",
+        "settle_frame",
+    }
+)
+"""The rules by which a question goes that nothing plainly answers.
+
+It is dropped for something else, or as what it is about is gone; or the answer depends
+on what is seen, or leaves some of it open.
+"""
+
+WHICH = ("AskReferent", "AskReferentAgain")
+"""The questions which thing was meant."""
+
+PLACES = {
+    "first": 1,
+    "leftmost": 1,
+    "last": 1,
+    "rightmost": 1,
+    "second": 2,
+    "third": 3,
+}
+"""Of how many things at least one is chosen by its place among them."""
+
+
+def answers_in(language: str) -> Callable[[Object, Object], bool]:
+    """Whether an event is a move in this language that answers a question.
+
+    >>> from ttr import Rec, record
+    >>> said = record(text="Yes.", content=Rec)
+    >>> asked = record(ask="OfferWord", options=[record(), record()])
+    >>> answers_in("en")(said, asked)
+    True
+    """
+
+    def answers(event: Object, question: Object) -> bool:
+        if not isinstance(event, Record) or not isinstance(question, Record):
+            return False
+        if "text" not in event:
+            return False
+        meant = _read(str(event.text), language)
+        return any(
+            content == event.content and _answers(move, event, question)
+            for move, content in meant
+        )
+
+    return answers
+
+
+def _answers(move: str, event: Record, question: Record) -> bool:
+    """Whether an event that is such a move answers a question, whatever is seen."""
+    options = len(question.options)
+    match question.ask, move:
+        case "OfferWord", "affirm" | "deny":
+            return True
+        case "AskHeard", "affirm":
+            return options == 1
+        case "AskFrame", "take_frame":
+            return "landmark" not in event.content
+        case asked, "mention":
+            return asked in WHICH and _is_place(event.content, options)
+        case asked, "deny":
+            return asked in ("AskHeard", *WHICH)
+    return False
+
+
+def _is_place(content: RecordType, options: int) -> bool:
+    """Whether what is mentioned is one of so many things by its place among them."""
+    target = content["target"]
+    assert isinstance(target, RecordType)
+    said = [T for _, T in target.fields if isinstance(T, PType)]
+    return len(said) == 1 and options >= PLACES.get(said[0].pred.name, options + 1)
+
+
+@lru_cache(4096)
+def _read(text: str, language: str) -> tuple[tuple[str, object], ...]:
+    """What a text may be: moves, by their predicates, and what they are about."""
+    first, *_ = understand(text, language)
+    moves = (it.type for it in first.readings)
+    return tuple((predicate_at(it, "e").name, value_at(it, "content")) for it in moves)
