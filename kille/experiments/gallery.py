@@ -19,7 +19,7 @@ from kille.perception.look import look
 from kille.scene import Frame, Percept
 from kille.sensors.captures import description_of
 from kille.sensors.pictures import fitted, is_picture, read_colour
-from kille.sensors.recordings import counting
+from kille.sensors.recordings.names import counting
 from kille.sensors.sensor import SensorError
 
 __all__ = ["LOOKING", "Categories", "Gallery", "Still", "is_gallery", "open_gallery"]

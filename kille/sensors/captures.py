@@ -3,16 +3,17 @@
 A capture folder holds `NAME_color.png`, `NAME_depth.png` (16 bits, 0 = no reading),
 where it is labelled `NAME_label.png`, and one description in JSON with `intrinsics`
 (fx, fy, cx, cy in pixels) and `depth_units_per_metre`. In `scene.json` the description
-has `frames`: the captures follow each other in time. Any other description is of
-separate scenes, each a still of its own.
+has `frames`: the captures follow each other in time, at the seconds that `times` has by
+name, or else thirty a second. Any other description is of separate scenes, each a still
+of its own.
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
-from itertools import count
+from dataclasses import dataclass, field, replace
+from itertools import count, pairwise
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,9 @@ from kille.sensors.sensor import SensorError
 
 DESCRIPTIONS = ("scene.json", "index.json", "boxes.json")
 _COLOUR = "_color.png"
+
+RATE = 30.0
+"""Frames a second, where a recording does not say when its frames were taken."""
 
 
 @dataclass(frozen=True)
@@ -45,16 +49,17 @@ class Shot:
     labels: Path | None = None
     geometry: Geometry | None = None
     things: Mapping[int, str] = field(default_factory=dict)
+    time: float = 0.0
 
     def read(self) -> Frame:
-        """The frame at time 0; SensorError if a file is missing, damaged or misfits."""
+        """The frame; SensorError if a file is missing, damaged or misfits."""
         colour = read_colour(self.colour)
         if self.depth is None or self.geometry is None:
-            return Frame(colour, None, None, 0.0, {})
+            return Frame(colour, None, None, self.time, {})
         depth = read_depth(self.depth, self.geometry.units_per_metre)
         _same_size(self.depth, depth.shape, self.colour, colour.shape)
         outlines = self._outlines(colour.shape)
-        return Frame(colour, depth, self.geometry.intrinsics, 0.0, outlines)
+        return Frame(colour, depth, self.geometry.intrinsics, self.time, outlines)
 
     def _outlines(self, shape: tuple[int, ...]) -> dict[str, Mask]:
         if self.labels is None:
@@ -83,9 +88,29 @@ def read_sequence(description: Path) -> tuple[Shot, ...]:
     content = _load(description)
     geometry = _geometry(description, content)
     frames = _need(description, content, "frames", dict)
-    return tuple(
-        _shot(description, name, geometry, frames[name]) for name in sorted(frames)
-    )
+    names = sorted(frames)
+    times = _times(description, content, names)
+    shots = (_shot(description, name, geometry, frames[name]) for name in names)
+    return tuple(replace(shot, time=times[shot.name]) for shot in shots)
+
+
+def _times(
+    description: Path, content: Mapping[str, Any], names: Iterable[str]
+) -> Mapping[str, float]:
+    """When each was taken, in seconds; evenly, if the description does not say."""
+    if "times" not in content:
+        return {name: number / RATE for number, name in enumerate(names)}
+    told = content["times"]
+    try:
+        times = {name: float(told[name]) for name in names}
+    except (KeyError, TypeError, ValueError, OverflowError) as error:
+        raise SensorError(
+            f"{description}: `times` needs the seconds of each of `frames` by name"
+        ) from error
+    row = list(times.values())
+    if not all(map(isfinite, row)) or any(a >= b for a, b in pairwise(row)):
+        raise SensorError(f"{description}: `times` must rise from frame to frame")
+    return times
 
 
 def read_scenes(description: Path) -> tuple[Shot, ...]:

@@ -1,7 +1,10 @@
-"""Reading picture files: colour, depth, labels, or one line that says what is wrong."""
+"""Picture files: reading and writing colour, depth and labels; errors are one line."""
 
 from __future__ import annotations
 
+import struct
+import zlib
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -77,13 +80,40 @@ def _decode(path: Path, flags: int) -> NDArray[Any]:
         raise SensorError(f"{path}: cannot be read ({error.strerror})") from error
     if not content.size:
         raise SensorError(f"{path}: the file is empty, expected a picture")
-    try:
-        picture = cv2.imdecode(content, flags)
-    except cv2.error:
-        picture = None
+    picture = None
+    with suppress(cv2.error):
+        # OpenCV would tell of a damaged file in lines of its own.
+        if not _is_broken_png(content):
+            picture = cv2.imdecode(content, flags)
     if picture is None:
         raise SensorError(f"{path}: this picture does not open; it may be damaged")
     return picture
+
+
+_PNG = b"\x89PNG\r\n\x1a\n"
+
+
+def _is_broken_png(content: NDArray[np.uint8]) -> bool:
+    """Whether it begins as a PNG file, but a part of it is missing or altered.
+
+    Such a file is a row of parts: a length, four letters, the data and a checksum.
+    """
+    data = content.data
+    if data[:8] != _PNG:
+        return False
+    place, kind = 8, b""
+    while kind != b"IEND":
+        if place + 12 > len(data):
+            return True
+        (length,) = struct.unpack_from(">I", data, place)
+        end = place + 8 + length
+        if end + 4 > len(data):
+            return True
+        (checksum,) = struct.unpack_from(">I", data, end)
+        if zlib.crc32(data[place + 4 : end]) != checksum:
+            return True
+        place, kind = end + 4, bytes(data[place + 4 : place + 8])
+    return False
 
 
 def _channels(picture: NDArray[Any]) -> str:
@@ -94,3 +124,47 @@ def _channels(picture: NDArray[Any]) -> str:
 def _fixed(array: NDArray[Any]) -> NDArray[Any]:
     array.setflags(write=False)
     return array
+
+
+_ENDS = {_PNG: b"IEND\xaeB`\x82", b"\xff\xd8\xff": b"\xff\xd9"}
+"""How the files of some kinds begin, and how they end."""
+
+
+def whole_picture(path: Path) -> bool:
+    """Whether the file is there, is not empty, and ends as its kind does."""
+    try:
+        with path.open("rb") as file:
+            head = file.read(8)
+            file.seek(max(0, path.stat().st_size - 8))
+            tail = file.read()
+    except OSError:
+        return False
+    ends = [end for start, end in _ENDS.items() if head.startswith(start)]
+    return bool(head) and all(tail.endswith(end) for end in ends)
+
+
+def depth_picture(depth: Depth, units_per_metre: float) -> NDArray[np.uint16]:
+    """Depth in metres as whole units, 0 where there is none or it is too far.
+
+    >>> depth_picture(np.array([[0.5, np.nan, 70.0]], np.float32), 1000)
+    array([[500,   0,   0]], dtype=uint16)
+    """
+    units = np.rint(depth * np.float32(units_per_metre))
+    told = (units > 0) & (units <= np.iinfo(np.uint16).max)
+    return np.where(told, units, 0).astype(np.uint16)
+
+
+def write_colour(path: Path, colour: Colour) -> None:
+    """Write an RGB picture; OSError if it cannot be."""
+    write_picture(path, cv2.cvtColor(colour, cv2.COLOR_RGB2BGR))
+
+
+def write_picture(path: Path, picture: NDArray[Any]) -> None:
+    """Write an array as a PNG picture; OSError if it cannot be."""
+    _, encoded = cv2.imencode(".png", picture)
+    path.write_bytes(encoded.tobytes())
+
+
+def shows_picture(path: Path) -> bool:
+    """Whether the file begins as those of pictures do, whatever its name."""
+    return bool(cv2.haveImageReader(str(path)))

@@ -198,6 +198,21 @@ def test_a_picture_that_does_not_open_is_named(tmp_path: Path, content: bytes) -
     assert "cup1.png" in complaint(tmp_path)
 
 
+@pytest.mark.parametrize("place", [20, 30, 60, -20, -6])
+def test_a_damaged_picture_is_told_of_in_one_line_only(
+    tmp_path: Path, place: int, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "cup1.png"
+    write_picture(path, 9)
+    damaged = bytearray(path.read_bytes())
+    damaged[place] ^= 0x55
+    path.write_bytes(damaged)
+    assert "cup1.png: this picture does not open; it may be damaged" in complaint(path)
+    path.write_bytes(damaged[:place])
+    assert "cup1.png: this picture does not open" in complaint(path)
+    assert capfd.readouterr() == ("", "")
+
+
 def test_a_picture_that_is_missing_is_named(tmp_path: Path) -> None:
     scene = write_scene(tmp_path / "scene")
     (scene / "000001_depth.png").unlink()
@@ -301,11 +316,6 @@ def test_a_path_that_leads_nowhere(tmp_path: Path) -> None:
     loop = tmp_path / "loop"
     loop.symlink_to(loop)
     assert str(loop) in complaint(loop)
-
-
-@pytest.mark.parametrize("name", ["kinect", "kinect:A001", "ros:/camera"])
-def test_drivers_that_are_not_there_yet(name: str) -> None:
-    assert "not part of this version yet; use `synthetic`" in complaint(name)
 
 
 def test_no_name() -> None:

@@ -1,0 +1,87 @@
+"""`kille convert`: a recording in another format."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+from rich.progress import Progress
+
+from kille.interfaces.amounts import in_bytes, in_frames, why_unwritten
+from kille.interfaces.terminal import FAILED, FINE, complain, console
+from kille.sensors.recordings.converting import Format, convert, estimate, format_of
+from kille.sensors.recordings.opening import open_recording
+from kille.sensors.recordings.playing import Recording
+from kille.sensors.recordings.replacing import check_other, whole
+from kille.sensors.sensor import SensorError
+
+__all__ = ["convert_recording"]
+
+
+def convert_recording(
+    source: str, out: Path, named: str | None, may_write: Callable[[Path], None]
+) -> int:
+    """Writes the recording of that name to `out`; the exit code.
+
+    `may_write` raises SensorError if `out` must be left as it is.
+    """
+    try:
+        into = format_of(out, named)
+        check_other(source, out)
+        may_write(out)
+        recording = _opened(source)
+    except SensorError as error:
+        return complain(error)
+    try:
+        return _converted(recording, out, into)
+    except SensorError as error:
+        return complain(error, FAILED)
+    except OSError as error:
+        return complain(why_unwritten(out, error), FAILED)
+    finally:
+        recording.close()
+
+
+def _opened(source: str) -> Recording:
+    sensor = open_recording(source)
+    if not isinstance(sensor, Recording):
+        raise SensorError(
+            f"{source}: holds stills, no recording; name one of them, such as "
+            f"{source.rstrip('/')}/NAME"
+        )
+    return sensor
+
+
+def _converted(recording: Recording, out: Path, into: Format) -> int:
+    needed = estimate(recording, into)
+    free = shutil.disk_usage(out.absolute().parent).free
+    if free < needed.bytes:
+        return complain(
+            f"{out}: up to {in_bytes(needed.bytes)} are needed, "
+            f"and {in_bytes(free)} are free on the disk",
+            FAILED,
+        )
+    screen = console()
+    bar = Progress(console=screen, transient=True, disable=not screen.is_terminal)
+    with bar, whole(out) as draft:
+        task = bar.add_task(str(out), total=needed.frames)
+        convert(recording, draft, into, lambda: bar.advance(task))
+    rest = recording.rest
+    seconds = rest[-1].time - rest[0].time
+    screen.print(
+        f"{out}: {in_frames(needed.frames)}, {seconds:.1f} s, as a {into.title}, "
+        f"{in_bytes(_taken(out))}",
+        markup=False,
+    )
+    if rest[0].read().outlines and into.title != "capture folder":
+        screen.print(
+            "The outlines of the things are lost: only capture folders keep them."
+        )
+    return FINE
+
+
+def _taken(out: Path) -> int:
+    """The bytes that a file takes, or all files in a folder."""
+    files = out.rglob("*") if out.is_dir() else [out]
+    return sum(it.stat().st_size for it in files if it.is_file())

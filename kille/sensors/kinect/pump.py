@@ -1,0 +1,210 @@
+"""Isochronous streams over libusb: many transfers under way, each used again and again.
+
+While one is read out the others wait in the kernel, so that nothing is missed though
+Python may be slow for some milliseconds.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+import time
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.sensors.kinect import libusb
+from kille.sensors.kinect.transport import (
+    Batch,
+    Gone,
+    Interrupted,
+    Receiver,
+    TransportError,
+)
+
+TRANSFERS, PACKETS = 6, 256
+"""How many are under way, and the microframes of each: together 192 ms.
+
+Most of what a transfer costs does not depend on its size.
+"""
+
+_TICK = 0.1
+_PATIENCE = 2.0
+"""Seconds in which libusb has to give all transfers back."""
+
+_FAILURES = 64
+"""Transfers that fail one after another before the stream is given up."""
+
+
+class Events:
+    """The thread that lets libusb call back, while there are streams."""
+
+    def __init__(self, backend: Any) -> None:
+        self._backend = backend
+        self._lock = threading.Lock()
+        self._users = 0
+        self._thread: threading.Thread | None = None
+
+    def enter(self) -> None:
+        """There is one stream more."""
+        with self._lock:
+            self._users += 1
+            if self._thread is None:
+                self._thread = threading.Thread(
+                    target=self._run, name="kinect events", daemon=True
+                )
+                self._thread.start()
+
+    def leave(self) -> None:
+        """There is one less; with the last, the thread ends before this returns."""
+        with self._lock:
+            self._users -= 1
+            if self._users == 0 and self._thread is not None:
+                self._thread.join()
+                self._thread = None
+
+    def _run(self) -> None:
+        while self._users:
+            if libusb.handle_events(self._backend, _TICK) < 0:
+                time.sleep(_TICK)
+
+
+class Slot:
+    """One transfer, its buffer and NumPy's views of both."""
+
+    def __init__(
+        self, backend: Any, handle: Any, endpoint: int, size: int, completed: Any
+    ) -> None:
+        self.buffer = (ctypes.c_ubyte * (PACKETS * size))()
+        self.transfer = libusb.allocated(
+            backend, handle, endpoint, self.buffer, PACKETS, completed
+        )
+        self.address = ctypes.addressof(self.transfer.contents)
+        records = libusb.outcomes(self.transfer, PACKETS)
+        self.packets: NDArray[np.uint8] = np.ctypeslib.as_array(self.buffer).reshape(
+            PACKETS, size
+        )
+        self._records: NDArray[np.int32] = np.ctypeslib.as_array(records)
+        self.under_way = False
+
+    def batch(self) -> Batch:
+        """What came, as it lies in the buffer; failed packets have no length."""
+        lengths, statuses = self._records[:, 1], self._records[:, 2]
+        if statuses.any():
+            lengths = lengths * (statuses == libusb.COMPLETED)
+        return Batch(self.packets, lengths, time.monotonic())
+
+
+class IsoStream:
+    """A running stream of one endpoint. If the receiver raises, it ends."""
+
+    def __init__(
+        self,
+        backend: Any,
+        events: Events,
+        handle: Any,
+        endpoint: int,
+        packet_size: int,
+        receive: Receiver,
+    ) -> None:
+        self.ended: TransportError | None = None
+        self._backend = backend
+        self._events = events
+        self._receive = receive
+        self._stopping = False
+        self._over = False
+        self._failures = 0
+        self._idle = threading.Condition()
+        # libusb keeps no reference to the function: it has to live as long as we do.
+        self._function = libusb.completed_type(self._completed)
+        self._slots = {
+            slot.address: slot
+            for slot in (
+                Slot(backend, handle, endpoint, packet_size, self._function)
+                for _ in range(TRANSFERS)
+            )
+        }
+        self._events.enter()
+        self._begin()
+
+    def stop(self) -> None:
+        """Cancel all transfers and wait until libusb has given them back."""
+        if self._over:
+            return
+        self._over = True
+        self._stopping = True
+        for slot in self._slots.values():
+            if slot.under_way:
+                self._backend.lib.libusb_cancel_transfer(slot.transfer)
+        try:
+            with self._idle:
+                self._idle.wait_for(self._all_back, _PATIENCE)
+        finally:
+            self._events.leave()
+        if self._all_back():
+            for slot in self._slots.values():
+                self._backend.lib.libusb_free_transfer(slot.transfer)
+        else:
+            # libusb may still write there: better never freed than freed too early.
+            _KEPT.append(self)
+
+    def _begin(self) -> None:
+        for slot in self._slots.values():
+            # Said before it is so: libusb may call back at once.
+            slot.under_way = True
+            if not self._submitted(slot):
+                slot.under_way = False
+        if self.ended is not None:
+            problem = self.ended
+            self.stop()
+            raise problem
+
+    def _all_back(self) -> bool:
+        return not any(slot.under_way for slot in self._slots.values())
+
+    def _submitted(self, slot: Slot) -> bool:
+        """Let libusb fill the slot; if it does not want to, the stream has ended."""
+        code = self._backend.lib.libusb_submit_transfer(slot.transfer)
+        if code < 0:
+            self.ended = self.ended or libusb.error_of(code)
+        return bool(code >= 0)
+
+    def _completed(self, transfer: Any) -> None:
+        """Called by libusb, where an exception would be lost: it ends the stream.
+
+        libusb calls from any thread that waits for it: also from the main one, to
+        which Ctrl-C goes.
+        """
+        slot = self._slots[ctypes.addressof(transfer.contents)]
+        again = False
+        try:
+            again = self._take(slot, transfer.contents.status)
+        except BaseException as error:
+            kind = TransportError if isinstance(error, Exception) else Interrupted
+            self.ended = kind(f"the stream's receiver failed: {error!r}")
+        # Until here it counts as under way, so that nobody frees it.
+        if not (again and self._submitted(slot)):
+            slot.under_way = False
+            with self._idle:
+                self._idle.notify_all()
+
+    def _take(self, slot: Slot, status: int) -> bool:
+        """Hand on what came; whether there is more to come."""
+        if self._stopping or status == libusb.CANCELLED:
+            return False
+        if status == libusb.NO_DEVICE:
+            self.ended = Gone("the device was unplugged")
+            return False
+        if status == libusb.COMPLETED:
+            self._failures = 0
+            self._receive(slot.batch())
+            return True
+        self._failures += 1
+        if self._failures > _FAILURES:
+            self.ended = TransportError(f"USB transfers end with status {status}")
+        return self._failures <= _FAILURES
+
+
+_KEPT: list[IsoStream] = []
+"""Streams of which libusb kept a transfer: they live as long as the program."""

@@ -1,0 +1,112 @@
+"""What went wrong, in one line that says what to do about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from kille.sensors.kinect.commands import BadReply
+from kille.sensors.kinect.devices import Kinect, Model
+from kille.sensors.kinect.packets import Counts
+from kille.sensors.kinect.transport import Busy, Denied, Gone, NoLibrary, Stalled
+
+KERNEL_DRIVER = "gspca_kinect"
+
+UDEV_RULE = (
+    'SUBSYSTEM=="usb", ATTR{idVendor}=="045e", '
+    'ATTR{idProduct}=="02ae|02ad|02b0|02bb|02be|02bf|02c3", MODE="0666"'
+)
+ALLOW = (
+    f"echo '{UDEV_RULE}' | sudo tee /etc/udev/rules.d/51-kinect.rules "
+    "&& sudo udevadm control --reload && sudo udevadm trigger"
+)
+"""Lets every user of this computer open a Kinect."""
+
+GET_LIBRARY = "pip install 'kille[usb]'"
+UNLOAD = f"sudo modprobe -r {KERNEL_DRIVER}"
+
+
+class Trouble(NamedTuple):
+    """What is the matter, and the command or the step that mends it, if any does."""
+
+    state: str
+    remedy: str = ""
+
+
+def told(name: str, error: Exception) -> str:
+    """The line for an error of opening, asking or streaming.
+
+    >>> told("kinect", Gone("No such device"))
+    'kinect: it was unplugged; plug it in again'
+    """
+    return f"{name}: {'; '.join(filter(None, trouble(error)))}"
+
+
+def trouble(error: Exception) -> Trouble:
+    """What an error of opening, asking or streaming means."""
+    match error:
+        case NoLibrary():
+            return Trouble("there is no libusb to talk to it", GET_LIBRARY)
+        case Denied():
+            return Trouble("there is no permission to open it", ALLOW)
+        case Busy() if driver_loaded():
+            return Trouble(f"the kernel's driver {KERNEL_DRIVER} has it", UNLOAD)
+        case Busy():
+            return Trouble("another program has it", "close that program")
+        case Gone():
+            return Trouble("it was unplugged", "plug it in again")
+        case Stalled():
+            return Trouble("it does not answer", "unplug it and plug it in again")
+        case BadReply():
+            state = f"it answers nonsense ({error})"
+            return Trouble(state, "unplug it and plug it in again")
+        case _:
+            return Trouble(" ".join(str(error).split()))
+
+
+def no_pictures(counts: Sequence[Counts], failures: Iterable[Exception]) -> str:
+    """Why no pair of pictures comes, by what came instead.
+
+    >>> no_pictures([Counts(packets=900), Counts()], ())
+    'one of its two cameras sends nothing; unplug it and plug it in again'
+    """
+    for failure in failures:
+        return f"its frames cannot be taken: {failure!r}"
+    packets = sum(it.packets for it in counts)
+    if all(it.packets == 0 for it in counts):
+        return (
+            "it answers but sends no pictures; plug it into another USB port, a USB 2 "
+            "one if there is any, with no hub between"
+        )
+    if any(it.packets == 0 for it in counts):
+        return "one of its two cameras sends nothing; unplug it and plug it in again"
+    if all(it.frames for it in counts):
+        return (
+            "pictures and depth come, but not of the same moment; unplug it and plug "
+            "it in again"
+        )
+    lost = sum(it.lost for it in counts)
+    return (
+        f"no picture is whole, {lost} of {packets + lost} packets were lost; plug it "
+        "into a USB port that it shares with no other camera or disk"
+    )
+
+
+def no_motor(kinect: Kinect) -> str:
+    """Why its head cannot be turned nor its light set."""
+    if kinect.model is Model.XBOX_1414:
+        return "its motor is not found; plug in the Kinect's own power supply"
+    return (
+        f"the motor and light of a Kinect {kinect.model.value} are behind its audio "
+        "device, which needs a program of Microsoft's; turn its head by hand"
+    )
+
+
+def driver_loaded() -> bool:
+    """Whether the kernel has its own driver for the camera."""
+    try:
+        modules = Path("/proc/modules").read_text()
+    except OSError:
+        return False
+    return any(line.startswith(f"{KERNEL_DRIVER} ") for line in modules.splitlines())

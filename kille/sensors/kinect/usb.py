@@ -1,0 +1,176 @@
+"""The Kinect's devices over real USB: finding, claiming, asking, streaming."""
+
+from __future__ import annotations
+
+import ctypes
+from array import array
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from typing import Any
+
+from usb.core import USBError
+
+from kille.sensors.kinect import libusb
+from kille.sensors.kinect.pump import Events, IsoStream
+from kille.sensors.kinect.transport import (
+    Busy,
+    Gone,
+    Plugged,
+    Receiver,
+    TransportError,
+)
+
+MICROSOFT = 0x045E
+_TO_DEVICE, _FROM_DEVICE = 0x40, 0xC0
+_INTERFACE = 0
+_TIMEOUT = 1000
+"""Milliseconds for a control transfer."""
+
+_LONGEST_STRING = 256
+
+
+class UsbBus:
+    """The computer's USB. NoLibrary if there is no libusb."""
+
+    def __init__(self) -> None:
+        self._backend = libusb.backend()
+        self._events = Events(self._backend)
+
+    def devices(self) -> tuple[Plugged, ...]:
+        """All of Microsoft's devices that are plugged in, by place."""
+        with _translated():
+            found = [self._described(it) for it in self._backend.enumerate_devices()]
+        microsofts = (it for it in found if it.vendor == MICROSOFT)
+        return tuple(sorted(microsofts, key=lambda it: it.place))
+
+    def open(self, device: Plugged, alternate: int) -> UsbConnection:
+        """The device with its interface claimed, in that alternate setting."""
+        with _translated():
+            handle = self._backend.open_device(device.key)
+        try:
+            driven = self._claim(handle, alternate)
+        except TransportError:
+            self._backend.close_device(handle)
+            raise
+        return UsbConnection(self._backend, self._events, device.key, handle, driven)
+
+    def _claim(self, handle: Any, alternate: int) -> bool:
+        """Claim the interface; whether a kernel driver was moved aside for it."""
+        driven = self._moved_aside(handle)
+        with _translated():
+            self._backend.claim_interface(handle, _INTERFACE)
+            if alternate:
+                self._backend.set_interface_altsetting(handle, _INTERFACE, alternate)
+        return driven
+
+    def _moved_aside(self, handle: Any) -> bool:
+        try:
+            if not self._backend.is_kernel_driver_active(handle, _INTERFACE):
+                return False
+            self._backend.detach_kernel_driver(handle, _INTERFACE)
+        except NotImplementedError:
+            return False
+        except USBError as error:
+            raise Busy(f"a kernel driver has it: {error}") from error
+        return True
+
+    def _described(self, device: Any) -> Plugged:
+        told = self._backend.get_device_descriptor(device)
+        microsofts = told.idVendor == MICROSOFT
+        return Plugged(
+            told.idVendor,
+            told.idProduct,
+            told.bcdDevice,
+            self._serial(device, told.iSerialNumber) if microsofts else "",
+            (told.bus, *(told.port_numbers or ())),
+            device,
+        )
+
+    def _serial(self, device: Any, index: int) -> str:
+        """The serial number, or nothing if the device may not be opened for it."""
+        if not index:
+            return ""
+        text = (ctypes.c_ubyte * _LONGEST_STRING)()
+        try:
+            handle = self._backend.open_device(device)
+        except USBError:
+            return ""
+        length = self._backend.lib.libusb_get_string_descriptor_ascii(
+            handle.handle, index, text, _LONGEST_STRING
+        )
+        self._backend.close_device(handle)
+        return bytes(text[: max(length, 0)]).decode("ascii", "replace")
+
+
+class UsbConnection:
+    """One opened device."""
+
+    def __init__(
+        self, backend: Any, events: Events, device: Any, handle: Any, driven: bool
+    ) -> None:
+        self._backend = backend
+        self._events = events
+        self._device = device
+        self._handle = handle
+        self._driven = driven
+        self._streams: list[IsoStream] = []
+        self._closed = False
+
+    def write(self, request: int, value: int, index: int, data: bytes) -> None:
+        """A vendor control transfer to the device."""
+        self._control(_TO_DEVICE, request, value, index, array("B", data))
+
+    def read(self, request: int, value: int, index: int, length: int) -> bytes:
+        """A vendor control transfer from the device."""
+        room = array("B", bytes(length))
+        came = self._control(_FROM_DEVICE, request, value, index, room)
+        return room[:came].tobytes()
+
+    def stream(self, endpoint: int, packet_size: int, receive: Receiver) -> IsoStream:
+        """Start to read an endpoint."""
+        lib = self._backend.lib
+        told = lib.libusb_get_max_iso_packet_size(self._device.devid, endpoint)
+        if told < packet_size:
+            raise TransportError(
+                f"endpoint {endpoint:#04x} has packets of {told} bytes, "
+                f"not the {packet_size} of a Kinect"
+            )
+        stream = IsoStream(
+            self._backend, self._events, self._handle.handle, endpoint, told, receive
+        )
+        self._streams.append(stream)
+        return stream
+
+    def close(self) -> None:
+        """Stop every stream and let go; a moved kernel driver gets it back."""
+        if self._closed:
+            return
+        self._closed = True
+        for stream in self._streams:
+            stream.stop()
+        with suppress(USBError):
+            self._backend.release_interface(self._handle, _INTERFACE)
+        if self._driven:
+            with suppress(USBError, NotImplementedError):
+                self._backend.attach_kernel_driver(self._handle, _INTERFACE)
+        self._backend.close_device(self._handle)
+
+    def _control(
+        self, kind: int, request: int, value: int, index: int, data: Any
+    ) -> int:
+        if self._closed:
+            raise Gone("the device was closed")
+        with _translated():
+            came: int = self._backend.ctrl_transfer(
+                self._handle, kind, request, value, index, data, _TIMEOUT
+            )
+        return came
+
+
+@contextmanager
+def _translated() -> Iterator[None]:
+    """pyusb's failures in the words of the driver's transports."""
+    try:
+        yield
+    except USBError as error:
+        raise libusb.error_of(error.backend_error_code) from error

@@ -1,0 +1,11 @@
+"""Recordings: what was seen elsewhere or earlier, played as a sensor, and written.
+
+`opening` finds out by its content what lies at a path; each format has a module that
+reads it and, where it is written, one that writes it.
+"""
+
+from kille.sensors.recordings.galleries import Gallery
+from kille.sensors.recordings.opening import open_recording
+from kille.sensors.recordings.playing import Recording, RecordingOver
+
+__all__ = ["Gallery", "Recording", "RecordingOver", "open_recording"]

@@ -1,0 +1,210 @@
+"""Bags as files: which paths are bags, and their messages, by topic and time.
+
+Any bag that rosbags reads, whatever its name; also one that was cut short.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from kille.sensors.recordings.images import NotThis
+from kille.sensors.sensor import SensorError
+
+if TYPE_CHECKING:
+    from rosbags.highlevel import AnyReader
+    from rosbags.interfaces import Connection
+    from rosbags.typesys.store import Typestore
+
+NOT_INSTALLED = "ROS bags need rosbags: pip install 'kille[record]'"
+
+DESCRIPTION = "metadata.yaml"
+_SUFFIXES = {
+    b"#ROSBAG V": ".bag",
+    b"\x89MCAP0\r\n": ".mcap",
+    b"SQLite format 3\x00": ".db3",
+}
+
+
+def ros_suffix(path: Path) -> str | None:
+    """What the name of a file of this content should end in, if it is of ROS."""
+    with path.open("rb") as file:
+        start = file.read(16)
+    found = (end for head, end in _SUFFIXES.items() if start.startswith(head))
+    return next(found, None)
+
+
+def ros_files(folder: Path) -> list[Path]:
+    """The files of ROS 2 in a folder; of others, which may be many, none is opened."""
+    named = [it for it in sorted(folder.iterdir()) if it.suffix in (".mcap", ".db3")]
+    return [it for it in named if it.is_file() and ros_suffix(it) is not None]
+
+
+def is_bag(path: Path) -> bool:
+    """Whether it is a bag: a file, or a folder with its description or one file."""
+    if path.is_file():
+        return ros_suffix(path) is not None
+    described = path / DESCRIPTION
+    if described.is_file():
+        return b"rosbag2_bagfile_information" in described.read_bytes()[:65536]
+    return len(ros_files(path)) == 1
+
+
+class Stamp(NamedTuple):
+    """When a message was made, in seconds, and where the bag keeps it: its nanoseconds
+    there, and how many of the topic with the same come before."""
+
+    time: float
+    kept: int
+    nth: int
+
+
+@dataclass(frozen=True, eq=False)
+class Bag:
+    """An open bag and its topics, of which each has a connection for each publisher."""
+
+    name: str
+    reader: AnyReader
+    topics: Mapping[str, Sequence[Connection]]
+    remark: str
+
+    def message(self, topic: str, stamp: Stamp) -> Any:
+        """The message of that stamp; SensorError if it cannot be read."""
+        found = self.raw(topic, start=stamp.kept, stop=stamp.kept + 1)
+        with told(self.name):
+            for number, (_, data) in enumerate(found):
+                if number == stamp.nth:
+                    return self.decoded(topic, data)
+        raise SensorError(f"{self.name}: a message of {topic} is lost")
+
+    def first(self, topic: str) -> Any:
+        """The topic's first message, or None."""
+        with told(self.name):
+            return next((self.decoded(topic, it) for _, it in self.raw(topic)), None)
+
+    def raw(self, topic: str, **between: int) -> Iterator[tuple[int, bytes]]:
+        """The topic's messages as they are kept, with the bag's nanoseconds."""
+        for _, kept, data in self.reader.messages(self.topics[topic], **between):
+            yield kept, bytes(data)
+
+    def decoded(self, topic: str, data: bytes) -> Any:
+        """A message with its fields."""
+        return self.reader.deserialize(data, self.kind(topic))
+
+    def kind(self, topic: str) -> str:
+        """The type of the topic's messages."""
+        return self.topics[topic][0].msgtype
+
+    def stamps(self, topic: str) -> list[Stamp]:
+        """When the topic's messages were made, in order of that.
+
+        Where their heads do not say, it is when they were recorded.
+        """
+        with told(self.name):
+            row = [(kept, self._made(data)) for kept, data in self.raw(topic)]
+        said = any(made for _, made in row)
+        counts: dict[int, int] = {}
+        stamps = []
+        for kept, made in row:
+            counts[kept] = nth = counts.get(kept, -1) + 1
+            stamps.append(Stamp((made if said else kept) / 1e9, kept, nth))
+        return sorted(stamps)
+
+    def _made(self, data: bytes) -> int:
+        """The nanoseconds in a message's head, which is the first of its fields."""
+        # ROS 1 has a number of the message before them, ROS 2 what says the byte order.
+        big = self.reader.is2 and not data[1] & 1
+        seconds, rest = struct.unpack_from(">II" if big else "<II", data, 4)
+        return int(seconds * 1_000_000_000 + rest)
+
+
+def opened(name: str, path: Path) -> Bag:
+    """The bag at this path; SensorError if it cannot be read, or rosbags is missing."""
+    remark = ""
+    try:
+        from rosbags.highlevel import AnyReader, AnyReaderError
+        from rosbags.typesys import Stores, get_typestore
+    except ImportError as error:
+        raise SensorError(f"{name}: {NOT_INSTALLED}") from error
+    usual = get_typestore(Stores.ROS2_HUMBLE)
+    held = _file(path)
+    with told(name), _suffixed(held) as suited:
+        reader = AnyReader([suited], default_typestore=usual)
+        try:
+            reader.open()
+        except AnyReaderError as error:
+            if not any(words in str(error) for words in _CUT_SHORT):
+                raise
+            reader = _salvaged(suited, usual)
+            remark = "cut short: it has no index; what is whole of it is played"
+    topics: dict[str, list[Connection]] = {}
+    for it in sorted(reader.connections, key=lambda it: (it.topic, it.id)):
+        alike = topics.setdefault(it.topic, [])
+        if not alike or alike[0].msgtype == it.msgtype:
+            alike.append(it)
+    return Bag(name, reader, topics, remark)
+
+
+_CUT_SHORT = ("not indexed", "index looks damaged", "end magic is invalid")
+"""What rosbags says of bags whose end is missing."""
+
+
+def _salvaged(path: Path, usual: Typestore) -> AnyReader:
+    """A reader of a bag that was cut short."""
+    from rosbags.highlevel import AnyReader
+    from rosbags.rosbag2 import Reader
+
+    from kille.sensors.recordings.salvaging import UnindexedBag, UnindexedMcap
+
+    reader = AnyReader([path], default_typestore=usual)
+    if reader.is2:
+        whole = Reader(path)
+        whole.storage = UnindexedMcap(path)
+        reader.readers = [whole]
+    else:
+        reader.readers = [UnindexedBag(path)]
+    reader.open()
+    return reader
+
+
+def _file(path: Path) -> Path:
+    """The folder of a bag; where its description is missing, the one file in it."""
+    if not path.is_dir() or (path / DESCRIPTION).is_file():
+        return path
+    (held,) = ros_files(path)
+    return held
+
+
+@contextmanager
+def _suffixed(path: Path) -> Iterator[Path]:
+    """The path, or another to the same that ends as rosbags wants its files to end."""
+    suffix = None if path.is_dir() else ros_suffix(path)
+    if suffix is None or path.suffix == suffix:
+        yield path
+        return
+    with TemporaryDirectory() as folder:
+        link = Path(folder, f"bag{suffix}")
+        link.symlink_to(path.resolve())
+        yield link
+
+
+@contextmanager
+def told(name: str) -> Iterator[None]:
+    """Whatever is wrong inside with the bag, in one line."""
+    try:
+        yield
+    except SensorError:
+        raise
+    except OSError as error:
+        raise SensorError(f"{name}: cannot be read ({error.strerror})") from error
+    except NotThis as error:
+        raise SensorError(f"{name}: {error}") from error
+    except Exception as error:
+        # A damaged bag makes rosbags fail in many ways, with no class in common.
+        said = " ".join(str(error).split()) or type(error).__name__
+        raise SensorError(f"{name}: this bag cannot be read: {said}") from error

@@ -1,0 +1,38 @@
+"""Names as people write, order and misspell them."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Sequence
+
+
+def counting(name: str) -> list[tuple[int, str]]:
+    """A key for the order of names in which numbers count as numbers.
+
+    >>> sorted(["cup10", "cup2", "cap"], key=counting)
+    ['cap', 'cup2', 'cup10']
+    """
+    parts = re.findall(r"\d+|\D+", name)
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in parts]
+
+
+def meant(name: str, known: Sequence[str]) -> str:
+    """A question after the known names that are near, or nothing.
+
+    >>> meant("kitchn", ["kitchen", "desk"])
+    ' (did you mean kitchen?)'
+    """
+    close = difflib.get_close_matches(name, known, n=3, cutoff=0.6)
+    return f" (did you mean {' or '.join(close)}?)" if close else ""
+
+
+def some(names: Sequence[str]) -> str:
+    """The first twelve names, and how many more there are."""
+    few = ", ".join(names[:12])
+    return few if len(names) <= 12 else f"{few} and {len(names) - 12} more"
+
+
+def spoken(name: str) -> str:
+    """The name as it is compared: `Rubber_duck` is `rubber duck`."""
+    return name.replace("_", " ").casefold()

@@ -1,0 +1,186 @@
+"""What lies at a path: its format is found by its content, never by its name."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from kille.sensors.captures import (
+    DESCRIPTIONS,
+    Shot,
+    description_of,
+    is_sequence,
+    read_scenes,
+    read_sequence,
+)
+from kille.sensors.pictures import is_picture, shows_picture
+from kille.sensors.recordings.bag_files import is_bag
+from kille.sensors.recordings.bags import open_bag
+from kille.sensors.recordings.fakenect import is_fakenect, open_fakenect
+from kille.sensors.recordings.galleries import Gallery
+from kille.sensors.recordings.names import counting, meant
+from kille.sensors.recordings.npz import is_npz, open_npz
+from kille.sensors.recordings.options import Options, parted
+from kille.sensors.recordings.playing import RawRecording, Recording
+from kille.sensors.recordings.reels import Moment, Reel
+from kille.sensors.recordings.tum import is_tum, open_tum
+from kille.sensors.sensor import Sensor, SensorError
+
+KNOWN = (
+    "a folder of NAME_color.png and NAME_depth.png with scene.json or index.json, "
+    "a fakenect, TUM RGB-D or ROS 2 folder, a .bag, .mcap or .npz file, "
+    "a folder of pictures, a folder of such folders, or one picture"
+)
+
+Opener = Callable[[str, Path, Options], Reel]
+
+
+def open_recording(name: str) -> Sensor:
+    """The recording at this path, `PATH?speed=1&loop=no&start=3.5` with options.
+
+    `FOLDER/SCENE` names one scene of a folder of scenes. SensorError if nothing is
+    there, it cannot be read, is empty or of no known format, or its first frame fails.
+    What of a recording is lost is told once, by a warning in the log.
+    """
+    path, options = parted(name)
+    try:
+        return _open(name, path, options)
+    except OSError as error:
+        raise SensorError(f"{name}: cannot be read ({error.strerror})") from error
+
+
+def is_recording(path: Path) -> bool:
+    """Whether it is of a format that holds frames in order of time, or scenes."""
+    if _opener(path) is not None:
+        return True
+    return path.is_dir() and description_of(path) is not None
+
+
+def _open(name: str, path: Path, options: Options) -> Sensor:
+    opener = _opener(path)
+    if opener is not None:
+        return _played(name, opener(name, path, options), options)
+    if path.is_dir():
+        return _timeless(name, options, _open_folder(name, path, options))
+    if path.is_file() and (is_picture(path) or shows_picture(path)):
+        still = Reel("picture", [_moment(Shot(path.stem, path))])
+        return _played(name, still, options)
+    if path.exists():
+        _refuse_empty(name, path)
+        raise SensorError(f"{name}: unknown format; known are {KNOWN}")
+    return _open_scene(name, path, options)
+
+
+def _opener(path: Path) -> Opener | None:
+    """What opens it, if it is of a format that has a module of its own."""
+    if path.is_dir():
+        kinds: list[tuple[Callable[[Path], bool], Opener]] = [
+            (is_fakenect, open_fakenect),
+            (is_tum, open_tum),
+            (is_bag, open_bag),
+        ]
+    elif path.is_file():
+        kinds = [(is_npz, open_npz), (is_bag, open_bag)]
+    else:
+        return None
+    return next((opener for is_one, opener in kinds if is_one(path)), None)
+
+
+def _played(name: str, reel: Reel, options: Options) -> Recording:
+    """The reel as a sensor; what is lost of it is told."""
+    if reel.remark:
+        logging.getLogger(__name__).warning("%s: %s", name, reel.remark)
+    try:
+        if reel.calibration is None:
+            return Recording(name, reel, options)
+        return RawRecording(name, reel, options, reel.calibration)
+    except BaseException:
+        reel.close()
+        raise
+
+
+def _timeless(name: str, options: Options, sensor: Sensor) -> Sensor:
+    """The sensor; SensorError if it holds stills, and is to be played in time."""
+    if isinstance(sensor, Gallery) and options != Options():
+        raise SensorError(
+            f"{name}: holds stills, which know no time: leave out what is behind the ?"
+        )
+    return sensor
+
+
+def _refuse_empty(name: str, path: Path) -> None:
+    if path.is_file() and not path.stat().st_size:
+        raise SensorError(f"{name}: the file is empty; expected {KNOWN}")
+
+
+def _open_scene(name: str, path: Path, options: Options) -> Sensor:
+    description = description_of(path.parent)
+    if description is None:
+        raise _not_there(name, path, [it.name for it in _entries(path.parent)])
+    shots = {shot.name: shot for shot in _captures(description)}
+    if path.name not in shots:
+        raise _not_there(name, path, list(shots))
+    return _played(name, Reel("capture", [_moment(shots[path.name])]), options)
+
+
+def _open_folder(name: str, folder: Path, options: Options) -> Sensor:
+    description = description_of(folder)
+    if description is not None and is_sequence(description):
+        moments = [_moment(shot) for shot in read_sequence(description)]
+        return _played(name, Reel("captures", moments), options)
+    if description is not None:
+        return Gallery(name, {it.name: [it] for it in read_scenes(description)})
+    if any(folder.glob("*_color.png")) and any(folder.glob("*_depth.png")):
+        raise SensorError(
+            f"{name}: has depth pictures but none of {', '.join(DESCRIPTIONS)} "
+            "to say the camera's intrinsics and the unit of depth"
+        )
+    if pictures := _pictures(folder):
+        each = {shot.name: [shot] for shot in pictures}
+        return Gallery(name, {folder.resolve().name: pictures} | each)
+    return _open_categories(name, folder)
+
+
+def _open_categories(name: str, folder: Path) -> Sensor:
+    inner = [it for it in _entries(folder) if it.is_dir()]
+    scenes = [it.name for it in inner if is_recording(it)]
+    if scenes:
+        raise SensorError(
+            f"{name}: holds several recordings, name one of them: "
+            + ", ".join(f"{name.rstrip('/')}/{scene}" for scene in scenes)
+        )
+    categories: dict[str, list[Shot]] = {}
+    for it in inner:
+        categories.setdefault(it.name.replace("_", " "), []).extend(_pictures(it))
+    shown = {thing: pictures for thing, pictures in categories.items() if pictures}
+    if shown:
+        return Gallery(name, shown)
+    if not any(folder.iterdir()):
+        raise SensorError(f"{name}: the folder is empty; expected {KNOWN}")
+    raise SensorError(f"{name}: unknown format; known are {KNOWN}")
+
+
+def _captures(description: Path) -> tuple[Shot, ...]:
+    if is_sequence(description):
+        return read_sequence(description)
+    return read_scenes(description)
+
+
+def _moment(shot: Shot) -> Moment:
+    return Moment(shot.time, shot.read)
+
+
+def _pictures(folder: Path) -> list[Shot]:
+    return [Shot(path.stem, path) for path in _entries(folder) if is_picture(path)]
+
+
+def _entries(folder: Path) -> list[Path]:
+    """What is in the folder in the order people count: cup2 before cup10."""
+    if not folder.is_dir():
+        return []
+    return sorted(folder.iterdir(), key=lambda path: counting(path.name))
+
+
+def _not_there(name: str, path: Path, near: Sequence[str]) -> SensorError:
+    return SensorError(f"{name}: there is no such folder{meant(path.name, near)}")

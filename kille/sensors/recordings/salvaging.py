@@ -1,0 +1,155 @@
+"""ROS bags that were cut short: what is whole is found by reading them from the start.
+
+A bag ends with an index of what is where. Who is killed while recording has not written
+it; the messages before are there all the same, in chunks that tell their own size.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections import defaultdict
+from io import BytesIO
+from typing import BinaryIO
+
+from rosbags.interfaces import (
+    Connection,
+    ConnectionExtRosbag1,
+    MessageDefinition,
+    MessageDefinitionFormat,
+)
+from rosbags.rosbag1 import Reader, ReaderError
+from rosbags.rosbag1.reader import (
+    Chunk,
+    Header,
+    IndexData,
+    RecordType,
+    decompressors,
+    normalize,
+    read_bytes,
+    read_uint32,
+)
+from rosbags.rosbag2.storage_mcap import McapReader
+from rosbags.typesys.msg import normalize_msgtype
+
+_NO_RECORD = (ReaderError, ValueError, struct.error, OSError, EOFError)
+"""What comes of reading on where a file was cut, or something else was written."""
+
+
+class UnindexedBag(Reader):
+    """A ROS 1 bag whose index is made anew, of all chunks that are whole."""
+
+    def open(self) -> None:
+        """Read all of the file once; ReaderError if not even its head is there."""
+        size = self.path.stat().st_size
+        self.bio = bio = self.path.open("rb")
+        try:
+            bio.readline()
+            Header.read(bio, RecordType.BAGHEADER)
+            bio.seek(bio.tell() + read_uint32(bio) + 4)
+            self._index_all(bio, size)
+        except BaseException:
+            self.close()
+            raise
+
+    def _index_all(self, bio: BinaryIO, size: int) -> None:
+        indexes: dict[int, list[IndexData]] = defaultdict(list)
+        connections: dict[int, Connection] = {}
+        while bio.tell() < size:
+            place = bio.tell()
+            try:
+                header, start, length = _record(bio)
+                if start + length > size:
+                    break
+                if header.get_uint8("op") == RecordType.CHUNK:
+                    kind = header.get_string("compression")
+                    chunk = Chunk(length, start, decompressors[kind])
+                    content = chunk.decompressor(read_bytes(bio, length))
+                    self._index_chunk(place, content, indexes, connections)
+                    self.chunks[place] = chunk
+            except (*_NO_RECORD, KeyError):
+                break
+            bio.seek(start + length)
+        self.indexes = {number: sorted(indexes[number]) for number in connections}
+        self.connections = [
+            it._replace(msgcount=len(self.indexes[number]))
+            for number, it in connections.items()
+        ]
+
+    def _index_chunk(
+        self,
+        place: int,
+        content: bytes,
+        indexes: dict[int, list[IndexData]],
+        connections: dict[int, Connection],
+    ) -> None:
+        chunk = BytesIO(content)
+        while (offset := chunk.tell()) < len(content):
+            header, start, length = _record(chunk)
+            number = header.get_uint32("conn")
+            if header.get_uint8("op") == RecordType.MSGDATA:
+                row = IndexData(header.get_time("time"), place, offset)
+                indexes[number].append(row)
+            else:
+                chunk.seek(start - 4)
+                connections[number] = self._connection(header, Header.read(chunk))
+            chunk.seek(start + length)
+
+    def _connection(self, header: Header, about: Header) -> Connection:
+        told = MessageDefinition(
+            MessageDefinitionFormat.MSG, about.get_string("message_definition")
+        )
+        return Connection(
+            header.get_uint32("conn"),
+            normalize(header.get_string("topic")),
+            normalize_msgtype(about.get_string("type")),
+            told,
+            about.get_string("md5sum"),
+            0,
+            ConnectionExtRosbag1(None, None),
+            self,
+        )
+
+
+def _record(file: BinaryIO) -> tuple[Header, int, int]:
+    """The next record's header, where its data begins, and how long that is."""
+    header = Header.read(file)
+    length = read_uint32(file)
+    return header, file.tell(), length
+
+
+_MCAP_MAGIC = 8
+_DATA_END, _FOOTER = 0x0F, 0x02
+
+
+class UnindexedMcap(McapReader):
+    """An MCAP file without its summary, as far as its records are whole."""
+
+    def open(self) -> None:
+        """Find where the last whole record ends; ReaderError if there is none."""
+        size = self.path.stat().st_size
+        self.bio = bio = self.path.open("rb")
+        try:
+            bio.seek(_MCAP_MAGIC)
+            ends = _ends(bio, size)
+            self.data_start = ends[0] if ends else size
+            self.data_end = ends[-1] if ends else size
+            self.meta_scan()
+        except BaseException:
+            self.close()
+            raise
+        assert self.statistics is not None
+        counts = self.statistics.channel_message_counts
+        self.connections = [
+            it._replace(msgcount=counts.get(it.id, 0)) for it in self.connections
+        ]
+
+
+def _ends(bio: BinaryIO, size: int) -> list[int]:
+    """Where each whole record ends, before that which says that there are no more."""
+    ends: list[int] = []
+    while len(head := bio.read(9)) == 9 and head[0] not in (_DATA_END, _FOOTER):
+        (length,) = struct.unpack("<Q", head[1:])
+        if bio.tell() + length > size:
+            break
+        ends.append(bio.seek(bio.tell() + length))
+    return ends

@@ -1,0 +1,174 @@
+"""Programs that use a Kinect over USB: a fake libusb, an emulated device behind it."""
+
+from __future__ import annotations
+
+import importlib
+import operator
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from kille.sensors.kinect import libusb
+from kinect_emulator.building import compiler, library
+from kinect_emulator.faults import Faults
+from kinect_emulator.kinect import Kinect
+from kinect_emulator.running import environment, finished, patient
+from kinect_emulator.server import Server
+
+USING = """
+from kille.sensors.sources import open_sensor
+sensor = open_sensor("kinect")
+for _ in range(3):
+    sensor.frame()
+print("seen", flush=True)
+"""
+
+
+class Plugged(NamedTuple):
+    """A Kinect, the server it is plugged into, and what a program needs to find it."""
+
+    kinect: Kinect
+    server: Server
+    variables: Mapping[str, str]
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    if compiler() is None:
+        pytest.skip("no C compiler for the fake libusb: apt-get install gcc")
+    return library(tmp_path_factory.mktemp("libusb"))
+
+
+@pytest.fixture
+def plugged(built: Path, tmp_path: Path) -> Iterator[Plugged]:
+    kinect = Kinect()
+    path = tmp_path / "socket"
+    with patient(kinect, path=path).running() as server:
+        yield Plugged(kinect, server, environment(built, path))
+
+
+def started(code: str, plugged: Plugged) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-c", code],
+        env=dict(plugged.variables),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def at_rest(kinect: Kinect) -> bool:
+    """Whether the program has switched the camera off."""
+    return kinect.camera.modes() == ()
+
+
+def test_a_program_that_forgets_to_close_ends_cleanly(plugged: Plugged) -> None:
+    ran = finished(started(USING, plugged), 20)
+    assert (ran.status, ran.out, ran.err) == (0, "seen\n", "")
+    assert at_rest(plugged.kinect)
+
+
+def test_a_program_that_fails_ends_cleanly(plugged: Plugged) -> None:
+    ran = finished(started(USING + "1 / 0", plugged), 20)
+    assert ran.status == 1
+    assert ran.err.splitlines()[-1] == "ZeroDivisionError: division by zero"
+    assert at_rest(plugged.kinect)
+
+
+def test_ctrl_c_while_it_looks_ends_cleanly(plugged: Plugged) -> None:
+    process = started(USING + "while True: sensor.frame()", plugged)
+    assert process.stdout is not None
+    assert process.stdout.readline() == "seen\n"
+    began = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    ran = finished(process, 10)
+    assert ran.err.splitlines()[-1] == "KeyboardInterrupt"
+    assert time.monotonic() - began < 3
+    assert at_rest(plugged.kinect)
+
+
+def test_ctrl_c_while_libusb_is_served_is_not_lost(plugged: Plugged) -> None:
+    code = """
+import time
+from kille.sensors.kinect.camera import Feed
+from kille.sensors.kinect import open_kinect
+sensor = open_kinect("kinect")
+sensor.frame()
+def interrupted(self, batch):
+    raise KeyboardInterrupt
+Feed.receive = interrupted
+try:
+    while True:
+        sensor.frame()
+except KeyboardInterrupt:
+    began = time.monotonic()
+    sensor.close()
+    print(time.monotonic() - began < 1)
+"""
+    ran = finished(started(code, plugged), 20)
+    assert (ran.status, ran.out, ran.err) == (0, "True\n", "")
+
+
+def kille(plugged: Plugged, *arguments: str, typed: str = "") -> tuple[int, str, str]:
+    ran = subprocess.run(
+        [sys.executable, "-m", "kille.interfaces.cli", *arguments],
+        env={**plugged.variables, "COLUMNS": "300"},
+        input=typed,
+        capture_output=True,
+        text=True,
+        timeout=30,
+        check=False,
+    )
+    return ran.returncode, ran.stdout, ran.stderr
+
+
+def test_one_talks_to_it_about_what_it_sees(plugged: Plugged, tmp_path: Path) -> None:
+    memory = str(tmp_path / "memory.db")
+    status, out, err = kille(
+        plugged, "talk", "--sensor", "kinect", "--memory", memory, typed="Hello.\n"
+    )
+    assert (status, err) == (0, "")
+    assert out
+    assert at_rest(plugged.kinect)
+
+
+def test_the_doctor_finds_it(plugged: Plugged) -> None:
+    assert "ok  Kinect 1414" in kille(plugged, "doctor")[1]
+    plugged.kinect.faults = Faults(forbidden=True)
+    told = kille(plugged, "doctor")[1]
+    assert "absent  Kinect 1414" in told
+    assert "sudo tee /etc/udev/rules.d/51-kinect.rules" in told
+
+
+def test_without_libusb_one_is_told_how_to_get_it(plugged: Plugged) -> None:
+    # As on a system where libusb is not found under any name.
+    code = (
+        "import sys; sys.platform = 'plan9'\n"
+        "import ctypes.util; ctypes.util.find_library = lambda name: None\n" + USING
+    )
+    ran = finished(started(code, plugged), 20)
+    assert "there is no libusb to talk to it; pip install 'kille[usb]'" in ran.err
+
+
+@pytest.mark.parametrize("name", libusb.PINNED)
+def test_pyusb_still_has_what_is_private_to_it(name: str) -> None:
+    """Attributes that instances get are seen in the source of their classes."""
+    module = importlib.import_module("usb.backend.libusb1")
+    owner, _, attribute = name.partition(".")
+    found = operator.attrgetter(owner)(module)
+    names = found.__init__.__code__.co_names if attribute else (attribute,)
+    assert attribute in names
+
+
+def test_pyusbs_structures_have_the_fields_that_are_used() -> None:
+    module = importlib.import_module("usb.backend.libusb1")
+    fields = dict(module._libusb_transfer._fields_)
+    assert {"status", "num_iso_packets", "iso_packet_desc"} <= set(fields)
+    packet = [name for name, _ in module._libusb_iso_packet_descriptor._fields_]
+    assert packet == ["length", "actual_length", "status"]
