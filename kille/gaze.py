@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol, runtime_checkable
 
 from kille.perception.look import SCANS, Sighting, look
 from kille.perception.pointing import region_at
@@ -14,7 +15,7 @@ from kille.sensors.sensor import Sensor, SensorError
 from kille.sensors.sources import open_sensor
 from kille.sensors.stage import perform
 
-__all__ = ["Attention", "Gaze", "View"]
+__all__ = ["Attention", "Gaze", "Looker", "View"]
 
 _NUMBER = re.compile(r"[0-9]{1,6}")
 _SAME = 0.5  # overlap of a thing with itself in another look
@@ -46,6 +47,15 @@ class Attention:
     view: View | None = None
 
 
+@runtime_checkable
+class Looker(Protocol):
+    """A sensor that takes its looks itself, as one on another machine does."""
+
+    def look(self, scans: int, pointed: Sighting | None) -> Look:
+        """A look as `kille.perception.look.look` takes it."""
+        ...
+
+
 class Gaze:
     """A sensor to look through, and what is attended to.
 
@@ -61,7 +71,7 @@ class Gaze:
     def look(self) -> View:
         """Look at the scene as it is now. SensorError as the sensor raises it."""
         pointed = self.attention.pointed
-        seen = look(self.sensor, self._scans, pointed)
+        seen = _look(self.sensor, self._scans, pointed)
         before = self.attention.view
         order = _in_order(seen.percepts, before)
         focus = _focus(order, before) if pointed is None else _first(order, seen)
@@ -112,6 +122,12 @@ class Gaze:
     def close(self) -> None:
         """Let go of the sensor."""
         self.sensor.close()
+
+
+def _look(sensor: Sensor, scans: int, pointed: Sighting | None) -> Look:
+    if isinstance(sensor, Looker):
+        return sensor.look(scans, pointed)
+    return look(sensor, scans, pointed)
 
 
 def _in_order(percepts: Sequence[Percept], before: View | None) -> list[Percept]:

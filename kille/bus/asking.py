@@ -1,0 +1,178 @@
+"""Questions and answers: two topics, and numbers that pair them.
+
+So questions can be watched and recorded as all else on the bus, and may hold anything.
+A question that finds no answer is asked again under its number, for who answers may
+just be coming or may have been started anew; who answers does nothing twice.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections import OrderedDict
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from itertools import count
+from queue import Empty, SimpleQueue
+from threading import Lock
+from typing import Any, Generic, TypeVar
+from uuid import uuid4
+
+from kille.bus.bus import Bus, Publisher, Subscription
+from kille.bus.messages import Bundle, BusError, Facts, Topic
+
+__all__ = ["Asking", "Service", "serve"]
+
+_logger = logging.getLogger("kille.bus")
+
+A = TypeVar("A", bound=Facts | Bundle)
+
+_FAULT = "who answers failed, by a fault of its own; its log says why"
+
+_SOON = 0.01
+"""Seconds after which one sees again whether anybody listens."""
+
+_AGAIN = 1.0
+"""Seconds after which a question is asked again."""
+
+_KEPT = 4
+"""So many answers are kept for those who ask again."""
+
+
+@dataclass(frozen=True)
+class Service(Generic[A]):
+    """What can be asked of somebody; `who` is the command that starts them."""
+
+    questions: Topic[Facts]
+    answers: Topic[A]
+    who: str
+
+
+def serve(
+    bus: Bus, service: Service[A], answer: Callable[[Mapping[str, Any]], A]
+) -> Subscription:
+    """Answer all questions.
+
+    What is wrong with a question is raised as BusError; who asked is told of it, and
+    that it failed if anything else is raised, which is logged here.
+    """
+    return _Serving(bus, service, answer)
+
+
+class _Serving(Generic[A]):
+    """Answers the questions of a service."""
+
+    def __init__(
+        self,
+        bus: Bus,
+        service: Service[A],
+        answer: Callable[[Mapping[str, Any]], A],
+    ) -> None:
+        self._answer, self._kind = answer, service.answers.kind
+        self._name = service.questions.name.lstrip("/")
+        self._given: OrderedDict[str, A] = OrderedDict()
+        self._answers: Publisher[A] = bus.publisher(service.answers)
+        self._questions = bus.subscribe(service.questions, self._take)
+
+    @property
+    def trouble(self) -> str:
+        """Why the latest question could not be read."""
+        return self._questions.trouble
+
+    def close(self) -> None:
+        """Answer no more."""
+        self._questions.close()
+        self._answers.close()
+
+    def _take(self, question: Facts) -> None:
+        number = str(question.facts.get("id", ""))
+        if number not in self._given:
+            given = self._answered(question.facts)
+            numbered = replace(given, facts={**given.facts, "id": number})
+            self._given[number] = numbered
+        self._answers.publish(self._given[number])
+        # Who gives no number cannot ask the same again.
+        self._given.pop("", None)
+        while len(self._given) > _KEPT:
+            self._given.popitem(last=False)
+
+    def _answered(self, question: Mapping[str, Any]) -> A:
+        try:
+            return self._answer(question)
+        except BusError as error:
+            return self._kind({"error": str(error)})
+        except Exception:
+            _logger.exception("answering /%s", self._name)
+            return self._kind({"error": f"/{self._name}: {_FAULT}"})
+
+
+class Asking(Generic[A]):
+    """Asks the questions of a service, one after the other.
+
+    >>> from kille.bus.local import LocalBus
+    >>> bus = LocalBus()
+    >>> asked, told = Topic("sums/asked", Facts), Topic("sums/told", Facts)
+    >>> sums = Service(asked, told, "nothing")
+    >>> serving = serve(bus, sums, lambda asked: Facts({"sum": sum(asked["of"])}))
+    >>> Asking(bus, sums, patience=5).ask({"of": [2, 3]})["sum"]
+    5
+    >>> bus.close()
+    """
+
+    def __init__(self, bus: Bus, service: Service[A], patience: float) -> None:
+        """`patience` is how many seconds one waits for an answer."""
+        self._service, self._patience = service, patience
+        self._lock = Lock()
+        self._numbers = (f"{uuid4().hex[:8]}-{n}" for n in count(1))
+        self._heard: SimpleQueue[A] = SimpleQueue()
+        self._number = ""
+        self._answers = bus.subscribe(service.answers, self._take)
+        self._questions: Publisher[Facts] = bus.publisher(service.questions)
+
+    def ask(self, question: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The facts of the answer; BusError if there is none, or it is an error."""
+        return self.asked(question).facts
+
+    def asked(self, question: Mapping[str, Any]) -> A:
+        """The answer; BusError if there is none, or it is an error."""
+        with self._lock:
+            self._number = next(self._numbers)
+            answer = self._awaited(Facts({**question, "id": self._number}))
+        if "error" in answer.facts:
+            raise BusError(str(answer.facts["error"]))
+        return answer
+
+    def close(self) -> None:
+        """Ask no more."""
+        self._answers.close()
+        self._questions.close()
+
+    def _awaited(self, question: Facts) -> A:
+        end = time.monotonic() + self._patience
+        while not self._questions.listeners and time.monotonic() < end:
+            time.sleep(_SOON)
+        while (left := end - time.monotonic()) > 0:
+            self._questions.publish(question)
+            answer = self._next(min(left, _AGAIN))
+            if answer is not None:
+                return answer
+        raise BusError(
+            f"nobody answered on {self._service.questions.name} within "
+            f"{self._patience:g} s: is `{self._service.who}` running?"
+        )
+
+    def _next(self, seconds: float) -> A | None:
+        """The answer to the present question; later ones of others are passed over."""
+        end = time.monotonic() + seconds
+        while (left := end - time.monotonic()) > 0:
+            try:
+                answer = self._heard.get(timeout=left)
+            except Empty:
+                return None
+            if answer.facts["id"] == self._number:
+                return answer
+        return None
+
+    def _take(self, answer: A) -> None:
+        if answer.facts.get("id") == self._number:
+            self._heard.put(answer)

@@ -1,0 +1,97 @@
+"""What every bus can do: messages go from whoever sends to whoever listens."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from threading import Lock
+from typing import Protocol, TypeVar
+
+from kille.bus.messages import BusError, Message, Topic
+
+__all__ = ["Bus", "Kinds", "Publisher", "Subscription", "one_at_a_time"]
+
+M = TypeVar("M", bound=Message)
+Sent = TypeVar("Sent", bound=Message, contravariant=True)
+
+
+class Subscription(Protocol):
+    """Listening to a topic, until it is closed."""
+
+    @property
+    def trouble(self) -> str:
+        """Why what came latest could not be read, in a line; empty if it could be."""
+        ...
+
+    def close(self) -> None:
+        """Listen no more; a second call does nothing."""
+        ...
+
+
+class Publisher(Protocol[Sent]):
+    """A way to send messages under a topic."""
+
+    @property
+    def listeners(self) -> int:
+        """How many listen to it now."""
+        ...
+
+    def publish(self, message: Sent) -> None:
+        """Send a message to all who listen; it does not wait for them."""
+        ...
+
+    def close(self) -> None:
+        """Send no more; a second call does nothing."""
+        ...
+
+
+class Bus(Protocol):
+    """Carries messages between parts of the robot, on one machine or several.
+
+    What one publisher sends under a topic arrives in this order. A subscription takes
+    its messages one at a time, in a thread of its own: what it does may take long, and
+    may itself send. An error in it is logged, and the next message is taken all the
+    same. BusError if a topic is used with two kinds of messages.
+    """
+
+    def publisher(self, topic: Topic[M]) -> Publisher[M]:
+        """A way to send messages under this topic."""
+        ...
+
+    def subscribe(self, topic: Topic[M], take: Callable[[M], None]) -> Subscription:
+        """Have each message under this topic taken, from now on."""
+        ...
+
+    def close(self) -> None:
+        """Send and take nothing more; a second call does nothing."""
+        ...
+
+
+class Kinds:
+    """Which kind of messages each topic has, as its first use says."""
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._kinds: dict[str, type] = {}
+
+    def settle(self, name: str, kind: type) -> None:
+        """BusError if the topic of this full name has another kind already."""
+        with self._lock:
+            known = self._kinds.setdefault(name, kind)
+        if known is not kind:
+            told = f"/{name.lstrip('/')} carries {known.__name__}, not {kind.__name__}"
+            raise BusError(told)
+
+
+def one_at_a_time(topic: Topic[M], take: Callable[[M], None]) -> Callable[[M], None]:
+    """The same for several threads, and an error does not come out of it."""
+    lock = Lock()
+
+    def taken(message: M) -> None:
+        with lock:
+            try:
+                take(message)
+            except Exception:
+                logging.getLogger("kille.bus").exception("taking /%s", topic.name)
+
+    return taken

@@ -1,0 +1,117 @@
+"""What goes over a bus: immutable values, whatever carries them.
+
+Times are whole nanoseconds, so that two pictures of one moment have equal stamps. Who
+sends an array gives it away: it is read-only from then on, for the receivers too.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Bundle", "BusError", "Camera", "Facts", "Image", "Message", "Text", "Topic"]
+
+Array = NDArray[Any]
+
+_NAME = re.compile(r"/?[A-Za-z]\w*(/[A-Za-z]\w*)*", re.ASCII)
+
+
+class BusError(Exception):
+    """What a bus cannot do: one line says what, and what to do."""
+
+
+@dataclass(frozen=True)
+class Text:
+    """What somebody says."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Names and values, as JSON has them."""
+
+    facts: Mapping[str, Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Image:
+    """A picture and when it was taken.
+
+    Pixels are (H, W, 3) uint8 RGB, or (H, W): float32 metres of depth, NaN for none,
+    uint16 millimetres, 0 for none, or uint8 grey.
+    """
+
+    pixels: Array
+    stamp: int
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "pixels", _given_away(self.pixels))
+
+
+@dataclass(frozen=True)
+class Camera:
+    """The pinhole model of a camera in pixels, for pictures of this size."""
+
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    width: int
+    height: int
+    stamp: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Bundle:
+    """Facts with arrays, by name."""
+
+    facts: Mapping[str, Any]
+    arrays: Mapping[str, Array] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        own = {name: _given_away(it) for name, it in self.arrays.items()}
+        object.__setattr__(self, "arrays", own)
+
+
+Message = Text | Facts | Image | Camera | Bundle
+
+M = TypeVar("M", bound=Message)
+
+
+@dataclass(frozen=True)
+class Topic(Generic[M]):
+    """A name under which messages of one kind are sent.
+
+    `waiting` is how many of them wait for a receiver that is slow: of more, the oldest
+    are let go. Of a `latched` topic, who comes late gets the latest message at once.
+    A name that begins with `/` is taken as it is, any other belongs to a namespace.
+
+    >>> Topic("user input", Text)
+    Traceback (most recent call last):
+    kille.bus.messages.BusError: `user input` cannot name a topic: write letters,
+    digits and _, parted by /, such as camera/rgb/image_color
+    """
+
+    name: str
+    kind: type[M]
+    waiting: int = 100
+    latched: bool = False
+
+    def __post_init__(self) -> None:
+        if not _NAME.fullmatch(self.name):
+            raise BusError(
+                f"`{self.name}` cannot name a topic: write letters, digits and _, "
+                "parted by /, such as camera/rgb/image_color"
+            )
+
+
+def _given_away(array: Array) -> Array:
+    view = np.asarray(array).view()
+    view.flags.writeable = False
+    return view

@@ -1,0 +1,64 @@
+"""Bundles as bytes: those of a NumPy archive, which every NumPy reads.
+
+`numpy.load(io.BytesIO(data))` gives the arrays; `facts` among them is JSON in UTF-8.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from kille.bus.messages import Bundle, BusError
+
+__all__ = ["facts_in", "packed", "unpacked", "written"]
+
+_FACTS = "facts"
+
+
+def packed(bundle: Bundle) -> bytes:
+    """The bytes of a bundle.
+
+    >>> one = unpacked(packed(Bundle({"id": "7"}, {"up": np.arange(3)})))
+    >>> one.facts["id"], one.arrays["up"]
+    ('7', array([0, 1, 2]))
+    """
+    file = io.BytesIO()
+    facts = np.frombuffer(written(bundle.facts).encode(), np.uint8)
+    np.savez(file, allow_pickle=False, **{_FACTS: facts}, **bundle.arrays)
+    return file.getvalue()
+
+
+def unpacked(data: bytes) -> Bundle:
+    """The bundle in these bytes; BusError if they are none."""
+    try:
+        with np.load(io.BytesIO(data), allow_pickle=False) as archive:
+            arrays = {name: archive[name] for name in archive.files}
+        facts = arrays.pop(_FACTS).tobytes().decode()
+    except (zipfile.BadZipFile, ValueError, KeyError, EOFError, OSError) as error:
+        raise BusError(f"what came is no bundle of arrays ({error})") from error
+    return Bundle(facts_in(facts), arrays)
+
+
+def written(facts: Mapping[str, Any]) -> str:
+    """Facts as JSON on one line."""
+    return json.dumps(facts, ensure_ascii=False)
+
+
+def facts_in(text: str) -> Mapping[str, Any]:
+    """The facts in JSON; BusError if it is not an object."""
+    try:
+        facts = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise BusError(f"`{_short(text)}` is not JSON ({error})") from error
+    if not isinstance(facts, dict):
+        raise BusError(f"`{_short(text)}` should be an object, {{…}}")
+    return facts
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 60 else f"{text[:59]}…"

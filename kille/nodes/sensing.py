@@ -1,0 +1,111 @@
+"""The sensor node: it sends what a sensor sees, frame after frame."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from threading import Event, Lock, Thread
+from typing import Any
+
+from kille.bus import Bus, BusError, Camera, Facts, Image, Text, serve
+from kille.nodes.topics import FRAMES, PROBLEMS, STAGE
+from kille.scene import Frame
+from kille.sensors.sensor import Sensor, SensorError, Stage
+from kille.sensors.stage import perform
+from kille.sensors.stream import Feed
+
+__all__ = ["RATE", "Sensing"]
+
+RATE = 30.0
+"""Frames in a second: those of a Kinect."""
+
+_AGAIN = 1.0
+"""Seconds after which a sensor that failed is tried again."""
+
+
+class Sensing:
+    """Sends the frames of a sensor, and changes its scene when it is asked to.
+
+    `now` gives nanoseconds. Who asks for a change is told from which moment on the
+    frames show it. The sensor is read only while somebody listens.
+    """
+
+    def __init__(
+        self,
+        bus: Bus,
+        sensor: Sensor,
+        *,
+        rate: float = RATE,
+        feed: Feed = FRAMES,
+        now: Callable[[], int] = time.time_ns,
+    ) -> None:
+        self._sensor, self._pause, self._now = sensor, 1 / rate, now
+        self._colour = bus.publisher(feed.colour)
+        self._camera = bus.publisher(feed.camera)
+        self._depth = None if feed.depth is None else bus.publisher(feed.depth)
+        self._problems = bus.publisher(PROBLEMS)
+        self._one = Lock()
+        self._trouble = ""
+        self._ending = Event()
+        self._serving = serve(bus, STAGE, self._change)
+        self._thread = Thread(target=self._run, name="sensing", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Send no more; the sensor stays open."""
+        self._ending.set()
+        self._thread.join()
+        self._serving.close()
+        for it in (self._colour, self._camera, self._depth, self._problems):
+            if it is not None:
+                it.close()
+
+    # --- frames ----------------------------------------------------------------------
+
+    def _run(self) -> None:
+        due = time.monotonic()
+        while not self._ending.wait(max(0.0, due - time.monotonic())):
+            due = max(due + self._pause, time.monotonic())
+            if not self._colour.listeners:
+                continue
+            try:
+                with self._one:
+                    frame, stamp = self._sensor.frame(), self._now()
+            except SensorError as error:
+                self._tell(str(error))
+                due = time.monotonic() + _AGAIN
+                continue
+            self._trouble = ""
+            self._send(frame, stamp)
+
+    def _tell(self, trouble: str) -> None:
+        """Say what is wrong with the sensor, when it begins."""
+        if trouble != self._trouble:
+            self._trouble = trouble
+            self._problems.publish(Text(trouble))
+
+    def _send(self, frame: Frame, stamp: int) -> None:
+        height, width = frame.colour.shape[:2]
+        lens = frame.intrinsics
+        if lens is not None:
+            fx, fy, cx, cy = lens.fx, lens.fy, lens.cx, lens.cy
+            self._camera.publish(Camera(fx, fy, cx, cy, width, height, stamp))
+        self._colour.publish(Image(frame.colour, stamp))
+        if self._depth is not None and frame.depth is not None:
+            self._depth.publish(Image(frame.depth, stamp))
+
+    # --- changes of the scene --------------------------------------------------------
+
+    def _change(self, asked: Mapping[str, Any]) -> Facts:
+        """Do a command of `kille.sensors.stage`, or say what can be shown."""
+        try:
+            return self._changed(str(asked.get("command", "")))
+        except SensorError as error:
+            raise BusError(str(error)) from error
+
+    def _changed(self, command: str) -> Facts:
+        if command == "things" and isinstance(self._sensor, Stage):
+            return Facts({"things": list(self._sensor.things())})
+        with self._one:
+            perform(self._sensor, command)
+            return Facts({"after": self._now()})

@@ -1,0 +1,62 @@
+"""The topics by which the parts of the robot talk to each other.
+
+    sensor --frames--> perception <--requests-- dialogue <--user input-- tutor
+                                  --results-->           --system output-->
+
+That is how the first robot was put together (Dobnik and de Graaf 2017, figure 1).
+Here the dialogue also tells its information state, and answers programs.
+"""
+
+from __future__ import annotations
+
+from kille.bus import Bundle, Facts, Service, Text, Topic
+from kille.sensors.stream import CAMERA, COLOUR, DEPTH, Feed
+
+__all__ = [
+    "CALLS",
+    "FRAMES",
+    "HYPOTHESES",
+    "LOOKS",
+    "PROBLEMS",
+    "STAGE",
+    "STATE",
+    "SYSTEM_OUTPUT",
+    "USER_INPUT",
+]
+
+FRAMES = Feed.named(COLOUR, CAMERA, DEPTH)
+"""What the sensor sees."""
+
+LOOKS = Service(
+    Topic("kille/requests", Facts),
+    Topic("kille/results", Bundle),
+    "kille ros perception",
+)
+"""Looks at the scene: the things in view with all that is measured of them."""
+
+STAGE = Service(
+    Topic("kille/stage/requests", Facts),
+    Topic("kille/stage/results", Facts),
+    "kille ros sensor",
+)
+"""Changes of the scene, where the sensor is one whose scene can be changed."""
+
+USER_INPUT = Topic("kille/user_input", Text)
+"""What the tutor says; a line that begins with `@` changes what there is to see."""
+
+HYPOTHESES = Topic("kille/user_input_hypotheses", Facts)
+"""What the tutor perhaps says: `{"texts": [["This is a cup.", 0.7], …]}`."""
+
+SYSTEM_OUTPUT = Topic("kille/system_output", Text)
+"""What the robot says: a message for each turn in which it says anything."""
+
+STATE = Topic("kille/state", Facts, latched=True)
+"""The information state after each turn, in the notation, with what led to it."""
+
+PROBLEMS = Topic("kille/problems", Text)
+"""What went wrong, in a line; the talk goes on."""
+
+CALLS = Service(
+    Topic("kille/calls", Facts), Topic("kille/replies", Facts), "kille ros dialogue"
+)
+"""What programs may ask of the robot: to say, teach, ask or forget something."""
