@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from kille.agent import Agent
 from kille.dialogue.meanings import named
+from kille.interfaces.ears import Ears, Heard, answered
 from kille.interfaces.showing import Account, explained, things_in_view
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import MemoryFileError
 from kille.perception.sheet import overview, write_picture
 from kille.perception.thumbnails import outlined
 from kille.sensors.sensor import SensorError, Stage
+from kille.speech.sound import SoundError
+from kille.speech.speaking import Voice, voice
 from ttr import TTRError
 
 __all__ = ["talk"]
@@ -47,25 +50,43 @@ def talk(
     language: str = "en",
     mode: str = "",
     wording: str = "",
+    hear: str = "",
+    say: str = "none",
 ) -> int:
-    """Talks until the tutor leaves, with an account of each turn; the exit code."""
+    """Talks until the tutor leaves, with an account of each turn; the exit code.
+
+    `hear` is where speech comes from, if it is not typed; `say` names the voice.
+    """
     place = memory_path(memory)
     try:
+        speaks = voice(say, language)
+        ears = Ears(hear, language) if hear else None
         robot = Agent(sensor, place, language=language, mode=mode, wording=wording)
-    except (SensorError, MemoryFileError) as error:
+    except (SensorError, MemoryFileError, SoundError) as error:
         return complain(error)
     with robot, _line_editing():
-        _Conversation(robot, account).hold()
+        try:
+            _Conversation(robot, account, ears, speaks, language).hold()
+        except SoundError as error:
+            return complain(error)
     return FINE
 
 
 class _Conversation:
-    """A conversation in a terminal, or through a pipe."""
+    """A conversation in a terminal, through a pipe, or aloud."""
 
-    def __init__(self, robot: Agent, account: Account) -> None:
-        self._robot, self._account = robot, account
+    def __init__(
+        self,
+        robot: Agent,
+        account: Account,
+        ears: Ears | None,
+        speak: Voice,
+        language: str,
+    ) -> None:
+        self._robot, self._account, self._language = robot, account, language
+        self._ears, self._speak = ears, speak
         self._out = console()
-        self._typed = sys.stdin.isatty()
+        self._typed = ears is None and sys.stdin.isatty()
 
     def hold(self) -> None:
         """Listens line by line until the end of the input or a farewell."""
@@ -74,7 +95,7 @@ class _Conversation:
         self._answer("@ look")
         for line in self._lines():
             if not self._typed:
-                self._print(f"U> {line}")
+                self._print(f"U> {line.text if isinstance(line, Heard) else line}")
             self._answer(line)
             if self._has_said("Part"):
                 return
@@ -88,8 +109,11 @@ class _Conversation:
             'Say "This is a cup." or "What is this?"; help says what else.'
         )
 
-    def _lines(self) -> Iterator[str]:
-        """What the tutor types, without empty lines from a pipe."""
+    def _lines(self) -> Iterator[str | Heard]:
+        """What the tutor says or types, without empty lines from a pipe."""
+        if self._ears is not None:
+            yield from self._ears.lines(self._robot)
+            return
         while True:
             try:
                 line = input("U> " if self._typed else "").strip()
@@ -100,7 +124,7 @@ class _Conversation:
             if line or self._typed:
                 yield line
 
-    def _answer(self, line: str) -> None:
+    def _answer(self, line: str | Heard) -> None:
         """Does what a line says; what goes wrong is one line, and the talk goes on."""
         try:
             answer = self._done(line)
@@ -109,14 +133,23 @@ class _Conversation:
             return
         for sentence in answer.split("\n") if answer else ():
             self._print(sentence if sentence.startswith(" ") else f"S> {sentence}")
+            self._speak(sentence)
 
-    def _done(self, line: str) -> str:
+    def _done(self, line: str | Heard) -> str:
+        if isinstance(line, Heard):
+            return self._told(
+                lambda: answered(self._robot, line.perhaps, self._language)
+            )
         if line.startswith("@"):
             return self._command(line[1:].strip())
         if _POINTING.fullmatch(line) and not self._robot.state.shared.qud:
             return self._command(f"point {line}")
+        return self._told(lambda: self._robot.hear(line))
+
+    def _told(self, take: Callable[[], str]) -> str:
+        """Takes a turn, and gives an account of it; the robot's answer."""
         turns = len(self._robot.exchanges)
-        answer = self._robot.hear(line)
+        answer = take()
         for turn in self._robot.exchanges[turns:]:
             for text in explained(self._account(turn)):
                 self._print(text, style="dim")

@@ -1,0 +1,125 @@
+"""How a conversation is heard: utterances, and what the robot makes of them."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from kille.agent import Agent
+from kille.dialogue.language import understand
+from kille.dialogue.state import words
+from kille.speech.expecting import LANGUAGES, expected, speech
+from kille.speech.hearing import from_file, from_microphone, from_pipe
+from kille.speech.recognition import Perhaps, Recogniser
+from kille.speech.sound import SoundError
+
+__all__ = ["ALWAYS", "DEVICE", "PIPE", "Ears", "Heard", "answered", "written"]
+
+DEVICE, ALWAYS, PIPE = "device", "always", "-"
+"""Where speech comes from, if not from a file: the microphone after Enter, the
+microphone all the time, raw samples on the standard input."""
+
+_SURE = 0.9
+"""From this probability on, what was heard is taken as if it were typed."""
+
+
+@dataclass(frozen=True)
+class Heard:
+    """What was perhaps said in an utterance, the likeliest first; nothing, if noise."""
+
+    perhaps: tuple[Perhaps, ...]
+
+    @property
+    def text(self) -> str:
+        """How it is shown."""
+        return self.perhaps[0].text if self.perhaps else "…"
+
+
+class Ears:
+    """Ears for a conversation; `SoundError` where they cannot hear, in one line.
+
+    What they listen for follows what the robot knows: each word that it learns is
+    expected from the next utterance on.
+    """
+
+    def __init__(self, source: str, language: str = "en") -> None:
+        if language not in LANGUAGES:
+            raise SoundError(
+                f"only English can be heard: type, and leave out --hear {source}"
+            )
+        self._source, self._language = source, language
+        self._file = None if source in (DEVICE, ALWAYS, PIPE) else Path(source)
+        self._waiting = from_file(self._file) if self._file else None
+        try:
+            self._recogniser = Recogniser(speech(language))
+        except ModuleNotFoundError as error:
+            raise SoundError(
+                "pocketsphinx is not installed: pip install 'pocketsphinx>=5'"
+            ) from error
+        self._expected: tuple[object, ...] | None = None
+
+    def lines(self, robot: Agent) -> Iterator[Heard | str]:
+        """What the tutor says, each utterance by itself; what he types, as text."""
+        if self._source == DEVICE:
+            yield from self._after_enter(robot)
+            return
+        for sound in self._sounds():
+            yield self._heard(robot, sound)
+
+    def _sounds(self) -> Iterator[bytes]:
+        if self._waiting is not None:
+            yield from self._waiting
+        elif self._source == PIPE:
+            yield from from_pipe(sys.stdin.buffer)
+        while self._source == ALWAYS:
+            yield from_microphone()
+
+    def _after_enter(self, robot: Agent) -> Iterator[Heard | str]:
+        while True:
+            try:
+                typed = input("U> (Enter to speak, or type) ").strip()
+            except EOFError:
+                return
+            yield typed or self._heard(robot, from_microphone())
+
+    def _heard(self, robot: Agent, sound: bytes) -> Heard:
+        """What a sound is heard as, by the words that the robot knows by now."""
+        known = tuple(words(robot.state))
+        if known != self._expected:
+            self._recogniser.expect(expected(known, self._language))
+            self._expected = known
+        found = self._recogniser.hear(sound)
+        return Heard(
+            tuple(Perhaps(written(it.text, self._language), it.p) for it in found)
+        )
+
+
+def written(text: str, language: str = "en") -> str:
+    """A text that was heard, with a capital letter, and a question with its mark.
+
+    >>> written("this is a cup"), written("what is this")
+    ('This is a cup.', 'What is this?')
+    """
+    asks = text.partition(" ")[0].partition("'")[0] in speech(language).asking
+    return f"{text[:1].upper()}{text[1:]}{'?' if asks else '.'}"
+
+
+def answered(robot: Agent, heard: Sequence[Perhaps], language: str = "en") -> str:
+    """The robot's answer to what was perhaps said; it begs pardon for a noise.
+
+    Several moves in one utterance are taken as the likeliest; of one move, all that it
+    may have been goes into the dialogue, which weighs it with what is seen.
+    """
+    understood = [
+        (it, len(understand(it.text, language)))
+        for it in heard
+        if all(sentence.readings for sentence in understand(it.text, language))
+    ]
+    if not understood:
+        return speech(language).sorry
+    (likeliest, moves), *_ = understood
+    if likeliest.p >= _SURE or moves > 1:
+        return robot.hear(likeliest.text)
+    return robot.hear_perhaps(*(it for it, moves in understood if moves == 1))

@@ -1,0 +1,1 @@
+"""Talking aloud: what the tutor says is heard, and what the robot says is spoken."""

@@ -1,0 +1,163 @@
+"""What a tutor is expected to say, by the words that the robot knows.
+
+Words that are known may stand wherever the grammar has words; in lessons, nouns that
+are not known too. Neighbours agree: "an apple", but "a cup".
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from kille.dialogue.lexicon import Lexicon, lexicon
+from kille.speech.grammar import CONTRACTED, TAUGHT, parted, tutors_grammar
+from kille.speech.network import Place, either, filled, fused, only, places, said
+from ttr import Record
+
+__all__ = ["LANGUAGES", "Expected", "Speech", "expected", "speech"]
+
+LANGUAGES = ("en",)
+"""The languages that there is a model of the sounds of."""
+
+_HISSING = re.compile(r"(s|z|x|sh|ch|se|ce|'re)\Z")
+
+
+@dataclass(frozen=True)
+class Speech:
+    """What is known of a spoken language besides its grammar and lexicon."""
+
+    nouns: tuple[str, ...]
+    adjectives: tuple[str, ...]
+    relations: tuple[str, ...]
+    unsaid: tuple[str, ...]
+    weights: Mapping[str, Any]
+    pronounced: Mapping[str, tuple[str, ...]]
+    letters: Mapping[str, str]
+    long: Mapping[str, str]
+    asking: tuple[str, ...]
+    """The words that questions begin with."""
+    sorry: str
+    """What is said to what could not be understood."""
+
+
+@dataclass(frozen=True)
+class Expected:
+    """All that may be said, how probable its words are, and which are the tutor's."""
+
+    network: Place
+    weights: Mapping[str, float]
+    learned: frozenset[str]
+
+
+@cache
+def speech(language: str = "en") -> Speech:
+    """The packaged knowledge of a spoken language.
+
+    >>> speech().pronounced["'s"]
+    ('Z', 'S')
+    """
+    source = files("kille.grammars").joinpath(f"speech.{language}.toml")
+    data = tomllib.loads(source.read_text(encoding="utf-8"))
+    return Speech(
+        nouns=tuple(data["nouns"]),
+        adjectives=tuple(data["adjectives"]),
+        relations=tuple(data["relations"]),
+        unsaid=tuple(data["unsaid"]),
+        weights=data["weights"],
+        pronounced={word: tuple(them) for word, them in data["pronounced"].items()},
+        letters=data["letters"],
+        long=data["long"],
+        asking=tuple(data["asking"]),
+        sorry=data["sorry"],
+    )
+
+
+def expected(words: Iterable[Record], language: str = "en") -> Expected:
+    """What may be said to a robot that knows these words.
+
+    >>> from kille.dialogue.meanings import sign
+    >>> from kille.speech.network import allows
+    >>> network = expected([sign("cup", "noun")]).network
+    >>> [
+    ...     allows(network, text.split())
+    ...     for text in ("where is the cup", "this is a lamp", "where is the lamp")
+    ... ]
+    [True, True, False]
+    >>> [allows(network, text.split()) for text in ("an apple", "a apple")]
+    [True, False]
+    """
+    known, language_ = tuple(words), speech(language)
+    lexicon_, grammar = lexicon(language), tutors_grammar(language, *language_.unsaid)
+    forms = {
+        kind: [str(it.form) for it in known if it.kind == kind]
+        for kind in ("noun", "adjective", "relation")
+    }
+    adjectives = [*forms["adjective"], *language_.adjectives]
+    slots = {
+        TAUGHT: [*forms["noun"], *language_.nouns],
+        "_noun": forms["noun"],
+        "_several": [lexicon_.inflected(it, "PLURAL") for it in forms["noun"]],
+        "_adjective": adjectives,
+        "_relation": [*forms["relation"], *language_.relations],
+    }
+    network = filled(grammar, {slot: _spoken(them) for slot, them in slots.items()})
+    plain = _words(grammar) | frozenset(CONTRACTED.values())
+    new = _split(language_.nouns) - _split(forms["noun"]) - plain
+    learned = frozenset(set().union(*map(_split, slots.values())) - plain)
+    weights = language_.weights
+    return Expected(
+        fused(only(network, _Neighbours(lexicon_, known)), CONTRACTED),
+        dict.fromkeys(plain | learned, float(weights["usual"]))
+        | dict.fromkeys(_attached(plain), float(weights["attached"]))
+        | dict.fromkeys(weights["seldom_words"], float(weights["seldom"]))
+        | dict.fromkeys(_split(adjectives) - plain, float(weights["adjective"]))
+        | dict.fromkeys(new, float(weights["new"])),
+        learned,
+    )
+
+
+def _attached(words: Iterable[str]) -> set[str]:
+    return {word for word in words if word.startswith("'")}
+
+
+def _spoken(forms: Iterable[str]) -> Place:
+    return either(said(parted(form)) for form in forms)
+
+
+def _split(forms: Iterable[str]) -> set[str]:
+    return {word for form in forms for word in parted(form)}
+
+
+@cache
+def _words(network: Place) -> frozenset[str]:
+    return frozenset(word for place in places(network) for word, _ in place.after)
+
+
+class _Neighbours:
+    """Whether a word may follow another: articles agree, and "'s" needs its word."""
+
+    def __init__(self, lexicon_: Lexicon, known: Iterable[Record]) -> None:
+        self._articles = lexicon_.articles
+        self._used = {
+            parted(str(it.form))[0]: str(it.article)
+            for it in known
+            if it.kind == "noun" and parted(str(it.form))
+        }
+
+    def __call__(self, before: str, word: str) -> bool:
+        if before in ("a", "an"):
+            used = self._used.get(word, "")
+            return bool(word) and self._articles.used(word, used) == before
+        match word:
+            case "'s":
+                return bool(before) and not _HISSING.search(before)
+            case "'re" | "'m" | "'d":
+                return (before, word) in CONTRACTED
+            case "n't":
+                return (before, word) in CONTRACTED
+        return not word.startswith("'") or bool(before)

@@ -1,0 +1,179 @@
+"""From a grammar in Lark's notation to the network of all that can be said by it.
+
+Rules that find words which may be learned become slots, to be filled with the words
+that are known; all other terminals are spelled out. A rule may stand within itself only
+so often, so that the network ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from importlib.resources import files
+from typing import TYPE_CHECKING
+
+from kille.speech.network import NOTHING, Place, either, following, said
+from kille.speech.spelling import Endless, spellings
+
+if TYPE_CHECKING:
+    from lark.grammar import Symbol
+
+__all__ = [
+    "CONTRACTED",
+    "SLOTS",
+    "TAUGHT",
+    "in_full",
+    "parted",
+    "sayable",
+    "tutors_grammar",
+]
+
+SLOTS = ("_noun", "_several", "_adjective", "_relation")
+"""The rules of the grammar that find words of the tutor's."""
+
+CONTRACTED = {
+    (first, second): f"{first}{second}"
+    for second, them in {
+        "n't": ("is", "are", "do", "does"),
+        "'s": ("that", "it", "what", "where"),
+        "'re": ("you", "they"),
+        "'m": ("i",),
+        "'d": ("i",),
+    }.items()
+    for first in them
+}
+"""Words that are said as one with the one before, and as what."""
+
+_IN_FULL = {"n't": "not", "'s": "is", "'re": "are", "'m": "am", "'d": "would"}
+
+TAUGHT = "_noun taught"
+"""The slot of a noun that is said of a thing in a lesson: it may be a new one."""
+
+_TEACHING = frozenset({"instruct", "correct"})
+_NAMING = frozenset({"naming", "plain"})
+"""The moves that teach nouns, and the rules in which these then stand."""
+
+_NESTED = 2
+"""How often a rule may stand within itself, counting itself: "the cup by the box"."""
+
+
+def parted(text: str) -> list[str]:
+    """The words of a text as they are heard: what hangs on a word is one of its own.
+
+    Two that are mostly one, as in `CONTRACTED`, stay one.
+
+    >>> parted("Isn't this the car's left, then?")
+    ["isn't", 'this', 'the', 'car', "'s", 'left', 'then']
+    """
+    words = " ".join(it.strip('.,!?;:…"“”') for it in text.lower().split())
+    apart = words.replace("’", "'").replace("'", " '").replace("n 't", " n't")
+    for (first, second), one in CONTRACTED.items():
+        apart = f" {apart} ".replace(f" {first} {second} ", f" {one} ")
+    return apart.split()
+
+
+def in_full(words: Iterable[str]) -> str:
+    """Words as a text without contractions, which mean the same.
+
+    >>> in_full(["where's", "the", "cup"])
+    'where is the cup'
+    """
+    return " ".join(_FULL.get(word, word) for word in words)
+
+
+_FULL = {
+    one: f"{first} {_IN_FULL[second]}" for (first, second), one in CONTRACTED.items()
+}
+
+
+@cache
+def tutors_grammar(language: str, *unsaid: str) -> Place:
+    """All that a tutor may say in a language, with slots for his words."""
+    source = files("kille.grammars").joinpath(f"tutor.{language}.lark")
+    return sayable(source.read_text(encoding="utf-8"), unsaid)
+
+
+def sayable(source: str, unsaid: Iterable[str] = ()) -> Place:
+    """All that can be said by a grammar, from `start` on; without the words unsaid.
+
+    >>> from kille.speech.network import sentences
+    >>> rules = ['start: _YES? "a" _noun', "_noun: /[^ ]+/", "_YES: /(yes|yeah)/"]
+    >>> list(sentences(sayable(chr(10).join(rules))))
+    ['a _noun', 'yeah a _noun', 'yes a _noun']
+    """
+    from lark import Lark
+
+    read = Lark(source, parser=None, lexer="basic")
+    terminals = {
+        it.name: _spelled(it.pattern.to_regexp(), frozenset(unsaid))
+        for it in read.terminals
+    }
+    rules: dict[str, list[Sequence[Symbol]]] = {}
+    for rule in read.rules:
+        rules.setdefault(str(rule.origin.name), []).append(rule.expansion)
+    return _Unfolding(rules, terminals).start()
+
+
+def _spelled(pattern: str, unsaid: frozenset[str]) -> Place:
+    """The ways to say a terminal; none, if it stands for any word."""
+    try:
+        ways = [parted(it.replace("-", " ")) for it in spellings(pattern)]
+    except Endless:
+        return NOTHING
+    return either(said(way) for way in ways if way and unsaid.isdisjoint(way))
+
+
+class _Unfolding:
+    """The rules of a grammar, each unfolded to its network where it stands."""
+
+    def __init__(
+        self,
+        rules: Mapping[str, list[Sequence[Symbol]]],
+        terminals: Mapping[str, Place],
+    ) -> None:
+        self._rules, self._terminals = rules, terminals
+        self._known: dict[tuple[str, tuple[str, ...], str], Place] = {}
+        self._endless = {name for name in rules if name in self._within(name)}
+
+    def start(self) -> Place:
+        return self._rule("start", (), "")
+
+    def _within(self, name: str) -> set[str]:
+        """The rules that may stand within a rule."""
+        found, ahead = set[str](), [name]
+        while ahead:
+            for symbols in self._rules[ahead.pop()]:
+                new = {str(it.name) for it in symbols if not it.is_term} - found
+                found |= new
+                ahead += new
+        return found
+
+    def _rule(self, name: str, around: tuple[str, ...], teaching: str) -> Place:
+        """What a rule finds, within the rules around it that may hold themselves."""
+        if name in SLOTS:
+            taught = name == SLOTS[0] and teaching in _NAMING
+            return said([TAUGHT if taught else name])
+        if around.count(name) >= _NESTED:
+            return NOTHING
+        if name in self._endless:
+            around = tuple(sorted((*around, name)))
+        teaching = _teaching(name, teaching)
+        key = (name, around, teaching)
+        if key not in self._known:
+            self._known[key] = either(
+                following(self._symbol(it, around, teaching) for it in symbols)
+                for symbols in self._rules[name]
+            )
+        return self._known[key]
+
+    def _symbol(self, symbol: Symbol, around: tuple[str, ...], teaching: str) -> Place:
+        if symbol.is_term:
+            return self._terminals[symbol.name]
+        return self._rule(str(symbol.name), around, teaching)
+
+
+def _teaching(name: str, around: str) -> str:
+    """The rule that says that a new noun may be taught here, or nothing."""
+    if name in _TEACHING or (around and name in _NAMING):
+        return name
+    return around if around in _TEACHING else ""

@@ -1,0 +1,122 @@
+"""Where speech comes from: a file, a pipe or a microphone; each utterance by itself.
+
+Utterances are parted where nobody speaks, by pocketsphinx's detector of voices.
+"""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import IO
+
+from kille.speech.sound import RATE, SoundError, read_wav
+
+__all__ = ["LONGEST", "from_file", "from_microphone", "from_pipe", "utterances"]
+
+LONGEST = 15.0
+"""Seconds of one utterance; what goes on for longer is noise, and is cut."""
+
+_WINDOW = 0.6
+"""Seconds over which the voice must have fallen silent: longer than at a comma."""
+
+_MARGIN = bytes(2 * RATE // 5)
+"""The silence, of a fifth of a second, that is put before and after an utterance."""
+
+_SILENT = bytes(2)
+"""The least that the detector takes at the end."""
+
+_RECORDER = ("arecord", "-q", "-t", "raw", "-f", "S16_LE", "-r", str(RATE), "-c", "1")
+
+
+def utterances(read: Callable[[int], bytes]) -> Iterator[bytes]:
+    """The stretches of speech in a sound that is read little by little.
+
+    `read` gives so many bytes, or fewer at the end.
+    """
+    from pocketsphinx import Endpointer
+
+    finder = Endpointer(window=_WINDOW, sample_rate=RATE)
+    spoken, most = bytearray(), int(2 * RATE * LONGEST)
+    while True:
+        frame = read(finder.frame_bytes)
+        last = len(frame) < finder.frame_bytes
+        frame = frame[: len(frame) // 2 * 2]
+        heard = finder.end_stream(frame or _SILENT) if last else finder.process(frame)
+        spoken += heard or b""
+        over = last or not finder.in_speech or len(spoken) >= most
+        if spoken and over:
+            yield _MARGIN + bytes(spoken) + _MARGIN
+            spoken.clear()
+        if last:
+            return
+
+
+def from_file(path: Path) -> Iterator[bytes]:
+    """The utterances in a WAV file of any rate; `SoundError` if it is none."""
+    return _of(read_wav(path).at(RATE).samples)
+
+
+def from_pipe(pipe: IO[bytes]) -> Iterator[bytes]:
+    """The utterances in a stream of raw samples: 16 kHz, 16 bits, one channel."""
+    return utterances(lambda size: _whole(pipe, size))
+
+
+def from_microphone() -> bytes:
+    """The next utterance in front of the microphone, by ALSA's recorder.
+
+    It is opened for one utterance, so that the robot never hears itself. Raises
+    `SoundError` where there is no microphone, or nothing to record with.
+    """
+    if shutil.which(_RECORDER[0]) is None:
+        raise SoundError(
+            "there is no program to record with: apt install alsa-utils, or let it "
+            "hear a file, --hear FILE.wav"
+        )
+    with subprocess.Popen(
+        _RECORDER, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as recorder:
+        assert recorder.stdout is not None
+        assert recorder.stderr is not None
+        try:
+            found = next(from_pipe(recorder.stdout), None)
+        finally:
+            recorder.terminate()
+        if found is None:
+            told = recorder.stderr.read().decode(errors="replace").strip()
+            last = told.splitlines()[-1] if told else "there is no sound"
+            raise SoundError(
+                f"nothing can be recorded ({last}): "
+                "connect a microphone, or let it hear a file, --hear FILE.wav"
+            )
+    return found
+
+
+def _of(samples: bytes) -> Iterator[bytes]:
+    """The utterances in samples that are all there."""
+    pieces = _Pieces(samples)
+    return utterances(pieces.read)
+
+
+class _Pieces:
+    """Samples that are given piece by piece."""
+
+    def __init__(self, samples: bytes) -> None:
+        self._samples, self._at = samples, 0
+
+    def read(self, size: int) -> bytes:
+        """The next piece."""
+        self._at += size
+        return self._samples[self._at - size : self._at]
+
+
+def _whole(pipe: IO[bytes], size: int) -> bytes:
+    """So many bytes of a pipe, which may give fewer at a time."""
+    data = b""
+    while len(data) < size:
+        piece = pipe.read(size - len(data))
+        if not piece:
+            break
+        data += piece
+    return data

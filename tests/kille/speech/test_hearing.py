@@ -1,0 +1,60 @@
+"""Utterances are parted by pauses, in files and pipes of any length."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from kille.speech.hearing import LONGEST, from_file, from_microphone, from_pipe
+from kille.speech.sound import RATE, SoundError
+
+pytest.importorskip("pocketsphinx")
+
+FRAME = 960
+"""Bytes that the detector of voices takes at once."""
+
+
+@pytest.mark.parametrize("size", [0, 1, FRAME, 10 * FRAME, 10 * FRAME + 3])
+def test_silence_of_any_length_holds_no_utterance(size: int) -> None:
+    assert list(from_pipe(io.BytesIO(bytes(size)))) == []
+
+
+def test_utterances_are_parted_by_pauses(
+    lesson: Callable[..., bytes], tmp_path: Path
+) -> None:
+    path = tmp_path / "said.wav"
+    path.write_bytes(lesson("This is a cup.", "No, it is a mug.", "Thank you."))
+    assert len(list(from_file(path))) == 3
+
+
+def test_speech_at_the_very_end_is_heard(spoken: Callable[..., bytes]) -> None:
+    sound = spoken("This is a cup.")
+    cut = sound[: 2 * RATE * 3 // 2]
+    assert len(list(from_pipe(io.BytesIO(bytes(RATE) + cut)))) == 1
+
+
+def test_a_voice_without_end_is_cut(spoken: Callable[..., bytes]) -> None:
+    voice = spoken("The book is to the left of the box.")[RATE : 3 * RATE]
+    found = list(from_pipe(io.BytesIO(voice * 30)))
+    assert len(found) > 1
+    assert all(len(it) / 2 / RATE < LONGEST + 2 for it in found)
+
+
+def test_without_a_recorder_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(SoundError, match="apt install alsa-utils"):
+        from_microphone()
+
+
+def test_a_recorder_that_fails_is_told_in_its_words(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    recorder = tmp_path / "arecord"
+    recorder.write_text("#!/bin/sh\necho 'no soundcards found' >&2\n")
+    recorder.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/bin:/usr/bin")
+    with pytest.raises(SoundError, match="no soundcards found"):
+        from_microphone()

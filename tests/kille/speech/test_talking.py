@@ -1,0 +1,107 @@
+"""A whole lesson through sound: the tutor is heard, and the robot's answers spoken."""
+
+from __future__ import annotations
+
+import io
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from kille.interfaces.cli import main
+from kille.interfaces.ears import Ears, written
+from kille.speech.sound import RATE, SoundError, read_wav
+
+Lesson = Callable[..., bytes]
+
+SCENE = "synthetic:empty?seed=7"
+
+
+@pytest.fixture
+def talk(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> Callable[..., tuple[int, str, str]]:
+    def run(*options: str, sensor: str = SCENE) -> tuple[int, str, str]:
+        memory = str(tmp_path / "m.db")
+        code = main(["talk", "--sensor", sensor, "--memory", memory, *options])
+        told = capsys.readouterr()
+        return code, told.out, told.err
+
+    return run
+
+
+def test_a_lesson_is_heard_and_answered(
+    talk: Callable[..., tuple[int, str, str]], lesson: Lesson, tmp_path: Path
+) -> None:
+    heard, answers = tmp_path / "tutor.wav", tmp_path / "robot.wav"
+    texts = ("This is a cup.", "What is this?", "Goodbye.")
+    heard.write_bytes(lesson(*texts))
+    code, out, _ = talk(
+        "--hear", str(heard), "--say", str(answers), sensor="synthetic?seed=7"
+    )
+    assert code == 0
+    said = [line for line in out.splitlines() if line[:3] in ("U> ", "S> ")]
+    assert said == [
+        "U> This is a cup.",
+        "S> OK, I learned a cup.",
+        "U> What is this?",
+        "S> This is a cup.",
+        "U> Goodbye.",
+        "S> Goodbye.",
+    ]
+    spoken = read_wav(answers)
+    assert spoken.rate == RATE
+    assert spoken.seconds > 3
+
+
+def test_a_pipe_of_samples_is_heard(
+    talk: Callable[..., tuple[int, str, str]],
+    lesson: Lesson,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    samples = bytes(RATE) + read_wav(lesson("Hello.", "Goodbye.")).samples
+    pipe = io.TextIOWrapper(io.BytesIO(samples))
+    monkeypatch.setattr(sys, "stdin", pipe)
+    code, out, _ = talk("--hear", "-")
+    assert code == 0
+    assert "U> Hello.\nS> Hello.\nU> Goodbye.\nS> Goodbye.\n" in out
+
+
+def test_other_talk_is_not_understood_and_the_talk_goes_on(
+    talk: Callable[..., tuple[int, str, str]], lesson: Lesson, tmp_path: Path
+) -> None:
+    heard = tmp_path / "tutor.wav"
+    heard.write_bytes(lesson("Elephants never forget their friends.", "Goodbye."))
+    code, out, _ = talk("--hear", str(heard))
+    assert code == 0
+    assert "S> Sorry, I did not understand.\nU> Goodbye." in out
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (("--hear", "no-such.wav"), "no-such.wav cannot be read"),
+        (("--hear", __file__), "is not a WAV file"),
+        (("--lang", "sv", "--hear", "device"), "only English can be heard"),
+        (("--say", "opera"), "there is no voice 'opera'"),
+        (("--say", "no/such/folder.wav"), "cannot be written"),
+    ],
+)
+def test_what_cannot_be_is_told_in_one_line(
+    talk: Callable[..., tuple[int, str, str]], options: tuple[str, ...], told: str
+) -> None:
+    code, _, complaint = talk(*options)
+    assert code == 2
+    assert told in complaint
+    assert len(complaint.strip().splitlines()) == 1
+
+
+def test_what_is_heard_is_written_as_a_sentence() -> None:
+    assert written("isn't this a cup") == "Isn't this a cup?"
+    assert written("no it is a mug") == "No it is a mug."
+
+
+def test_ears_hear_only_what_there_is_a_model_for() -> None:
+    with pytest.raises(SoundError, match="only English"):
+        Ears("device", "sv")
