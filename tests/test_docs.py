@@ -20,6 +20,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator
 from itertools import takewhile
 from pathlib import Path
@@ -327,6 +328,7 @@ def test_the_python_reference_names_what_is_public() -> None:
             **gameboards(),
             "kille": set(kille.__all__),
             **seeing(),
+            **sensing(),
             **measuring(),
             **talking(),
             "ttr.Model": public(ttr.Model()),
@@ -340,11 +342,29 @@ def test_the_python_reference_names_what_is_public() -> None:
     assert described == expected
 
 
+def sensing() -> dict[str, set[str]]:
+    """The public names of the driver of a Kinect, and of recordings."""
+    kinect = importlib.import_module("kille.sensors.kinect")
+    sensor = importlib.import_module("kille.sensors.kinect.sensor").KinectSensor
+    recordings = importlib.import_module("kille.sensors.recordings")
+    with tempfile.TemporaryDirectory() as folder:
+        picture = Path(folder, "cup.ppm")
+        picture.write_bytes(b"P6 1 1 255\n...")
+        recording = recordings.open_recording(str(picture))
+    return {
+        "kille.sensors.recordings": set(recordings.__all__),
+        "kille.sensors.recordings.Recording": public(recording),
+        "kille.sensors.kinect": set(kinect.__all__),
+        "kille.sensors.kinect.sensor.KinectSensor": public(sensor),
+    }
+
+
 def seeing() -> dict[str, set[str]]:
     """The public names of what sees and learns words of what is seen."""
     modules = ("segment", "cues", "index", "objects", "evidence", "colours")
     more = ("attributes", "relations", "learners", "methods")
     named = [f"kille.perception.{module}" for module in (*modules, *more)]
+    named += ["kille.bus", "kille.nodes.topics"]
     return {name: set(importlib.import_module(name).__all__) for name in named}
 
 
@@ -352,7 +372,7 @@ def talking() -> dict[str, set[str]]:
     """The public names of what a game of one's own is made of, and played with."""
     dialogue = ("tutoring", "moves", "meanings", "reference", "describing")
     more = ("language", "strategies")
-    simulation = ("worlds", "perceiving", "playing")
+    simulation = ("worlds", "perceiving", "playing", "schooling")
     named = [f"kille.dialogue.{module}" for module in (*dialogue, *more)]
     named += [f"kille.simulation.{module}" for module in simulation]
     return {name: set(importlib.import_module(name).__all__) for name in named}

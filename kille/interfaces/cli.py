@@ -10,7 +10,7 @@ from errno import ENOSPC
 from pathlib import Path
 from typing import Any, NoReturn
 
-from kille.interfaces.parsing import Parser, Version, seed
+from kille.interfaces.parsing import Parser, Version, counted, positive, seed
 from kille.interfaces.streams import drop_output, prepare_streams
 
 __all__ = ["command", "main"]
@@ -72,10 +72,13 @@ def _parser() -> argparse.ArgumentParser:
     _add_demo(commands)
     _add_talk(commands)
     _add_replay(commands)
+    _add_record(commands)
+    _add_convert(commands)
     memory = commands.add_parser("memory", help="what the robot has learned")
     actions = memory.add_subparsers(metavar="ACTION", parser_class=Parser)
     _add_memory_actions(actions)
     _add_evaluate(commands)
+    _add_ros(commands)
     doctor = commands.add_parser("doctor", help="what works here, what is missing")
     doctor.add_argument("--json", action="store_true", help="report for machines")
     doctor.set_defaults(run=_doctor)
@@ -103,8 +106,8 @@ def _add_talk(commands: Any) -> None:
         "--sensor",
         default="synthetic",
         metavar="S",
-        help="what it looks through: synthetic, synthetic:SCENE?seed=7, or the path "
-        "of recorded captures",
+        help="what it looks through: synthetic, synthetic:SCENE?seed=7, kinect, or the "
+        "path of recorded captures",
     )
     talk.add_argument(
         "--memory",
@@ -129,6 +132,22 @@ def _add_talk(commands: Any) -> None:
         help="how certain it sounds: the paper's wordings, or four bands (paper)",
     )
     talk.add_argument("--trace", action="store_true", help="show the judgements")
+    talk.add_argument(
+        "--speech",
+        action="store_true",
+        help="talk aloud: as --hear device --say espeak",
+    )
+    talk.add_argument(
+        "--hear",
+        metavar="FROM",
+        help="what it hears: device (a microphone, after Enter), always (the same, all "
+        "the time), FILE.wav, or - for raw samples of 16 bits, 16 kHz, on the input",
+    )
+    talk.add_argument(
+        "--say",
+        metavar="VOICE",
+        help="how it speaks: espeak, flite, FILE.wav, or none (none)",
+    )
     talk.set_defaults(run=_talk)
 
 
@@ -142,6 +161,85 @@ def _add_replay(commands: Any) -> None:
         "--junit", type=Path, metavar="FILE", help="write a report for CI (.xml)"
     )
     replay.set_defaults(run=_replay)
+
+
+def _add_ros(commands: Any) -> None:
+    ros = commands.add_parser("ros", help="the robot as nodes of ROS")
+    parts = ros.add_subparsers(metavar="PART", parser_class=Parser)
+    for part, told in _ROS_PARTS.items():
+        node = parts.add_parser(part, help=told)
+        if part in ("sensor", "all"):
+            node.add_argument("--sensor", metavar="S", help="as in kille talk")
+            node.add_argument("--rate", type=float, metavar="HZ", help="(30)")
+        if part in ("dialogue", "all"):
+            node.add_argument("--memory", metavar="FILE", help="as in kille talk")
+            for name in ("lang", "mode", "wording"):
+                shown = name[0].upper()
+                node.add_argument(f"--{name}", metavar=shown, help="as in kille talk")
+        if part in ("perception", "dialogue", "all"):
+            waiting = "how long to wait for other nodes (10)"
+            node.add_argument("--patience", type=float, metavar="SECONDS", help=waiting)
+        if part != "launch":
+            node.add_argument(
+                "--over",
+                choices=["ros", "ros2"],
+                default="ros",
+                help="ROS 1, or the topics of ROS 2, which is experimental (ros)",
+            )
+        node.add_argument(
+            "remapped",
+            nargs="*",
+            metavar="NAME:=VALUE",
+            help="other names for topics, and parameters, as ROS writes them",
+        )
+        node.set_defaults(run=_ros, part=part)
+
+
+_ROS_PARTS = {
+    "sensor": "sends what a sensor sees",
+    "perception": "looks, when it is asked to",
+    "dialogue": "has the state and the memory, hears and answers",
+    "all": "all three in one process",
+    "talk": "type to a robot that runs as nodes",
+    "launch": "start all nodes by roslaunch, and again if they die",
+}
+
+
+def _add_record(commands: Any) -> None:
+    record = commands.add_parser("record", help="keep what a sensor sees, to play it")
+    record.add_argument("out", type=Path, metavar="OUT", help="a new folder")
+    record.add_argument(
+        "--sensor",
+        default="synthetic",
+        metavar="S",
+        help="kinect, synthetic, the path of a recording … (synthetic)",
+    )
+    ending = record.add_mutually_exclusive_group()
+    ending.add_argument(
+        "--seconds", type=positive, metavar="N", help="how long (until Ctrl-C)"
+    )
+    ending.add_argument(
+        "--frames", type=counted, metavar="N", help="how many frames (until Ctrl-C)"
+    )
+    record.add_argument(
+        "--force", action="store_true", help="take the place of a recording"
+    )
+    record.set_defaults(run=_record)
+
+
+def _add_convert(commands: Any) -> None:
+    convert = commands.add_parser("convert", help="a recording in another format")
+    convert.add_argument("source", metavar="IN", help="the path of a recording")
+    convert.add_argument("out", type=Path, metavar="OUT", help="a new file or folder")
+    convert.add_argument(
+        "--to",
+        choices=["fakenect", "tum", "captures", "bag", "mcap", "ros2", "npz"],
+        help="the format (as OUT ends: .bag, .mcap or .npz)",
+    )
+    convert.add_argument(
+        "--force", action="store_true", help="take the place of a recording"
+    )
+    convert.set_defaults(run=_convert)
 
 
 def _add_evaluate(commands: Any) -> None:
@@ -260,6 +358,8 @@ def _talk(options: argparse.Namespace) -> int:
         language=options.lang,
         mode=options.mode,
         wording=options.wording,
+        hear=options.hear or ("device" if options.speech else ""),
+        say=options.say or ("espeak" if options.speech else "none"),
     )
 
 
@@ -268,6 +368,24 @@ def _replay(options: argparse.Namespace) -> int:
 
     report = in_brief if options.quiet else in_full
     return replay(options.files, as_json if options.json else report, options.junit)
+
+
+def _record(options: argparse.Namespace) -> int:
+    from kille.interfaces.record import record_sensor
+    from kille.sensors.recordings.recorder import Limits
+    from kille.sensors.recordings.replacing import check_new, check_replaceable
+
+    may_write = check_replaceable if options.force else check_new
+    limits = Limits(options.frames, options.seconds)
+    return record_sensor(options.sensor, options.out, limits, may_write)
+
+
+def _convert(options: argparse.Namespace) -> int:
+    from kille.interfaces.convert import convert_recording
+    from kille.sensors.recordings.replacing import check_new, check_replaceable
+
+    may_write = check_replaceable if options.force else check_new
+    return convert_recording(options.source, options.out, options.to, may_write)
 
 
 def _memory_list(options: argparse.Namespace) -> int:
@@ -324,6 +442,18 @@ def _evaluate(options: argparse.Namespace) -> int:
         words=options.words,
     )
     return evaluate(request, as_json() if options.json else as_tables())
+
+
+def _ros(options: argparse.Namespace) -> int:
+    from kille.interfaces.ros import OPENING, launch, run_nodes
+    from kille.interfaces.ros_talk import talk_as_node
+
+    if options.part == "launch":
+        return launch(options.remapped)
+    opened = OPENING[options.over]
+    if options.part == "talk":
+        return talk_as_node(opened, options.remapped)
+    return run_nodes(opened, options.part, vars(options), options.remapped)
 
 
 def _doctor(options: argparse.Namespace) -> int:

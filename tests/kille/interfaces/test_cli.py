@@ -23,7 +23,7 @@ from .conftest import COMMAND, Run
 
 MISSPELT = {
     ("demmo",): "did you mean demo?",
-    ("xyzzy",): "try demo, talk, replay, memory, evaluate, doctor",
+    ("xyzzy",): "try demo, talk, replay, record, convert, memory, evaluate, ",
     ("memory", "lits"): "did you mean list?",
     ("talk", "--memry", "x"): "did you mean --memory?",
     ("talk", "--sensro=synthetic"): "did you mean --sensor?",
