@@ -305,7 +305,9 @@ def test_a_bag_whose_recorder_was_killed_is_played(
 
 @pytest.mark.oracle
 def test_mcap_reads_the_file_that_is_written(tmp_path: Path) -> None:
-    reading = pytest.importorskip("mcap_ros2.reader", reason="pip install 'kille[senses]'")
+    reading = pytest.importorskip(
+        "mcap_ros2.reader", reason="pip install 'kille[senses]'"
+    )
     path = tmp_path / "walk.mcap"
     write_mcap(path, frames(4))
     found = list(reading.read_ros2_messages(str(path)))
