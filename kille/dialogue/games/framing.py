@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from kille.dialogue.beliefs import relations_of
-from kille.dialogue.commitments import affirmed
+from kille.dialogue.commitments import act_of, affirmed, signs_for
 from kille.dialogue.games.placing import asked_for, landmark_for
 from kille.dialogue.games.referring import UNANSWERED, about, unanswered
 from kille.dialogue.meanings import (
@@ -123,11 +123,11 @@ def learn_anew(s: Record) -> Record | None:
     content = set_at(lesson.content, "frame", front_of(settled, landmark))
     if content == lesson.content:
         return None
-    signs = used(words(s), content)
+    signs = signs_for(s, content)
     forgets, teaches = [lesson.key], [content]
     return plan(
         settled,
-        "LearnedRelation",
+        act_of(content),
         content,
         signs=signs,
         teaches=teaches,

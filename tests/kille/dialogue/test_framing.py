@@ -7,6 +7,8 @@ from typing import Any
 
 import pytest
 
+from kille.dialogue.meanings import denied, predicate_at, value_at
+
 Scenes = Callable[..., Any]
 
 KNOWN = {
@@ -178,3 +180,17 @@ def test_no_front_is_known(scene: Scenes) -> None:
     said = robot.hear("As the car sees it.")
     assert said == "I do not know which way the car faces."
     assert robot.state.shared.frame == ""
+
+
+def test_what_was_denied_of_a_place_is_denied_in_the_other_perspective(
+    scene: Scenes,
+) -> None:
+    robot = scene(3, known=KNOWN, nouns=["cup", "car"], adjectives=["red", "blue"])
+    robot.hear("The car faces left.")
+    robot.hear("No, the red cup is not to the left of the car.")
+    said = robot.hear("From your side.")
+    assert said == 'OK, this relation is not called "to the left of".'
+    assert robot.hear("From its side.") == said
+    (lesson,) = robot.state.private.lessons
+    assert predicate_at(denied(lesson.content), "rel").name == "to_the_left_of"
+    assert value_at(lesson.content, "frame") == "faces_left"
