@@ -40,15 +40,7 @@ def write_bag(path: Path, frames: Iterable[Frame]) -> None:
 
     types = get_typestore(stores.ROS1_NOETIC)
     with Writer(path) as writer:
-        connections: dict[str, Any] = {}
-
-        def put(topic: str, kind: str, nanoseconds: int, message: Any) -> None:
-            if topic not in connections:
-                connections[topic] = writer.add_connection(topic, kind, typestore=types)
-            data = types.serialize_ros1(message, kind)
-            writer.write(connections[topic], nanoseconds, data)
-
-        _put_all(types, put, frames)
+        _put_all(types, _putting(writer, types, types.serialize_ros1), frames)
 
 
 def write_ros2(folder: Path, frames: Iterable[Frame]) -> None:
@@ -58,15 +50,7 @@ def write_ros2(folder: Path, frames: Iterable[Frame]) -> None:
 
     types = get_typestore(stores.ROS2_HUMBLE)
     with Writer(folder, version=8, storage_plugin=StoragePlugin.MCAP) as writer:
-        connections: dict[str, Any] = {}
-
-        def put(topic: str, kind: str, nanoseconds: int, message: Any) -> None:
-            if topic not in connections:
-                connections[topic] = writer.add_connection(topic, kind, typestore=types)
-            data = types.serialize_cdr(message, kind)
-            writer.write(connections[topic], nanoseconds, data)
-
-        _put_all(types, put, frames)
+        _put_all(types, _putting(writer, types, types.serialize_cdr), frames)
 
 
 def write_mcap(path: Path, frames: Iterable[Frame]) -> None:
@@ -86,6 +70,18 @@ def _types() -> tuple[Any, Any]:
     except ImportError as error:
         raise SensorError(NOT_INSTALLED) from error
     return Stores, get_typestore
+
+
+def _putting(writer: Any, types: Any, serialise: Callable[[Any, str], Any]) -> Put:
+    """How messages get into a bag: each topic is announced with its first."""
+    connections: dict[str, Any] = {}
+
+    def put(topic: str, kind: str, nanoseconds: int, message: Any) -> None:
+        if topic not in connections:
+            connections[topic] = writer.add_connection(topic, kind, typestore=types)
+        writer.write(connections[topic], nanoseconds, serialise(message, kind))
+
+    return put
 
 
 def _put_all(types: Typestore, put: Put, frames: Iterable[Frame]) -> None:
