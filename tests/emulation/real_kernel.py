@@ -28,16 +28,16 @@ MINUTES = 5
 
 INIT = """#!/bin/busybox sh
 B=/bin/busybox
-$B mkdir -p /proc /sys /dev /host /layer /root
+$B mkdir -p /proc /sys /dev /host /layer /whole
 $B mount -t proc proc /proc
 $B mount -t sysfs sys /sys
 $B mount -t devtmpfs dev /dev
 for module in {modules}; do $B insmod /modules/$module; done
 $B mount -t 9p -o {options} hostroot /host
 $B mount -t tmpfs layer /layer; $B mkdir /layer/up /layer/work
-$B mount -t overlay -o {layers} root /root
-for folder in proc sys dev; do $B mount --move /$folder /root/$folder; done
-$B chroot /root /bin/sh {script} {python} {emulation} {kernel} {speed}
+$B mount -t overlay -o {layers} root /whole
+for folder in proc sys dev; do $B mount --move /$folder /whole/$folder; done
+$B chroot /whole /bin/sh {script} {python} {emulation} {kernel} {speed}
 $B poweroff -f
 """
 
