@@ -16,7 +16,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +25,8 @@ from _measuring import Measure, Task, arguments, clock_of, limit_told, measured,
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "emulation"))
 
+import kille.sensors.kinect.capture as capturing  # noqa: E402
+import kille.sensors.kinect.sensor as sensing  # noqa: E402
 from kille.sensors.kinect.bayer import colour_of  # noqa: E402
 from kille.sensors.kinect.calibration import Calibration  # noqa: E402
 from kille.sensors.kinect.capture import Capture, frame_of  # noqa: E402
@@ -160,7 +162,7 @@ def fuzzed(packets: int) -> Iterator[Row]:
 
 def client(seconds: float) -> None:
     """Look for so long and print what it took: run as a program of its own."""
-    spent = [0.0]
+    spent, asked = [0.0], [0.0]
     completed, submit = IsoStream._completed, IsoStream._submitted
 
     def timed(self: IsoStream, transfer: object) -> None:
@@ -175,7 +177,18 @@ def client(seconds: float) -> None:
         spent[0] -= time.thread_time() - began
         return done
 
+    def counted(function: Callable[..., np.ndarray]) -> Callable[..., np.ndarray]:
+        def counting(*given: object) -> np.ndarray:
+            began = time.thread_time()
+            found = function(*given)
+            asked[0] += time.thread_time() - began
+            return found
+
+        return counting
+
     IsoStream._completed, IsoStream._submitted = timed, submitted
+    sensing.unpack_11 = counted(sensing.unpack_11)
+    capturing.registered = counted(capturing.registered)
     sensor = KinectSensor("kinect", UsbBus())
     sensor.frame()
     before = sensor.counts
@@ -187,7 +200,8 @@ def client(seconds: float) -> None:
     while last < end:
         if frames % 30 == 0 and events.is_alive():
             thread = time.clock_gettime(clock)
-            marks.append((last, time.thread_time(), thread, spent[0]))
+            took = time.thread_time()
+            marks.append((last, took, thread, spent[0], asked[0]))
         sensor.frame()
         frames, now = frames + 1, time.monotonic()
         gaps, last = [*gaps, (now - last, now)] if now - last > 0.5 else gaps, now
@@ -207,6 +221,7 @@ def client(seconds: float) -> None:
                 "taking": shares[:, 1].tolist(),
                 "thread": shares[:, 2].tolist(),
                 "pump": shares[:, 3].tolist(),
+                "asked": shares[:, 4].tolist(),
                 "gaps": gaps,
             }
         )
@@ -230,12 +245,15 @@ def streamed(seconds: float) -> Iterator[Row]:
     yield f"packets lost in {took:.0f} s", 0, found["lost"]
     yield "s that the bus waited for the driver", took, waited
     yield f"frames broken of {2 * found['frames']:,}", 0, found["broken"]
-    pump, taking = np.array(found["pump"]), np.array(found["taking"])
+    pump, asked = np.array(found["pump"]), np.array(found["asked"])
+    taking = np.array(found["taking"])
     for what, pick in (("a quiet", 10), ("the median", 50)):
         core = f"% of a core in {what} second"
         yield f"pump, {core}", 2.0, float(np.percentile(pump, pick))
-        both = float(np.percentile(pump + taking, pick))
-        yield f"with all that is done with frames, {core}", 6.0, both
+        both = float(np.percentile(pump + asked, pick))
+        yield f"with unpacking and registration, {core}", 6.0, both
+        whole = float(np.percentile(pump + taking, pick))
+        yield f"with colour, metres and pairing, too, {core}", 10.0, whole
 
 
 def recovered() -> Iterator[Row]:

@@ -17,13 +17,13 @@ def open_kinect(name: str) -> KinectSensor:
     """
     # USB and the thread that serves it are only for those who ask for them.
     from kille.sensors.kinect.sensor import KinectSensor
-    from kille.sensors.kinect.transport import NoLibrary
+    from kille.sensors.kinect.transport import TransportError
     from kille.sensors.kinect.troubles import told
     from kille.sensors.kinect.usb import UsbBus
     from kille.sensors.sensor import SensorError
 
     try:
         bus = UsbBus()
-    except NoLibrary as error:
+    except TransportError as error:
         raise SensorError(told(name, error)) from error
     return KinectSensor(name, bus)

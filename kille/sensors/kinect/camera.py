@@ -96,13 +96,14 @@ class Camera:
         tag, self._tag = self._tag, (self._tag + 1) & 0xFFFF
         self._connection.write(0, 0, 0, commands.command(number, tag, words))
         deadline = time.monotonic() + _PATIENCE
-        while time.monotonic() < deadline:
+        while True:
             reply = self._connection.read(0, 0, 0, commands.LONGEST_REPLY)
             # While it has nothing to say it sends nothing, or a buffer full of it.
             if len(reply) not in (0, commands.LONGEST_REPLY):
                 return commands.payload(reply, number, tag)
+            if time.monotonic() > deadline:
+                raise Stalled(f"the camera does not answer command {number:#04x}")
             time.sleep(_PAUSE)
-        raise Stalled(f"the camera does not answer command {number:#04x}")
 
 
 class Feed:

@@ -9,7 +9,7 @@ from kille.sensors.kinect.packets import TICKS_A_SECOND
 _WINDOW = 60
 """Frames, of which one at least is taken to have arrived at once."""
 
-_LATEST = 0.5
+LATEST = 0.5
 """Seconds that no frame is under way; a clock that says so is not believed."""
 
 
@@ -38,4 +38,4 @@ class Clock:
         self._last = ticks
         seconds = self._ticks / TICKS_A_SECOND
         self._offsets.append(arrived - seconds)
-        return max(seconds + min(self._offsets), arrived - _LATEST)
+        return max(seconds + min(self._offsets), arrived - LATEST)

@@ -65,14 +65,20 @@ class _Time(ctypes.Structure):
 
 
 def backend() -> Any:
-    """pyusb's backend, with what it does not declare declared; NoLibrary without one.
+    """pyusb's backend, with what it does not declare declared.
 
-    It is the system's libusb, else that of the package libusb-package.
+    It is the system's libusb, else that of the package libusb-package. NoLibrary if
+    there is neither, another TransportError if it does not start.
     """
     found = _library()
-    loaded = found and pyusb.get_backend(find_library=lambda _: found)
-    if not loaded:
+    if found is None:
         raise NoLibrary("no libusb found")
+    loaded = pyusb.get_backend(find_library=lambda _: found)
+    if loaded is None:
+        raise TransportError(
+            "libusb is there but does not start; if this is a container, give it "
+            "the USB of the computer, by --privileged -v /dev/bus/usb:/dev/bus/usb"
+        )
     lib = loaded.lib
     lib.libusb_cancel_transfer.argtypes = [ctypes.POINTER(pyusb._libusb_transfer)]
     lib.libusb_handle_events_timeout.argtypes = [

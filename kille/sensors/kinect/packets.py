@@ -105,11 +105,13 @@ class Assembler:
             return False
         heads = self._heads[first:end] | _NUMBERS[number : number + count]
         began = self._began if first else int(packets.ticks[0])
+        since = packets.ticks - np.uint32(began)
         # Bytes are compared in less time than NumPy takes to begin.
         return (
             packets.heads.tobytes() == heads.tobytes()
             and packets.lengths.tobytes() == self._lengths[first:end].tobytes()
-            and int((packets.ticks - np.uint32(began)).max()) <= _LONGEST
+            and int(since[-1]) <= _LONGEST
+            and bool((since[1:] >= since[:-1]).all())
         )
 
     def _take_all(self, batch: Batch, packets: _Packets) -> list[RawFrame]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ctypes
 import threading
 import time
+from contextlib import ExitStack
 from typing import Any
 
 import numpy as np
@@ -38,36 +39,51 @@ _FAILURES = 64
 
 
 class Events:
-    """The thread that lets libusb call back, while there are streams."""
+    """Lets libusb call back, in a thread of its own, while there are streams."""
 
     def __init__(self, backend: Any) -> None:
         self._backend = backend
         self._lock = threading.Lock()
         self._users = 0
-        self._thread: threading.Thread | None = None
+        self._thread: _Serving | None = None
 
     def enter(self) -> None:
         """There is one stream more."""
         with self._lock:
             self._users += 1
             if self._thread is None:
-                self._thread = threading.Thread(
-                    target=self._run, name="kinect events", daemon=True
-                )
+                self._thread = _Serving(self._backend)
                 self._thread.start()
 
     def leave(self) -> None:
         """There is one less; with the last, the thread ends before this returns."""
         with self._lock:
             self._users -= 1
-            if self._users == 0 and self._thread is not None:
-                self._thread.join()
-                self._thread = None
+            if self._users:
+                return
+            thread, self._thread = self._thread, None
+        if thread is not None:
+            thread.end()
 
-    def _run(self) -> None:
-        while self._users:
+
+class _Serving(threading.Thread):
+    """The thread in which libusb calls back, until it is told to end."""
+
+    def __init__(self, backend: Any) -> None:
+        super().__init__(name="kinect events", daemon=True)
+        self._backend = backend
+        self._over = threading.Event()
+
+    def run(self) -> None:
+        """Serve libusb."""
+        while not self._over.is_set():
             if libusb.handle_events(self._backend, _TICK) < 0:
                 time.sleep(_TICK)
+
+    def end(self) -> None:
+        """Let it end, and wait until it has."""
+        self._over.set()
+        self.join()
 
 
 class Slot:
@@ -113,7 +129,6 @@ class IsoStream:
         self._events = events
         self._receive = receive
         self._stopping = False
-        self._over = False
         self._failures = 0
         self._idle = threading.Condition()
         # libusb keeps no reference to the function: it has to live as long as we do.
@@ -126,22 +141,28 @@ class IsoStream:
             )
         }
         self._events.enter()
-        self._begin()
+        try:
+            self._begin()
+        except BaseException:
+            self.stop()
+            raise
 
     def stop(self) -> None:
         """Cancel all transfers and wait until libusb has given them back."""
-        if self._over:
+        if self._stopping:
             return
-        self._over = True
         self._stopping = True
-        for slot in self._slots.values():
-            if slot.under_way:
-                self._backend.lib.libusb_cancel_transfer(slot.transfer)
-        try:
+        # Also a Ctrl-C that comes while it waits leaves all in order.
+        with ExitStack() as stack:
+            stack.callback(self._let_go)
+            stack.callback(self._events.leave)
+            for slot in self._slots.values():
+                if slot.under_way:
+                    self._backend.lib.libusb_cancel_transfer(slot.transfer)
             with self._idle:
                 self._idle.wait_for(self._all_back, _PATIENCE)
-        finally:
-            self._events.leave()
+
+    def _let_go(self) -> None:
         if self._all_back():
             for slot in self._slots.values():
                 self._backend.lib.libusb_free_transfer(slot.transfer)
@@ -156,9 +177,7 @@ class IsoStream:
             if not self._submitted(slot):
                 slot.under_way = False
         if self.ended is not None:
-            problem = self.ended
-            self.stop()
-            raise problem
+            raise self.ended
 
     def _all_back(self) -> bool:
         return not any(slot.under_way for slot in self._slots.values())
@@ -191,7 +210,8 @@ class IsoStream:
 
     def _take(self, slot: Slot, status: int) -> bool:
         """Hand on what came; whether there is more to come."""
-        if self._stopping or status == libusb.CANCELLED:
+        over = self._stopping or self.ended is not None
+        if over or status == libusb.CANCELLED:
             return False
         if status == libusb.NO_DEVICE:
             self.ended = Gone("the device was unplugged")

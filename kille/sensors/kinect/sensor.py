@@ -31,13 +31,17 @@ from kille.sensors.kinect.packets import Counts, RawFrame
 from kille.sensors.kinect.pairing import Pair
 from kille.sensors.kinect.session import Session
 from kille.sensors.kinect.streams import COLOUR, INFRARED
-from kille.sensors.kinect.transport import Bus, Connection, TransportError
+from kille.sensors.kinect.transport import Bus, Connection, Interrupted, TransportError
 from kille.sensors.kinect.troubles import no_motor, told
 from kille.sensors.kinect.unpacking import unpack_10, unpack_11
 from kille.sensors.sensor import SensorError
 
 PATIENCE = 6.0
-"""Seconds in which a Kinect that was unplugged may come back, before a frame fails."""
+"""Seconds in which a Kinect that fails may come back, before a frame fails.
+
+They begin with the failure, and not when the frame was asked for: a program that is
+stopped, by Ctrl-Z for one, does not see time pass.
+"""
 
 _SILENCE = 2.0
 """Seconds without a frame after which the Kinect is opened again."""
@@ -61,8 +65,6 @@ class KinectSensor:
         self._session: Session | None = None
         with self._telling():
             self._calibration = self._settled().calibration
-        # A program may end without having closed it, on Ctrl-C for one.
-        atexit.register(self.close)
 
     @property
     def name(self) -> str:
@@ -118,7 +120,9 @@ class KinectSensor:
     def close(self) -> None:
         """Stop the streams and let go of the device; a second call does nothing."""
         atexit.unregister(self.close)
-        self._leave()
+        session, self._session = self._session, None
+        if session is not None:
+            session.close()
 
     def _captured(self) -> Capture:
         pair = self._pair()
@@ -138,14 +142,16 @@ class KinectSensor:
 
     def _pair(self) -> Pair:
         """The next pair, of a Kinect that is opened again if need be."""
-        deadline = time.monotonic() + PATIENCE
+        deadline = None
         while True:
             try:
                 with self._telling():
                     return self._settled().pair(_SILENCE)
             except SensorError:
-                self._leave()
-                if time.monotonic() + _AGAIN > deadline:
+                self.close()
+                now = time.monotonic()
+                deadline = now + PATIENCE if deadline is None else deadline
+                if now + _AGAIN > deadline:
                     raise
             time.sleep(_AGAIN)
 
@@ -164,6 +170,8 @@ class KinectSensor:
             self._serial = kinect.serial or None
             self._calibration = session.calibration
             self._session = session
+            # A program may end without having closed it, on Ctrl-C for one.
+            atexit.register(self.close)
         return self._session
 
     def _set_up(self, session: Session) -> None:
@@ -174,16 +182,15 @@ class KinectSensor:
         if self._address.light is not None:
             _motor_of(session).write(SET_LIGHT, self._address.light, 0, b"")
 
-    def _leave(self) -> None:
-        session, self._session = self._session, None
-        if session is not None:
-            session.close()
-
     @contextmanager
     def _telling(self) -> Iterator[None]:
         """Whatever goes wrong is a line that begins with the sensor's name."""
         try:
             yield
+        except Interrupted as error:
+            # The streams are begun again by whoever asks for a frame all the same.
+            self.close()
+            raise KeyboardInterrupt from error
         except (TransportError, BadReply, SensorError) as error:
             raise SensorError(told(self._name, error)) from error
 

@@ -6,6 +6,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Mapping
+from contextlib import ExitStack, suppress
 
 from kille.sensors.kinect.camera import Camera, Feed
 from kille.sensors.kinect.commands import BadReply
@@ -13,12 +14,7 @@ from kille.sensors.kinect.devices import Kinect
 from kille.sensors.kinect.packets import Counts, RawFrame
 from kille.sensors.kinect.pairing import Pair, first_pair
 from kille.sensors.kinect.streams import DEPTH_11, Mode
-from kille.sensors.kinect.transport import (
-    Bus,
-    Connection,
-    Interrupted,
-    TransportError,
-)
+from kille.sensors.kinect.transport import Bus, Connection, TransportError
 from kille.sensors.kinect.troubles import no_pictures
 
 _KEPT = 4
@@ -64,13 +60,16 @@ class Session:
         """
         deadline = time.monotonic() + seconds
         with self._came:
-            while time.monotonic() < deadline:
+            while True:
+                # First, or a Ctrl-C would wait as long as there are frames.
+                self._check()
                 found = first_pair(self._colours, self._depths)
                 if found is not None:
                     _leave_out(self._colours, found.colour)
                     _leave_out(self._depths, found.depth)
                     return found
-                self._check()
+                if time.monotonic() > deadline:
+                    break
                 self._came.wait(_LOOK_UP)
         failures = (feed.failure for feed in self._feeds)
         raise TransportError(
@@ -85,17 +84,15 @@ class Session:
 
     def close(self) -> None:
         """Stop the streams and let go of all; a second call does nothing."""
-        try:
+        with ExitStack() as stack:
+            if self._motor is not None:
+                stack.callback(self._motor.close)
+            stack.callback(self._camera.close)
+            stack.callback(self._feeds.clear)
+            # It may be gone, or not listen: then closing has to be enough.
+            stack.enter_context(suppress(TransportError, BadReply))
             for feed in self._feeds:
                 self._camera.stop(feed)
-        except (TransportError, BadReply):
-            # It is gone, or does not listen: then closing has to be enough.
-            pass
-        finally:
-            self._feeds.clear()
-            self._camera.close()
-            if self._motor is not None:
-                self._motor.close()
 
     def _start(self, mode: Mode, frames: deque[RawFrame]) -> None:
         def take(frame: RawFrame) -> None:
@@ -107,8 +104,6 @@ class Session:
 
     def _check(self) -> None:
         for feed in self._feeds:
-            if isinstance(feed.ended, Interrupted):
-                raise KeyboardInterrupt from feed.ended
             if feed.ended is not None:
                 raise feed.ended
 

@@ -27,7 +27,11 @@ class Denied(TransportError):
 
 
 class Busy(TransportError):
-    """Another program or a kernel driver has the device."""
+    """Something else has the device: another program, if no more is known."""
+
+
+class Driven(Busy):
+    """A kernel driver has the device, and does not let go of it."""
 
 
 class Stalled(TransportError):
@@ -117,10 +121,7 @@ class Bus(Protocol):
     """Where devices are found."""
 
     def devices(self) -> tuple[Plugged, ...]:
-        """All of Microsoft's devices that are plugged in now; NoLibrary if none can be.
-
-        They are ordered by place.
-        """
+        """All of Microsoft's devices that are plugged in now, ordered by place."""
         ...
 
     def open(self, device: Plugged, alternate: int) -> Connection:

@@ -9,7 +9,14 @@ from typing import NamedTuple
 from kille.sensors.kinect.commands import BadReply
 from kille.sensors.kinect.devices import Kinect, Model
 from kille.sensors.kinect.packets import Counts
-from kille.sensors.kinect.transport import Busy, Denied, Gone, NoLibrary, Stalled
+from kille.sensors.kinect.transport import (
+    Busy,
+    Denied,
+    Driven,
+    Gone,
+    NoLibrary,
+    Stalled,
+)
 
 KERNEL_DRIVER = "gspca_kinect"
 
@@ -50,7 +57,7 @@ def trouble(error: Exception) -> Trouble:
             return Trouble("there is no libusb to talk to it", GET_LIBRARY)
         case Denied():
             return Trouble("there is no permission to open it", ALLOW)
-        case Busy() if driver_loaded():
+        case Driven() if driver_loaded():
             return Trouble(f"the kernel's driver {KERNEL_DRIVER} has it", UNLOAD)
         case Busy():
             return Trouble("another program has it", "close that program")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from array import array
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from typing import Any
 
 from usb.core import USBError
@@ -13,7 +13,7 @@ from usb.core import USBError
 from kille.sensors.kinect import libusb
 from kille.sensors.kinect.pump import Events, IsoStream
 from kille.sensors.kinect.transport import (
-    Busy,
+    Driven,
     Gone,
     Plugged,
     Receiver,
@@ -30,7 +30,10 @@ _LONGEST_STRING = 256
 
 
 class UsbBus:
-    """The computer's USB. NoLibrary if there is no libusb."""
+    """The computer's USB.
+
+    NoLibrary if there is no libusb, another TransportError if it does not start.
+    """
 
     def __init__(self) -> None:
         self._backend = libusb.backend()
@@ -47,32 +50,13 @@ class UsbBus:
         """The device with its interface claimed, in that alternate setting."""
         with _translated():
             handle = self._backend.open_device(device.key)
+        connection = UsbConnection(self._backend, self._events, device.key, handle)
         try:
-            driven = self._claim(handle, alternate)
-        except TransportError:
-            self._backend.close_device(handle)
+            connection.claim(alternate)
+        except BaseException:
+            connection.close()
             raise
-        return UsbConnection(self._backend, self._events, device.key, handle, driven)
-
-    def _claim(self, handle: Any, alternate: int) -> bool:
-        """Claim the interface; whether a kernel driver was moved aside for it."""
-        driven = self._moved_aside(handle)
-        with _translated():
-            self._backend.claim_interface(handle, _INTERFACE)
-            if alternate:
-                self._backend.set_interface_altsetting(handle, _INTERFACE, alternate)
-        return driven
-
-    def _moved_aside(self, handle: Any) -> bool:
-        try:
-            if not self._backend.is_kernel_driver_active(handle, _INTERFACE):
-                return False
-            self._backend.detach_kernel_driver(handle, _INTERFACE)
-        except NotImplementedError:
-            return False
-        except USBError as error:
-            raise Busy(f"a kernel driver has it: {error}") from error
-        return True
+        return connection
 
     def _described(self, device: Any) -> Plugged:
         told = self._backend.get_device_descriptor(device)
@@ -93,28 +77,38 @@ class UsbBus:
         text = (ctypes.c_ubyte * _LONGEST_STRING)()
         try:
             handle = self._backend.open_device(device)
-        except USBError:
+        except (USBError, NotImplementedError):
             return ""
-        length = self._backend.lib.libusb_get_string_descriptor_ascii(
-            handle.handle, index, text, _LONGEST_STRING
-        )
-        self._backend.close_device(handle)
+        try:
+            length = self._backend.lib.libusb_get_string_descriptor_ascii(
+                handle.handle, index, text, _LONGEST_STRING
+            )
+        finally:
+            self._backend.close_device(handle)
         return bytes(text[: max(length, 0)]).decode("ascii", "replace")
 
 
 class UsbConnection:
     """One opened device."""
 
-    def __init__(
-        self, backend: Any, events: Events, device: Any, handle: Any, driven: bool
-    ) -> None:
+    def __init__(self, backend: Any, events: Events, device: Any, handle: Any) -> None:
         self._backend = backend
         self._events = events
         self._device = device
         self._handle = handle
-        self._driven = driven
+        self._driver_aside = False
         self._streams: list[IsoStream] = []
         self._closed = False
+
+    def claim(self, alternate: int) -> None:
+        """Have the interface for oneself, in that alternate setting."""
+        self._move_driver_aside()
+        with _translated():
+            self._backend.claim_interface(self._handle, _INTERFACE)
+            if alternate:
+                self._backend.set_interface_altsetting(
+                    self._handle, _INTERFACE, alternate
+                )
 
     def write(self, request: int, value: int, index: int, data: bytes) -> None:
         """A vendor control transfer to the device."""
@@ -146,14 +140,32 @@ class UsbConnection:
         if self._closed:
             return
         self._closed = True
-        for stream in self._streams:
-            stream.stop()
-        with suppress(USBError):
+        # Whatever interrupts a step, those behind it are taken: the last one first.
+        with ExitStack() as stack:
+            stack.callback(self._backend.close_device, self._handle)
+            stack.callback(self._give_back)
+            for stream in self._streams:
+                stack.callback(stream.stop)
+
+    def _move_driver_aside(self) -> None:
+        try:
+            if self._backend.is_kernel_driver_active(self._handle, _INTERFACE):
+                self._backend.detach_kernel_driver(self._handle, _INTERFACE)
+                self._driver_aside = True
+        except NotImplementedError:
+            return
+        except USBError as error:
+            problem = libusb.error_of(error.backend_error_code)
+            if not isinstance(problem, Gone):
+                problem = Driven(f"a kernel driver has it: {error}")
+            raise problem from error
+
+    def _give_back(self) -> None:
+        with suppress(USBError, NotImplementedError):
             self._backend.release_interface(self._handle, _INTERFACE)
-        if self._driven:
+        if self._driver_aside:
             with suppress(USBError, NotImplementedError):
                 self._backend.attach_kernel_driver(self._handle, _INTERFACE)
-        self._backend.close_device(self._handle)
 
     def _control(
         self, kind: int, request: int, value: int, index: int, data: Any
@@ -174,3 +186,6 @@ def _translated() -> Iterator[None]:
         yield
     except USBError as error:
         raise libusb.error_of(error.backend_error_code) from error
+    except NotImplementedError as error:
+        # So pyusb says what libusb cannot do on this system, or with its driver.
+        raise TransportError(f"libusb says: {error}") from error

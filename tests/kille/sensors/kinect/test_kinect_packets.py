@@ -109,6 +109,18 @@ def test_empty_microframes_and_failed_packets_are_passed_over() -> None:
     assert counts == Counts(packets=12, frames=2)
 
 
+def test_a_frame_whose_first_packet_is_the_latest_is_broken() -> None:
+    """Its clock is wrong by a bit; also if the batch began with another frame."""
+    packets = sent(SMALL, 2)
+    for bit in range(23):
+        rows = packets.rows.copy()
+        rows[SMALL.packets, 8:12].view("<u4")[0] ^= np.uint32(1 << bit)
+        one_by_one = fed(SMALL, rows, packets.lengths, list(range(12)))
+        together = fed(SMALL, rows, packets.lengths, [3])
+        assert together[1] == one_by_one[1]
+        assert len(together[0]) == len(one_by_one[0])
+
+
 HARMS = ("lost", "twice", "swapped", "cut", "stretched", "bit")
 
 

@@ -15,8 +15,10 @@ PERIOD = 1 / 30
 DELAYS = st.lists(st.floats(0, 0.2), min_size=1, max_size=50)
 
 
-def frame(time: float) -> RawFrame:
-    return RawFrame(np.empty(0, np.uint8), 0, time)
+def frame(time: float, late: float = 0.0, began: int = 0) -> RawFrame:
+    """A frame of that time, told that much later; its clock began with those ticks."""
+    ticks = (round(time * 60_000_000) + began) % 2**32
+    return RawFrame(np.empty(0, np.uint8), ticks, time + late)
 
 
 @given(DELAYS, st.integers(0, 2**32 - 1))
@@ -66,3 +68,25 @@ def test_of_two_near_pictures_the_nearer_is_taken() -> None:
     assert pair is not None
     assert pair.colour is pictures[1]
     assert first_pair(pictures, [frame(1.2)]) is None
+
+
+@given(st.integers(0, 2**32 - 1), st.floats(0, 0.45), st.floats(0, 0.45))
+def test_pairs_are_right_though_one_camera_is_late(
+    began: int, early: float, late: float
+) -> None:
+    pictures = [frame(it * PERIOD + 0.01, early, began) for it in range(8)]
+    depths = [frame(it * PERIOD, late, began) for it in range(8)]
+    for place, depth in enumerate(depths):
+        pair = first_pair(pictures, [depth])
+        assert pair is not None
+        assert pair.colour is pictures[place]
+
+
+@given(st.integers(60_000_000, 2**32 - 60_000_000))
+def test_clocks_of_their_own_are_not_compared(apart: int) -> None:
+    pictures = [frame(it * PERIOD + 0.01) for it in range(8)]
+    depths = [frame(it * PERIOD, began=apart) for it in range(8)]
+    for place, depth in enumerate(depths):
+        pair = first_pair(pictures, [depth])
+        assert pair is not None
+        assert pair.colour is pictures[place]

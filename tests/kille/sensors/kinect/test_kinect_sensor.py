@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from kille.sensors.kinect import sensor as module
+from kille.sensors.kinect import sensor as sensors
+from kille.sensors.kinect import session as sessions
 from kille.sensors.kinect.camera import Camera
 from kille.sensors.kinect.capture import RawSource
 from kille.sensors.kinect.motor import Light
@@ -29,9 +31,15 @@ from kinect_emulator.faults import NONE, Faults, Harm, PacketFault, Reply
 from kinect_emulator.host import Host
 from kinect_emulator.inside import InsideBus
 from kinect_emulator.kinect import Kinect
+from kinect_emulator.modes import MICROFRAMES_PER_SECOND
 from kinect_emulator.running import PATIENCE
 
-DEPTH, COLOUR = "depth of 11 bits", "colour"
+DEPTH = "depth of 11 bits"
+A_FRAME, A_SECOND = 2_000_000, 60_000_000
+"""Ticks of the device's clock."""
+
+LONG = 60.0
+"""Seconds after which what has not come never comes, also on a busy machine."""
 
 
 @pytest.fixture
@@ -53,10 +61,26 @@ def sensor(bus: InsideBus) -> Iterator[KinectSensor]:
 
 
 @pytest.fixture
-def hasty(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Patience for tests: what a user waits seconds for is told at once."""
-    monkeypatch.setattr(module, "PATIENCE", 0.6)
-    monkeypatch.setattr(module, "_SILENCE", 0.4)
+def hasty(monkeypatch: pytest.MonkeyPatch, bus: InsideBus) -> None:
+    """Patience for tests: what a user waits seconds for is told at once.
+
+    The seconds are those of the bus, so that a busy machine has no part in it.
+    """
+    clock = SimpleNamespace(
+        monotonic=lambda: bus.host.now / MICROFRAMES_PER_SECOND, sleep=time.sleep
+    )
+    monkeypatch.setattr(sensors, "time", clock)
+    monkeypatch.setattr(sessions, "time", clock)
+    monkeypatch.setattr(sensors, "PATIENCE", 0.15)
+    monkeypatch.setattr(sensors, "_SILENCE", 0.4)
+
+
+def until(happened: Callable[[], object]) -> None:
+    """Wait for it."""
+    deadline = time.monotonic() + LONG
+    while not happened():
+        assert time.monotonic() < deadline
+        time.sleep(0.005)
 
 
 def problem_of(bus: InsideBus, name: str = "kinect") -> str:
@@ -85,21 +109,35 @@ def test_captures_are_what_the_device_saw(kinect: Kinect, sensor: KinectSensor) 
         )
 
 
-def test_frames_follow_one_another(sensor: KinectSensor) -> None:
-    frames = [sensor.frame() for _ in range(8)]
-    steps = 30 * np.diff([frame.time for frame in frames])
+def test_captures_follow_one_another(sensor: KinectSensor) -> None:
+    ticks = [sensor.capture().ticks_depth for _ in range(8)]
+    steps = np.diff(ticks) % 2**32
     # On a busy machine some may be missed.
-    assert steps == pytest.approx(np.rint(steps), abs=0.3)
-    assert steps.min() > 0.7
-    assert frames[0].depth is not None
-    assert frames[0].depth.shape == (480, 640)
-    assert np.isfinite(frames[0].depth).mean() > 0.3
+    assert (steps % A_FRAME == 0).all()
+    assert (steps > 0).all()
+    assert (steps < LONG * A_SECOND).all()
+
+
+def test_a_frame_has_depth_and_the_seconds_since_it_was_opened(bus: InsideBus) -> None:
+    began = time.monotonic()
+    sensor = KinectSensor("kinect", bus)
+    frame = sensor.frame()
+    sensor.close()
+    assert 0 < frame.time < time.monotonic() - began
+    assert frame.depth is not None
+    assert frame.depth.shape == (480, 640)
+    assert np.isfinite(frame.depth).mean() > 0.3
 
 
 def test_after_a_pause_the_frame_is_a_fresh_one(sensor: KinectSensor) -> None:
-    early = sensor.frame().time
-    time.sleep(0.5)
-    assert sensor.frame().time - early > 0.3
+    early = sensor.capture().ticks_depth
+    before = sensor.counts
+    until(
+        lambda: all(
+            sensor.counts[mode].frames >= before[mode].frames + 14 for mode in before
+        )
+    )
+    assert (sensor.capture().ticks_depth - early) % 2**32 > 0.3 * A_SECOND
 
 
 def test_closing_leaves_no_thread_and_a_camera_at_rest(
@@ -125,32 +163,45 @@ def test_lost_packets_cost_frames_and_are_counted(
 ) -> None:
     sensor.frame()
     kinect.faults = Faults(
-        packets=tuple(PacketFault(harm, every=977) for harm in Harm),
+        packets=tuple(
+            PacketFault(harm, every=4_000 + 100 * place)
+            for place, harm in enumerate(Harm)
+        ),
     )
     views = [view.depth for view in kinect.show.views]
-    for _ in range(5):
+
+    def suffered() -> bool:
         depth = sensor.capture().depth
         assert any(np.array_equal(depth, view) for view in views)
-    counts = sensor.counts[DEPTH]
-    assert counts.lost > 0 < counts.broken
+        counts = sensor.counts[DEPTH]
+        return min(counts.lost, counts.broken, counts.strange) > 0
+
+    until(suffered)
 
 
 def test_unplugged_and_plugged_in_again_it_goes_on(
     kinect: Kinect, bus: InsideBus, sensor: KinectSensor
 ) -> None:
-    sensor.frame()
-    bus.unplug(kinect)
-    back: list[float] = []
+    def recovered() -> float:
+        """Seconds until it went on."""
+        back: list[float] = []
 
-    def plug() -> None:
-        bus.plug(kinect)
-        back.append(time.monotonic())
+        def plug() -> None:
+            bus.plug(kinect)
+            back.append(time.monotonic())
 
-    timer = threading.Timer(0.5, plug)
-    timer.start()
-    sensor.frame()
-    assert time.monotonic() - back[0] < 2.0
-    timer.join()
+        sensor.frame()
+        bus.unplug(kinect)
+        timer = threading.Timer(0.5, plug)
+        timer.start()
+        while not back:
+            sensor.frame()
+        took = time.monotonic() - back[0]
+        timer.join()
+        return took
+
+    # Only a machine that is busy all the time makes it slow three times.
+    assert any(recovered() < 2.0 for _ in range(3))
 
 
 @pytest.mark.usefixtures("hasty")
@@ -160,18 +211,17 @@ def test_unplugged_for_long_it_says_so(
     sensor.frame()
     bus.unplug(kinect)
     with pytest.raises(SensorError, match="no Kinect is plugged in"):
-        # A few frames may have come before.
-        [sensor.frame() for _ in range(10)]
+        sensor.frame()
     bus.plug(kinect)
     assert sensor.frame().time > 0
 
 
 def test_a_stall_is_got_over(kinect: Kinect, sensor: KinectSensor) -> None:
-    sensor.frame()
+    early = sensor.capture().ticks_depth
     kinect.faults = Faults(silent=frozenset({0x81, 0x82}))
     timer = threading.Timer(0.3, lambda: setattr(kinect, "faults", NONE))
     timer.start()
-    assert sensor.frame().time > 0
+    until(lambda: (sensor.capture().ticks_depth - early) % 2**32 > 0.3 * A_SECOND)
     timer.join()
 
 
@@ -305,8 +355,7 @@ def test_failures_in_taking_frames_are_counted(bus: InsideBus) -> None:
         raise ValueError("no room")
 
     feed = camera.start(DEPTH_10, fail)
-    assert done.wait(5)
-    time.sleep(0.1)
+    assert done.wait(LONG)
     camera.stop(feed)
     camera.close()
     assert feed.failures >= 1
@@ -319,9 +368,7 @@ def test_other_streams(bus: InsideBus, kinect: Kinect, mode, shift: int) -> None
     camera = Camera(bus.open(bus.devices()[-1], 0))
     frames: list[RawFrame] = []
     feed = camera.start(mode, frames.append)
-    deadline = time.monotonic() + 5
-    while not frames and time.monotonic() < deadline:
-        time.sleep(0.01)
+    until(lambda: frames)
     camera.stop(feed)
     camera.close()
     views = kinect.show.views

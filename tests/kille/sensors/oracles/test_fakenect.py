@@ -50,7 +50,7 @@ def test_libfreenect_plays_what_kille_record_took_from_a_kinect(
     )
     assert done.status == 0, done.out + done.err
     subprocess.run(
-        [player, ours, recorder, theirs], check=True, timeout=20, capture_output=True
+        [player, ours, recorder, theirs], check=True, timeout=120, capture_output=True
     )
     came = [netpbm.depth(theirs / it) for it in index(theirs) if it[0] == "d"]
     shown = [view.depth for view in kinect.show.views]
