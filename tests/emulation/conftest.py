@@ -11,7 +11,7 @@ from typing import NamedTuple
 import pytest
 import usb.backend.libusb1 as pyusb
 
-from kille.sensors.kinect import libusb
+from kille.sensors.kinect import libusb, sensor
 from kille.sensors.kinect.transport import Bus
 from kille.sensors.kinect.usb import UsbBus
 from kinect_emulator.building import compiler, library
@@ -41,6 +41,13 @@ def loadable(tmp_path_factory: pytest.TempPathFactory) -> Path:
     if compiler() is None:
         pytest.skip("no C compiler for the fake libusb: apt-get install gcc")
     return library(tmp_path_factory.mktemp("libusb"), "libusb-emulated.so")
+
+
+@pytest.fixture(autouse=True)
+def unhurried(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A sensor that does not take a busy machine for a silent Kinect."""
+    monkeypatch.setattr(sensor, "PATIENCE", 120.0)
+    monkeypatch.setattr(sensor, "_SILENCE", 60.0)
 
 
 @pytest.fixture(params=["inside", "libusb"])

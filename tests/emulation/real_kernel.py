@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import argparse
 import gzip
+import re
 import shutil
 import subprocess
 import sys
@@ -23,6 +24,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parent.parent
+PROGRAMS = ("qemu-system-x86_64", "busybox", "usbip", "modprobe", "depmod", "cpio")
 BOOT_MODULES = ("virtio_pci", "9pnet_virtio", "9p", "overlay")
 MINUTES = 5
 
@@ -91,8 +93,15 @@ def initramfs(kernel: Path, release: str, folder: Path, speed: float) -> Path:
     return target
 
 
+def newest(kernel: Path) -> Path | None:
+    """The image of the newest kernel in that folder, if there is one."""
+    images = (kernel / "boot").glob("vmlinuz-*")
+    numbers = {image: re.findall(r"\d+", image.name) for image in images}
+    return max(numbers, key=lambda it: [*map(int, numbers[it])], default=None)
+
+
 def boot(image: Path, archive: Path) -> int:
-    """Run the machine until it switches itself off."""
+    """Run the machine until it switches itself off; its exit status."""
     command = [
         *("qemu-system-x86_64", "-accel", "tcg,thread=multi", "-cpu", "max"),
         *("-m", "3072", "-smp", "2", "-nographic", "-no-reboot", "-net", "none"),
@@ -101,17 +110,28 @@ def boot(image: Path, archive: Path) -> int:
         "-virtfs",
         "local,path=/,mount_tag=hostroot,security_model=none,readonly=on,multidevs=remap",
     ]
-    return subprocess.run(command, timeout=60 * MINUTES).returncode
+    try:
+        return subprocess.run(command, timeout=60 * MINUTES).returncode
+    except subprocess.TimeoutExpired:
+        print(f"It was stopped: it had not ended after {MINUTES} minutes.")
+        return 1
 
 
 def main() -> int:
     """Build, boot, report."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--kernel", type=Path, default=Path("/"))
     parser.add_argument("--speed", type=float, default=1.0)
     given = parser.parse_args()
+    missing = [program for program in PROGRAMS if shutil.which(program) is None]
+    if missing:
+        parser.error(f"not installed: {', '.join(missing)}; --help names the packages")
     kernel = given.kernel.resolve()
-    image = max((kernel / "boot").glob("vmlinuz-*"))
+    image = newest(kernel)
+    if image is None:
+        parser.error(f"there is no kernel in {kernel / 'boot'}; name one by --kernel")
     release = image.name.removeprefix("vmlinuz-")
     if not (kernel / "lib/modules" / release / "modules.dep").exists():
         subprocess.run(["depmod", "-b", str(kernel), release], check=True)

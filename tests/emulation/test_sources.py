@@ -15,6 +15,7 @@ from kille.sensors.sources import open_sensor
 from kinect_emulator.host import Host
 from kinect_emulator.inside import InsideBus
 from kinect_emulator.kinect import Kinect
+from kinect_emulator.running import PATIENCE
 from kinect_emulator.sources import making_of, plugged
 
 NAME = "synthetic:desk?seed=7"
@@ -22,7 +23,7 @@ NAME = "synthetic:desk?seed=7"
 
 def test_the_driver_sees_what_the_sensor_shows() -> None:
     shown = open_sensor(NAME).frame()
-    bus = InsideBus(Host(plugged(NAME, count=1), patience=2_000))
+    bus = InsideBus(Host(plugged(NAME, count=1), patience=PATIENCE))
     with bus.running(), closing(KinectSensor("kinect", bus)) as sensor:
         seen = sensor.frame()
     assert shown.depth is not None
@@ -39,7 +40,7 @@ def test_the_driver_sees_what_the_sensor_shows() -> None:
 
 def test_the_recording_of_a_kinect_is_that_kinect(tmp_path: Path) -> None:
     kinect, folder = Kinect(), tmp_path / "recording"
-    bus = InsideBus(Host(kinect, patience=2_000))
+    bus = InsideBus(Host(kinect, patience=PATIENCE))
     with bus.running(), closing(KinectSensor("kinect", bus)) as sensor:
         record(sensor, folder, Limits(frames=4), Disk.real(), lambda progress: None)
     again = plugged(str(folder), count=4)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import socket
 import struct
 from collections.abc import Iterator
+from contextlib import contextmanager
 
 import pytest
 
@@ -22,7 +23,7 @@ class Kernel:
     """A kernel's side of one connection, by the letter of the protocol."""
 
     def __init__(self, port: int) -> None:
-        self._socket = socket.create_connection(("127.0.0.1", port), timeout=10)
+        self._socket = socket.create_connection(("127.0.0.1", port), timeout=60)
         self.incoming = self._socket.makefile("rb")
         self._number = 0
 
@@ -66,13 +67,20 @@ class Kernel:
         self._socket.close()
 
 
-@pytest.fixture
-def kernel() -> Iterator[Kernel]:
-    """A kernel beside an emulated Kinect."""
-    with Exporter(Host(Kinect()), port=0).running() as exporter:
+@contextmanager
+def beside(exporter: Exporter) -> Iterator[Kernel]:
+    """A kernel that is connected to it."""
+    with exporter.running():
         kernel = Kernel(exporter.port)
         yield kernel
         kernel.close()
+
+
+@pytest.fixture
+def kernel() -> Iterator[Kernel]:
+    """A kernel beside an emulated Kinect."""
+    with beside(Exporter(Host(Kinect()), port=0)) as kernel:
+        yield kernel
 
 
 def order(kernel: Kernel, register: int, value: int) -> None:
@@ -118,10 +126,25 @@ def test_packets_come_end_to_end_with_their_places(kernel: Kernel) -> None:
     assert data[:2] == b"RB"
 
 
-def test_a_waiting_transfer_can_be_taken_back(kernel: Kernel) -> None:
-    kernel.take(CAMERA)
-    waiting = kernel.submit(room=8_000 * 1_760, packets=8_000)
-    number = kernel.unlink(waiting)
-    assert kernel.ended()[:3] == (UNLINKED, number, ECONNRESET)
-    number = kernel.unlink(waiting)
-    assert kernel.ended()[:3] == (UNLINKED, number, 0)
+def test_a_waiting_transfer_can_be_taken_back() -> None:
+    # While its clock stands still no transfer ends by itself.
+    with beside(Exporter(Host(Kinect()), port=0, speed=0.0)) as kernel:
+        kernel.take(CAMERA)
+        waiting = kernel.submit(room=16 * 1_760, packets=16)
+        number = kernel.unlink(waiting)
+        assert kernel.ended()[:3] == (UNLINKED, number, ECONNRESET)
+        number = kernel.unlink(waiting)
+        assert kernel.ended()[:3] == (UNLINKED, number, 0)
+
+
+@pytest.mark.parametrize("said", [b"", b"GET / HTTP/1.1\r\n"], ids=["nothing", "other"])
+def test_who_hangs_up_before_asking_leaves_no_trace(said: bytes) -> None:
+    with Exporter(Host(Kinect()), port=0).running() as exporter:
+        caller = socket.create_connection(("127.0.0.1", exporter.port), timeout=60)
+        caller.sendall(said)
+        caller.shutdown(socket.SHUT_WR)
+        assert caller.recv(1) == b""
+        caller.close()
+        kernel = Kernel(exporter.port)
+        assert kernel.take(CAMERA)[0] == 0
+        kernel.close()

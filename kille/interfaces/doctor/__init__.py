@@ -19,13 +19,30 @@ __all__ = ["Finding", "as_json", "as_text", "doctor"]
 Report = Callable[[Sequence[Finding]], None]
 """How findings are printed."""
 
+Search = Callable[[], Iterator[Finding]]
+"""Finds out how a part is."""
+
+_PARTS: tuple[tuple[str, bool, Search], ...] = (
+    ("Python", True, python),
+    ("packages", True, packages),
+    ("synthetic Kinect", True, synthetic),
+    ("memory", True, memory),
+    ("Kinect", False, kinect),
+    ("ROS", False, ros),
+    ("speech", False, speech),
+    ("line editing", False, line_editing),
+    ("extras", False, extras),
+)
+"""What is looked at, and whether it is needed."""
+
+_MARGIN = 7
+
 
 def doctor(report: Report) -> int:
     """Prints the findings; the exit code is 1 if a needed part does not work."""
-    findings = list(_findings())
+    findings = [finding for part in _PARTS for finding in _found(*part)]
     report(findings)
-    broken = any(finding.needed and not finding.works for finding in findings)
-    return FAILED if broken else FINE
+    return FAILED if _broken(findings) else FINE
 
 
 def as_json(findings: Sequence[Finding]) -> None:
@@ -34,31 +51,52 @@ def as_json(findings: Sequence[Finding]) -> None:
 
 
 def as_text(findings: Sequence[Finding]) -> None:
-    """A line for each finding, for people."""
+    """A line or two for each finding, and what they come to, for people."""
     width = max(len(finding.part) for finding in findings)
     out = console()
     for finding in findings:
         mark, style = _mark(finding)
-        state = ": ".join(filter(None, (finding.state, finding.remedy)))
-        out.print(f"{mark:>7}", style=style, end="")
-        line = hanging(f"{'':7}  {finding.part:<{width}}  ", state)
-        out.print(line[7:], markup=False)
+        out.print(f"{mark:>{_MARGIN}}", style=style, end="")
+        head = f"{'':{_MARGIN}}  {finding.part:<{width}}  "
+        line, below = _with_room(head, finding)
+        out.print(line[_MARGIN:], markup=False)
+        if below:
+            out.print(f"{'':{_MARGIN + 4}}{below}", style="cyan", markup=False)
+    out.print(f"\n{_upshot(findings)}", markup=False)
+
+
+def _found(part: str, needed: bool, search: Search) -> Iterator[Finding]:
+    """What is found; a part that fails in a way of its own is a finding, too."""
+    try:
+        yield from search()
+    except Exception as error:
+        told = " ".join(str(error).split()) or type(error).__name__
+        yield Finding(part, False, needed, told)
+
+
+def _broken(findings: Sequence[Finding]) -> bool:
+    return any(finding.needed and not finding.works for finding in findings)
 
 
 def _mark(finding: Finding) -> tuple[str, str]:
     """The word for how it is, and its colour."""
     if finding.works:
         return "ok", "green"
-    return ("MISSING", "red") if finding.needed else ("absent", "yellow")
+    return ("FAILS", "red") if finding.needed else ("no", "yellow")
 
 
-def _findings() -> Iterator[Finding]:
-    yield python()
-    yield from packages()
-    yield synthetic()
-    yield memory()
-    yield from kinect()
-    yield from ros()
-    yield from speech()
-    yield line_editing()
-    yield from extras()
+def _with_room(head: str, finding: Finding) -> tuple[str, str]:
+    """The state and its remedy in one line, or parted if there is no room for both.
+
+    A command in a line of its own is not wrapped, so that it can be copied.
+    """
+    whole = hanging(head, ": ".join(filter(None, (finding.state, finding.remedy))))
+    if not finding.remedy or "\n" not in whole:
+        return whole, ""
+    return hanging(head, finding.state), finding.remedy
+
+
+def _upshot(findings: Sequence[Finding]) -> str:
+    if _broken(findings):
+        return "What FAILS has to be mended before the robot works here."
+    return 'All that is needed works; "no" marks what only some uses need.'

@@ -2,37 +2,63 @@
 
 from __future__ import annotations
 
+import os
 import platform
 import sys
-from collections.abc import Callable
+from collections.abc import Iterator
 from importlib.util import find_spec
+from pathlib import Path
 
-from kille.interfaces.doctor.finding import Finding
+from kille.interfaces.doctor.finding import Finding, failed
 
 __all__ = ["line_editing", "memory", "python", "synthetic"]
 
 
-def python() -> Finding:
+def python() -> Iterator[Finding]:
     """The version of Python."""
     found = platform.python_version()
-    return Finding("Python", sys.version_info >= (3, 11), True, found)
+    yield Finding("Python", sys.version_info >= (3, 11), True, found)
 
 
-def synthetic() -> Finding:
+def synthetic() -> Iterator[Finding]:
     """The simulated Kinect, by a look at an empty table."""
-    return _tried("synthetic Kinect", _look_at_nothing)
+    from kille.sensors.sources import open_sensor
+
+    sensor = open_sensor("synthetic:empty")
+    height, width = sensor.frame().colour.shape[:2]
+    sensor.close()
+    yield Finding("synthetic Kinect", True, True, f"{width}x{height} frames")
 
 
-def memory() -> Finding:
-    """The memory that `kille talk` uses, by opening it to read."""
-    return _tried("memory", _open_memory)
+def memory() -> Iterator[Finding]:
+    """The memory that `kille talk` uses: it is read, or could be made, and written."""
+    from kille.memory import Memory, MemoryFileError, default_path
+
+    path = default_path()
+    if not os.path.exists(path):
+        yield _to_be_made(path)
+        return
+    try:
+        with Memory.reading(path) as opened:
+            words = len(opened.words())
+    except MemoryFileError as error:
+        yield failed("memory", True, error)
+        return
+    state = f"{words} word{'s' * (words != 1)} in {path}"
+    if _writable(path) and _writable(path.parent):
+        yield Finding("memory", True, True, state)
+    else:
+        remedy = "make the file and its folder writable, or set KILLE_MEMORY to another"
+        state = f"{state}, where nothing can be added"
+        yield Finding("memory", False, True, state, remedy)
 
 
-def line_editing() -> Finding:
+def line_editing() -> Iterator[Finding]:
     """Arrow keys and a history in the terminal."""
     if find_spec("readline") is not None:
-        return Finding("line editing", True, False, "arrow keys and history")
-    return Finding(
+        yield Finding("line editing", True, False, "arrow keys and history")
+        return
+    yield Finding(
         "line editing",
         False,
         False,
@@ -41,29 +67,14 @@ def line_editing() -> Finding:
     )
 
 
-def _tried(part: str, attempt: Callable[[], str]) -> Finding:
-    """A needed part, found working or not by using it."""
-    try:
-        return Finding(part, True, True, attempt())
-    except Exception as error:
-        return Finding(part, False, True, " ".join(str(error).split()))
+def _to_be_made(path: Path) -> Finding:
+    """A memory that is not there yet, in folders that may not be there yet."""
+    there = next(it for it in path.absolute().parents if os.path.exists(it))
+    if there.is_dir() and _writable(there):
+        return Finding("memory", True, True, f"none yet; it will be {path}")
+    state = f"none yet, and {path} cannot be made in {there}"
+    return Finding("memory", False, True, state, "set KILLE_MEMORY to a file elsewhere")
 
 
-def _look_at_nothing() -> str:
-    from kille.sensors.sources import open_sensor
-
-    sensor = open_sensor("synthetic:empty")
-    height, width = sensor.frame().colour.shape[:2]
-    sensor.close()
-    return f"{width}x{height} frames"
-
-
-def _open_memory() -> str:
-    from kille.memory import Memory, default_path
-
-    path = default_path()
-    if not path.exists():
-        return f"none yet; it will be {path}"
-    with Memory.reading(path) as memory:
-        words = len(memory.words())
-    return f"{words} word{'s' * (words != 1)} in {path}"
+def _writable(path: Path) -> bool:
+    return os.access(path, os.W_OK)

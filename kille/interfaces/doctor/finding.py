@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
-__all__ = ["Finding"]
+__all__ = ["Finding", "failed"]
 
 
 @dataclass(frozen=True)
@@ -16,3 +17,13 @@ class Finding:
     needed: bool
     state: str
     remedy: str = ""
+
+
+def failed(part: str, needed: bool, complaint: Exception) -> Finding:
+    """A part that complains: what is the matter, and after `: ` or `; ` what to do.
+
+    >>> failed("lamp", False, OSError("the lamp is dark: light it")).remedy
+    'light it'
+    """
+    state, *remedy = re.split("[:;] ", str(complaint), maxsplit=1)
+    return Finding(part, False, needed, state, "".join(remedy))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from kille.interfaces.doctor.finding import Finding
+from kille.interfaces.doctor.finding import Finding, failed
 
 if TYPE_CHECKING:
     from kille.sensors.kinect.devices import Kinect
@@ -22,7 +22,7 @@ def kinect() -> Iterator[Finding]:
     try:
         yield from plugged_in(UsbBus())
     except TransportError as error:
-        yield _failed("Kinect", error)
+        yield _refused("Kinect", error)
 
 
 def plugged_in(bus: Bus) -> Iterator[Finding]:
@@ -34,8 +34,7 @@ def plugged_in(bus: Bus) -> Iterator[Finding]:
     try:
         chosen(devices, None)
     except SensorError as error:
-        state, _, remedy = str(error).partition("; ")
-        yield Finding("Kinect", False, False, state, remedy)
+        yield failed("Kinect", False, error)
         return
     for each in kinects(devices):
         yield _opened(bus, each)
@@ -49,13 +48,14 @@ def _opened(bus: Bus, found: Kinect) -> Finding:
     try:
         bus.open(found.camera, found.model.alternate).close()
     except TransportError as error:
-        return _failed(part, error)
+        return _refused(part, error)
     named = f":{found.serial}" if found.serial else ""
     tilts = "" if found.motor else " (its head is turned by hand)"
-    return Finding(part, True, False, f"kille talk --sensor kinect{named}{tilts}")
+    state = f"try kille talk --sensor kinect{named}{tilts}"
+    return Finding(part, True, False, state)
 
 
-def _failed(part: str, error: Exception) -> Finding:
+def _refused(part: str, error: Exception) -> Finding:
     from kille.sensors.kinect.troubles import trouble
 
     state, remedy = trouble(error)

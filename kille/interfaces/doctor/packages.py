@@ -3,24 +3,43 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+import shlex
+import shutil
+import sys
+from collections.abc import Iterator
 from importlib.metadata import PackageNotFoundError, metadata, requires, version
+from pathlib import Path
 
 from kille.interfaces.doctor.finding import Finding
 
-__all__ = ["extras", "packages"]
+__all__ = ["extras", "packages", "pip"]
+
+_USES = {
+    "plots": "figures in reports",
+    "usb": "a libusb, where the system has none",
+    "record": "recordings as bags of ROS",
+    "speech": "hearing what is said",
+    "ros2": "nodes that speak to ROS 2",
+    "faiss": "a faster search in a large memory",
+    "embedding": "another way to tell things apart",
+    "experiments": "many experiments on all cores",
+    "test": "property tests of types and rules",
+    "dev": "work on kille itself",
+    "senses": "its tests of recordings, speech and ROS",
+}
+"""What each extra is for."""
 
 
 def packages() -> Iterator[Finding]:
-    """The packages that are always needed."""
-    for requirement in _required(""):
-        name = _name(requirement)
-        found = _installed(name)
-        if found is not None:
-            yield Finding(name, True, True, found)
-        else:
-            remedy = f"pip install '{requirement}'"
-            yield Finding(name, False, True, "not installed", remedy)
+    """The packages that are always needed: those that are missing, or all."""
+    wanted = {_name(requirement): requirement for requirement in _required("")}
+    found = {name: _installed(name) for name in wanted}
+    for name, requirement in wanted.items():
+        if found[name] is None:
+            yield Finding(name, False, True, "not installed", pip(requirement))
+    if all(found.values()):
+        told = ", ".join(f"{name} {number}" for name, number in found.items())
+        yield Finding("packages", True, True, told)
 
 
 def extras() -> Iterator[Finding]:
@@ -29,28 +48,49 @@ def extras() -> Iterator[Finding]:
         yield _extra(extra)
 
 
+def pip(wanted: str) -> str:
+    """The command that brings a package to the Python that runs now.
+
+    That is another one than plain `pip` serves where no environment is activated.
+    """
+    found = shutil.which("pip")
+    python = Path(sys.executable)
+    own = found is not None and Path(found).parent == python.parent
+    program = "pip" if own else f"{shlex.quote(str(python))} -m pip"
+    return f"{program} install '{wanted}'"
+
+
 def _extra(extra: str) -> Finding:
-    part = f"extra [{extra}]"
-    wanted = [it for it in _required(extra) if _name(it) != "kille"]
-    missing = [it for it in wanted if _installed(_name(it)) is None]
+    part, use = f"extra [{extra}]", _USES.get(extra, "")
+    wanted = [_name(it) for it in _required(extra)]
+    missing = [it for it in wanted if _installed(it) is None]
     if not missing:
-        return Finding(part, True, False, ", ".join(map(_name, wanted)))
-    state = f"not installed are {', '.join(map(_name, missing))}"
-    return Finding(part, False, False, state, f"pip install {_quoted(missing)}")
+        return Finding(part, True, False, _told(use, ", ".join(wanted)))
+    state = _told(use, f"lacks {', '.join(missing)}")
+    return Finding(part, False, False, state, pip(f"kille[{extra}]"))
+
+
+def _told(use: str, packages: str) -> str:
+    return f"{use} ({packages})" if use else packages
 
 
 def _required(extra: str) -> list[str]:
     """What this distribution requires, plainly or for an extra, as pip writes it."""
     parted = [line.partition(";") for line in requires("kille") or ()]
     return [
-        requirement.strip()
+        unfolded
         for requirement, _, marker in parted
         if re.findall(r"extra == ['\"](\w+)['\"]", marker) == ([extra] if extra else [])
+        for unfolded in _unfolded(requirement.strip())
     ]
 
 
-def _quoted(words: Iterable[str]) -> str:
-    return " ".join(f"'{word}'" for word in words)
+def _unfolded(requirement: str) -> list[str]:
+    """What is required instead of other extras of our own."""
+    if _name(requirement) != "kille":
+        return [requirement]
+    others = re.findall(r"\w+", requirement.partition("[")[2])
+    return [required for extra in others for required in _required(extra)]
 
 
 def _name(requirement: str) -> str:

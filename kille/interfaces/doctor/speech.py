@@ -2,31 +2,62 @@
 
 from __future__ import annotations
 
+import re
 import shutil
-from collections.abc import Iterator
+import subprocess
+from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
 
 from kille.interfaces.doctor.finding import Finding
+from kille.interfaces.doctor.packages import pip
 
 __all__ = ["speech"]
 
-_PROGRAMS = {
-    "espeak-ng": ("speaking", "espeak-ng", "speaks with --say espeak"),
-    "arecord": ("microphone", "alsa-utils", "records with --hear device"),
-    "aplay": ("loudspeaker", "alsa-utils", "plays what is spoken"),
-}
+_LIMIT = 10
+"""Seconds in which a sound device is opened, or never."""
+
+_SAMPLE = ("-q", "-t", "raw", "-f", "S16_LE", "-r", "16000", "-c", "1", "-s", "1")
 
 
 def speech() -> Iterator[Finding]:
     """What `kille talk --speech` needs."""
-    if find_spec("pocketsphinx") is None:
-        remedy = "pip install 'pocketsphinx>=5'"
-        yield Finding("hearing", False, False, "pocketsphinx is not installed", remedy)
-    else:
-        yield Finding("hearing", True, False, "pocketsphinx, English")
-    for program, (part, package, use) in _PROGRAMS.items():
-        if shutil.which(program) is None:
-            state, remedy = f"{program} is not installed", f"apt install {package}"
-            yield Finding(part, False, False, state, remedy)
-        else:
-            yield Finding(part, True, False, f"{program} {use}")
+    yield _hearing()
+    yield _speaking()
+    heard, played = ("arecord", *_SAMPLE, "/dev/null"), ("aplay", *_SAMPLE, "/dev/zero")
+    yield _sound("microphone", heard, "records with --hear device")
+    yield _sound("loudspeaker", played, "plays what is spoken")
+
+
+def _hearing() -> Finding:
+    if find_spec("pocketsphinx") is not None:
+        return Finding("hearing", True, False, "pocketsphinx understands English")
+    remedy = pip("kille[speech]")
+    return Finding("hearing", False, False, "pocketsphinx is not installed", remedy)
+
+
+def _speaking() -> Finding:
+    if shutil.which("espeak-ng") is not None:
+        return Finding("speaking", True, False, "espeak-ng speaks with --say espeak")
+    remedy = "sudo apt install espeak-ng"
+    return Finding("speaking", False, False, "espeak-ng is not installed", remedy)
+
+
+def _sound(part: str, command: Sequence[str], use: str) -> Finding:
+    """A sound device, by recording or playing one sample."""
+    program = command[0]
+    if shutil.which(program) is None:
+        remedy = "sudo apt install alsa-utils"
+        return Finding(part, False, False, f"{program} is not installed", remedy)
+    try:
+        done = subprocess.run(command, capture_output=True, timeout=_LIMIT)
+    except subprocess.TimeoutExpired:
+        state = f"{program} waits for it without end"
+        return Finding(part, False, False, state, "unplug it and plug it in again")
+    if done.returncode == 0:
+        return Finding(part, True, False, f"{program} {use}")
+    told = done.stderr.decode(errors="replace").strip().rpartition("\n")[2]
+    # ALSA's programs begin with their name and line: "arecord: main:831: ".
+    reason = re.sub(r"^\w+: \w+:\d+: ", "", told) or str(done.returncode)
+    state = f"there is none that opens ({reason})"
+    remedy = f"connect one, `{program} -l` lists what is there"
+    return Finding(part, False, False, state, remedy)

@@ -15,10 +15,10 @@ from kinect_emulator.host import Host
 from kinect_emulator.kinect import Kinect
 from kinect_emulator.server import Server
 
-PATIENCE = 2_000
-"""Microframes (a quarter of a second) that the bus waits for a busy machine."""
+PATIENCE = 80_000
+"""Microframes (ten seconds) that the bus waits for a client on a busy machine."""
 
-_TOO_LONG = 30.0
+_TOO_LONG = 120.0
 
 
 class Ran(NamedTuple):
@@ -70,7 +70,7 @@ def run(
 
 def finished(process: subprocess.Popen[str], seconds: float) -> Ran:
     """What a program did that ends by itself, or after so long by a Ctrl-C."""
-    for patience, sign in ((seconds, signal.SIGINT), (5.0, signal.SIGKILL)):
+    for patience, sign in ((seconds, signal.SIGINT), (30.0, signal.SIGKILL)):
         try:
             out, err = process.communicate(timeout=patience)
             return Ran(process.returncode, out, err)

@@ -26,7 +26,7 @@ _HELLO = struct.Struct("<2Q")
 _REQUEST = struct.Struct("<Ii4II")
 _RESPONSE = struct.Struct("<iI")
 _EVENT = struct.Struct("<Q2i2I")
-_TOLD = struct.Struct("<3B7s18sH256s")
+_TOLD = struct.Struct("<2HB7s18sH256s")
 _EVENTS = 1
 
 Answer = tuple[int, bytes]
@@ -111,7 +111,13 @@ class Server:
         self._over.set()
 
     def serve(self) -> None:
-        """Answer and let time pass until stopped."""
+        """Answer and let time pass until stopped; whatever happens, let clients go."""
+        try:
+            self._serve()
+        finally:
+            self._close()
+
+    def _serve(self) -> None:
         begun, passed = time.monotonic(), 0
         while not self._over.is_set():
             ready = self._selector.select(_STEP)
@@ -123,7 +129,6 @@ class Server:
                 self.host.pass_time(due)
                 passed += due
                 self._send_ended()
-        self._close()
 
     def _attend(self, key: selectors.SelectorKey, events: int) -> None:
         if key.fileobj is self._listener:
@@ -193,6 +198,9 @@ class Server:
                 cookie = int.from_bytes(data, "little")
                 client.transfers[transfer.number] = (transfer, cookie)
                 return transfer.number, b""
+            case Ask.CANCEL:
+                self.host.cancel(_submitted(client, int.from_bytes(data, "little")))
+                return 0, b""
             case Ask.DRIVEN:
                 return int(self.host.device(number).driven), b""
             case other:
@@ -214,8 +222,6 @@ class Server:
                 self.host.detach_driver(number)
             case Ask.ATTACH:
                 self.host.attach_driver(number)
-            case Ask.CANCEL:
-                self.host.cancel(_submitted(client, number))
 
     def _control(self, handle: int, arguments: list[int], data: bytes) -> Answer:
         request, kind = divmod(arguments[0], 256)
@@ -283,10 +289,12 @@ class Server:
         self.path.unlink(missing_ok=True)
 
 
-def _submitted(client: _Client, number: int) -> Transfer:
-    if number not in client.transfers:
-        raise UsbError(Code.NOT_FOUND)
-    return client.transfers[number][0]
+def _submitted(client: _Client, wanted: int) -> Transfer:
+    """The client's transfer of that cookie, which it is still waiting for."""
+    for transfer, cookie in client.transfers.values():
+        if cookie == wanted:
+            return transfer
+    raise UsbError(Code.NOT_FOUND)
 
 
 def _event(completion: Completion, cookie: int) -> bytes:

@@ -113,15 +113,20 @@ class Exporter:
                     _send_all(imported)
 
     def _attend(self, connection: socket.socket) -> None:
-        with connection, connection.makefile("rb", buffering=1 << 16) as incoming:
+        """Serve one connection until it hangs up, whenever it does."""
+        with (
+            connection,
+            connection.makefile("rb", buffering=1 << 16) as incoming,
+            suppress(OSError),
+        ):
             assert isinstance(incoming, io.BufferedReader)
             imported = self._import(connection, incoming)
             if imported is None:
+                connection.sendall(_OPERATION.pack(_VERSION, _IMPORTED, 1))
                 return
             try:
-                while True:
-                    self._command(imported, incoming)
-            except OSError:
+                self._serve(imported, incoming)
+            finally:
                 self._forget(imported)
 
     def _import(
@@ -129,20 +134,23 @@ class Exporter:
     ) -> _Import | None:
         """Hand the device over that is asked for, if it is there and free."""
         _OPERATION.unpack(_exactly(incoming, _OPERATION.size))
-        place = _exactly(incoming, 32).rstrip(b"\0").decode()
+        place = _exactly(incoming, 32).rstrip(b"\0").decode(errors="replace")
         with self._lock:
             devices = self.host.devices.values()
             found = next((it for it in devices if _place(it) == place), None)
             if found is None or found.claimed_by is not None:
-                connection.sendall(_OPERATION.pack(_VERSION, _IMPORTED, 1))
                 return None
             handle = self.host.open(found.address)
             self.host.claim(handle)
             imported = _Import(connection, found, handle)
             self._imports.append(imported)
-        told = _OPERATION.pack(_VERSION, _IMPORTED, 0) + _description(found)
-        connection.sendall(told)
         return imported
+
+    def _serve(self, imported: _Import, incoming: io.BufferedReader) -> None:
+        told = _OPERATION.pack(_VERSION, _IMPORTED, 0) + _description(imported.device)
+        imported.connection.sendall(told)
+        while True:
+            self._command(imported, incoming)
 
     def _forget(self, imported: _Import) -> None:
         with self._lock:

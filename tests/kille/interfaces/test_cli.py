@@ -308,38 +308,6 @@ def test_memory_list_as_a_table_and_for_machines(kille: Run, memory: Path) -> No
     assert row[:3] == ["cup", "object", "2"]
 
 
-def test_doctor_finds_what_is_needed_and_lines_it_up(kille: Run) -> None:
-    outcome = kille("doctor")
-    assert outcome.code == 0
-    lines = [line for line in outcome.out.splitlines() if line[6] != " "]
-    states = {line[9:].split("  ")[0].strip() for line in lines}
-    assert {"Python", "numpy", "synthetic Kinect", "memory", "Kinect"} <= states
-    width = max(map(len, states))
-    assert all(line[9 + width : 11 + width] == "  " for line in lines)
-    assert all(line[11 + width] != " " for line in lines)
-
-
-def test_doctor_for_machines(kille: Run) -> None:
-    outcome = kille("doctor", "--json")
-    findings = {finding["part"]: finding for finding in json.loads(outcome.out)}
-    assert findings["synthetic Kinect"]["state"] == "640x480 frames"
-    assert findings["Kinect"]["needed"] is False
-    extras = {part for part in findings if part.startswith("extra")}
-    assert {"extra [plots]", "extra [test]", "extra [dev]"} <= extras
-    assert not any(findings[it]["needed"] for it in extras)
-    broken = [it for it in findings.values() if it["needed"] and not it["works"]]
-    assert (outcome.code == 0) is (not broken)
-
-
-def test_doctor_says_what_is_wrong_with_a_memory(kille: Run, memory: Path) -> None:
-    memory.parent.mkdir()
-    memory.write_text("Dear diary, " * 100)
-    outcome = kille("doctor")
-    assert outcome.code == 1
-    assert "MISSING  memory" in outcome.out
-    assert "is not a kille memory" in outcome.out
-
-
 # --- replay --------------------------------------------------------------------------
 
 

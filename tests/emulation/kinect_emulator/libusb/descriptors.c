@@ -13,7 +13,9 @@ struct tree {
     struct endpoint_descriptor endpoints[MAX_INTERFACES][MAX_SETTINGS][MAX_ENDPOINTS];
 };
 
-static void add_interface(struct tree *tree, const unsigned char *bytes)
+/* One setting more of an interface: where its endpoints go. */
+static struct endpoint_descriptor *add_setting(struct tree *tree,
+                                               const unsigned char *bytes)
 {
     int number = bytes[2] % MAX_INTERFACES;
     struct interface *interface = &tree->interfaces[number];
@@ -22,6 +24,7 @@ static void add_interface(struct tree *tree, const unsigned char *bytes)
     memcpy(setting, bytes, 9);
     setting->endpoint = tree->endpoints[number][place];
     interface->altsetting = tree->settings[number];
+    return setting->endpoint;
 }
 
 static void add_endpoint(struct endpoint_descriptor *endpoint, const unsigned char *bytes)
@@ -35,11 +38,8 @@ static void read_tree(struct tree *tree, const unsigned char *bytes, int size)
 {
     struct endpoint_descriptor *next = NULL;
     for (int at = 0; at < size && bytes[at]; at += bytes[at]) {
-        if (bytes[at + 1] == DESCRIPTOR_INTERFACE) {
-            add_interface(tree, bytes + at);
-            struct interface *interface = &tree->interfaces[bytes[at + 2]];
-            next = interface->altsetting[interface->num_altsetting - 1].endpoint;
-        }
+        if (bytes[at + 1] == DESCRIPTOR_INTERFACE)
+            next = add_setting(tree, bytes + at);
         if (bytes[at + 1] == DESCRIPTOR_ENDPOINT && next)
             add_endpoint(next++, bytes + at);
     }

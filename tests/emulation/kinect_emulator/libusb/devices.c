@@ -64,7 +64,7 @@ void libusb_exit(struct context *context)
     free(context);
 }
 
-static struct device *known(struct context *context, uint8_t address)
+static struct device *known(struct context *context, uint16_t address)
 {
     struct device *device = context->known;
     while (device && device->address != address)
@@ -74,7 +74,8 @@ static struct device *known(struct context *context, uint8_t address)
 
 /* What the emulator tells of each device; its parent comes before it. */
 struct told {
-    uint8_t address, parent, depth, ports[MAX_PORTS];
+    uint16_t address, parent;
+    uint8_t depth, ports[MAX_PORTS];
     struct device_descriptor descriptor;
     uint16_t size;
     unsigned char configuration[MAX_CONFIGURATION];
@@ -129,7 +130,11 @@ void libusb_free_device_list(struct device **list, int unreference)
 
 struct device *libusb_get_parent(struct device *device) { return device->parent; }
 uint8_t libusb_get_bus_number(struct device *device) { return device->bus; }
-uint8_t libusb_get_device_address(struct device *device) { return device->address; }
+
+uint8_t libusb_get_device_address(struct device *device)
+{
+    return (uint8_t)device->address;
+}
 
 int libusb_get_device_speed(struct device *device)
 {

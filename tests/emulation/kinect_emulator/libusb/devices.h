@@ -10,7 +10,8 @@ struct device {
     struct context *context;
     struct device *parent, *next;
     int references;
-    uint8_t address, bus, depth, ports[MAX_PORTS];
+    uint16_t address; /* for ever its own, so more than clients are told */
+    uint8_t bus, depth, ports[MAX_PORTS];
     struct device_descriptor descriptor;
     uint16_t configuration_size;
     unsigned char configuration[MAX_CONFIGURATION];

@@ -2,24 +2,11 @@
 #include "devices.h"
 #include <errno.h>
 #include <poll.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 enum { WAIT_SECONDS = 60 };
-
-/* A transfer behind the number by which the emulator knows it. */
-struct submitted {
-    int32_t number;
-    struct transfer transfer;
-};
-
-static struct submitted *submitted(struct transfer *transfer)
-{
-    size_t before = offsetof(struct submitted, transfer);
-    return (struct submitted *)((char *)transfer - before);
-}
 
 int libusb_control_transfer(struct handle *handle, uint8_t kind, uint8_t what,
                             uint16_t value, uint16_t index, unsigned char *data,
@@ -69,15 +56,19 @@ int libusb_interrupt_transfer(struct handle *handle, unsigned char endpoint,
 
 struct transfer *libusb_alloc_transfer(int packets)
 {
-    size_t size = sizeof(struct submitted) + (size_t)packets * sizeof(struct iso_packet);
-    struct submitted *made = calloc(1, size);
-    return made ? &made->transfer : NULL;
+    return calloc(1, sizeof(struct transfer) + (size_t)packets * sizeof(struct iso_packet));
 }
 
-void libusb_free_transfer(struct transfer *transfer)
+void libusb_free_transfer(struct transfer *transfer) { free(transfer); }
+
+/* A request about a transfer; the emulator knows it by its address here. */
+static int transfer_call(struct transfer *transfer, struct request request)
 {
-    if (transfer)
-        free(submitted(transfer));
+    uint64_t cookie = (uintptr_t)transfer;
+    request.size = sizeof cookie;
+    struct context *context = transfer->dev_handle->device->context;
+    int result = wire_call(context, request, &cookie, NULL, NULL);
+    return result < 0 ? result : OK;
 }
 
 int libusb_submit_transfer(struct transfer *transfer)
@@ -86,22 +77,16 @@ int libusb_submit_transfer(struct transfer *transfer)
         return ERROR_NOT_SUPPORTED;
     if (transfer->num_iso_packets <= 0)
         return ERROR_INVALID;
-    uint64_t cookie = (uintptr_t)transfer;
-    struct request request = {
-        OP_SUBMIT, transfer->dev_handle->number,
-        {transfer->endpoint, (uint32_t)transfer->num_iso_packets,
-         transfer->iso_packet_desc[0].length, 0},
-        sizeof cookie};
-    struct context *context = transfer->dev_handle->device->context;
-    int result = wire_call(context, request, &cookie, NULL, NULL);
-    submitted(transfer)->number = result;
-    return result < 0 ? result : OK;
+    struct request request = {OP_SUBMIT, transfer->dev_handle->number,
+                              {transfer->endpoint, (uint32_t)transfer->num_iso_packets,
+                               transfer->iso_packet_desc[0].length, 0}, 0};
+    return transfer_call(transfer, request);
 }
 
 int libusb_cancel_transfer(struct transfer *transfer)
 {
-    struct request request = {OP_CANCEL, submitted(transfer)->number, {0}, 0};
-    return wire_call(transfer->dev_handle->device->context, request, NULL, NULL, NULL);
+    struct request request = {OP_CANCEL, transfer->dev_handle->number, {0}, 0};
+    return transfer_call(transfer, request);
 }
 
 /* Put the packets where they belong: each at the start of its own stride. */

@@ -62,23 +62,29 @@ int wire_open(struct context *context)
     static uint32_t contexts;
     const char *path = getenv("KINECT_EMULATOR");
     uint64_t token = (uint64_t)getpid() << 32 | __sync_add_and_fetch(&contexts, 1);
-    if (!path)
-        return ERROR_OTHER;
-    context->calls = connect_one(path, KIND_CALLS, token);
-    context->events = connect_one(path, KIND_EVENTS, token);
-    if (context->calls < 0 || context->events < 0 || pipe(context->wake) < 0)
-        return ERROR_OTHER;
     pthread_mutex_init(&context->calling, NULL);
     pthread_mutex_init(&context->handling, NULL);
-    return OK;
+    context->calls = path ? connect_one(path, KIND_CALLS, token) : -1;
+    context->events = path ? connect_one(path, KIND_EVENTS, token) : -1;
+    context->wake[0] = context->wake[1] = -1;
+    if (context->calls >= 0 && context->events >= 0 && pipe(context->wake) == 0)
+        return OK;
+    wire_close(context);
+    return ERROR_OTHER;
+}
+
+static void close_one(int fd)
+{
+    if (fd >= 0)
+        close(fd);
 }
 
 void wire_close(struct context *context)
 {
-    close(context->calls);
-    close(context->events);
-    close(context->wake[0]);
-    close(context->wake[1]);
+    close_one(context->calls);
+    close_one(context->events);
+    close_one(context->wake[0]);
+    close_one(context->wake[1]);
     pthread_mutex_destroy(&context->calling);
     pthread_mutex_destroy(&context->handling);
 }

@@ -24,7 +24,7 @@ enum operation {
 
 struct request {
     uint32_t operation;
-    int32_t number; /* a handle, an address or a transfer */
+    int32_t number; /* a handle or an address */
     uint32_t argument[4];
     uint32_t size; /* of what follows */
 };
