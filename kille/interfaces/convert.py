@@ -13,7 +13,7 @@ from kille.interfaces.terminal import FAILED, FINE, complain, console
 from kille.sensors.recordings.converting import Format, convert, estimate, format_of
 from kille.sensors.recordings.opening import open_recording
 from kille.sensors.recordings.playing import Recording
-from kille.sensors.recordings.replacing import check_other, whole
+from kille.sensors.recordings.replacing import check_file, check_other, home, whole
 from kille.sensors.sensor import SensorError
 
 __all__ = ["convert_recording"]
@@ -30,11 +30,15 @@ def convert_recording(
         into = format_of(out, named)
         check_other(source, out)
         may_write(out)
+        if into.suffix:
+            check_file(out)
         recording = _opened(source)
     except SensorError as error:
         return complain(error)
+    except OSError as error:
+        return complain(why_unwritten(out, error), FAILED)
     try:
-        return _converted(recording, out, into)
+        return _converted(recording, out, into, may_write)
     except SensorError as error:
         return complain(error, FAILED)
     except OSError as error:
@@ -53,9 +57,11 @@ def _opened(source: str) -> Recording:
     return sensor
 
 
-def _converted(recording: Recording, out: Path, into: Format) -> int:
+def _converted(
+    recording: Recording, out: Path, into: Format, may_write: Callable[[Path], None]
+) -> int:
     needed = estimate(recording, into)
-    free = shutil.disk_usage(out.absolute().parent).free
+    free = shutil.disk_usage(home(out)).free
     if free < needed.bytes:
         return complain(
             f"{out}: up to {in_bytes(needed.bytes)} are needed, "
@@ -64,7 +70,7 @@ def _converted(recording: Recording, out: Path, into: Format) -> int:
         )
     screen = console()
     bar = Progress(console=screen, transient=True, disable=not screen.is_terminal)
-    with bar, whole(out) as draft:
+    with bar, whole(out, may_write) as draft:
         task = bar.add_task(str(out), total=needed.frames)
         convert(recording, draft, into, lambda: bar.advance(task))
     rest = recording.rest

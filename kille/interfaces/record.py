@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from rich.console import Console
 from rich.status import Status
 
 from kille.interfaces.amounts import in_bytes, in_frames, why_unwritten
@@ -22,7 +23,7 @@ from kille.sensors.recordings.recorder import (
     check_room,
     record,
 )
-from kille.sensors.recordings.replacing import check_other, set_aside
+from kille.sensors.recordings.replacing import check_other, home, set_aside
 from kille.sensors.sensor import SensorError
 from kille.sensors.sources import open_sensor
 
@@ -42,7 +43,7 @@ def record_sensor(
     try:
         check_other(name, out)
         may_write(out)
-        check_room(out.absolute().parent, limits, disk)
+        check_room(home(out), limits, disk)
         sensor = open_sensor(name)
     except SensorError as error:
         return complain(error)
@@ -52,8 +53,13 @@ def record_sensor(
             "are free on the disk",
             FAILED,
         )
+    except OSError as error:
+        return complain(why_unwritten(out, error), FAILED)
     try:
-        return _recorded(raw_source(sensor), out, limits, disk)
+        source = raw_source(sensor)
+        # While the sensor was opened, something may have got there.
+        may_write(out)
+        return _recorded(source, out, limits, disk)
     except SensorError as error:
         return complain(error, FAILED)
     except OSError as error:
@@ -71,19 +77,23 @@ def _recorded(source: RawSource, out: Path, limits: Limits, disk: Disk) -> int:
         except SensorError as error:
             kept = f"; what came before is in {out}" if line.frames else ""
             raise SensorError(f"{error}{kept}") from error
-    if not progress.frames:
+    if progress.frames:
+        _tell(screen, out, progress, line.seconds)
+    else:
         screen.print("Nothing was recorded.")
-        return FAILED
+    if progress.end is End.FULL:
+        left = in_bytes(disk.free(home(out)))
+        return complain(f"the disk is full, {left} are left: it ended there", FAILED)
+    return FINE if progress.frames else FAILED
+
+
+def _tell(screen: Console, out: Path, progress: Progress, took: float) -> None:
     screen.print(
         f"{out}: {in_frames(progress.frames)}, {progress.seconds:.1f} s, "
-        f"{in_bytes(progress.bytes)}, written in {line.seconds:.1f} s; "
+        f"{in_bytes(progress.bytes)}, written in {took:.1f} s; "
         f"play it with --sensor {shlex.quote(str(out))}",
         markup=False,
     )
-    if progress.end is End.FULL:
-        left = in_bytes(disk.free(out))
-        return complain(f"the disk is full, {left} are left: it ended there", FAILED)
-    return FINE
 
 
 class _Line:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import struct
 import zlib
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -58,9 +57,17 @@ def read_depth(path: Path, units_per_metre: float) -> Depth:
             f"{path}: a depth picture has one channel of 16 bits, "
             f"this one has {_channels(raw)} of {raw.itemsize * 8}"
         )
-    metres = raw.astype(np.float32) / np.float32(units_per_metre)
-    metres[raw == 0] = np.nan
-    return _fixed(metres)
+    return measured(raw.astype(np.float32) / np.float32(units_per_metre))
+
+
+def measured(metres: Depth) -> Depth:
+    """The depth with NaN for what is no distance: 0, less, and infinite; read-only.
+
+    >>> measured(np.array([0.5, 0.0, -1.0, np.inf], np.float32))
+    array([0.5, nan, nan, nan], dtype=float32)
+    """
+    there = (metres > 0) & (metres < np.inf)
+    return _fixed(np.where(there, metres, np.float32(np.nan)))
 
 
 def read_labels(path: Path) -> NDArray[Any]:
@@ -80,14 +87,26 @@ def _decode(path: Path, flags: int) -> NDArray[Any]:
         raise SensorError(f"{path}: cannot be read ({error.strerror})") from error
     if not content.size:
         raise SensorError(f"{path}: the file is empty, expected a picture")
-    picture = None
-    with suppress(cv2.error):
-        # OpenCV would tell of a damaged file in lines of its own.
-        if not _is_broken_png(content):
-            picture = cv2.imdecode(content, flags)
+    picture = decoded(content, flags)
     if picture is None:
         raise SensorError(f"{path}: this picture does not open; it may be damaged")
     return picture
+
+
+def decoded(content: NDArray[np.uint8], flags: int) -> NDArray[Any] | None:
+    """The picture in the bytes of a file, read as OpenCV's flags say; None if none is.
+
+    OpenCV would tell of damage in lines of its own.
+    """
+    if not content.size or _is_broken_png(content):
+        return None
+    level = cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+    try:
+        return cv2.imdecode(content, flags)
+    except cv2.error:
+        return None
+    finally:
+        cv2.utils.logging.setLogLevel(level)
 
 
 _PNG = b"\x89PNG\r\n\x1a\n"

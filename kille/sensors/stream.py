@@ -12,6 +12,7 @@ import numpy as np
 
 from kille.bus import Bus, Camera, Image, Subscription, Topic
 from kille.scene import Colour, Depth, Frame, Intrinsics
+from kille.sensors.pictures import measured
 from kille.sensors.sensor import SensorError
 
 __all__ = ["CAMERA", "COLOUR", "DEPTH", "Feed", "Stream"]
@@ -212,12 +213,9 @@ class Stream:
 
 def _metres(image: Image) -> Depth:
     """Depth in metres, NaN for no reading; as integers it is in millimetres."""
-    if image.pixels.dtype == np.uint16:
-        metres = image.pixels.astype(np.float32) / np.float32(1000)
-        return np.where(image.pixels > 0, metres, np.float32(np.nan))
     depth = image.pixels.astype(np.float32, copy=False)
-    return (
-        depth if np.all(depth > 0) else np.where(depth > 0, depth, np.float32(np.nan))
+    return measured(
+        depth / np.float32(1000) if image.pixels.dtype == np.uint16 else depth
     )
 
 

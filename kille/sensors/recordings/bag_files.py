@@ -141,7 +141,7 @@ def opened(name: str, path: Path) -> Bag:
             if not any(words in str(error) for words in _CUT_SHORT):
                 raise
             reader = _salvaged(suited, usual)
-            remark = "cut short: it has no index; what is whole of it is played"
+            remark = "cut short: its end is missing; what is whole of it is played"
     topics: dict[str, list[Connection]] = {}
     for it in sorted(reader.connections, key=lambda it: (it.topic, it.id)):
         alike = topics.setdefault(it.topic, [])
@@ -150,7 +150,12 @@ def opened(name: str, path: Path) -> Bag:
     return Bag(name, reader, topics, remark)
 
 
-_CUT_SHORT = ("not indexed", "index looks damaged", "end magic is invalid")
+_CUT_SHORT = (
+    "not indexed",
+    "index looks damaged",
+    "end magic is invalid",
+    "database disk image is malformed",
+)
 """What rosbags says of bags whose end is missing."""
 
 
@@ -159,12 +164,21 @@ def _salvaged(path: Path, usual: Typestore) -> AnyReader:
     from rosbags.highlevel import AnyReader
     from rosbags.rosbag2 import Reader
 
-    from kille.sensors.recordings.salvaging import UnindexedBag, UnindexedMcap
+    from kille.sensors.recordings.salvaging import (
+        CutDatabase,
+        UnindexedBag,
+        UnindexedMcap,
+    )
 
+    held = ros_files(path) if path.is_dir() else [path]
+    if len(held) != 1:
+        raise NotThis("a bag of several files is cut short: name one of them")
+    (path,) = held
     reader = AnyReader([path], default_typestore=usual)
     if reader.is2:
         whole = Reader(path)
-        whole.storage = UnindexedMcap(path)
+        cut = CutDatabase if path.suffix == ".db3" else UnindexedMcap
+        whole.storage = cut(path)
         reader.readers = [whole]
     else:
         reader.readers = [UnindexedBag(path)]

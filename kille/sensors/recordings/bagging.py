@@ -10,6 +10,7 @@ import shutil
 from collections.abc import Callable, Iterable
 from dataclasses import fields
 from functools import partial
+from math import floor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -28,6 +29,8 @@ DEPTH_INFO = "/camera/depth_registered/camera_info"
 OPTICAL_FRAME = "camera_rgb_optical_frame"
 
 _IMAGE, _INFO = "sensor_msgs/msg/Image", "sensor_msgs/msg/CameraInfo"
+
+_LAST_SECOND = 1 << 31
 
 Put = Callable[[str, str, int, Any], None]
 """Adds a message: its topic, its type, its nanoseconds."""
@@ -85,12 +88,12 @@ def _putting(writer: Any, types: Any, serialise: Callable[[Any, str], Any]) -> P
 
 
 def _put_all(types: Typestore, put: Put, frames: Iterable[Frame]) -> None:
-    shift: float | None = None
+    shift: int | None = None
     for number, frame in enumerate(frames):
         if shift is None:
-            # ROS takes the time 0 for none at all.
-            shift = 1.0 if frame.time < 1 else 0.0
-        nanoseconds = round((frame.time + shift) * 1e9)
+            # ROS takes the time 0 for none at all, and knows of none before that.
+            shift = max(0, 1 - floor(frame.time))
+        nanoseconds = _nanoseconds(frame.time + shift)
         head = partial(_header, types, number, nanoseconds)
         colour = np.ascontiguousarray(frame.colour, np.uint8)
         put(COLOUR, _IMAGE, nanoseconds, _image(types, head(), "rgb8", colour))
@@ -102,6 +105,15 @@ def _put_all(types: Typestore, put: Put, frames: Iterable[Frame]) -> None:
             depth = np.ascontiguousarray(frame.depth, "<f4")
             put(DEPTH, _IMAGE, nanoseconds, _image(types, head(), "32FC1", depth))
             put(DEPTH_INFO, _INFO, nanoseconds, info)
+
+
+def _nanoseconds(time: float) -> int:
+    if time < _LAST_SECOND:
+        return round(time * 1e9)
+    raise SensorError(
+        f"a frame is {time:g} seconds from 1970, and bags end in 2038: are its times "
+        "in seconds?"
+    )
 
 
 def _fields(message: type[Any]) -> set[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from math import inf
 from pathlib import Path
 
 from kille.scene import Frame
@@ -14,7 +15,7 @@ from kille.sensors.recordings.capture_folders import write_captures
 from kille.sensors.recordings.developing import developed
 from kille.sensors.recordings.npz import write_npz
 from kille.sensors.recordings.playing import Recording
-from kille.sensors.recordings.reels import Moment
+from kille.sensors.recordings.reels import Moment, after
 from kille.sensors.recordings.tum import write_tum
 from kille.sensors.recordings.writing import FakenectWriter
 from kille.sensors.sensor import SensorError
@@ -48,7 +49,7 @@ def _of_frames(
 def _fakenect(path: Path, recording: Recording, moments: Iterable[Moment]) -> None:
     lens = recording.rest[0].read().intrinsics or COLOUR_CAMERA
     calibration = recording.reel.calibration or IDENTITY
-    began = recording.rest[0].time
+    began = max(0.0, recording.rest[0].time)
     with FakenectWriter(path, calibration, lens, began) as writer:
         for moment in moments:
             writer.write(_capture(recording.name, moment))
@@ -111,7 +112,15 @@ def convert(
     OSError if it cannot be written, SensorError if it cannot be read or the format has
     no room for it.
     """
-    into.write(draft, recording, _told(recording.rest, tell))
+    into.write(draft, recording, _told(_rising(recording.rest), tell))
+
+
+def _rising(moments: Iterable[Moment]) -> Iterator[Moment]:
+    """The same, no two of the same time."""
+    last = -inf
+    for moment in moments:
+        last = after(last, moment.time)
+        yield replace(moment, time=last)
 
 
 def _told(moments: Iterable[Moment], tell: Callable[[], None]) -> Iterator[Moment]:

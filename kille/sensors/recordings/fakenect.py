@@ -27,6 +27,7 @@ from kille.scene import Colour, Frame, Intrinsics
 from kille.sensors.kinect.calibration import Calibration, CalibrationError
 from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture, frame_of
 from kille.sensors.kinect.motor import Tilt
+from kille.sensors.recordings.lenses import lens_from
 from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.pairing import paired
 from kille.sensors.recordings.reels import Moment, Reel, remark_on
@@ -41,7 +42,7 @@ BYTES = {"r": WIDTH * HEIGHT * 3, "d": WIDTH * HEIGHT * 2, "a": 12}
 TILT = struct.Struct("<3hbxi")
 """The accelerometer's three counts, twice the angle in degrees, the motor's state."""
 
-_NAME = re.compile(r"([rda])-(\d+(?:\.\d*)?)-(\d+)\.\w+")
+_NAME = re.compile(r"([rda])-(\d{1,200}(?:\.\d*)?)-(\d{1,20})\.\w+")
 _LONGEST_HEAD = 64
 
 
@@ -183,14 +184,16 @@ def _device(folder: Path, options: Options) -> _Device:
     text = path.read_text("utf-8", "replace")
     try:
         calibration = Calibration.from_json(text)
-        lens = json.loads(text).get("intrinsics")
-        told = COLOUR_CAMERA if lens is None else Intrinsics(*map(float, lens))
+        numbers = json.loads(text).get("intrinsics")
+        told = COLOUR_CAMERA if numbers is None else lens_from([*map(float, numbers)])
     except CalibrationError as error:
         raise SensorError(
             f"{path}: {str(error).removeprefix('device.json ')}"
         ) from error
-    except (TypeError, ValueError) as error:
-        raise SensorError(f"{path}: `intrinsics` needs fx, fy, cx, cy") from error
+    except (TypeError, ValueError, OverflowError):
+        told = None
+    if told is None:
+        raise SensorError(f"{path}: `intrinsics` needs fx, fy, cx, cy")
     return _Device(calibration, options.intrinsics or told)
 
 

@@ -24,7 +24,7 @@ class Gallery:
 
     def __init__(self, name: str, shots: Mapping[str, Sequence[Shot]]) -> None:
         self._name = name
-        self._shots = {thing: tuple(some) for thing, some in shots.items()}
+        self._shots = {thing: tuple(pictures) for thing, pictures in shots.items()}
         self._shown = dict.fromkeys(self._shots, 0)
         self._current = next(iter(self._shots.values()))[0]
         self._read = lru_cache(maxsize=_KEPT_FRAMES)(Shot.read)

@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.scene import Colour, Depth, Intrinsics
+from kille.sensors.pictures import decoded, measured
+from kille.sensors.recordings.lenses import lens_from
 
 
 class NotThis(ValueError):
@@ -96,9 +98,10 @@ def lens_of(message: Any) -> Intrinsics:
     """The lens that a `CameraInfo` tells; NotThis if it tells none."""
     matrix = message.K if hasattr(message, "K") else message.k
     fx, _, cx, _, fy, cy = (float(number) for number in np.ravel(matrix)[:6])
-    if not (fx > 0 and fy > 0 and np.isfinite([fx, fy, cx, cy]).all()):
+    lens = lens_from([fx, fy, cx, cy])
+    if lens is None:
         raise NotThis("camera_info does not say fx and fy, it is not calibrated")
-    return Intrinsics(fx, fy, cx, cy)
+    return lens
 
 
 def _rows(message: Any, kind: np.dtype[Any], channels: int) -> NDArray[Any]:
@@ -120,16 +123,11 @@ def _metres(depth: NDArray[Any]) -> Depth:
     if depth.ndim != 2 or depth.dtype.kind not in "uf":
         raise NotThis("a depth picture has one channel of numbers")
     metres = depth.astype(np.float32)
-    if depth.dtype.kind == "u":
-        metres /= np.float32(1000)
-    metres[~(metres > 0) | ~np.isfinite(metres)] = np.nan
-    return _fixed(metres)
+    return measured(metres / np.float32(1000) if depth.dtype.kind == "u" else metres)
 
 
 def _decoded(content: NDArray[np.uint8], flags: int) -> NDArray[Any]:
-    picture = None
-    if content.size:
-        picture = cv2.imdecode(np.ascontiguousarray(content), flags)
+    picture = decoded(np.ascontiguousarray(content), flags)
     if picture is None:
         raise NotThis("a compressed picture does not open; it may be damaged")
     return picture

@@ -12,9 +12,11 @@ def counting(name: str) -> list[tuple[int, str]]:
 
     >>> sorted(["cup10", "cup2", "cap"], key=counting)
     ['cap', 'cup2', 'cup10']
+    >>> counting("2²3")
+    [(2, ''), (-1, '²'), (3, '')]
     """
     parts = re.findall(r"\d+|\D+", name)
-    return [(int(part), "") if part.isdigit() else (-1, part) for part in parts]
+    return [(int(part), "") if part.isdecimal() else (-1, part) for part in parts]
 
 
 def meant(name: str, known: Sequence[str]) -> str:

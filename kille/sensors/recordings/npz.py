@@ -7,6 +7,7 @@ matrix (3, 3); `times` (n,) in seconds, thirty frames a second without it.
 
 from __future__ import annotations
 
+import lzma
 import struct
 import zipfile
 import zlib
@@ -17,6 +18,7 @@ from itertools import pairwise
 from math import isfinite
 from pathlib import Path
 from tempfile import TemporaryFile
+from tokenize import TokenError
 from typing import IO, Any
 
 import numpy as np
@@ -24,12 +26,27 @@ from numpy.typing import NDArray
 
 from kille.scene import Frame, Intrinsics
 from kille.sensors.captures import RATE
+from kille.sensors.pictures import measured
+from kille.sensors.recordings.lenses import lens_from
 from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.reels import Moment, Reel
 from kille.sensors.sensor import SensorError
 
 _ALSO = {"color": "colour", "rgb": "colour", "time": "times", "K": "intrinsics"}
-_DAMAGE = (ValueError, EOFError, zlib.error, zipfile.BadZipFile, NotImplementedError)
+_DAMAGE = (
+    ValueError,
+    LookupError,
+    ArithmeticError,
+    RuntimeError,
+    EOFError,
+    MemoryError,
+    TokenError,
+    struct.error,
+    zlib.error,
+    lzma.LZMAError,
+    zipfile.BadZipFile,
+)
+"""What numpy and zipfile come to where bytes of an archive are wrong."""
 
 
 def is_npz(path: Path) -> bool:
@@ -73,9 +90,7 @@ def _with_depth(
     number: int,
     seconds: float,
 ) -> Frame:
-    metres = np.array(depth[number], np.float32) / np.float32(unit)
-    metres[metres == 0] = np.nan
-    metres.setflags(write=False)
+    metres = measured(np.asarray(depth[number], np.float32) / np.float32(unit))
     return Frame(_fixed(colour[number]), metres, lens, seconds, {})
 
 
@@ -128,8 +143,8 @@ def _lens(name: str, arrays: Mapping[str, NDArray[Any]]) -> Intrinsics:
     if told.shape == (3, 3):
         told = told[[0, 1, 0, 1], [0, 1, 2, 2]]
     if told.shape == (4,) and told.dtype.kind in "uif":
-        lens = Intrinsics(*map(float, told))
-        if min(lens.fx, lens.fy) > 0 and all(map(isfinite, told)):
+        lens = lens_from([float(it) for it in told])
+        if lens is not None:
             return lens
     raise SensorError(
         f"{name}: depth without calibration: `intrinsics` needs fx, fy, cx and cy or "
@@ -167,8 +182,7 @@ def _array(path: Path, archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Any:
     with archive.open(entry) as file:
         if entry.compress_type != zipfile.ZIP_STORED or entry.file_size < 65536:
             return np.lib.format.read_array(file, allow_pickle=False)
-        version = np.lib.format.read_magic(file)
-        head = _HEADS[version](file)
+        head = _HEADS[np.lib.format.read_magic(file)](file)
         skipped = file.tell()
     shape, by_columns, kind = head
     if kind.hasobject:
@@ -214,7 +228,7 @@ def write_npz(path: Path, frames: Iterable[Frame]) -> None:
             if frame.depth is not None:
                 z.write(np.ascontiguousarray(frame.depth, np.float32).data)
         if len(shapes) != 1:
-            raise SensorError(f"{path}: the frames have several sizes, or partly depth")
+            raise SensorError("the frames have several sizes, or partly depth")
         ((height, width), deep), count = shapes.pop(), len(times)
         with zipfile.ZipFile(path, "w") as archive:
             shape = (count, height, width)

@@ -19,7 +19,7 @@ from kille.sensors.recordings.bag_files import is_bag
 from kille.sensors.recordings.bags import open_bag
 from kille.sensors.recordings.fakenect import is_fakenect, open_fakenect
 from kille.sensors.recordings.galleries import Gallery
-from kille.sensors.recordings.names import counting, meant
+from kille.sensors.recordings.names import counting, meant, some
 from kille.sensors.recordings.npz import is_npz, open_npz
 from kille.sensors.recordings.options import Options, parted
 from kille.sensors.recordings.playing import RawRecording, Recording
@@ -33,6 +33,9 @@ KNOWN = (
     "a folder of pictures, a folder of such folders, or one picture"
 )
 
+_SUFFIXES = frozenset({".bag", ".mcap", ".db3", ".npz"})
+"""What recordings are called that are files."""
+
 Opener = Callable[[str, Path, Options], Reel]
 
 
@@ -43,8 +46,8 @@ def open_recording(name: str) -> Sensor:
     there, it cannot be read, is empty or of no known format, or its first frame fails.
     What of a recording is lost is told once, by a warning in the log.
     """
-    path, options = parted(name)
     try:
+        path, options = parted(name)
         return _open(name, path, options)
     except OSError as error:
         raise SensorError(f"{name}: cannot be read ({error.strerror})") from error
@@ -143,12 +146,15 @@ def _open_folder(name: str, folder: Path, options: Options) -> Sensor:
 
 
 def _open_categories(name: str, folder: Path) -> Sensor:
-    inner = [it for it in _entries(folder) if it.is_dir()]
-    scenes = [it.name for it in inner if is_recording(it)]
+    entries = _entries(folder)
+    inner = [it for it in entries if it.is_dir()]
+    # Of other files, which may be many, none is opened.
+    likely = [it for it in entries if it.is_file() and it.suffix in _SUFFIXES]
+    scenes = [it.name for it in (*inner, *likely) if is_recording(it)]
     if scenes:
         raise SensorError(
-            f"{name}: holds several recordings, name one of them: "
-            + ", ".join(f"{name.rstrip('/')}/{scene}" for scene in scenes)
+            f"{name}: holds recordings, name one of them: "
+            + some([f"{name.rstrip('/')}/{scene}" for scene in scenes])
         )
     categories: dict[str, list[Shot]] = {}
     for it in inner:

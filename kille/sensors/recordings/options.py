@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import os
 from dataclasses import dataclass, fields
 from pathlib import Path
 
 from kille.scene import Intrinsics
+from kille.sensors.recordings.lenses import lens_from
 from kille.sensors.recordings.names import meant
 from kille.sensors.sensor import SensorError
 
@@ -41,7 +43,7 @@ def parted(name: str) -> tuple[Path, Options]:
     >>> path.name, options.speed, options.loop, options.start
     ('desk', 2.0, False, 0.0)
     """
-    whole = Path(name).expanduser()
+    whole = _expanded(name)
     path, mark, query = name.rpartition("?")
     if not mark or whole.exists():
         return whole, Options()
@@ -54,7 +56,12 @@ def parted(name: str) -> tuple[Path, Options]:
         colour=given.get("colour"),
         depth=given.get("depth"),
     )
-    return Path(path).expanduser(), options
+    return _expanded(path), options
+
+
+def _expanded(name: str) -> Path:
+    """The path, where `~` is the user's own folder, and `~nobody` is only a name."""
+    return Path(os.path.expanduser(name))
 
 
 def _option(name: str, text: str) -> tuple[str, str]:
@@ -92,13 +99,13 @@ def _whether(name: str, text: str) -> bool:
 
 
 def _lens(name: str, text: str) -> Intrinsics:
-    numbers = [_number(part) for part in text.split(",")]
-    if len(numbers) != 4 or not all(map(math.isfinite, numbers)) or min(numbers) <= 0:
+    lens = lens_from([_number(part) for part in text.split(",")])
+    if lens is None:
         raise SensorError(
             f"{name}: intrinsics={text}: write fx,fy,cx,cy in pixels, "
             "such as intrinsics=525,525,319.5,239.5"
         )
-    return Intrinsics(*numbers)
+    return lens
 
 
 def _number(text: str) -> float:

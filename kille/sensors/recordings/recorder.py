@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import math
 import shutil
 import threading
 import time
@@ -17,7 +18,7 @@ from typing import Self
 from kille.sensors.kinect.capture import Capture, RawSource
 from kille.sensors.recordings.developing import lens_of
 from kille.sensors.recordings.playing import RecordingOver
-from kille.sensors.recordings.replacing import remove
+from kille.sensors.recordings.replacing import empty, home, is_empty
 from kille.sensors.recordings.writing import CAPTURE_BYTES, FakenectWriter
 
 RESERVE = 200_000_000
@@ -30,6 +31,9 @@ SYNCED_EVERY = 1.0
 """Seconds between the times at which the disk is made to hold all there is."""
 
 _FULL = (errno.ENOSPC, errno.EDQUOT)
+
+_AGES = 1e12
+"""Seconds."""
 
 
 class End(Enum):
@@ -62,7 +66,8 @@ class Limits:
     @property
     def bytes(self) -> int:
         """What it will take on the disk, 0 if nobody knows."""
-        frames = self.frames or round((self.seconds or 0) * 30)
+        # No disk has room for ages: as many as can be counted will do.
+        frames = self.frames or round(min(self.seconds or 0.0, _AGES) * 30)
         return frames * CAPTURE_BYTES
 
 
@@ -128,17 +133,17 @@ def record(
     """Record into a new or empty folder until something ends it; how far it came.
 
     `tell` is called after every capture. A full disk ends it, Ctrl-C ends it, and what
-    is there then is whole. SensorError if the source fails, OSError if the disk does.
-    `began` is the time of the computer that the first capture gets, now without it.
+    is there then is whole; if nothing is, the folder is left as it was. SensorError if
+    the source fails, OSError if the disk does. `began` is the time of the computer that
+    the first capture gets, now without it.
     """
+    was_there = folder.exists()
+    if was_there and not is_empty(folder):
+        raise FileExistsError(errno.EEXIST, "something is there already", str(folder))
     start = time.time() if began is None else began
-    try:
-        writer = FakenectWriter(folder, source.calibration, lens_of(source), start)
-    except OSError:
-        shutil.rmtree(folder, ignore_errors=True)
-        raise
-    behind = _Behind(writer)
-    progress = Progress(free=disk.free(folder))
+    known = (source.calibration, lens_of(source), start)
+    behind = _Behind(partial(FakenectWriter, folder, *known))
+    progress = Progress()
     try:
         for progress in _captured(source, behind, limits, disk, folder):
             tell(progress)
@@ -149,12 +154,19 @@ def record(
     finally:
         behind.close()
         if not behind.written:
-            remove(folder)
-    if behind.error is not None:
-        if behind.error.errno not in _FULL:
-            raise behind.error
+            _take_back(folder, was_there)
+    if isinstance(behind.error, OSError) and behind.error.errno in _FULL:
         progress = replace(progress, end=End.FULL)
-    return replace(progress, frames=behind.written)
+    elif behind.error is not None:
+        raise behind.error
+    return replace(progress, frames=behind.written, seconds=behind.seconds)
+
+
+def _take_back(folder: Path, was_there: bool) -> None:
+    """Leave a folder as it was, empty or not at all."""
+    empty(folder)
+    if folder.exists() and not was_there:
+        folder.rmdir()
 
 
 def _captured(
@@ -167,7 +179,7 @@ def _captured(
         behind.write(capture)
         if not progress.frames:
             first = capture.time
-        frames, free = progress.frames + 1, disk.free(folder)
+        frames, free = progress.frames + 1, disk.free(home(folder))
         progress = Progress(frames, capture.time - first, free)
         if limits.reached(progress):
             progress = replace(progress, end=End.ASKED)
@@ -179,15 +191,18 @@ def _captured(
 class _Behind:
     """A thread that writes and syncs, so that the sensor need not wait for the disk.
 
-    `error` is why it could not go on; what comes after that is dropped.
+    `error` is why it could not go on; what comes after that is dropped. `seconds` are
+    from the first of those written to the last.
     """
 
-    def __init__(self, writer: FakenectWriter) -> None:
-        self.written = 0
-        self.error: OSError | None = None
-        self._writer = writer
+    def __init__(self, begun: Callable[[], FakenectWriter]) -> None:
+        self.written, self.seconds = 0, 0.0
+        self.error: Exception | None = None
         self._waiting: Queue[Capture | None] = Queue(BACKLOG)
-        self._thread = threading.Thread(target=self._run, name="recorder")
+        # Who presses Ctrl-C once more, while the rest is written, need not wait for it.
+        self._thread = threading.Thread(
+            target=self._run, args=(begun,), name="recorder", daemon=True
+        )
         self._thread.start()
 
     def write(self, capture: Capture) -> None:
@@ -199,24 +214,25 @@ class _Behind:
         self._waiting.put(None)
         self._thread.join()
 
-    def _run(self) -> None:
-        synced = time.monotonic()
-        while (capture := self._waiting.get()) is not None:
-            self._attempt(partial(self._add, capture))
-            if time.monotonic() - synced >= SYNCED_EVERY:
-                self._attempt(self._writer.sync)
-                synced = time.monotonic()
-        self._attempt(self._writer.close)
-
-    def _add(self, capture: Capture) -> None:
-        self._writer.write(capture)
-        self.written += 1
-
-    def _attempt(self, step: Callable[[], None]) -> None:
-        """Do it, unless something has failed before."""
+    def _run(self, begun: Callable[[], FakenectWriter]) -> None:
+        captures = iter(self._waiting.get, None)
         try:
-            if self.error is None:
-                step()
-        except OSError as error:
+            with begun() as writer:
+                self._write_all(writer, captures)
+        except Exception as error:
             self.error = error
-            self._writer.abandon()
+        for _ in captures:
+            """Nobody is to wait for room in the queue."""
+
+    def _write_all(
+        self, writer: FakenectWriter, captures: Iterator[Capture | None]
+    ) -> None:
+        first, synced = math.nan, time.monotonic()
+        for capture in captures:
+            assert capture is not None, "that is where it ends"
+            writer.write(capture)
+            first = first if self.written else capture.time
+            self.written, self.seconds = self.written + 1, capture.time - first
+            if time.monotonic() - synced >= SYNCED_EVERY:
+                writer.sync()
+                synced = time.monotonic()

@@ -70,6 +70,17 @@ class Reel:
         return duration + (duration / gaps if duration > 0 else 1 / RATE)
 
 
+def after(last: float, time: float) -> float:
+    """The time of a frame to be written, which is not that of the last.
+
+    Files are named by microseconds, so that frames have to be two of them apart.
+
+    >>> after(1.0, 1.25), after(1.0, 1.0)
+    (1.25, 1.000002)
+    """
+    return max(time, last + 2e-6)
+
+
 def remark_on(lost: Sequence[str], count: int) -> str:
     """What to say of the files that are not there or not whole, of so many in all.
 

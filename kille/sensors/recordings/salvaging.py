@@ -1,19 +1,25 @@
 """ROS bags that were cut short: what is whole is found by reading them from the start.
 
 A bag ends with an index of what is where. Who is killed while recording has not written
-it; the messages before are there all the same, in chunks that tell their own size.
+it; the messages before are there all the same, in chunks that tell their own size. A
+database has its index everywhere, but messages come in the order of their pages.
 """
 
 from __future__ import annotations
 
 import struct
-from collections import defaultdict
+from collections import Counter, defaultdict
+from collections.abc import Collection, Generator, Iterator
+from contextlib import suppress
 from io import BytesIO
-from typing import BinaryIO
+from pathlib import Path
+from typing import BinaryIO, NamedTuple
 
+import apsw
 from rosbags.interfaces import (
     Connection,
     ConnectionExtRosbag1,
+    ConnectionExtRosbag2,
     MessageDefinition,
     MessageDefinitionFormat,
 )
@@ -29,6 +35,7 @@ from rosbags.rosbag1.reader import (
     read_uint32,
 )
 from rosbags.rosbag2.storage_mcap import McapReader
+from rosbags.rosbag2.storage_sqlite3 import Sqlite3Reader
 from rosbags.typesys.msg import normalize_msgtype
 
 _NO_RECORD = (ReaderError, ValueError, struct.error, OSError, EOFError)
@@ -143,6 +150,15 @@ class UnindexedMcap(McapReader):
             it._replace(msgcount=counts.get(it.id, 0)) for it in self.connections
         ]
 
+    def messages(
+        self,
+        connections: Collection[Connection],
+        start: int | None = None,
+        stop: int | None = None,
+    ) -> Generator[tuple[Connection, int, bytes], None, None]:
+        """The messages in the order in which they lie in the file."""
+        return self.messages_scan(connections, start, stop)
+
 
 def _ends(bio: BinaryIO, size: int) -> list[int]:
     """Where each whole record ends, before that which says that there are no more."""
@@ -153,3 +169,97 @@ def _ends(bio: BinaryIO, size: int) -> list[int]:
             break
         ends.append(bio.seek(bio.tell() + length))
     return ends
+
+
+class _Row(NamedTuple):
+    """A message in a database: when it was kept, its topic, its number."""
+
+    kept: int
+    topic: int
+    number: int
+
+
+class CutDatabase(Sqlite3Reader):
+    """A ROS 2 database without its end, as far as its messages are whole."""
+
+    _rows: tuple[_Row, ...] = ()
+
+    def open(self) -> None:
+        """Read all of the file once; apsw.Error if not even its topics are there."""
+        place = f"{Path(str(self.path)).absolute().as_uri()}?immutable=1"
+        flags = apsw.SQLITE_OPEN_READONLY | apsw.SQLITE_OPEN_URI
+        self.dbconn = database = apsw.Connection(place, flags=flags)
+        try:
+            # Without this, a file that is shorter than it says is not read at all.
+            database.execute("PRAGMA writable_schema = ON")
+            self._rows = tuple(sorted(_rows(database)))
+            self.connections = self._topics(database)
+        except BaseException:
+            self.close()
+            raise
+
+    def messages(
+        self,
+        connections: Collection[Connection],
+        start: int | None = None,
+        stop: int | None = None,
+    ) -> Generator[tuple[Connection, int, bytes], None, None]:
+        """The messages in order of time."""
+        assert self.dbconn is not None
+        wanted = {it.id: it for it in connections}
+        for row in self._rows:
+            early = start is not None and row.kept < start
+            late = stop is not None and row.kept >= stop
+            if early or late or row.topic not in wanted:
+                continue
+            query = "SELECT data FROM messages WHERE id = ?"
+            ((data,),) = self.dbconn.execute(query, (row.number,))
+            yield wanted[row.topic], row.kept, data
+
+    def _topics(self, database: apsw.Connection) -> list[Connection]:
+        counts = Counter(it.topic for it in self._rows)
+        definitions = _definitions(database)
+        topics = database.execute("SELECT id, name, type FROM topics ORDER BY id")
+        return [
+            Connection(
+                number,
+                topic,
+                kind,
+                definitions.get(kind, _UNDEFINED),
+                "",
+                counts[number],
+                ConnectionExtRosbag2("cdr", []),
+                self,
+            )
+            for number, topic, kind in topics
+        ]
+
+
+def _rows(database: apsw.Connection) -> Iterator[_Row]:
+    """The messages before the first that is not whole."""
+    query = "SELECT timestamp, topic_id, id, data FROM messages NOT INDEXED ORDER BY id"
+    with suppress(apsw.CorruptError, apsw.IOError):
+        for kept, topic, number, _ in database.execute(query):
+            yield _Row(kept, topic, number)
+
+
+_UNDEFINED = MessageDefinition(MessageDefinitionFormat.NONE, "")
+_LANGUAGES = {
+    "ros2msg": MessageDefinitionFormat.MSG,
+    "ros2idl": MessageDefinitionFormat.IDL,
+}
+
+
+def _definitions(database: apsw.Connection) -> dict[str, MessageDefinition]:
+    """What the types of messages are; nothing, where the database is too old to say."""
+    query = (
+        "SELECT topic_type, encoding, encoded_message_definition "
+        "FROM message_definitions"
+    )
+    with suppress(apsw.SQLError):
+        return {
+            kind: MessageDefinition(_LANGUAGES[language], text)
+            for kind, language, text in database.execute(query)
+            if language in _LANGUAGES
+        }
+    return {}

@@ -22,6 +22,7 @@ from kille.sensors.pictures import (
     write_colour,
     write_picture,
 )
+from kille.sensors.recordings.lenses import lens_from
 from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.pairing import paired
 from kille.sensors.recordings.reels import Moment, Reel, remark_on
@@ -47,7 +48,7 @@ def is_tum(folder: Path) -> bool:
     with listed.open("rb") as file:
         lines = file.read(4096).decode("utf-8", "replace").splitlines()
     first = next((it for it in lines if it.strip() and it[0] != "#"), "0")
-    return _seconds(first.split()[0]) is not None
+    return _number(first.split()[0]) is not None
 
 
 def open_tum(name: str, folder: Path, options: Options) -> Reel:
@@ -110,34 +111,32 @@ def _listed(path: Path) -> list[Entry]:
     for number, line in enumerate(text.splitlines(), start=1):
         if not line.strip() or line.startswith("#"):
             continue
-        seconds, _, rest = line.strip().partition(" ")
-        time = _seconds(seconds)
-        if time is None or not rest or "\0" in rest:
+        seconds, *rest = line.split(maxsplit=1)
+        time = _number(seconds)
+        if time is None or not rest or "\0" in line:
             raise SensorError(
                 f"{path}, line {number}: expected `SECONDS PATH`, found {line[:40]!r}"
             )
-        entries.append(Entry(time, rest.strip()))
+        entries.append(Entry(time, rest[0].strip()))
     return sorted(dict.fromkeys(entries))
 
 
-def _seconds(text: str) -> float | None:
+def _number(text: str) -> float | None:
     try:
-        seconds = float(text)
+        number = float(text)
     except ValueError:
         return None
-    return seconds if isfinite(seconds) else None
+    return number if isfinite(number) else None
 
 
 def _lens(name: str, folder: Path, picture: Path) -> Intrinsics:
     told = folder / CALIBRATION
     if told.is_file():
-        numbers = [
-            _seconds(word) for word in told.read_text("utf-8", "replace").split()[:4]
-        ]
-        known = [it for it in numbers if it is not None and it > 0]
-        if len(known) == 4:
-            return Intrinsics(*known)
-        raise SensorError(f"{told}: expected `fx fy cx cy`, four numbers above 0")
+        words = told.read_text("utf-8", "replace").split()[:4]
+        lens = lens_from([it for word in words if (it := _number(word)) is not None])
+        if lens is None:
+            raise SensorError(f"{told}: expected `fx fy cx cy`, four numbers above 0")
+        return lens
     height, width = read_colour(picture).shape[:2]
     if (width, height) == (640, 480):
         return USUAL

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import os
-from contextlib import suppress
+from math import inf
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -21,6 +21,7 @@ from kille.sensors.kinect.calibration import Calibration
 from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture
 from kille.sensors.kinect.motor import Tilt
 from kille.sensors.recordings.fakenect import BYTES, DEVICE, HEADS, INDEX, TILT
+from kille.sensors.recordings.reels import after
 
 SUFFIXES = {"r": "ppm", "d": "pgm", "a": "dump"}
 CAPTURE_BYTES = sum(BYTES[kind] + len(HEADS[kind]) for kind in "rd")
@@ -40,6 +41,7 @@ class FakenectWriter:
         self._folder = folder
         self._began = began
         self._first: float | None = None
+        self._last = -inf
         self._tilt: Tilt | None = None
         self._unsynced: list[Path] = []
         folder.mkdir(exist_ok=True)
@@ -55,13 +57,17 @@ class FakenectWriter:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self.close()
+        if error is None:
+            self.close()
+        else:
+            self._index.close()
 
     def write(self, capture: Capture) -> None:
         """Add a capture: its tilt, if it changed, then colour, then depth."""
         if self._first is None:
             self._first = capture.time
-        time = self._began + capture.time - self._first
+        time = after(self._last, self._began + capture.time - self._first)
+        self._last = time
         if capture.tilt is not None and capture.tilt != self._tilt:
             self._tilt = tilt = capture.tilt
             data = TILT.pack(tilt.x, tilt.y, tilt.z, tilt.doubled, tilt.status)
@@ -86,11 +92,6 @@ class FakenectWriter:
         try:
             self.sync()
         finally:
-            self._index.close()
-
-    def abandon(self) -> None:
-        """Let go of the folder as it is, whatever the disk says."""
-        with suppress(OSError):
             self._index.close()
 
     def _add(

@@ -18,6 +18,8 @@ import pytest
 from kille.sensors.recordings.converting import FORMATS
 from kille.sensors.recordings.opening import open_recording
 from kille.sensors.recordings.playing import Recording
+from kille.sensors.sensor import Sensor
+from kille.sensors.sources import open_sensor
 
 from .conftest import COMMAND, Run
 
@@ -55,6 +57,70 @@ def test_it_says_what_it_wrote_and_how_to_play_it(kille: Run, tmp_path: Path) ->
 def test_an_empty_folder_is_as_good_as_none(kille: Run, tmp_path: Path) -> None:
     assert kille("record", str(tmp_path), "--sensor", SENSOR, "--frames", "1").code == 0
     assert frames(tmp_path) == 1
+
+
+def test_the_folder_one_is_in_stays_where_it_is(
+    kille: Run, walk: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for number, words in enumerate(
+        [
+            ("record", ".", "--sensor", SENSOR, "--frames", "3"),
+            ("convert", str(walk), ".", "--to", "tum"),
+            ("convert", str(walk), ".", "--to", "fakenect"),
+        ]
+    ):
+        here = walk.parent / f"here{number}"
+        here.mkdir()
+        monkeypatch.chdir(here)
+        assert kille(*words).code == 0
+        assert here.samefile(".")
+        assert frames(here) == 3
+        assert not list(here.glob(".*"))
+
+
+def test_an_empty_folder_stays_empty_if_nothing_comes_of_it(
+    kille: Run, tmp_path: Path
+) -> None:
+    cv2.imwrite(str(tmp_path / "cup.png"), np.zeros((9, 9, 3), np.uint8))
+    (tmp_path / "here").mkdir()
+    sensor = str(tmp_path / "cup.png")
+    assert kille("record", str(tmp_path / "here"), "--sensor", sensor).code == 1
+    words = ("convert", sensor, str(tmp_path / "here"), "--to", "captures")
+    assert kille(*words).code == 1
+    assert list((tmp_path / "here").iterdir()) == []
+
+
+def test_a_file_does_not_take_the_place_of_a_folder(kille: Run, walk: Path) -> None:
+    (walk.parent / "here").mkdir()
+    for out in ("here", "walk2"):
+        kille("convert", str(walk), str(walk.parent / "walk2"), "--to", "tum")
+        words = ("convert", str(walk), str(walk.parent / out), "--to", "bag", "--force")
+        told = kille(*words).complaint
+        assert told.endswith("is a folder, and this format is one file: name it")
+        assert (walk.parent / out).is_dir()
+
+
+def test_what_gets_there_meanwhile_is_left_alone(
+    kille: Run, walk: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As two programs do that are started at the same time."""
+    from kille.interfaces import convert, record
+
+    out = walk.parent / "w.npz"
+
+    def opened(name: str) -> Sensor:
+        out.write_bytes(b"mine")
+        return open_sensor(name)
+
+    for module, words in (
+        (record, ("record", str(out), "--sensor", SENSOR, "--frames", "1")),
+        (convert, ("convert", str(walk), str(out))),
+    ):
+        out.unlink(missing_ok=True)
+        name = "open_sensor" if module is record else "open_recording"
+        monkeypatch.setattr(module, name, opened)
+        assert "is there already" in kille(*words).complaint
+        assert out.read_bytes() == b"mine"
 
 
 def test_nothing_is_written_over_unless_forced(kille: Run, walk: Path) -> None:
@@ -110,6 +176,8 @@ def test_a_recording_is_not_recorded_over_itself(kille: Run, walk: Path) -> None
         (("--frames", "0"), "0 is no whole number from 1, such as 300"),
         (("--frames", "1", "--seconds", "1"), "not allowed with"),
         (("--frames", "100000000000"), "are needed, and"),
+        (("--seconds", "1e308"), "are needed, and"),
+        (("--sensor", "~nobody-at-all/walk"), "there is no such"),
         (("--sensor", "nowhere"), "there is no such"),
     ],
 )
@@ -126,6 +194,15 @@ def test_where_there_is_no_folder(kille: Run, tmp_path: Path) -> None:
     outcome = kille("record", str(tmp_path / "no" / "walk"), "--frames", "1")
     assert outcome.code == 2
     assert f"there is no folder {tmp_path / 'no'} to put it into" in outcome.complaint
+
+
+def test_a_name_that_is_too_long(kille: Run, walk: Path) -> None:
+    name = str(walk.parent / ("a" * 300))
+    for words in (("record", name), ("convert", str(walk), f"{name}.bag")):
+        outcome = kille(*words)
+        assert outcome.code == 1
+        assert outcome.complaint.endswith("cannot be written: file name too long")
+    assert "name too long" in kille("convert", name, f"{walk}.bag").complaint
 
 
 def test_where_nobody_may_write(program: Run, tmp_path: Path) -> None:
@@ -146,7 +223,7 @@ def test_ctrl_c_ends_it(tmp_path: Path) -> None:
     while program.poll() is None and not (index.exists() and index.stat().st_size):
         time.sleep(0.01)
     program.send_signal(signal.SIGINT)
-    told, complaints = program.communicate(timeout=10)
+    told, complaints = program.communicate(timeout=120)
     assert program.returncode == 0
     assert complaints == b""
     count = frames(out)
@@ -344,7 +421,7 @@ def test_ctrl_c_leaves_no_half(kille: Run, walk: Path) -> None:
     ):
         time.sleep(0.001)
     program.send_signal(signal.SIGINT)
-    program.communicate(timeout=10)
+    program.communicate(timeout=120)
     assert program.returncode == 130
     assert {it.name for it in walk.parent.iterdir()} == before
 

@@ -213,6 +213,19 @@ def test_a_damaged_picture_is_told_of_in_one_line_only(
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.parametrize("suffix", [".jpg", ".bmp", ".tiff", ".webp"])
+def test_a_picture_of_any_kind_cut_short_is_told_of_in_one_line_only(
+    tmp_path: Path, suffix: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / f"cup1{suffix}"
+    noise = np.random.default_rng(1).integers(0, 256, (99, 99, 3), np.uint8)
+    cv2.imwrite(str(path), noise)
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) // 2])
+    assert f"cup1{suffix}: this picture does not open" in complaint(path)
+    assert capfd.readouterr() == ("", "")
+
+
 def test_a_picture_that_is_missing_is_named(tmp_path: Path) -> None:
     scene = write_scene(tmp_path / "scene")
     (scene / "000001_depth.png").unlink()

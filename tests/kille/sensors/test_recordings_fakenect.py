@@ -10,6 +10,7 @@ import signal
 import struct
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -290,7 +291,10 @@ def test_another_head_names_the_file(tmp_path: Path) -> None:
     [
         ("{", "is not JSON"),
         ("{}", "has no reg_info"),
-        (json.dumps(json.loads(IDENTITY.to_json()) | {"intrinsics": [1]}), "fx, fy"),
+        *(
+            (json.dumps(json.loads(IDENTITY.to_json()) | {"intrinsics": it}), "fx, fy")
+            for it in ([1], [0, 0, 1, 1], [1, 1, 1, float("nan")], 3, [10**400] * 4)
+        ),
     ],
 )
 def test_a_device_json_that_is_wrong(tmp_path: Path, text: str, told: str) -> None:
@@ -381,8 +385,8 @@ def test_it_ends_before_the_disk_is_full(tmp_path: Path) -> None:
     disk = Disk(lambda folder: next(free), reserve=5 * CAPTURE_BYTES)
     done = record(source(tmp_path), tmp_path / "walk", Limits(), disk, told_nobody)
     assert done.end is End.FULL
-    assert done.frames == 6
-    assert len(played(tmp_path / "walk").reel.moments) == 6
+    assert done.frames == 7
+    assert len(played(tmp_path / "walk").reel.moments) == 7
 
 
 def test_what_does_not_fit_is_not_begun(tmp_path: Path) -> None:
@@ -438,7 +442,42 @@ def test_a_full_disk_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr("kille.sensors.recordings.recorder.FakenectWriter", _FullAfter)
     done = record(source(tmp_path), tmp_path / "walk", Limits(), ROOMY, told_nobody)
     assert (done.frames, done.end) == (2, End.FULL)
+    assert done.seconds == pytest.approx(1 / 30, abs=2e-6)
     assert len(played(tmp_path / "walk").reel.moments) == 2
+
+
+class _Broken(FakenectWriter):
+    """A writer with a mistake in it."""
+
+    def write(self, capture: Capture) -> None:
+        raise ValueError("a mistake")
+
+
+def test_a_writer_that_fails_in_any_way_does_not_hang(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("kille.sensors.recordings.recorder.FakenectWriter", _Broken)
+    with pytest.raises(ValueError, match="a mistake"):
+        record(source(tmp_path), tmp_path / "walk", Limits(), ROOMY, told_nobody)
+    assert not (tmp_path / "walk").exists()
+
+
+def test_what_is_there_is_not_recorded_into(tmp_path: Path) -> None:
+    other = source(tmp_path)
+    (tmp_path / "walk").mkdir()
+    (tmp_path / "walk" / "thesis.tex").write_text("all of it")
+    with pytest.raises(FileExistsError):
+        record(other, tmp_path / "walk", Limits(1), ROOMY, told_nobody)
+    assert (tmp_path / "walk" / "thesis.tex").read_text() == "all of it"
+
+
+def test_a_disk_that_cannot_be_asked_ends_it(tmp_path: Path) -> None:
+    def gone(folder: Path) -> int:
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
+
+    with pytest.raises(FileNotFoundError):
+        record(source(tmp_path), tmp_path / "walk", Limits(), Disk(gone), told_nobody)
+    assert not [it for it in threading.enumerate() if it.name == "recorder"]
 
 
 def test_a_sensor_that_fails_leaves_what_was_seen(tmp_path: Path) -> None:
@@ -458,8 +497,11 @@ def test_who_is_killed_leaves_a_recording_that_plays(
     words = ["record", str(tmp_path / "walk"), "--sensor", str(tmp_path / "source")]
     program = subprocess.Popen([sys.executable, "-m", "kille.interfaces.cli", *words])
     index = tmp_path / "walk" / "INDEX.txt"
-    while program.poll() is None and not (index.exists() and index.stat().st_size):
+    while program.poll() is None and not (
+        index.exists() and "\nd-" in index.read_text()
+    ):
         time.sleep(0.005)
+    assert program.poll() is None
     time.sleep(after)
     program.send_signal(signal.SIGKILL)
     program.wait()

@@ -6,6 +6,7 @@ import json
 import logging
 import os
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from kille.scene import Frame, Intrinsics
 from kille.sensors.recordings import npz
+from kille.sensors.recordings.bagging import write_mcap
 from kille.sensors.recordings.converting import FORMATS, convert, estimate, format_of
 from kille.sensors.recordings.opening import open_recording
 from kille.sensors.recordings.playing import Recording
@@ -207,6 +209,21 @@ def test_an_archive_may_be_compressed_and_named_as_others_do(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("kind", ["bag", "mcap", "npz"])
+def test_what_is_no_distance_is_no_depth(kind: str, tmp_path: Path) -> None:
+    odd = next(frames(1))
+    assert odd.depth is not None
+    depth = odd.depth.copy()
+    depth[:4, 0] = np.inf, -np.inf, -1, 0
+    path = written(kind, tmp_path, iter([replace(odd, depth=depth)]))
+    again = opened(path)
+    found = again.frame().depth
+    assert found is not None
+    assert np.isnan(found[:4, 0]).all()
+    assert np.array_equal(found[4:], odd.depth[4:], equal_nan=True)
+    again.close()
+
+
+@pytest.mark.parametrize("kind", ["bag", "mcap", "npz"])
 def test_a_file_is_known_by_its_content(kind: str, tmp_path: Path) -> None:
     path = written(kind, tmp_path, frames(1))
     odd = path.rename(tmp_path / "holiday.jpeg.txt")
@@ -227,6 +244,42 @@ def test_a_picture_is_known_by_its_content(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["a.bag", "a.mcap", "a.npz", "A.NPZ"])
 def test_the_end_of_a_name_tells_the_format(name: str) -> None:
     assert format_of(Path(name), None).suffix == Path(name).suffix.lower()
+
+
+@pytest.mark.parametrize("kind", SIZED)
+def test_frames_of_the_same_time_are_all_kept(kind: str, tmp_path: Path) -> None:
+    some = [replace(it, time=BEGAN) for it in frames(3)]
+    again = opened(written(kind, tmp_path, iter(some)))
+    for frame, moment in zip(some, again.rest, strict=True):
+        assert np.array_equal(moment.read().colour, frame.colour)
+        assert moment.time == pytest.approx(BEGAN, abs=1e-5)
+    again.close()
+
+
+def test_captures_of_the_same_time_are_all_recorded(tmp_path: Path) -> None:
+    some = [replace(it, time=BEGAN) for it in frames(3, (480, 640))]
+    again = opened(written("fakenect", tmp_path, iter(some)))
+    for frame in some:
+        assert np.array_equal(again.frame().colour, frame.colour)
+
+
+@pytest.mark.parametrize("kind", [*SIZED, "fakenect"])
+@pytest.mark.parametrize("began", [-5.5, 0.0, 0.7])
+def test_times_may_begin_before_all_clocks(
+    kind: str, began: float, tmp_path: Path
+) -> None:
+    rows = enumerate(frames(3, (480, 640)))
+    some = [replace(it, time=began + number / 10) for number, it in rows]
+    again = opened(written(kind, tmp_path, iter(some)))
+    assert again.reel.times == pytest.approx([0, 0.1, 0.2], abs=1e-5)
+    again.close()
+
+
+@pytest.mark.parametrize("kind", ["bag", "mcap", "ros2"])
+def test_times_that_no_bag_knows_are_told_of(kind: str, tmp_path: Path) -> None:
+    some = [replace(it, time=1e9 * it.time) for it in frames(2)]
+    with pytest.raises(SensorError, match="are its times in seconds"):
+        written(kind, tmp_path, iter(some))
 
 
 def test_a_name_may_leave_it_open() -> None:
@@ -266,6 +319,16 @@ def test_tum_lists_may_have_comments_and_other_times(tmp_path: Path) -> None:
     never = [f"{float(it.split()[0]) + 90:.6f} {it.split()[1]}" for it in rows]
     (folder / "depth.txt").write_text("\n".join(never))
     assert "no colour picture has depth of the same time" in complaint(folder)
+
+
+def test_tum_lists_may_have_tabs(tmp_path: Path) -> None:
+    folder = written("tum", tmp_path, frames(2))
+    for name in ("rgb.txt", "depth.txt"):
+        text = (folder / name).read_text()
+        (folder / name).write_text(
+            text.replace(" rgb/", "\trgb/").replace(" depth/", "\t  depth/")
+        )
+    assert len(opened(folder).rest) == 2
 
 
 def test_tum_at_its_usual_size_needs_no_calibration(tmp_path: Path) -> None:
@@ -333,21 +396,37 @@ def test_tum_that_is_empty(tmp_path: Path) -> None:
 # --- bags ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("kind", ["bag", "mcap", "ros2"])
+def stored(storage: str, source: Path, out: Path) -> Path:
+    """A bag of ROS 2 as rosbags makes it of another bag."""
+    types = get_typestore(Stores.ROS2_HUMBLE)
+    rosbags_convert([source], out, storage, 8, None, "", None, types, [], [], [], [])
+    return out
+
+
+@pytest.mark.parametrize("described", [True, False], ids=["described", "not described"])
+@pytest.mark.parametrize("kind", ["bag", "mcap", "ros2", "sqlite3"])
 @pytest.mark.parametrize("share", [0.55, 0.85, 0.999])
 def test_a_bag_cut_short_plays_what_is_whole(
-    kind: str, share: float, tmp_path: Path, caplog: pytest.LogCaptureFixture
+    kind: str,
+    share: float,
+    described: bool,
+    tmp_path: Path,
+    caplog: pytest.LogCaptureFixture,
 ) -> None:
     some = list(frames(12, (240, 320)))
-    path = written(kind, tmp_path, iter(some))
-    (file,) = path.glob("*.mcap") if path.is_dir() else [path]
+    if kind == "sqlite3":
+        source = written("bag", tmp_path, iter(some))
+        path = stored(kind, source, tmp_path / "walk")
+    else:
+        path = written(kind, tmp_path, iter(some))
+    (file,) = [*path.glob("*.mcap"), *path.glob("*.db3")] if path.is_dir() else [path]
     os.truncate(file, int(share * file.stat().st_size))
-    if path.is_dir():
+    if path.is_dir() and not described:
         (path / "metadata.yaml").unlink()
     with caplog.at_level(logging.WARNING):
         again = opened(f"{path}?loop=no")
     (told,) = caplog.messages
-    assert "cut short: it has no index; what is whole of it is played" in told
+    assert "cut short: its end is missing; what is whole of it is played" in told
     count = len(again.rest)
     assert 0 < count <= 12
     for frame in some[:count]:
@@ -356,6 +435,17 @@ def test_a_bag_cut_short_plays_what_is_whole(
         assert found.depth is not None
         assert frame.depth is not None
         assert np.array_equal(found.depth, frame.depth, equal_nan=True)
+    again.close()
+
+
+def test_messages_of_a_bag_cut_short_may_be_out_of_order(tmp_path: Path) -> None:
+    some = list(frames(5, (240, 320)))
+    write_mcap(tmp_path / "walk.mcap", some[::-1])
+    size = (tmp_path / "walk.mcap").stat().st_size
+    os.truncate(tmp_path / "walk.mcap", size - 100)
+    again = opened(tmp_path / "walk.mcap")
+    for frame in some:
+        assert np.array_equal(again.frame().colour, frame.colour)
     again.close()
 
 
@@ -407,9 +497,7 @@ def test_a_description_of_a_bag_that_is_wrong(
 
 
 def test_a_database_of_its_own_is_played(tmp_path: Path) -> None:
-    source, out = written("bag", tmp_path, frames(3)), tmp_path / "again"
-    types = get_typestore(Stores.ROS2_HUMBLE)
-    rosbags_convert([source], out, "sqlite3", 8, None, "", None, types, [], [], [], [])
+    out = stored("sqlite3", written("bag", tmp_path, frames(3)), tmp_path / "again")
     (file,) = out.glob("*.db3")
     again = opened(file.rename(tmp_path / "data"))
     assert np.array_equal(again.frame().colour, next(frames(1)).colour)
@@ -481,6 +569,21 @@ def test_an_archive_cut_short(tmp_path: Path) -> None:
     assert "this archive does not open; it may be cut short" in complaint(path)
 
 
+def test_a_damaged_archive_plays_or_is_told_of(tmp_path: Path) -> None:
+    shots = np.stack([it.colour for it in frames(20, (48, 64))])
+    rng = np.random.default_rng(4)
+    for write in (np.savez, np.savez_compressed):
+        path = tmp_path / "walk.npz"
+        write(path, colour=shots, times=np.arange(20))
+        whole = path.read_bytes()
+        for place in [6, 8, *range(40, 90), *rng.integers(0, len(whole), 50)]:
+            damaged = bytearray(whole)
+            damaged[place] ^= 0x55
+            path.write_bytes(damaged)
+            with suppress(SensorError):
+                opened(path).close()
+
+
 # --- what is nothing -----------------------------------------------------------------
 
 
@@ -493,7 +596,22 @@ def test_an_empty_file(tmp_path: Path) -> None:
 def test_a_folder_of_recordings_of_any_format(kind: str, tmp_path: Path) -> None:
     written(kind, tmp_path, frames(1, (480, 640)))
     text = complaint(tmp_path)
-    assert f"holds several recordings, name one of them: {tmp_path}/walk" in text
+    assert f"holds recordings, name one of them: {tmp_path}/walk" in text
+
+
+@pytest.mark.parametrize("kind", ["bag", "mcap", "npz"])
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_folder_of_files_of_any_format(kind: str, count: int, tmp_path: Path) -> None:
+    for number in range(count):
+        into = FORMATS[kind]
+        out = tmp_path / f"walk{number}{into.suffix}"
+        convert(recording(frames(1)), out, into, lambda: None)
+    if (kind, count) == ("mcap", 1):
+        again = opened(tmp_path)
+        assert again.frame().depth is not None
+        again.close()
+        return
+    assert f"name one of them: {tmp_path}/walk0.{kind}" in complaint(tmp_path)
 
 
 def test_stills_know_no_time(tmp_path: Path) -> None:

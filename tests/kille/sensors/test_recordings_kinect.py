@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from kille.sensors.kinect import sensor as driver
+from kille.sensors.kinect.calibration import Calibration
+from kille.sensors.kinect.capture import Capture
 from kille.sensors.kinect.sensor import KinectSensor
 from kille.sensors.recordings.opening import open_recording
 from kille.sensors.recordings.playing import RawRecording
@@ -17,6 +19,9 @@ from kille.sensors.sensor import SensorError
 from kinect_emulator.host import Host
 from kinect_emulator.inside import InsideBus
 from kinect_emulator.kinect import Kinect
+from kinect_emulator.running import PATIENCE
+
+TICKS_OF_A_FRAME = 2_000_000
 
 
 @pytest.fixture
@@ -26,7 +31,7 @@ def kinect() -> Kinect:
 
 @pytest.fixture
 def bus(kinect: Kinect) -> Iterator[InsideBus]:
-    with InsideBus(Host(kinect)).running() as running:
+    with InsideBus(Host(kinect, patience=PATIENCE)).running() as running:
         yield running
 
 
@@ -35,6 +40,22 @@ def sensor(bus: InsideBus) -> Iterator[KinectSensor]:
     opened = KinectSensor("kinect", bus)
     yield opened
     opened.close()
+
+
+class Witness:
+    """Remembers all that a Kinect gave."""
+
+    def __init__(self, sensor: KinectSensor) -> None:
+        self._sensor = sensor
+        self.seen: list[Capture] = []
+
+    @property
+    def calibration(self) -> Calibration:
+        return self._sensor.calibration
+
+    def capture(self) -> Capture:
+        self.seen.append(self._sensor.capture())
+        return self.seen[-1]
 
 
 def played(folder: Path) -> RawRecording:
@@ -46,17 +67,27 @@ def played(folder: Path) -> RawRecording:
 def test_a_kinect_is_recorded_bit_for_bit(
     kinect: Kinect, sensor: KinectSensor, tmp_path: Path
 ) -> None:
-    done = record(sensor, tmp_path / "walk", Limits(15), Disk.real(), lambda told: None)
+    source = Witness(sensor)
+    done = record(source, tmp_path / "walk", Limits(15), Disk.real(), lambda told: None)
     assert (done.frames, done.end) == (15, End.ASKED)
     recording = played(tmp_path / "walk")
     assert recording.calibration == sensor.calibration
     assert len(recording.rest) == 15
-    seen = [view.depth for view in kinect.show.views]
-    for _ in range(15):
+    shown = [view.depth for view in kinect.show.views]
+    began = source.seen[0].time
+    for given in source.seen:
         capture = recording.capture()
-        assert any(np.array_equal(capture.depth, depth) for depth in seen)
-        assert capture.tilt == sensor.posture()
-    assert np.diff(recording.reel.times) == pytest.approx(1 / 30, abs=0.025)
+        assert any(np.array_equal(capture.depth, depth) for depth in shown)
+        assert np.array_equal(capture.depth, given.depth)
+        assert np.array_equal(capture.colour, given.colour)
+        assert capture.tilt == given.tilt == sensor.posture()
+        assert capture.ticks_depth == given.ticks_depth
+        assert capture.ticks_colour == given.ticks_colour
+        assert capture.time == pytest.approx(given.time - began, abs=2e-6)
+    ticks = [it.ticks_depth for it in source.seen]
+    frames = np.diff(ticks) / TICKS_OF_A_FRAME
+    assert np.array_equal(frames, np.rint(frames))
+    assert frames.min() >= 1
 
 
 def test_a_kinect_that_is_unplugged_leaves_what_was_seen(
@@ -66,14 +97,14 @@ def test_a_kinect_that_is_unplugged_leaves_what_was_seen(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(driver, "PATIENCE", 0.4)
-    monkeypatch.setattr(driver, "_SILENCE", 0.25)
     told: list[Progress] = []
 
     def tell(progress: Progress) -> None:
         told.append(progress)
         if progress.frames == 4:
             bus.unplug(kinect)
+            monkeypatch.setattr(driver, "PATIENCE", 0.4)
+            monkeypatch.setattr(driver, "_SILENCE", 0.25)
 
     with pytest.raises(SensorError, match="kinect: "):
         record(sensor, tmp_path / "walk", Limits(), Disk.real(), tell)

@@ -159,14 +159,13 @@ def test_times_rise_over_all_laps(gaps: list[int]) -> None:
 
 
 def test_real_time_is_kept() -> None:
-    from time import perf_counter
+    from time import monotonic
 
     recording = Recording("r", REEL, Options(speed=4, loop=False))
-    recording.frame()
-    began = perf_counter()
+    began = monotonic()
     while recording.rest:
         recording.frame()
-    assert perf_counter() - began >= 0.07
+    assert monotonic() - began >= 0.3 / 4
 
 
 # --- options -------------------------------------------------------------------------
