@@ -12,7 +12,7 @@ import time
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from itertools import count
+from itertools import count, islice
 from queue import Empty, SimpleQueue
 from threading import Lock
 from typing import Any, Generic, TypeVar
@@ -37,6 +37,9 @@ _AGAIN = 1.0
 
 _KEPT = 4
 """So many answers are kept for those who ask again."""
+
+_DONE = 1000
+"""Of so many questions it is known that they were answered."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +73,7 @@ class _Serving(Generic[A]):
     ) -> None:
         self._answer, self._kind = answer, service.answers.kind
         self._name = service.questions.name.lstrip("/")
-        self._given: OrderedDict[str, A] = OrderedDict()
+        self._given: OrderedDict[str, A | None] = OrderedDict()
         self._answers: Publisher[A] = bus.publisher(service.answers)
         self._questions = bus.subscribe(service.questions, self._take)
 
@@ -88,12 +91,20 @@ class _Serving(Generic[A]):
         number = str(question.facts.get("id", ""))
         if number not in self._given:
             given = self._answered(question.facts)
-            numbered = replace(given, facts={**given.facts, "id": number})
-            self._given[number] = numbered
-        self._answers.publish(self._given[number])
+            self._keep(number, replace(given, facts={**given.facts, "id": number}))
+        answer = self._given[number]
+        # A question that waited while many others were answered has its answer.
+        if answer is not None:
+            self._answers.publish(answer)
         # Who gives no number cannot ask the same again.
         self._given.pop("", None)
-        while len(self._given) > _KEPT:
+
+    def _keep(self, number: str, answer: A) -> None:
+        """Keep an answer; of older ones, that they were given."""
+        self._given[number] = answer
+        for old in islice(reversed(self._given), _KEPT, _KEPT + 1):
+            self._given[old] = None
+        while len(self._given) > _DONE:
             self._given.popitem(last=False)
 
     def _answered(self, question: Mapping[str, Any]) -> A:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from threading import Lock
-from typing import Protocol, TypeVar
+from threading import Lock, RLock
+from typing import Generic, Protocol, TypeVar
 
 from kille.bus.messages import BusError, Message, Topic
 
-__all__ = ["Bus", "Kinds", "Publisher", "Subscription", "one_at_a_time"]
+__all__ = ["Bus", "Kinds", "Publisher", "Subscription", "Taking"]
+
+_logger = logging.getLogger("kille.bus")
 
 M = TypeVar("M", bound=Message)
 Sent = TypeVar("Sent", bound=Message, contravariant=True)
@@ -24,7 +26,10 @@ class Subscription(Protocol):
         ...
 
     def close(self) -> None:
-        """Listen no more; a second call does nothing."""
+        """Listen no more, once what is being taken has been taken.
+
+        A second call does nothing.
+        """
         ...
 
 
@@ -83,15 +88,27 @@ class Kinds:
             raise BusError(told)
 
 
-def one_at_a_time(topic: Topic[M], take: Callable[[M], None]) -> Callable[[M], None]:
-    """The same for several threads, and an error does not come out of it."""
-    lock = Lock()
+class Taking(Generic[M]):
+    """Takes messages one at a time, whatever threads they come in.
 
-    def taken(message: M) -> None:
-        with lock:
+    An error does not come out of it.
+    """
+
+    def __init__(self, topic: Topic[M], take: Callable[[M], None]) -> None:
+        self._topic, self._take = topic, take
+        self._alone, self._open = RLock(), True
+
+    def __call__(self, message: M) -> None:
+        """Take a message, unless it is closed."""
+        with self._alone:
+            if not self._open:
+                return
             try:
-                take(message)
+                self._take(message)
             except Exception:
-                logging.getLogger("kille.bus").exception("taking /%s", topic.name)
+                _logger.exception("taking /%s", self._topic.name)
 
-    return taken
+    def close(self) -> None:
+        """Take no more, once what is being taken has been taken."""
+        with self._alone:
+            self._open = False

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from threading import Condition, Lock, Thread, current_thread
 from typing import Any, Generic, TypeVar
 
-from kille.bus.bus import Kinds, Publisher, Subscription, one_at_a_time
+from kille.bus.bus import Kinds, Publisher, Subscription, Taking
 from kille.bus.messages import Message, Topic
 
 __all__ = ["LocalBus"]
@@ -108,7 +108,7 @@ class _Listening(Generic[M]):
         self, bus: LocalBus, topic: Topic[M], take: Callable[[M], None]
     ) -> None:
         self._bus, self._topic = bus, topic
-        self._take = one_at_a_time(topic, take)
+        self._take = Taking(topic, take)
         self._waiting: deque[M] = deque(maxlen=topic.waiting)
         self._changed = Condition()
         self._open = True

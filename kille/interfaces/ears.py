@@ -10,6 +10,7 @@ from pathlib import Path
 from kille.agent import Agent
 from kille.dialogue.language import understand
 from kille.dialogue.state import words
+from kille.interfaces.terminal import complain, console
 from kille.speech.expecting import LANGUAGES, expected, speech
 from kille.speech.hearing import from_file, from_microphone, from_pipe
 from kille.speech.recognition import Perhaps, Recogniser
@@ -20,6 +21,9 @@ __all__ = ["ALWAYS", "DEVICE", "PIPE", "Ears", "Heard", "answered", "written"]
 DEVICE, ALWAYS, PIPE = "device", "always", "-"
 """Where speech comes from, if not from a file: the microphone after Enter, the
 microphone all the time, raw samples on the standard input."""
+
+_SILENCE = 10.0
+"""Seconds in which who has pressed Enter begins to speak."""
 
 _SURE = 0.9
 """From this probability on, what was heard is taken as if it were typed."""
@@ -50,8 +54,8 @@ class Ears:
                 f"only English can be heard: type, and leave out --hear {source}"
             )
         self._source, self._language = source, language
-        self._file = None if source in (DEVICE, ALWAYS, PIPE) else Path(source)
-        self._waiting = from_file(self._file) if self._file else None
+        is_file = source not in (DEVICE, ALWAYS, PIPE)
+        self._waiting = from_file(Path(source)) if is_file else None
         try:
             self._recogniser = Recogniser(speech(language))
         except ModuleNotFoundError as error:
@@ -69,20 +73,27 @@ class Ears:
             yield self._heard(robot, sound)
 
     def _sounds(self) -> Iterator[bytes]:
-        if self._waiting is not None:
-            yield from self._waiting
-        elif self._source == PIPE:
-            yield from from_pipe(sys.stdin.buffer)
         while self._source == ALWAYS:
             yield from_microphone()
+        waiting = self._waiting or from_pipe(sys.stdin.buffer)
+        first = next(waiting, None)
+        if first is None:
+            name = "the standard input" if self._source == PIPE else self._source
+            raise SoundError(f"nobody speaks in {name}: is it the right sound?")
+        yield first
+        yield from waiting
 
     def _after_enter(self, robot: Agent) -> Iterator[Heard | str]:
+        """What is typed or spoken; without a microphone one may still type."""
         while True:
             try:
                 typed = input("U> (Enter to speak, or type) ").strip()
+                yield typed or self._heard(robot, from_microphone(_SILENCE))
             except EOFError:
+                console().print("")
                 return
-            yield typed or self._heard(robot, from_microphone())
+            except SoundError as error:
+                complain(error)
 
     def _heard(self, robot: Agent, sound: bytes) -> Heard:
         """What a sound is heard as, by the words that the robot knows by now."""

@@ -19,7 +19,10 @@ _PATIENCE = 30.0
 
 
 def talk_as_node(opened: Opening, arguments: Sequence[str]) -> int:
-    """Talks to the dialogue node on a bus that is opened for it; the exit code."""
+    """Talks to the dialogue node on a bus that is opened for it; the exit code.
+
+    The parameter `patience` is how many seconds it waits for an answer.
+    """
     from kille.ros.bus import anonymous
 
     try:
@@ -27,7 +30,7 @@ def talk_as_node(opened: Opening, arguments: Sequence[str]) -> int:
     except BusError as error:
         return complain(error)
     try:
-        return talk_over(bus)
+        return talk_over(bus, bus.parameter("patience", _PATIENCE))
     finally:
         bus.close()
 

@@ -94,7 +94,7 @@ class _Conversation:
             self._welcome()
         self._answer("@ look")
         for line in self._lines():
-            if not self._typed:
+            if isinstance(line, Heard) or not sys.stdin.isatty():
                 self._print(f"U> {line.text if isinstance(line, Heard) else line}")
             self._answer(line)
             if self._has_said("Part"):

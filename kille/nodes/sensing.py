@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Callable, Mapping
 from threading import Event, Lock, Thread
@@ -18,6 +19,10 @@ __all__ = ["RATE", "Sensing"]
 
 RATE = 30.0
 """Frames in a second: those of a Kinect."""
+
+_logger = logging.getLogger("kille.nodes")
+
+_FAULT = "by a fault of its own; the log of its node says why"
 
 _AGAIN = 1.0
 """Seconds after which a sensor that failed is tried again."""
@@ -43,6 +48,8 @@ class Sensing:
         self._colour = bus.publisher(feed.colour)
         self._camera = bus.publisher(feed.camera)
         self._depth = None if feed.depth is None else bus.publisher(feed.depth)
+        frames = (self._colour, self._camera, self._depth)
+        self._sending = tuple(it for it in frames if it is not None)
         self._problems = bus.publisher(PROBLEMS)
         self._one = Lock()
         self._trouble = ""
@@ -56,9 +63,8 @@ class Sensing:
         self._ending.set()
         self._thread.join()
         self._serving.close()
-        for it in (self._colour, self._camera, self._depth, self._problems):
-            if it is not None:
-                it.close()
+        for it in (*self._sending, self._problems):
+            it.close()
 
     # --- frames ----------------------------------------------------------------------
 
@@ -66,17 +72,24 @@ class Sensing:
         due = time.monotonic()
         while not self._ending.wait(max(0.0, due - time.monotonic())):
             due = max(due + self._pause, time.monotonic())
-            if not self._colour.listeners:
+            if not any(it.listeners for it in self._sending):
                 continue
             try:
-                with self._one:
-                    frame, stamp = self._sensor.frame(), self._now()
+                self._send_next()
             except SensorError as error:
                 self._tell(str(error))
-                due = time.monotonic() + _AGAIN
+            except Exception:
+                _logger.exception("sensing")
+                self._tell(f"{self._sensor.name} failed, {_FAULT}")
+            else:
+                self._trouble = ""
                 continue
-            self._trouble = ""
-            self._send(frame, stamp)
+            due = time.monotonic() + _AGAIN
+
+    def _send_next(self) -> None:
+        with self._one:
+            frame, stamp = self._sensor.frame(), self._now()
+        self._send(frame, stamp)
 
     def _tell(self, trouble: str) -> None:
         """Say what is wrong with the sensor, when it begins."""

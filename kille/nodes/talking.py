@@ -55,13 +55,13 @@ class Talking:
         ]
 
     def close(self) -> None:
-        """Hear no more, and close the robot."""
+        """Hear no more, answer what was heard, and close the robot."""
         while self._open:
             self._open.pop().close()
-        for it in (self._output, self._state, self._problems):
-            it.close()
         self._alone.submit(self._robot.close).result()
         self._alone.shutdown()
+        for it in (self._output, self._state, self._problems):
+            it.close()
 
     # --- what comes in ---------------------------------------------------------------
 

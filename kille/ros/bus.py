@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import os
-import socket
 import time
 from collections.abc import Callable, Sequence
+from http.client import HTTPConnection, HTTPException
 from threading import Event
 from typing import Any, Generic, TypeVar
 from urllib.parse import urlsplit
+from xml.parsers.expat import ExpatError
+from xmlrpc.client import Error as XMLRPCError
+from xmlrpc.client import ServerProxy, Transport
 
 from kille.bus import BusError, Facts, Message, Publisher, Subscription, Topic
-from kille.bus.bus import Kinds, one_at_a_time
+from kille.bus.bus import Kinds, Taking
 from kille.ros.conversion import Form, form_of
 from kille.ros.finding import ros
 
@@ -21,6 +24,9 @@ M = TypeVar("M", bound=Message)
 
 _PATIENCE = 3.0
 """Seconds to wait for the master to answer."""
+
+_LINGER = 0.2
+"""Seconds that what was sent has to arrive: who hears of the end hangs up at once."""
 
 _BYTES = 1 << 20
 """As many bytes are received at once: a picture in one or two steps."""
@@ -36,8 +42,8 @@ def open_ros(name: str, arguments: Sequence[str] = ()) -> RosBus:
     """
     rospy = ros("rospy")
     ros("sensor_msgs.msg")
+    reach_master()
     if not rospy.core.is_initialized():
-        reach_master()
         _begin(rospy, name, arguments)
     return RosBus()
 
@@ -70,7 +76,11 @@ class RosBus:
         return str(self._rospy.resolve_name(name))
 
     def topics(self) -> Sequence[tuple[str, str]]:
-        """The names and types of all topics that somebody sends under."""
+        """The names and types of all topics that somebody sends under.
+
+        BusError if the master does not answer.
+        """
+        reach_master()
         found = self._rospy.get_published_topics()
         return tuple((str(name), str(kind)) for name, kind in found)
 
@@ -107,6 +117,7 @@ class _Sending(Generic[M]):
 
     def __init__(self, topic: Topic[M], rospy: Any) -> None:
         self._form, self._open = form_of(topic.kind), True
+        self._sent = time.monotonic() - _LINGER
         self._publisher = _typed(
             rospy,
             rospy.Publisher,
@@ -126,11 +137,13 @@ class _Sending(Generic[M]):
         """Send a message to all who listen; it does not wait for them."""
         if self._open:
             self._publisher.publish(self._form.to(message))
+            self._sent = time.monotonic()
 
     def close(self) -> None:
-        """Send no more."""
+        """Send no more, once what was sent has had the time to arrive."""
         if self._open:
             self._open = False
+            time.sleep(max(0.0, self._sent + _LINGER - time.monotonic()))
             self._publisher.unregister()
 
 
@@ -141,7 +154,7 @@ class _Listening(Generic[M]):
         self._form: Form = form_of(topic.kind)
         self._name, self._kind = topic.name, topic.kind
         self._rospy, self._open = rospy, True
-        self._take = one_at_a_time(topic, take)
+        self._take = Taking(topic, take)
         self._trouble = ""
         self._subscriber = _typed(
             rospy,
@@ -155,10 +168,11 @@ class _Listening(Generic[M]):
         )
 
     def close(self) -> None:
-        """Listen no more."""
+        """Listen no more, once what is being taken has been taken."""
         if self._open:
             self._open = False
             self._subscriber.unregister()
+        self._take.close()
 
     @property
     def trouble(self) -> str:
@@ -202,22 +216,37 @@ def reach_master(patience: float = _PATIENCE) -> str:
     uri = os.environ.get("ROS_MASTER_URI", "http://localhost:11311")
     try:
         parts = urlsplit(uri)
-        address = (parts.hostname or "", parts.port or 0)
+        known = parts.scheme == "http" and parts.hostname and parts.port
     except ValueError:
-        address = ("", 0)
-    if not all(address):
+        known = None
+    if not known:
         raise BusError(
             f"ROS_MASTER_URI is `{uri}`, which is no address such as "
             "http://localhost:11311"
         )
     try:
-        socket.create_connection(address, patience).close()
-    except OSError as error:
+        with ServerProxy(uri, _Hasty(patience)) as master:
+            master.getPid("/kille")
+    except (OSError, HTTPException, XMLRPCError, ExpatError) as error:
         raise BusError(
             f"no ROS master at {uri}: start `roscore` there, or set ROS_MASTER_URI to "
             "where it runs"
         ) from error
     return uri
+
+
+class _Hasty(Transport):
+    """A way to a server that is given up after some seconds."""
+
+    def __init__(self, patience: float) -> None:
+        super().__init__()
+        self._patience = patience
+
+    def make_connection(self, host: Any) -> HTTPConnection:
+        """The connection, which waits no longer than that."""
+        connection = super().make_connection(host)
+        connection.timeout = self._patience
+        return connection
 
 
 def _begin(rospy: Any, name: str, arguments: Sequence[str]) -> None:

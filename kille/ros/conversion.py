@@ -97,7 +97,7 @@ def _to_camera(camera: Camera) -> Any:
 def _of_camera(it: Any) -> Camera:
     """The camera's own matrix; one of zeros says that it was never calibrated."""
     fx, _, cx, _, fy, cy, *_ = it.K
-    if fx <= 0 or fy <= 0:
+    if not (fx > 0 and fy > 0):
         raise BusError("the camera says that it is not calibrated: its K is zero")
     return Camera(fx, fy, cx, cy, it.width, it.height, _stamp(it))
 

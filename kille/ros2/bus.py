@@ -21,7 +21,7 @@ from kille.bus import (
     Subscription,
     Topic,
 )
-from kille.bus.bus import Kinds, one_at_a_time
+from kille.bus.bus import Kinds, Taking
 from kille.ros2.conversion import Form, form_of
 from kille.ros2.types import module, sample_type
 
@@ -142,8 +142,11 @@ class _Sending(Generic[M]):
             self._writer.write(self._writer.data_type(self._form.to(message)))
 
     def close(self) -> None:
-        """Send no more; who comes late gets nothing either."""
-        self._open, self._writer = False, None
+        """Send no more, once what was sent has come; who comes late gets nothing."""
+        if self._open:
+            self._open = False
+            self._writer.wait_for_acks(module("cyclonedds.util").duration(seconds=1))
+            self._writer = None
 
 
 class _Listening(Generic[M]):
@@ -153,7 +156,7 @@ class _Listening(Generic[M]):
         self, reader: Any, topic: Topic[M], form: Form, take: Callable[[M], None]
     ) -> None:
         self._reader, self._topic, self._form = reader, topic, form
-        self._take = one_at_a_time(topic, take)
+        self._take = Taking(topic, take)
         self._trouble, self._closing = "", Event()
         name = f"taking /{topic.name}"
         self._thread = Thread(target=self._run, name=name, daemon=True)

@@ -92,7 +92,7 @@ def _of_camera(camera: Camera) -> Any:
 
 def _to_camera(it: Any) -> Camera:
     fx, _, cx, _, fy, cy, *_ = (float(number) for number in it.k)
-    if fx <= 0 or fy <= 0:
+    if not (fx > 0 and fy > 0):
         raise BusError("the camera says that it is not calibrated: its k is zero")
     return Camera(fx, fy, cx, cy, it.width, it.height, _stamp(it))
 

@@ -8,7 +8,9 @@ from __future__ import annotations
 import shutil
 import subprocess
 from collections.abc import Callable, Iterator
+from math import inf
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import IO
 
 from kille.speech.sound import RATE, SoundError, read_wav
@@ -30,18 +32,21 @@ _SILENT = bytes(2)
 _RECORDER = ("arecord", "-q", "-t", "raw", "-f", "S16_LE", "-r", str(RATE), "-c", "1")
 
 
-def utterances(read: Callable[[int], bytes]) -> Iterator[bytes]:
+def utterances(read: Callable[[int], bytes], patience: float = inf) -> Iterator[bytes]:
     """The stretches of speech in a sound that is read little by little.
 
-    `read` gives so many bytes, or fewer at the end.
+    `read` gives so many bytes, or fewer at the end. It is over when nobody has spoken
+    for `patience` seconds of it.
     """
     from pocketsphinx import Endpointer
 
     finder = Endpointer(window=_WINDOW, sample_rate=RATE)
     spoken, most = bytearray(), int(2 * RATE * LONGEST)
+    silent = 0
     while True:
         frame = read(finder.frame_bytes)
-        last = len(frame) < finder.frame_bytes
+        silent = 0 if finder.in_speech else silent + len(frame)
+        last = len(frame) < finder.frame_bytes or silent > 2 * RATE * patience
         frame = frame[: len(frame) // 2 * 2]
         heard = finder.end_stream(frame or _SILENT) if last else finder.process(frame)
         spoken += heard or b""
@@ -58,39 +63,49 @@ def from_file(path: Path) -> Iterator[bytes]:
     return _of(read_wav(path).at(RATE).samples)
 
 
-def from_pipe(pipe: IO[bytes]) -> Iterator[bytes]:
-    """The utterances in a stream of raw samples: 16 kHz, 16 bits, one channel."""
-    return utterances(lambda size: _whole(pipe, size))
+def from_pipe(pipe: IO[bytes], patience: float = inf) -> Iterator[bytes]:
+    """The utterances in a stream of raw samples: 16 kHz, 16 bits, one channel.
+
+    It is over when nobody has spoken for `patience` seconds.
+    """
+    return utterances(lambda size: _whole(pipe, size), patience)
 
 
-def from_microphone() -> bytes:
+def from_microphone(patience: float = inf) -> bytes:
     """The next utterance in front of the microphone, by ALSA's recorder.
 
-    It is opened for one utterance, so that the robot never hears itself. Raises
-    `SoundError` where there is no microphone, or nothing to record with.
+    It is empty if nobody has spoken for `patience` seconds. The microphone is opened
+    for one utterance, so that the robot never hears itself. Raises `SoundError` where
+    there is none, or nothing to record with.
     """
     if shutil.which(_RECORDER[0]) is None:
         raise SoundError(
             "there is no program to record with: apt install alsa-utils, or let it "
             "hear a file, --hear FILE.wav"
         )
-    with subprocess.Popen(
-        _RECORDER, stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    ) as recorder:
+    # Complaints go to a file: nobody reads them while it records, perhaps for hours.
+    with TemporaryFile() as told:
+        found, failed = _recorded(told, patience)
+        told.seek(0)
+        complaints = told.read().decode(errors="replace").split("\n")
+    if failed:
+        last = next(filter(None, reversed(complaints)), "there is no sound")
+        raise SoundError(
+            f"nothing can be recorded ({last}): "
+            "connect a microphone, or let it hear a file, --hear FILE.wav"
+        )
+    return found
+
+
+def _recorded(told: IO[bytes], patience: float) -> tuple[bytes, bool]:
+    """An utterance, and whether the recorder ended before there was any."""
+    with subprocess.Popen(_RECORDER, stdout=subprocess.PIPE, stderr=told) as recorder:
         assert recorder.stdout is not None
-        assert recorder.stderr is not None
         try:
-            found = next(from_pipe(recorder.stdout), None)
+            found = next(from_pipe(recorder.stdout, patience), b"")
+            return found, not found and not recorder.stdout.read(1)
         finally:
             recorder.terminate()
-        if found is None:
-            told = recorder.stderr.read().decode(errors="replace").strip()
-            last = told.splitlines()[-1] if told else "there is no sound"
-            raise SoundError(
-                f"nothing can be recorded ({last}): "
-                "connect a microphone, or let it hear a file, --hear FILE.wav"
-            )
-    return found
 
 
 def _of(samples: bytes) -> Iterator[bytes]:

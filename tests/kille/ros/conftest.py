@@ -39,9 +39,7 @@ def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     if not ros_is_here():
         pytest.skip("ROS 1 is not here: `make oracles` installs it on Debian")
     home = tmp_path_factory.mktemp("ros")
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
+    port = free_port()
     uri = f"http://127.0.0.1:{port}"
     changed = {
         "ROS_MASTER_URI": uri,
@@ -60,6 +58,15 @@ def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
             yield uri
         finally:
             ended(core)
+
+
+def free_port() -> int:
+    """A port that no connection is given by chance: those are from 32768 on."""
+    for port in range(20_000 + os.getpid() % 10_000, 32_768):
+        with socket.socket() as free, suppress(OSError):
+            free.bind(("127.0.0.1", port))
+            return port
+    raise AssertionError("no port is free")
 
 
 def answers(port: int) -> bool:
@@ -90,7 +97,7 @@ def ended(*processes: subprocess.Popen[bytes]) -> None:
                 os.killpg(process.pid, number)
         for process in processes:
             with suppress(subprocess.TimeoutExpired):
-                process.wait(8)
+                process.wait(30)
 
 
 def until(happened: Callable[[], Any], within: float = WAIT) -> Any:

@@ -28,6 +28,9 @@ from kille.bus import (
 
 NUMBERS = count(1)
 
+PATIENCE = 60.0
+"""Seconds in which an answer comes, on the slowest machine."""
+
 Eventually = Callable[..., Any]
 
 
@@ -135,6 +138,55 @@ def test_who_has_stopped_listening_gets_nothing(
     assert one.nothing()
 
 
+def test_what_is_sent_just_before_the_end_comes(
+    bus: Bus, heard: Any, eventually: Eventually
+) -> None:
+    for _ in range(10):
+        topic = fresh(Text)
+        listening = heard(bus, topic)
+        publisher = connected(bus, topic, eventually)
+        publisher.publish(Text("Goodbye."))
+        publisher.close()
+        assert listening.next(10) == Text("Goodbye.")
+
+
+def test_to_stop_listening_waits_for_what_is_being_taken(
+    bus: Bus, eventually: Eventually
+) -> None:
+    topic, begun, go, done = fresh(Text), *(threading.Event() for _ in range(3))
+
+    def take(message: Text) -> None:
+        begun.set()
+        go.wait(PATIENCE)
+        done.set()
+
+    listening = bus.subscribe(topic, take)
+    connected(bus, topic, eventually).publish(Text(""))
+    assert begun.wait(PATIENCE)
+    later = threading.Timer(0.1, go.set)
+    later.start()
+    listening.close()
+    assert done.is_set()
+    later.join()
+
+
+def test_who_listens_may_itself_stop(bus: Bus, eventually: Eventually) -> None:
+    topic, taken = fresh(Text), list[str]()
+    stopped = threading.Event()
+
+    def take(message: Text) -> None:
+        taken.append(message.text)
+        listening.close()
+        stopped.set()
+
+    listening = bus.subscribe(topic, take)
+    publisher = connected(bus, topic, eventually)
+    publisher.publish(Text("first"))
+    publisher.publish(Text("second"))
+    assert stopped.wait(PATIENCE)
+    assert taken == ["first"]
+
+
 def test_who_has_stopped_sending_sends_nothing(
     bus: Bus, heard: Any, eventually: Eventually
 ) -> None:
@@ -173,7 +225,7 @@ def test_a_slow_listener_loses_the_oldest_and_never_the_latest(
     topic, taken, go = fresh(Text, waiting=3), list[int](), threading.Event()
 
     def take(message: Text) -> None:
-        go.wait(20)
+        go.wait(PATIENCE)
         taken.append(int(message.text))
 
     bus.subscribe(topic, take)
@@ -246,7 +298,7 @@ def service(kind: type[Any] = Facts) -> Service[Any]:
 def test_a_question_gets_its_answer(bus: Bus) -> None:
     sums = service()
     serve(bus, sums, lambda asked: Facts({"sum": sum(asked["of"])}))
-    asking = Asking(bus, sums, 20)
+    asking = Asking(bus, sums, PATIENCE)
     for numbers in ([2, 3], [], [1.5]):
         assert asking.ask({"of": numbers})["sum"] == sum(numbers)
 
@@ -254,7 +306,7 @@ def test_a_question_gets_its_answer(bus: Bus) -> None:
 def test_many_who_ask_get_each_their_own(bus: Bus) -> None:
     doubling = service(Bundle)
     serve(bus, doubling, lambda asked: Bundle({}, {"n": np.array(2 * asked["n"])}))
-    askers = [Asking(bus, doubling, 20) for _ in range(4)]
+    askers = [Asking(bus, doubling, PATIENCE) for _ in range(4)]
     found = dict[int, int]()
 
     def ask(number: int) -> None:
@@ -275,7 +327,7 @@ def test_what_is_wrong_with_a_question_comes_to_who_asked(bus: Bus) -> None:
     refusing = service()
     serve(bus, refusing, answer)
     with pytest.raises(BusError, match=r"^7 is too much$"):
-        Asking(bus, refusing, 20).ask({"n": 7})
+        Asking(bus, refusing, PATIENCE).ask({"n": 7})
 
 
 def test_a_fault_of_who_answers_is_logged_and_told_to_who_asked(
@@ -287,7 +339,7 @@ def test_a_fault_of_who_answers_is_logged_and_told_to_who_asked(
     failing = service()
     serve(bus, failing, answer)
     with pytest.raises(BusError, match="its log says why"):
-        Asking(bus, failing, 20).ask({})
+        Asking(bus, failing, PATIENCE).ask({})
     assert "ZeroDivisionError" in caplog.text
 
 
@@ -316,6 +368,26 @@ def test_a_question_asked_again_is_answered_but_done_once(
     assert len(done) == 1
 
 
+def test_a_question_asked_again_after_many_others_is_not_done_again(
+    bus: Bus, heard: Any, eventually: Eventually
+) -> None:
+    counting, done = service(), list[Any]()
+
+    def answer(asked: Any) -> Facts:
+        done.append(asked["id"])
+        return Facts({})
+
+    serve(bus, counting, answer)
+    answers = heard(bus, counting.answers)
+    asking = connected(bus, counting.questions, eventually)
+    eventually(lambda: bus.publisher(counting.answers).listeners)
+    others = [f"q{number}" for number in range(20)]
+    for number in ("first", *others, "first", "last"):
+        asking.publish(Facts({"id": number}))
+    given = [answers.next().facts["id"] for _ in range(22)]
+    assert given == done == ["first", *others, "last"]
+
+
 def test_questions_without_a_number_are_each_their_own(
     bus: Bus, heard: Any, eventually: Eventually
 ) -> None:
@@ -333,7 +405,7 @@ def test_who_begins_to_answer_late_still_gets_the_question(bus: Bus) -> None:
     late = service()
     begin = threading.Timer(0.5, serve, (bus, late, lambda asked: Facts({"ok": True})))
     begin.start()
-    assert Asking(bus, late, 20).ask({})["ok"]
+    assert Asking(bus, late, PATIENCE).ask({})["ok"]
     begin.join()
 
 

@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from threading import Condition, Event, Thread
+from typing import Any, TypeVar
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.bus import BusError, Camera, Image, LocalBus, Publisher
+from kille.bus import (
+    BusError,
+    Camera,
+    Image,
+    LocalBus,
+    Message,
+    Publisher,
+    Subscription,
+    Topic,
+)
 from kille.bus.pixels import encoding_of, pixels_of
+from kille.scene import Frame
 from kille.sensors.ros import feed_of
 from kille.sensors.sensor import SensorError
 from kille.sensors.sources import open_sensor
@@ -23,55 +34,101 @@ MOMENT = 33_000_000
 LENS = Camera(525.0, 525.0, 1.5, 1.0, 4, 3)
 
 
-class Driver:
-    """A camera that sends what it is told to, whenever a frame is waited for."""
+PATIENCE = 60.0
 
-    def __init__(self, feed: Feed = FEED, patience: float = 2.0) -> None:
-        self.bus = LocalBus()
+M = TypeVar("M", bound=Message)
+
+
+class Taken(LocalBus):
+    """A bus of which it can be told how many messages were taken."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._changed, self._count = Condition(), 0
+
+    def subscribe(self, topic: Topic[M], take: Callable[[M], None]) -> Subscription:
+        def counted(message: M) -> None:
+            take(message)
+            with self._changed:
+                self._count += 1
+                self._changed.notify_all()
+
+        return super().subscribe(topic, counted)
+
+    def send(self, publisher: Publisher[M], message: M) -> None:
+        """Send a message, and wait until it has been taken."""
+        with self._changed:
+            count = self._count + 1
+            publisher.publish(message)
+            assert self._changed.wait_for(lambda: self._count == count, PATIENCE)
+
+
+class Driver:
+    """A camera that sends what it is told to; it is taken before it goes on."""
+
+    def __init__(self, feed: Feed = FEED, patience: float = PATIENCE) -> None:
+        self.bus = Taken()
         self.stream = Stream(self.bus, feed, "a camera", patience)
         self._colour: Publisher[Image] = self.bus.publisher(feed.colour)
         self._camera: Publisher[Camera] = self.bus.publisher(feed.camera)
         self._depth = None if feed.depth is None else self.bus.publisher(feed.depth)
 
     def calibrated(self) -> Driver:
-        self._camera.publish(LENS)
+        self.bus.send(self._camera, LENS)
         return self
 
     def colour(self, stamp: int, value: int = 0) -> None:
-        self._colour.publish(Image(np.full((3, 4, 3), value, np.uint8), stamp))
+        self.picture(Image(np.full((3, 4, 3), value, np.uint8), stamp))
+
+    def picture(self, image: Image) -> None:
+        self.bus.send(self._colour, image)
 
     def depth(self, stamp: int, pixels: Any = None) -> None:
         assert self._depth is not None
         found = np.ones((3, 4), np.float32) if pixels is None else pixels
-        self._depth.publish(Image(found, stamp))
+        self.bus.send(self._depth, Image(found, stamp))
 
-    def soon(self, *sending: Any) -> threading.Timer:
-        """Have these done in a moment, when somebody waits for a frame."""
+    @contextmanager
+    def sending(self, *sent: Any) -> Iterator[Stream]:
+        """A stream to which these are sent over and over, whenever one waits."""
+        enough = Event()
 
         def send() -> None:
-            for send_it, *of in sending:
-                send_it(*of)
+            while not enough.wait(0.01):
+                for send_it, *of in sent:
+                    send_it(*of)
 
-        timer = threading.Timer(0.05, send)
-        timer.start()
-        return timer
+        thread = Thread(target=send)
+        thread.start()
+        try:
+            yield self.stream
+        finally:
+            enough.set()
+            thread.join()
+
+    def frame(self, *sent: Any) -> Frame:
+        """The next frame, while these are sent."""
+        with self.sending(*sent) as stream:
+            return stream.frame()
+
+    def close(self) -> None:
+        self.stream.close()
+        self.bus.close()
 
 
 @pytest.fixture
 def driver() -> Iterator[Driver]:
     made = Driver().calibrated()
     yield made
-    made.stream.close()
-    made.bus.close()
+    made.close()
 
 
 def test_a_frame_is_the_colour_and_depth_of_one_moment(driver: Driver) -> None:
-    driver.soon(
+    frame = driver.frame(
         (driver.colour, 1 * MOMENT, 1),
         (driver.depth, 2 * MOMENT + 5_000_000),
         (driver.colour, 2 * MOMENT, 2),
     )
-    frame = driver.stream.frame()
     assert frame.time == 2 * MOMENT / 1e9
     assert np.all(frame.colour == 2)
     assert frame.intrinsics is not None
@@ -81,25 +138,23 @@ def test_a_frame_is_the_colour_and_depth_of_one_moment(driver: Driver) -> None:
 def test_what_came_before_a_frame_was_asked_for_is_passed_over(driver: Driver) -> None:
     driver.depth(1 * MOMENT)
     driver.colour(1 * MOMENT)
-    threading.Event().wait(0.1)
-    driver.soon((driver.depth, 2 * MOMENT), (driver.colour, 2 * MOMENT))
-    assert driver.stream.frame().time == 2 * MOMENT / 1e9
+    later = (driver.depth, 2 * MOMENT), (driver.colour, 2 * MOMENT)
+    assert driver.frame(*later).time == 2 * MOMENT / 1e9
 
 
 def test_only_frames_after_a_moment_count_if_that_is_asked(driver: Driver) -> None:
     both = [
         (send, n * MOMENT) for n in (1, 2, 3) for send in (driver.depth, driver.colour)
     ]
-    driver.soon(*both)
-    assert driver.stream.frame_after(2 * MOMENT).time == 3 * MOMENT / 1e9
+    with driver.sending(*both) as stream:
+        assert stream.frame_after(2 * MOMENT).time == 3 * MOMENT / 1e9
 
 
 def test_millimetres_become_metres_and_what_is_no_reading_is_none(
     driver: Driver,
 ) -> None:
     depth = np.array([[0, 500, 1000, 65535]] * 3, np.uint16)
-    driver.soon((driver.depth, 0 + MOMENT, depth), (driver.colour, MOMENT))
-    found = driver.stream.frame().depth
+    found = driver.frame((driver.depth, MOMENT, depth), (driver.colour, MOMENT)).depth
     assert found is not None
     assert found.dtype == np.float32
     np.testing.assert_allclose(found[0], [np.nan, 0.5, 1.0, 65.535])
@@ -109,52 +164,54 @@ def test_millimetres_become_metres_and_what_is_no_reading_is_none(
 def test_no_reading_in_metres_is_none_too(driver: Driver, none: float) -> None:
     depth = np.full((3, 4), 2.0, np.float32)
     depth[0, 0] = none
-    driver.soon((driver.depth, MOMENT, depth), (driver.colour, MOMENT))
-    found = driver.stream.frame().depth
+    found = driver.frame((driver.depth, MOMENT, depth), (driver.colour, MOMENT)).depth
     assert found is not None
     assert np.isnan(found).sum() == 1
 
 
 def test_without_a_depth_topic_frames_are_of_colour_alone() -> None:
     driver = Driver(Feed.named("a/image", "a/camera_info"))
-    driver.soon((driver.colour, MOMENT))
-    frame = driver.stream.frame()
+    frame = driver.frame((driver.colour, MOMENT))
     assert frame.depth is None
     assert frame.intrinsics is None
-    driver.bus.close()
+    driver.close()
 
 
 def test_what_is_missing_is_one_line_each() -> None:
     driver = Driver(patience=0.15)
 
-    def failing(*sending: Any) -> str:
-        timer = driver.soon(*sending)
+    def failing() -> str:
         with pytest.raises(SensorError) as caught:
             driver.stream.frame()
-        timer.join()
         return str(caught.value)
 
     assert "no picture came on a/image within 0.15 s" in failing()
-    assert "colour comes, but no depth on a/depth" in failing((driver.colour, MOMENT))
-    depth = (driver.depth, 9 * MOMENT)
-    assert "not of the same moments" in failing((driver.colour, MOMENT), depth)
-    both = (driver.depth, 20 * MOMENT), (driver.colour, 20 * MOMENT)
-    assert "nothing on a/camera_info" in failing(*both)
-    driver.calibrated()
-    small = (driver.depth, 30 * MOMENT, np.ones((2, 2), np.float32))
-    assert "depth is 2x2 but colour is 4x3" in failing(
-        small, (driver.colour, 30 * MOMENT)
-    )
-    driver.bus.close()
+    driver.colour(MOMENT)
+    assert "colour comes, but no depth on a/depth" in failing()
+    driver.depth(9 * MOMENT)
+    assert "not of the same moments" in failing()
+    driver.close()
+
+
+def test_a_picture_without_calibration_is_one_line() -> None:
+    driver = Driver(patience=1.0)
+    with pytest.raises(SensorError, match="nothing on a/camera_info"):
+        driver.frame((driver.depth, MOMENT), (driver.colour, MOMENT))
+    driver.close()
+
+
+def test_depth_of_another_size_than_colour_is_one_line(driver: Driver) -> None:
+    small = (driver.depth, MOMENT, np.ones((2, 2), np.float32))
+    with pytest.raises(SensorError, match="depth is 2x2 but colour is 4x3"):
+        driver.frame(small, (driver.colour, MOMENT))
 
 
 def test_a_grey_picture_has_no_colour() -> None:
     driver = Driver(Feed.named("a/image", "a/camera_info"))
     grey = Image(np.zeros((3, 4), np.uint8), MOMENT)
-    driver.soon((driver._colour.publish, grey))
     with pytest.raises(SensorError, match="has no colour"):
-        driver.stream.frame()
-    driver.bus.close()
+        driver.frame((driver.picture, grey))
+    driver.close()
 
 
 # --- topics --------------------------------------------------------------------------

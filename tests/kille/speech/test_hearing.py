@@ -49,12 +49,38 @@ def test_without_a_recorder_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
         from_microphone()
 
 
-def test_a_recorder_that_fails_is_told_in_its_words(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+@pytest.fixture
+def recorder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Callable[[str], None]:
+    """Has a script in place of the recorder of sounds."""
+
+    def made(script: str) -> None:
+        path = tmp_path / "arecord"
+        path.write_text(f"#!/bin/sh\n{script}\n")
+        path.chmod(0o755)
+        monkeypatch.setenv("PATH", f"{tmp_path}:/bin:/usr/bin")
+
+    return made
+
+
+def test_who_presses_enter_and_says_nothing_is_not_waited_for(
+    recorder: Callable[[str], None],
 ) -> None:
-    recorder = tmp_path / "arecord"
-    recorder.write_text("#!/bin/sh\necho 'no soundcards found' >&2\n")
-    recorder.chmod(0o755)
-    monkeypatch.setenv("PATH", f"{tmp_path}:/bin:/usr/bin")
+    recorder("exec cat /dev/zero")
+    assert from_microphone(5.0) == b""
+
+
+def test_a_recorder_may_complain_without_end_and_record(
+    recorder: Callable[[str], None], spoken: Callable[..., bytes], tmp_path: Path
+) -> None:
+    sound = tmp_path / "said.raw"
+    sound.write_bytes(bytes(RATE) + spoken("This is a cup.") + bytes(4 * RATE))
+    recorder(f"yes overrun! | head -c 300000 >&2; exec cat {sound}")
+    assert len(from_microphone()) > RATE
+
+
+def test_a_recorder_that_fails_is_told_in_its_words(
+    recorder: Callable[[str], None],
+) -> None:
+    recorder("echo 'no soundcards found' >&2")
     with pytest.raises(SoundError, match="no soundcards found"):
         from_microphone()

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import io
+import os
+import pty
+import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from select import select
 
 import pytest
 
 from kille.interfaces.cli import main
 from kille.interfaces.ears import Ears, written
-from kille.speech.sound import RATE, SoundError, read_wav
+from kille.speech.sound import RATE, Sound, SoundError, WavFile, read_wav
 
 Lesson = Callable[..., bytes]
 
@@ -76,6 +80,87 @@ def test_other_talk_is_not_understood_and_the_talk_goes_on(
     code, out, _ = talk("--hear", str(heard))
     assert code == 0
     assert "S> Sorry, I did not understand.\nU> Goodbye." in out
+
+
+def test_a_sound_in_which_nobody_speaks_is_told(
+    talk: Callable[..., tuple[int, str, str]], tmp_path: Path
+) -> None:
+    pytest.importorskip("pocketsphinx")
+    silence = tmp_path / "silence.wav"
+    WavFile(silence)(Sound(RATE, bytes(4 * RATE)))
+    code, _, complaint = talk("--hear", str(silence))
+    assert code == 2
+    assert complaint == f"kille: nobody speaks in {silence}: is it the right sound?\n"
+
+
+RECORDER = """#!/bin/sh
+for it in {folder}/*.raw; do
+    mv "$it" {folder}/now && exec cat {folder}/now
+done
+"""
+
+
+class Terminal:
+    """A program at a terminal, of which what appears is waited for."""
+
+    def __init__(self, command: list[str], path: str) -> None:
+        self._end, other = pty.openpty()
+        self._shown = ""
+        with os.fdopen(other, "r+b", buffering=0) as slave:
+            self._running = subprocess.Popen(
+                command,
+                stdin=slave,
+                stdout=slave,
+                stderr=slave,
+                env={**os.environ, "PATH": path, "TERM": "dumb"},
+            )
+
+    def shows(self, text: str) -> None:
+        """Wait until this appears after all that was waited for."""
+        while text not in self._shown:
+            assert select([self._end], [], [], 60)[0], self._shown
+            self._shown += os.read(self._end, 4096).decode()
+        self._shown = self._shown.partition(text)[2]
+
+    def types(self, keys: str) -> None:
+        """Press keys, when it is ready for them."""
+        self.shows("(Enter to speak, or type)")
+        os.write(self._end, keys.encode())
+
+    def close(self) -> int:
+        """End it if it has not ended; the exit code."""
+        try:
+            return self._running.wait(60)
+        finally:
+            self._running.kill()
+            os.close(self._end)
+
+
+def test_a_tutor_at_a_terminal_presses_enter_and_speaks(
+    spoken: Callable[..., bytes], tmp_path: Path
+) -> None:
+    pytest.importorskip("pocketsphinx")
+    for number, text in enumerate(("This is a cup.", "What is this?"), start=1):
+        sound = tmp_path / f"{number}.raw"
+        sound.write_bytes(bytes(RATE) + spoken(text) + bytes(4 * RATE))
+    recorder = tmp_path / "arecord"
+    recorder.write_text(RECORDER.format(folder=tmp_path))
+    recorder.chmod(0o755)
+    command = [sys.executable, "-m", "kille.interfaces.cli", "talk", "--hear", "device"]
+    options = ["--sensor", SCENE, "--memory", str(tmp_path / "m.db")]
+    terminal = Terminal([*command, *options], f"{tmp_path}:{os.environ['PATH']}")
+    terminal.types("@ show cup\n")
+    terminal.shows("One thing is in view")
+    terminal.types("\n")
+    terminal.shows("U> This is a cup.")
+    terminal.shows("S> OK, I learned a cup.")
+    terminal.types("\n")
+    terminal.shows("S> This is a cup.")
+    terminal.types("\n")
+    terminal.shows("kille: nothing can be recorded")
+    terminal.types("Goodbye.\n")
+    terminal.shows("S> Goodbye.")
+    assert terminal.close() == 0
 
 
 @pytest.mark.parametrize(
