@@ -59,6 +59,7 @@ def talk(
     """
     place = memory_path(memory)
     try:
+        _check_apart(hear, say)
         speaks = voice(say, language)
         ears = Ears(hear, language) if hear else None
         robot = Agent(sensor, place, language=language, mode=mode, wording=wording)
@@ -70,6 +71,12 @@ def talk(
         except SoundError as error:
             return complain(error)
     return FINE
+
+
+def _check_apart(hear: str, say: str) -> None:
+    """Writing what is said must not overwrite what is to be heard."""
+    if hear and Path(hear).resolve() == Path(say).resolve():
+        raise SoundError(f"{hear} is what is to be heard: give --say another file")
 
 
 class _Conversation:

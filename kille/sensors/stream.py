@@ -30,6 +30,9 @@ _KEPT = 8
 
 _WAITING = 5
 
+_ANY_TIME = -1
+"""A moment before all others: drivers without a clock stamp their pictures with 0."""
+
 
 @dataclass(frozen=True)
 class Feed:
@@ -92,7 +95,7 @@ class Stream:
 
     def frame(self) -> Frame:
         """The next frame; SensorError if none comes, or none that can be used."""
-        return self.frame_after(0)
+        return self.frame_after(_ANY_TIME)
 
     def frame_after(self, stamp: int) -> Frame:
         """The next frame that was taken after that moment, in nanoseconds."""

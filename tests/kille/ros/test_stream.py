@@ -142,6 +142,11 @@ def test_what_came_before_a_frame_was_asked_for_is_passed_over(driver: Driver) -
     assert driver.frame(*later).time == 2 * MOMENT / 1e9
 
 
+def test_pictures_of_a_driver_without_a_clock_count(driver: Driver) -> None:
+    frame = driver.frame((driver.depth, 0), (driver.colour, 0))
+    assert frame.time == 0.0
+
+
 def test_only_frames_after_a_moment_count_if_that_is_asked(driver: Driver) -> None:
     both = [
         (send, n * MOMENT) for n in (1, 2, 3) for send in (driver.depth, driver.colour)

@@ -182,6 +182,17 @@ def test_what_cannot_be_is_told_in_one_line(
     assert len(complaint.strip().splitlines()) == 1
 
 
+def test_a_recording_is_not_overwritten_by_the_answers(
+    talk: Callable[..., tuple[int, str, str]], tmp_path: Path
+) -> None:
+    heard = tmp_path / "tutor.wav"
+    heard.write_bytes(b"a lesson")
+    code, _, complaint = talk("--hear", str(heard), "--say", f"{tmp_path}/./tutor.wav")
+    assert code == 2
+    assert "give --say another file" in complaint
+    assert heard.read_bytes() == b"a lesson"
+
+
 def test_what_is_heard_is_written_as_a_sentence() -> None:
     assert written("isn't this a cup") == "Isn't this a cup?"
     assert written("no it is a mug") == "No it is a mug."
