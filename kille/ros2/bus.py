@@ -175,11 +175,13 @@ class _Listening(Generic[M]):
 
     def _run(self) -> None:
         turn = module("cyclonedds.util").duration(seconds=_TURN)
+        waiting = _waiting(self._reader)
         while not self._closing.is_set():
-            for sample in self._reader.take_iter(timeout=turn):
+            for sample in self._reader.take_iter(waiting, timeout=turn):
                 if self._closing.is_set():
                     return
-                self._came(sample.cdr)
+                if sample.sample_info.valid_data:  # else only somebody has gone
+                    self._came(sample.cdr)
 
     def _came(self, data: bytes) -> None:
         try:
@@ -189,6 +191,13 @@ class _Listening(Generic[M]):
             return
         self._trouble = ""
         self._take(message)
+
+
+def _waiting(reader: Any) -> Any:
+    """What waits to be taken, also of those who have gone since they sent it."""
+    core = module("cyclonedds.core")
+    states = core.ViewState.Any | core.InstanceState.Any | core.SampleState.NotRead
+    return core.ReadCondition(reader, states)
 
 
 def _quality(topic: Topic[Any], *, lasting: bool) -> Any:

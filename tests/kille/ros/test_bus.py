@@ -20,6 +20,7 @@ from kille.bus import (
     Camera,
     Facts,
     Image,
+    LocalBus,
     Service,
     Text,
     Topic,
@@ -148,6 +149,36 @@ def test_what_is_sent_just_before_the_end_comes(
         publisher.publish(Text("Goodbye."))
         publisher.close()
         assert listening.next(10) == Text("Goodbye.")
+
+
+def test_who_is_busy_hears_what_was_sent_by_who_has_gone_since(
+    bus: Bus, eventually: Eventually
+) -> None:
+    topic, go, heard = fresh(Text), threading.Event(), list[str]()
+
+    def take(message: Text) -> None:
+        heard.append(message.text)
+        assert go.wait(PATIENCE)
+
+    bus.subscribe(topic, take)
+    publisher = connected(bus, topic, eventually)
+
+    def send() -> None:
+        publisher.publish(Text("I go."))
+        eventually(lambda: heard)
+        publisher.publish(Text("Goodbye."))
+        publisher.close()
+        go.set()
+
+    sender = threading.Thread(target=send)
+    sender.start()
+    try:
+        if isinstance(bus, LocalBus):
+            go.set()  # who sends waits until it is taken
+        eventually(lambda: heard == ["I go.", "Goodbye."])
+    finally:
+        go.set()
+        sender.join()
 
 
 def test_to_stop_listening_waits_for_what_is_being_taken(
