@@ -25,7 +25,7 @@ from kille.dialogue.wording import did_not_understand, lexicon
 from kille.exchange import Exchange, Said
 from kille.gaze import Gaze, View
 from kille.journal import Journal
-from kille.knowledge import Knowledge
+from kille.knowledge import Knowledge, Learners
 from kille.memory import Memory, MemoryFileError
 from kille.perception.look import SCANS
 from kille.recollection import sign_of
@@ -70,10 +70,17 @@ class Agent:
         wording: str = "",
         scans: int = SCANS,
         now: Callable[[], datetime] = lambda: datetime.now(UTC),
+        learners: Learners | None = None,
+        theory: Callable[[Game], Game] | None = None,
     ) -> None:
+        """A robot that is awake; other `learners` may judge its words.
+
+        `theory` makes another game of the one that it would play.
+        """
         self.gaze = Gaze(sensor, scans)
         self.language, self._mode, self._wording = language, mode, wording
         self._now = now
+        self._learners, self._theory = learners, theory
         self._lexicon = lexicon(language)
         self.exchanges: list[Exchange] = []
         with ExitStack() as failing:
@@ -85,7 +92,7 @@ class Agent:
 
     def _wake(self, memory: Memory) -> None:
         """Begin a dialogue, knowing what the memory holds."""
-        knowledge = Knowledge(memory)
+        knowledge = Knowledge(memory, self._learners)
         witnesses = Witnesses.of(knowledge)
         colours = tuple(self._colour_words(knowledge.colours.labels))
         counts = memory.counts()
@@ -99,7 +106,7 @@ class Agent:
         self.memory, self._knowledge, self._witnesses = memory, knowledge, witnesses
         self._journal = Journal(memory, self._now)
         body = Body(knowledge, witnesses, self.gaze, self._journal, self._now)
-        self.game: Game = tutoring(
+        game = tutoring(
             known,
             language=self.language,
             mode=self._mode,
@@ -109,6 +116,7 @@ class Agent:
             colours=colours,
             taught=taught,
         )
+        self.game: Game = game if self._theory is None else self._theory(game)
         self._now_at = self.game.begin()
 
     def _colour_words(self, known: Iterable[str]) -> Iterator[Record]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Protocol, Self
@@ -35,7 +35,7 @@ from kille.perception.thumbnails import evidence_of, restored
 from kille.reasons import Reasons, Share, best_rival, shares_of
 from kille.scene import Configuration, Percept, Region, Traits
 
-__all__ = ["Evidence", "Knowledge", "Named", "colour_named"]
+__all__ = ["Evidence", "Knowledge", "Learners", "Named", "colour_named"]
 
 SAID_OF_THINGS = "is_"
 """How the predicates of words for how things are begin."""
@@ -56,21 +56,36 @@ class Evidence:
     time: float
 
 
+def _unhurried(views: Iterable[View]) -> ObjectMemory:
+    """A memory that has its index built while it goes on, see `Background`."""
+    return ObjectMemory(views, builder=Background())
+
+
+@dataclass(frozen=True)
+class Learners:
+    """What makes the learners of nouns, from views, and of relations."""
+
+    objects: Callable[[Iterable[View]], ObjectMemory] = _unhurried
+    relations: Callable[[], RelationMemory] = RelationMemory
+
+
 class Knowledge:
     """The learners of words, which know what the memory holds and nothing else.
 
     What is learned inside `together` is on disk when that ends; if anything fails, the
     memory and the learners are as they were. MemoryFileError as the memory raises it.
+    Others than its own `learners` may judge nouns and relations.
     """
 
-    def __init__(self, memory: Memory) -> None:
+    def __init__(self, memory: Memory, learners: Learners | None = None) -> None:
+        learners = Learners() if learners is None else learners
         self.memory = memory
         self._undoing: ExitStack | None = None
         self.colours = ColourMemory(prior=xkcd())
         self.attributes = AttributeMemory()
-        self.relations = RelationMemory()
+        self.relations = learners.relations()
         denied: list[View] = []
-        self.objects = ObjectMemory(_views(memory, denied), builder=Background())
+        self.objects = learners.objects(_views(memory, denied))
         for view in denied:
             self.objects.deny(view)
         for lesson in memory.attributes():
@@ -113,16 +128,12 @@ class Knowledge:
     ) -> int:
         """Learn that this is what the word is said of, or that it is not; the key."""
         seen = self._sighting(percept, evidence, self.objects.traits_of(percept))
-        (scan,) = seen.scans
+        learn = self.objects.learn_one if holds else self.objects.deny_one
         with self.together():
             key = self.memory.learn_object(
                 evidence.turn, name, surface, seen, article=article, holds=holds
             )
-            view = View(key, name, scan.descriptors, seen.traits)
-            if holds:
-                self.objects.learn(view)
-            else:
-                self.objects.deny(view)
+            learn(percept, name, key=key)
             self._undo(self.objects.forget, key)
         return key
 

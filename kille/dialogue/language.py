@@ -15,7 +15,6 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from importlib.resources import files
 from itertools import islice, product, zip_longest
 
 from kille.dialogue.lexicon import Lexicon, lexicon
@@ -31,6 +30,7 @@ from kille.dialogue.meanings import (
     value_at,
 )
 from kille.dialogue.parsing import Grammar, Tree, Word, parts, words
+from kille.dialogue.sources import source
 from kille.dialogue.transcribing import CLOSELY, LOOSELY, robot_rules
 from ttr import Rec, Record, RecordType, RecType, TypeNode, merge, rectype
 
@@ -153,14 +153,13 @@ def _grammar(language: str) -> Grammar:
 
 @cache
 def _robots_grammar(language: str) -> Grammar:
-    source = grammar_text(language)
-    return Grammar(source + robot_rules(lexicon(language), source), CLOSELY, LOOSELY)
+    tutors = grammar_text(language)
+    return Grammar(tutors + robot_rules(lexicon(language), tutors), CLOSELY, LOOSELY)
 
 
 def grammar_text(language: str) -> str:
-    """The packaged grammar of a language, in Lark's notation."""
-    source = files("kille.grammars").joinpath(f"tutor.{language}.lark")
-    return source.read_text(encoding="utf-8")
+    """The grammar of a language, in Lark's notation."""
+    return source("tutor.{}.lark", language)
 
 
 @cache

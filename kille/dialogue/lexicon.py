@@ -9,11 +9,11 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
 from itertools import chain
 from typing import Any
 
 from kille.dialogue.inflection import Articles, Inflection
+from kille.dialogue.sources import source
 from ttr import Record
 
 __all__ = ["Lexicon", "Style", "lexicon"]
@@ -117,12 +117,11 @@ class Lexicon:
 
 @cache
 def lexicon(language: str = "en", wording: str = "paper") -> Lexicon:
-    """The packaged lexicon of a language, with the wordings of one set.
+    """The lexicon of a language, with the wordings of one set.
 
     The wordings of a set stand under `says_` and its name; the others are those of all.
     """
-    source = files("kille.grammars").joinpath(f"lexicon.{language}.toml")
-    data = tomllib.loads(source.read_text(encoding="utf-8"))
+    data = tomllib.loads(source("lexicon.{}.toml", language))
     understands, phrases, articles = (
         data["understands"],
         data["phrases"],

@@ -111,7 +111,8 @@ class Evidence:
 def weighing(name: str = "default") -> Weighing:
     """A weighing that comes with the package: `default`, or with the `embedding`.
 
-    KeyError for another name.
+    Where there is nothing but the features it is `instances`, and nothing but the
+    traits, `cues`. KeyError for another name.
 
     >>> weighing().size > 0
     True

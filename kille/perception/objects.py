@@ -213,12 +213,21 @@ class ObjectMemory:
 _MORE: WeakKeyDictionary[Percept, Traits] = WeakKeyDictionary()
 """Traits beyond the usual ones, each measured once for a percept."""
 
+_KEPT: WeakKeyDictionary[Percept, Features] = WeakKeyDictionary()
+"""What is kept of a percept, which is asked for whenever it is taught."""
+
 
 def kept_features(x: Percept) -> Features:
     """What is kept of a lesson: each feature once, from some scans of the look.
 
     The first scan is kept whole, and of three later ones what the earlier lack.
     """
+    if x not in _KEPT:
+        _KEPT[x] = _kept(x)
+    return _KEPT[x]
+
+
+def _kept(x: Percept) -> Features:
     count = len(x.scans)
     chosen = sorted(
         {round(i) for i in np.linspace(0, count - 1, min(count, _KEPT_SCANS))}

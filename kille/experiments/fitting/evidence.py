@@ -17,7 +17,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -65,6 +65,16 @@ WEIGHTS = {
     "whole_pattern": 0.5,
 }
 WEIGHINGS = Path(evidence.__file__).with_name("weighing.json")
+NUMBERS = ("score", "votes", "size")
+"""The numbers that weigh evidence, besides the base, as in `Asked.found`."""
+
+PARTS: Mapping[str, Collection[str]] = {
+    "default": NUMBERS,
+    "instances": ("votes",),
+    "cues": ("score", "size"),
+}
+"""What is heard by a memory of each name: all, the features alone, the traits alone."""
+
 EMBEDDING = 100.0
 """The weight of the embedding, where it is had: more than that of all others."""
 
@@ -200,18 +210,24 @@ def answers(
 
 
 def fitted(
-    episodes: Sequence[Sequence[Asked]], kernels: Mapping[str, Kernel]
+    episodes: Sequence[Sequence[Asked]],
+    kernels: Mapping[str, Kernel],
+    heard: Collection[str] = NUMBERS,
 ) -> Weighing:
-    """The weighing that makes the right answers most probable, each episode alike."""
+    """The weighing that makes the right answers most probable, each episode alike.
+
+    Evidence that is not `heard` weighs nothing.
+    """
     from scipy.optimize import minimize
 
+    most = [None if it in heard else 0.0 for it in NUMBERS]
     found = minimize(
         _surprise,
-        np.full(4, 0.1),
+        np.array([0.1] + [0.1 if it in heard else 0.0 for it in NUMBERS]),
         args=(episodes,),
         jac=True,
         method="L-BFGS-B",
-        bounds=[(None, None), *[(0, None)] * 3],
+        bounds=[(None, None), *((0.0, it) for it in most)],
     ).x
     base, score, cast, size = (round(float(it), 3) for it in found)
     return Weighing(base, score, cast, size, kernels)
@@ -337,10 +353,11 @@ def main() -> None:
         sys.stdout.writelines(held_out(groups, kernels))
         return
     words = [sorted({it.label for it in views}) for views in groups]
-    weighed = fitted(drawn(groups, kernels, words, 0), kernels)
-    name = "embedding" if options.embedding else "default"
+    episodes = drawn(groups, kernels, words, 0)
+    parts = {"embedding": NUMBERS} if options.embedding else PARTS
+    found = {name: stored(fitted(episodes, kernels, it)) for name, it in parts.items()}
     known = json.loads(WEIGHINGS.read_text("utf-8")) if WEIGHINGS.exists() else {}
-    text = json.dumps({**known, name: stored(weighed)}, indent=1)
+    text = json.dumps({**known, **found}, indent=1)
     WEIGHINGS.write_text(text + "\n", "utf-8")
 
 

@@ -1,0 +1,46 @@
+"""The files of a language: those of the package, or some of one's own in a folder.
+
+A language is known by its name, `en`. With a folder before it, `mine/en`, whatever the
+folder has of its files is taken from there, and the others from the package.
+"""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from pathlib import Path, PurePath
+
+__all__ = ["FILES", "language_in", "plain", "source"]
+
+FILES = ("tutor.{}.lark", "lexicon.{}.toml")
+"""The files of a language: its grammar, and its lexicon."""
+
+
+def language_in(folder: PurePath | str, language: str) -> str:
+    """The language whose files may be in a folder.
+
+    >>> language_in("mine", "en")
+    'mine/en'
+    """
+    return PurePath(folder, language).as_posix()
+
+
+def plain(language: str) -> str:
+    """The name of a language without the folder.
+
+    >>> plain("mine/en"), plain("sv")
+    ('en', 'sv')
+    """
+    return PurePath(language).name
+
+
+def source(file: str, language: str) -> str:
+    """The text of one of the `FILES` of a language.
+
+    >>> source("tutor.{}.lark", "nowhere/en") == source("tutor.{}.lark", "en")
+    True
+    """
+    name = file.format(plain(language))
+    own = Path(language).parent / name
+    if own.parent != Path() and own.is_file():
+        return own.read_text(encoding="utf-8")
+    return files("kille.grammars").joinpath(name).read_text(encoding="utf-8")
