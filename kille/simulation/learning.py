@@ -7,7 +7,9 @@ word is judged by its own lessons only, so that what one word learns changes no 
 and to take a lesson away is to have never had it.
 
 An adjective may speak of the colour or of the size: that aspect counts in which things
-that it is true of are alike, and those that it is not true of are not.
+that it is true of are alike, and those that it is not true of are not. A relation is
+taken to speak of the direction, until what it is true of is more alike in how far away
+it is.
 """
 
 from __future__ import annotations
@@ -15,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import combinations
 from typing import NamedTuple
 
@@ -23,6 +26,7 @@ from kille.simulation.perceiving import (
     Vector,
     colour,
     direction,
+    distance,
     number_of,
     size,
     traits,
@@ -38,9 +42,18 @@ Observation = tuple[Vector, ...]
 ASPECTS = {
     "noun": ("features",),
     "adjective": ("colour", "size"),
-    "relation": ("configuration",),
+    "relation": ("configuration", "distance"),
 }
 """What words of a kind may speak of."""
+
+BY_CHANCE = (0.32, 0.4)
+"""How alike in direction and in distance any two lessons of places are."""
+
+EXPECTED = 2
+"""So many pairs of lessons speak for the direction before there are any."""
+
+FARTHER = 0.6
+"""By which logarithm one thing may be farther away than another, and still as far."""
 
 UNKNOWN = (0.0, 1.0)
 BACKGROUND = 0.25
@@ -147,39 +160,62 @@ class Word:
 
     def weights(self) -> Sequence[float]:
         """How much of it each aspect counts."""
+        return self._weights
+
+    @cached_property
+    def _weights(self) -> Sequence[float]:
         if self.prior:
             return (1.0,)
         kinds = ASPECTS[self.sign.kind]
         if len(kinds) == 1:
             return (1.0,)
-        agreement = [self._agreement(aspect) for aspect in range(len(kinds))]
+        agreeing = self._placing if self.sign.kind == "relation" else self._agreement
+        agreement = [agreeing(aspect) for aspect in range(len(kinds))]
         whole = math.fsum(agreement)
-        return [one / whole for one in agreement]
+        return [one / whole for one in agreement] if whole else (1.0, 0.0)
+
+    def _placing(self, aspect: int) -> float:
+        """How much more alike than by chance the places are that it is true of.
+
+        At first it is the direction that is expected to be alike, and nothing else.
+        """
+        pairs = combinations([it.of for it in self.lessons if it.holds], 2)
+        same = [self.alike(one[aspect], other[aspect], aspect) for one, other in pairs]
+        expected = EXPECTED if aspect == 0 else 0.0
+        mean = (math.fsum(same) + expected) / (len(same) + EXPECTED)
+        return max(0.0, (mean - BY_CHANCE[aspect]) / (1.0 - BY_CHANCE[aspect]))
 
     def _agreement(self, aspect: int) -> float:
         """How well an aspect tells what the word is true of from what it is not."""
         same, apart = [], []
         for one, other in combinations(self.lessons, 2):
             if one.holds and other.holds:
-                same.append(self._kernel(one.of, other.of, aspect))
+                same.append(self.alike(one.of[aspect], other.of[aspect], aspect))
             elif one.holds or other.holds:
-                apart.append(self._kernel(one.of, other.of, aspect))
+                apart.append(self.alike(one.of[aspect], other.of[aspect], aspect))
         return max(LEAST, _mean(same, 1.0) - _mean(apart, 0.0))
 
     def _degree(self, aspect: int, of: Observation) -> float:
-        speaks = {True: 0.0, False: 0.0}
-        for lesson in (*self.prior, *self.lessons):
-            speaks[lesson.holds] += self._kernel(lesson.of, of, aspect)
-        return speaks[True] / (speaks[True] + speaks[False] + BACKGROUND)
+        says, denies = (self.speaking(aspect, of, holds) for holds in (True, False))
+        return says / (says + denies + BACKGROUND)
+
+    def speaking(self, aspect: int, of: Observation, holds: bool) -> float:
+        """How much the lessons that say that it holds, or does not, speak of this."""
+        seen = of[aspect]
+        lessons = (it for it in (*self.prior, *self.lessons) if it.holds is holds)
+        return math.fsum(self.alike(it.of[aspect], seen, aspect) for it in lessons)
 
     def _alike(self, one: Observation, other: Observation) -> float:
         shares = self.weights()
-        return math.fsum(w * self._kernel(one, other, i) for i, w in enumerate(shares))
+        return math.fsum(
+            w * self.alike(one[i], other[i], i) for i, w in enumerate(shares)
+        )
 
-    def _kernel(self, one: Observation, other: Observation, aspect: int) -> float:
-        """How alike two observations are in an aspect."""
-        alike = _cosine if self.sign.kind == "relation" else _gaussian
-        return alike(one[aspect], other[aspect])
+    def alike(self, one: Vector, other: Vector, aspect: int) -> float:
+        """How alike two things are in an aspect: the kernel, 1 for the same."""
+        if self.sign.kind != "relation":
+            return _gaussian(one, other)
+        return (_cosine, _as_far)[aspect](one, other)
 
 
 def observed(kind: str, *args: str) -> Observation | None:
@@ -195,12 +231,19 @@ def observed(kind: str, *args: str) -> Observation | None:
         case "adjective":
             return colour(world, numbers[0]), size(world, numbers[0])
     way = direction(world, numbers[0], numbers[1], args[3])
-    return None if way is None else (way,)
+    return None if way is None else (way, (distance(world, *numbers),))
 
 
 def _cosine(a: Vector, b: Vector) -> float:
     """How alike two directions are: the cosine of the angle between them, if any."""
-    return max(0.0, math.fsum(p * q for p, q in zip(a, b, strict=True)))
+    dot = math.fsum(p * q for p, q in zip(a, b, strict=True))
+    return max(0.0, dot) / ((math.hypot(*a) * math.hypot(*b)) or 1.0)
+
+
+def _as_far(a: Vector, b: Vector) -> float:
+    """How alike two distances are."""
+    farther = math.log(a[0] / b[0])
+    return math.exp(-((farther / FARTHER) ** 2))
 
 
 def _gaussian(a: Vector, b: Vector) -> float:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from random import Random
 
-from kille.simulation.worlds import COLOURS, SIDE, World
+from kille.simulation.worlds import COLOURS, SIDE, STEP, World
 from ttr import Record, record
 
 __all__ = [
@@ -13,8 +14,10 @@ __all__ = [
     "across",
     "colour",
     "direction",
+    "distance",
     "glanced",
     "number_of",
+    "oddness",
     "seen",
     "size",
     "thing",
@@ -70,8 +73,17 @@ def glanced(world: World, before: World) -> Record:
 
 
 def _event(world: World, before: World, floor: str) -> Record:
-    kept = [thing(number) for number in world.in_view if number in before]
+    kept = [thing(it) for it in world.in_view if _has_stayed(it, world, before)]
     return record(view=view(world), kept=kept, floor=floor)
+
+
+def _has_stayed(number: int, world: World, before: World) -> bool:
+    """Whether a thing stands where it stood.
+
+    What has been moved is not known again. So it is for the whole robot, which follows
+    nothing through the air, and what was said of where it was says nothing of now.
+    """
+    return number in before and world.place(number) == before.place(number)
 
 
 # --- what is seen of a thing ---------------------------------------------------------
@@ -106,7 +118,7 @@ def direction(world: World, x: int, y: int, front: str) -> Vector | None:
 
     A thing's own front, as `faces_left`, is what a viewer would call its back: in front
     of a car is before it, but in front of what one looks at is on one's own side. None
-    where places are not known.
+    where places are not known, or are one and the same.
     """
     way = front.removeprefix("faces_")
     if not world.deep or way not in _TURNS or x == y:
@@ -114,6 +126,8 @@ def direction(world: World, x: int, y: int, front: str) -> Vector | None:
     (ax, ay), (bx, by) = world.place(x), world.place(y)
     dx, dy = float(ax - bx), float(ay - by)
     far = (dx * dx + dy * dy) ** 0.5
+    if not far:
+        return None
     cos, sin = _TURNS[way]
     ahead = (sin * dx + cos * dy) / far
     return (cos * dx - sin * dy) / far, (ahead if way == front else -ahead)
@@ -121,6 +135,24 @@ def direction(world: World, x: int, y: int, front: str) -> Vector | None:
 
 _TURNS = {"away": (1, 0), "left": (0, -1), "right": (0, 1), "towards": (-1, 0)}
 """The cosine and sine of the turn after which that front is ahead."""
+
+
+def distance(world: World, x: int, y: int) -> float:
+    """How far two things are from each other, in metres.
+
+    >>> from kille.simulation.worlds import Thing
+    >>> things = Thing("cup", "red", place=(2, 3)), Thing("car", "red", place=(5, 7))
+    >>> distance(World(things), 1, 2)
+    0.5
+    """
+    (ax, ay), (bx, by) = world.place(x), world.place(y)
+    return STEP * math.hypot(ax - bx, ay - by)
+
+
+def oddness(world: World, number: int) -> float:
+    """How little a thing looks like what is typical of its kind, on the whole."""
+    own = _normal(f"thing {world.traits} {number} {TRAITS}", TRAITS)
+    return math.hypot(*own)
 
 
 def _blurred(typical: Vector, world: World, number: int) -> Vector:

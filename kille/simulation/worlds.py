@@ -12,7 +12,17 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from random import Random
 
-__all__ = ["COLOURS", "FRONTS", "KINDS", "Place", "Thing", "World", "drawn"]
+__all__ = [
+    "COLOURS",
+    "FRONTS",
+    "KINDS",
+    "SIDE",
+    "STEP",
+    "Place",
+    "Thing",
+    "World",
+    "drawn",
+]
 
 KINDS = ("cup", "mug", "bowl", "book", "box", "apple", "car", "shoe")
 """What kinds of things there are."""
@@ -35,8 +45,11 @@ FRONTS = ("away", "left", "right", "towards")
 SIDE = 10
 """The table is so many steps wide, and deep."""
 
-Place = tuple[int, int]
-"""Steps to the right, and steps away from the robot."""
+STEP = 0.1
+"""Metres of a step."""
+
+Place = tuple[float, float]
+"""Steps to the right, and steps away from the robot, to the thousandth at most."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +66,7 @@ class Thing:
     front: str = ""
 
     def __str__(self) -> str:
-        place = "" if self.place is None else f" {self.place[0]},{self.place[1]}"
+        place = "" if self.place is None else f" {self.place[0]:g},{self.place[1]:g}"
         front = self.front and f" {self.front}"
         return f"{self.colour} {self.kind} {self.size:g}{place}{front}"
 
@@ -129,7 +142,7 @@ class World:
             return self.focus
         return min(self.in_view, key=self._nearness, default=None)
 
-    def _nearness(self, number: int) -> tuple[int, int, int]:
+    def _nearness(self, number: int) -> tuple[float, float, int]:
         right, away = self.place(number)
         return away, right, number
 
@@ -189,12 +202,12 @@ _NAME = re.compile(
 )
 _THING = re.compile(
     r"\*?(?P<colour>[\w-]+) (?P<kind>[\w-]+) (?P<size>[\d.e-]+)"
-    r"( (?P<x>\d+),(?P<y>\d+))?( (?P<front>away|left|right|towards))?"
+    r"( (?P<x>-?[\d.]+),(?P<y>-?[\d.]+))?( (?P<front>away|left|right|towards))?"
 )
 
 
 def _thing(found: re.Match[str]) -> Thing:
-    place = None if found["x"] is None else (int(found["x"]), int(found["y"]))
+    place = None if found["x"] is None else (float(found["x"]), float(found["y"]))
     size, front = float(found["size"]), found["front"] or ""
     return Thing(found["kind"], found["colour"], size, place, front)
 

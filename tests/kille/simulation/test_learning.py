@@ -120,3 +120,46 @@ def test_nothing_is_learned_about_what_is_not_to_be_seen():
     with pytest.raises(ValueError, match="not to be seen"):
         Word(noun("cup")).taught("o1", world.name)
     assert Word(noun("cup"))("o1", world.name) == (0.0, 1.0)
+
+
+# --- places --------------------------------------------------------------------------
+
+
+def beside(right, away):
+    """A book so many steps right and away of a car."""
+    place = (5 + right, 5 + away)
+    things = Thing("book", "blue", place=place), Thing("car", "red", place=(5, 5))
+    return "o1", "o2", World(things).name, "away"
+
+
+NEAR = [(1, 0), (0, 1.2), (-1, 0), (0, -1.1), (0.8, 0.8), (-0.9, 0.7)]
+LEFT = [(-1, 0), (-3, 0.5), (-2, -0.4), (-4, 0), (-1.5, 0.3), (-2.5, -0.5)]
+
+
+def of_places(form, places):
+    word = Word(relation(form))
+    for place in places:
+        word = word.taught(*beside(*place))
+    return word
+
+
+def test_a_relation_is_one_of_direction_until_it_is_learned_to_be_of_distance():
+    direction, distance = of_places("near", NEAR[:1]).weights()
+    assert (direction, distance) == (1.0, 0.0)
+    direction, distance = of_places("near", NEAR).weights()
+    assert distance > direction
+    direction, distance = of_places("left of", LEFT).weights()
+    assert direction > 0.9
+
+
+def test_near_is_near_in_any_direction():
+    near = of_places("near", NEAR)
+    close, far = near(*beside(0.7, -0.9)), near(*beside(4, 0))
+    assert close > 0.7
+    assert far < close
+
+
+def test_left_is_left_at_any_distance():
+    left = of_places("left of", LEFT)
+    assert left(*beside(-4.4, 0)) > 0.8
+    assert left(*beside(1, 0)) < 0.2

@@ -60,6 +60,35 @@ def test_it_learns_relations_and_says_where_things_are():
     assert talk.hear("Where is the cup?") == "The cup is to the left of the book."
 
 
+@pytest.mark.parametrize("moved", [1, 2])
+def test_what_was_said_of_where_a_thing_was_still_holds_of_that_place(moved):
+    talk = Talk()
+    talk.hear("This is a cup.")
+    talk.see(lambda world: world.moved(3, None).pointed(2))
+    talk.hear("This is a book.")
+    talk.see(lambda world: world.pointed(1))
+    talk.hear("This is to the left of the book.")
+    talk.see(lambda world: world.moved(moved, (9, 9) if moved == 1 else (0, 0)))
+    said = talk.hear("No, this is to the right of the book.")
+    assert "OK" in said
+    held = [it.sign.form for it in talk.now.state.private.lessons]
+    assert held.count("to the left of") == held.count("to the right of") == 1
+
+
+def test_what_is_corrected_of_things_that_stand_still_is_unlearned():
+    talk = Talk()
+    talk.hear("This is a cup.")
+    talk.see(lambda world: world.moved(3, None).pointed(2))
+    talk.hear("This is a book.")
+    talk.see(lambda world: world.pointed(1))
+    talk.hear("This is behind the book.")
+    talk.see(lambda world: world.looked())
+    talk.hear("No, this is to the left of the book.")
+    held = {it.sign.form for it in talk.now.state.private.lessons}
+    assert held >= {"to the left of"}
+    assert "behind" not in held
+
+
 def test_what_is_forgotten_was_never_learned():
     talk = Talk()
     talk.hear("This is a cup.")

@@ -1,15 +1,26 @@
 """Worlds: their names say all of them, and what is seen follows from the name."""
 
+import math
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.dialogue.meanings import named
-from kille.simulation.perceiving import colour, direction, glanced, seen, traits, view
+from kille.simulation.perceiving import (
+    colour,
+    direction,
+    distance,
+    glanced,
+    seen,
+    traits,
+    view,
+)
 from kille.simulation.playing import model_of
 from kille.simulation.worlds import COLOURS, FRONTS, KINDS, SIDE, Thing, World, drawn
 
-places = st.none() | st.tuples(st.integers(0, SIDE - 1), st.integers(0, SIDE - 1))
+steps = st.integers(0, SIDE - 1) | st.integers(-900, 9900).map(lambda n: n / 1000)
+places = st.none() | st.tuples(steps, steps)
 things = st.builds(
     Thing,
     st.sampled_from(KINDS),
@@ -42,6 +53,15 @@ def test_a_name_says_all_of_a_world(world):
 @pytest.mark.parametrize("name", ["", "look0", "look1 of 2", "look1 of 0~0.1: x"])
 def test_other_texts_name_no_world(name):
     assert World.named(name) is None
+
+
+@given(worlds().filter(lambda it: len(it.in_view) > 1), st.sampled_from(FRONTS))
+def test_places_have_a_direction_unless_they_are_the_same(world, front):
+    x, y, *_ = world.in_view
+    way = direction(world, x, y, front)
+    assert (way is None) is (not world.deep or distance(world, x, y) == 0)
+    if way is not None:
+        assert math.hypot(*way) == pytest.approx(1)
 
 
 @given(worlds())
