@@ -1,8 +1,7 @@
 """Drawing figures with matplotlib, which is optional: the extra `plots` has it.
 
 Ink is drawn in a colour of its own, so that a page can give it the colour of its text,
-by day and by night. Hues are those of Okabe and Ito 2008, which people with any colour
-vision tell apart; curves differ in their markers too.
+by day and by night.
 """
 
 from __future__ import annotations
@@ -17,33 +16,42 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kille.experiments.intervals import drawn_intervals, drawn_points, drawn_reliability
 from kille.experiments.results import Figure
+from kille.experiments.strokes import (
+    FAINT,
+    HUES,
+    INK,
+    MARKERS,
+    RIGHT,
+    WIDTH,
+    WRONG,
+    blank,
+    legend,
+    named,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Drawing
 
-__all__ = ["MISSING", "can_draw", "drawing", "jpeg", "svg"]
+__all__ = ["MISSING", "can_draw", "drawing", "jpeg", "pdf", "svg"]
 
 MISSING = "no figures: they need matplotlib, pip install 'kille[plots]'"
 
 _CONTROLS = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
-_HUES = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00")
-_MARKERS = ("o", "s", "^", "D", "v", "P")
-_RIGHT, _WRONG = _HUES[0], _HUES[5]
-_INK = "#0a0b0c"  # stands for the colour of the text
-_FAINT = "#7f7f7f"
 _TICKS = 13  # so many measured places each have a number on the axis
 _SETTINGS: Any = {
     "svg.fonttype": "none",
+    "pdf.fonttype": 42,  # letters that remain letters
     "text.parse_math": False,  # a dollar in a word is a dollar
     "font.size": 10,
     "font.family": "sans-serif",
     "axes.titlesize": 10,
     **dict.fromkeys(
-        ("text.color", "axes.edgecolor", "axes.labelcolor", "xtick.color"), _INK
+        ("text.color", "axes.edgecolor", "axes.labelcolor", "xtick.color"), INK
     ),
-    "ytick.color": _INK,
+    "ytick.color": INK,
     "axes.facecolor": "none",
     "figure.facecolor": "none",
     "legend.frameon": False,
@@ -84,8 +92,22 @@ def svg(figure: Figure, number: int = 0) -> str:
     inner = re.sub(r"<metadata>.*?</metadata>\s*", "", inner, flags=re.DOTALL)
     inner = re.sub(r'(<(?:g|svg)\b[^>]*?) id="[^"]*"', r"\1", inner)
     return _CONTROLS.sub("\N{REPLACEMENT CHARACTER}", inner).replace(
-        _INK, "currentColor"
+        INK, "currentColor"
     )
+
+
+def pdf(figure: Figure) -> bytes:
+    """The figure as a PDF file for a paper; ImportError without matplotlib.
+
+    The same figure is the same file.
+    """
+    from matplotlib import rc_context
+
+    file = io.BytesIO()
+    with rc_context(_SETTINGS), warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        drawing(figure).savefig(file, format="pdf", metadata={"CreationDate": None})
+    return file.getvalue()
 
 
 def jpeg(picture: Any) -> bytes:
@@ -97,13 +119,6 @@ def jpeg(picture: Any) -> bytes:
     return file.getvalue()
 
 
-def _blank(width: float, height: float) -> tuple[Drawing, Axes]:
-    from matplotlib.figure import Figure as Drawing
-
-    drawn = Drawing(figsize=(width, height), layout="constrained")
-    return drawn, drawn.subplots()
-
-
 def _confusion(data: Mapping[str, Any]) -> Drawing:
     """Right answers are blue and on the diagonal, wrong ones are red."""
     rows = list(data["labels"])
@@ -111,11 +126,11 @@ def _confusion(data: Mapping[str, Any]) -> Drawing:
     counts = np.asarray(data["counts"], float)
     share = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
     cell = 0.42
-    drawn, axes = _blank(2.2 + cell * len(columns), 1.8 + cell * len(rows))
+    drawn, axes = blank(2.2 + cell * len(columns), 1.8 + cell * len(rows))
     for i, row in enumerate(rows):
         for j, column in enumerate(columns):
             if counts[i, j]:
-                hue = _RIGHT if row == column else _WRONG
+                hue = RIGHT if row == column else WRONG
                 alpha = 0.12 + 0.58 * share[i, j]
                 axes.add_patch(_square(j, i, hue, alpha))
                 axes.text(j, i, f"{counts[i, j]:g}", ha="center", va="center")
@@ -131,9 +146,9 @@ def _confusion(data: Mapping[str, Any]) -> Drawing:
     axes.tick_params(length=0)
     axes.spines[:].set_visible(False)
     for edge in range(len(rows) + 1):
-        axes.axhline(edge - 0.5, color=_FAINT, lw=0.3)
+        axes.axhline(edge - 0.5, color=FAINT, lw=0.3)
     for edge in range(len(columns) + 1):
-        axes.axvline(edge - 0.5, color=_FAINT, lw=0.3)
+        axes.axvline(edge - 0.5, color=FAINT, lw=0.3)
     return drawn
 
 
@@ -145,11 +160,11 @@ def _square(column: int, row: int, hue: str, alpha: float) -> Any:
 
 def _curves(data: Mapping[str, Any]) -> Drawing:
     """Means with a mark at each measured place, and their bands."""
-    drawn, axes = _blank(6.4, 3.8)
+    drawn, axes = blank(WIDTH, 3.8)
     series = data["series"]
     top = 0.0
     for (name, it), hue, marker in zip(
-        series.items(), cycle(_HUES), cycle(_MARKERS), strict=False
+        series.items(), cycle(HUES), cycle(MARKERS), strict=False
     ):
         x = it.get("x", data.get("x"))
         axes.plot(x, it["mean"], color=hue, marker=marker, ms=5, lw=1.8, label=name)
@@ -167,9 +182,9 @@ def _curves(data: Mapping[str, Any]) -> Drawing:
     if 0 < len(data.get("x", ())) <= _TICKS:
         axes.set_xticks(list(data["x"]), [f"{it:,g}" for it in data["x"]])
         axes.set_xticks([], minor=True)
-    _named(axes, data)
-    axes.grid(color=_FAINT, alpha=0.25, lw=0.6)
-    _legend(axes, len(series))
+    named(axes, data)
+    axes.grid(color=FAINT, alpha=0.25, lw=0.6)
+    legend(axes)
     return drawn
 
 
@@ -181,36 +196,25 @@ def _decades(axes: Axes) -> None:
     axes.set_yticks(powers, [f"{it:,g}" for it in powers])
 
 
-def _legend(axes: Axes, count: int) -> None:
-    axes.legend(
-        loc="lower left", bbox_to_anchor=(0, 1), ncols=min(count, 3), borderaxespad=0.2
-    )
-
-
-def _named(axes: Axes, data: Mapping[str, Any]) -> None:
-    axes.set_xlabel(data.get("xlabel", ""))
-    axes.set_ylabel(data.get("ylabel", ""))
-
-
 def _bars(data: Mapping[str, Any]) -> Drawing:
     """Bars from the left, the first on top; what is below 0 is red."""
     labels, values = list(data["labels"]), np.asarray(data["values"], float)
-    drawn, axes = _blank(6.4, 0.9 + 0.3 * len(labels))
+    drawn, axes = blank(WIDTH, 0.9 + 0.3 * len(labels))
     places = np.arange(len(labels))
-    hues = [_RIGHT if value >= 0 else _WRONG for value in values]
+    hues = [RIGHT if value >= 0 else WRONG for value in values]
     axes.barh(places, values, color=hues, alpha=0.75, height=0.68)
     if data.get("low") is not None and data.get("high") is not None:
-        axes.hlines(places, data["low"], data["high"], color=_INK, lw=1.2)
+        axes.hlines(places, data["low"], data["high"], color=INK, lw=1.2)
     axes.set_yticks(places, labels)
     axes.invert_yaxis()
-    axes.axvline(0, color=_INK, lw=0.8)
+    axes.axvline(0, color=INK, lw=0.8)
     low = min(0.0, *values, *(data.get("low") or [0.0]))
     high = max(*values, *(data.get("high") or [0.0]), 0.0)
     axes.set_xlim(low * 1.05, 1.03 if 0.5 < high <= 1 else high * 1.05 or 1)
     axes.set_xlabel(data.get("ylabel", ""))
     axes.tick_params(axis="y", length=0)
     axes.spines["left"].set_visible(False)
-    axes.grid(axis="x", color=_FAINT, alpha=0.25, lw=0.6)
+    axes.grid(axis="x", color=FAINT, alpha=0.25, lw=0.6)
     return drawn
 
 
@@ -242,9 +246,9 @@ def _around(axes: Axes, data: Mapping[str, Any], word: str) -> Any:
     image = axes.pcolormesh(x, y, degrees, vmin=0, vmax=1, **look)
     if np.nanmin(degrees) < 0.5 < np.nanmax(degrees):
         axes.contour(x, y, degrees, levels=[0.5], colors="#ffffff", linewidths=1)
-    axes.plot(0, 0, marker="s", ms=7, color=_WRONG, mec="#ffffff")
+    axes.plot(0, 0, marker="s", ms=7, color=WRONG, mec="#ffffff")
     for place in (data.get("points") or {}).get(word, ()):
-        axes.plot(*place, marker="o", ms=3, color="#ffffff", mec=_INK, mew=0.5)
+        axes.plot(*place, marker="o", ms=3, color="#ffffff", mec=INK, mew=0.5)
     axes.set_title(word)
     axes.set_aspect("equal")
     return image
@@ -269,23 +273,8 @@ def _pictures(data: Mapping[str, Any]) -> Drawing:
         axes.imshow(np.asarray(picture, np.uint8))
         axes.set(xticks=[], yticks=[])
         axes.spines[:].set_visible(True)
-        axes.spines[:].set(color=_FAINT if fine else _WRONG, lw=1 if fine else 2.5)
+        axes.spines[:].set(color=FAINT if fine else WRONG, lw=1 if fine else 2.5)
         axes.set_title(caption, fontsize=8)
-    return drawn
-
-
-def _points(data: Mapping[str, Any]) -> Drawing:
-    drawn, axes = _blank(6.4, 3.6)
-    series = data["series"]
-    for (name, it), hue, marker in zip(
-        series.items(), cycle(_HUES), cycle(_MARKERS), strict=False
-    ):
-        axes.scatter(
-            it["x"], it["y"], s=16, color=hue, marker=marker, alpha=0.75, label=name
-        )
-    _named(axes, data)
-    axes.grid(color=_FAINT, alpha=0.25, lw=0.6)
-    _legend(axes, len(series))
     return drawn
 
 
@@ -295,5 +284,7 @@ _DRAWN: Mapping[str, Callable[[Mapping[str, Any]], Drawing]] = {
     "bars": _bars,
     "map": _map,
     "pictures": _pictures,
-    "points": _points,
+    "points": drawn_points,
+    "intervals": drawn_intervals,
+    "reliability": drawn_reliability,
 }

@@ -7,16 +7,18 @@ Whatever comes from names and files is escaped.
 from __future__ import annotations
 
 import math
+import re
 from base64 import b64encode
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 
 from kille.experiments.figures import MISSING, can_draw, jpeg, svg
-from kille.experiments.results import Cell, Figure, Result, Table
+from kille.experiments.results import Cell, Estimate, Figure, Result, Table
 
-__all__ = ["page", "shown"]
+__all__ = ["beginning", "ending", "file_of", "page", "section", "shown"]
 
 _SHORT = 14  # characters: such cells are not broken
+_LONGEST = 60  # characters in the name of a file
 _STYLE = """
 :root { color-scheme: light dark; --ink: #1d2129; --paper: #fbfbf9; --line: #d9dade;
   --soft: #f0f1f0; --quiet: #5b6270; --accent: #0072B2; --wrong: #D55E00; }
@@ -40,6 +42,10 @@ th, td { padding: .3rem .9rem .3rem 0; text-align: left; vertical-align: top;
 th { font-weight: 600; color: var(--quiet); font-size: .88rem;
   vertical-align: bottom; }
 td.number, th.number { text-align: right; } td.short { white-space: nowrap; }
+td a { color: inherit; text-decoration: none; border-bottom: 1px dotted var(--quiet); }
+td a:hover, td a:focus { color: var(--accent); border-bottom-style: solid; }
+td.number { white-space: nowrap; } .band { color: var(--quiet); font-size: .82em;
+  margin-left: .5em; }
 .note, .quiet { color: var(--quiet); font-size: .9rem; margin: .4rem 0;
   max-width: 48rem; }
 .wrong { border-left: 3px solid var(--wrong); padding-left: .8rem; }
@@ -81,11 +87,7 @@ def _page(
     about: Mapping[str, str],
     failures: Sequence[str],
 ) -> Iterator[str]:
-    yield "<!DOCTYPE html>"
-    yield '<html lang="en"><head><meta charset="utf-8">'
-    yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
-    yield f"<title>{escape(title)}</title><style>{_STYLE}</style></head><body>"
-    yield f"<h1>{escape(title)}</h1>"
+    yield from beginning(title)
     if "command" in about:
         yield f'<p class="quiet"><code>{escape(about["command"])}</code></p>'
     for failure in failures:
@@ -94,7 +96,21 @@ def _page(
         yield f'<p class="note">{escape(MISSING)}</p>'
     yield from _contents(results)
     for number, result in enumerate(results, start=1):
-        yield from _section(number, result)
+        yield from section(number, result)
+    yield from ending(about)
+
+
+def beginning(title: str, style: str = "") -> Iterator[str]:
+    """The head of a page and its title, with more style if it takes more."""
+    yield "<!DOCTYPE html>"
+    yield '<html lang="en"><head><meta charset="utf-8">'
+    yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
+    yield f"<title>{escape(title)}</title><style>{_STYLE}{style}</style></head><body>"
+    yield f"<h1>{escape(title)}</h1>"
+
+
+def ending(about: Mapping[str, str]) -> Iterator[str]:
+    """How all that was made, and the end of the page."""
     yield "<h2>How this was made</h2><dl>"
     for head, text in about.items():
         yield f"<dt>{escape(head)}</dt><dd>{escape(text)}</dd>"
@@ -110,16 +126,33 @@ def _contents(results: Sequence[Result]) -> Iterator[str]:
     yield "</ul></nav>"
 
 
-def _section(number: int, result: Result) -> Iterator[str]:
+def section(number: int, result: Result, drawn: str = "") -> Iterator[str]:
+    """A part of a page, to which `#part-NUMBER` leads.
+
+    `drawn` is the folder in which the figures lie as PDF files, if they do.
+    """
     yield f'<section><h2 id="part-{number}">{escape(result.title)}</h2>'
+    if result.text:
+        yield f"<p>{escape(result.text)}</p>"
     for table in result.tables:
         yield from _table(table)
     if result.figures and can_draw():
         yield '<h3>Figures</h3><div class="figures">'
         for place, figure in enumerate(result.figures):
-            yield _figure(figure, 100 * number + place)
+            file = f"{drawn}/{file_of(number, place, figure)}" if drawn else ""
+            yield _figure(figure, 100 * number + place, file)
         yield "</div>"
     yield "</section>"
+
+
+def file_of(number: int, place: int, figure: Figure) -> str:
+    """The name of the PDF file of a figure at a place, from 0, of a part.
+
+    >>> file_of(2, 0, Figure("curves", "Learning curve", {}))
+    '2-1-learning-curve.pdf'
+    """
+    words = re.sub(r"[^a-z0-9]+", "-", figure.title.lower()).strip("-")
+    return f"{number}-{place + 1}-{words}"[:_LONGEST] + ".pdf"
 
 
 def _table(table: Table) -> Iterator[str]:
@@ -130,10 +163,10 @@ def _table(table: Table) -> Iterator[str]:
         for head, kind in zip(table.columns, kinds, strict=True)
     )
     yield "</tr></thead><tbody>"
-    for row in table.rows:
+    for i, row in enumerate(table.rows):
         cells = (
-            f"<td{kind}>{escape(shown(it))}</td>"
-            for it, kind in zip(row, kinds, strict=True)
+            f"<td{kind}>{_cell(it, table.links.get((i, j), ''))}</td>"
+            for j, (it, kind) in enumerate(zip(row, kinds, strict=True))
         )
         yield f"<tr>{''.join(cells)}</tr>"
     yield "</tbody></table></div>"
@@ -141,8 +174,19 @@ def _table(table: Table) -> Iterator[str]:
         yield f'<p class="note">{escape(table.note)}</p>'
 
 
+def _cell(cell: Cell, to: str) -> str:
+    """The cell, its band in small; it leads to where it is said that it does."""
+    told, _, band = shown(cell).partition(" [")
+    text = escape(told if isinstance(cell, Estimate) else shown(cell))
+    if to:
+        text = f'<a href="{escape(to, quote=True)}">{text}</a>'
+    if isinstance(cell, Estimate) and band:
+        text += f'<span class="band">[{escape(band)}</span>'
+    return text
+
+
 def _kind(cells: Sequence[Cell]) -> str:
-    if all(it is None or isinstance(it, int | float) for it in cells):
+    if all(it is None or isinstance(it, int | float | Estimate) for it in cells):
         return ' class="number"'
     short = all(len(shown(it)) <= _SHORT for it in cells)
     return ' class="short"' if short else ""
@@ -153,21 +197,38 @@ def shown(cell: Cell) -> str:
 
     >>> shown(0.9254), shown(12), shown(None), shown(float("nan")), shown("cup")
     ('0.925', '12', '–', '–', 'cup')
+    >>> shown(Estimate(0.5, -0.0001, 0.75)), shown(Estimate(40.3, 38, 43.5, 1))
+    ('0.500 [0.000, 0.750]', '40.3 [38.0, 43.5]')
     """
     match cell:
         case None:
             return "–"
         case float():
             return f"{cell:.3f}" if math.isfinite(cell) else "–"
+        case Estimate():
+            return _estimated(cell)
     return str(cell)
 
 
-def _figure(figure: Figure, number: int) -> str:
+def _estimated(it: Estimate) -> str:
+    if not math.isfinite(it.value):
+        return "–"
+    value, low, high = (
+        f"{round(x, it.decimals) + 0.0:.{it.decimals}f}"  # no zero is below zero
+        for x in (it.value, it.low, it.high)
+    )
+    banded = math.isfinite(it.low) and math.isfinite(it.high)
+    return f"{value} [{low}, {high}]" if banded else value
+
+
+def _figure(figure: Figure, number: int, file: str) -> str:
     broad = ' class="broad"' if figure.kind in _BROAD else ""
     body = _pictures(figure) if figure.kind == "pictures" else _drawn(figure, number)
-    return (
-        f"<figure{broad}><figcaption>{escape(figure.title)}</figcaption>{body}</figure>"
-    )
+    if file and figure.kind != "pictures":
+        body += f'<p class="note"><a href="{escape(file, quote=True)}">PDF</a></p>'
+    note = f'<p class="note">{escape(figure.note)}</p>' if figure.note else ""
+    head = f"<figcaption>{escape(figure.title)}</figcaption>"
+    return f"<figure{broad}>{head}{body}{note}</figure>"
 
 
 def _drawn(figure: Figure, number: int) -> str:

@@ -12,11 +12,12 @@ from rich.table import Table as Grid
 from rich.text import Text
 
 from kille.experiments.report import shown
-from kille.experiments.results import Table
+from kille.experiments.results import Estimate, Table
 
 __all__ = ["print_table"]
 
 _GAP = 2  # columns between those of a table
+_NUMBERS = int | float | Estimate
 
 
 def print_table(out: Console, table: Table) -> None:
@@ -114,7 +115,7 @@ def _grid(table: Table, width: int) -> Grid:
     widths = _widths(table, _flattest(table, width))
     for place, (head, room) in enumerate(zip(table.columns, widths, strict=True)):
         cells = [row[place] for row in table.rows]
-        numbers = all(it is None or isinstance(it, int | float) for it in cells)
+        numbers = all(it is None or isinstance(it, _NUMBERS) for it in cells)
         grid.add_column(
             Text("\n".join(_broken(head, room))),
             justify="right" if numbers else "left",

@@ -1,0 +1,71 @@
+"""What all figures are drawn with: hues, markers, an empty drawing, a legend.
+
+Hues are those of Okabe and Ito 2008, which people with any colour vision tell apart;
+series differ in their markers too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Drawing
+
+__all__ = [
+    "FAINT",
+    "HUES",
+    "INK",
+    "MARKERS",
+    "RIGHT",
+    "WIDTH",
+    "WRONG",
+    "blank",
+    "legend",
+    "named",
+]
+
+HUES = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00")
+MARKERS = ("o", "s", "^", "D", "v", "P")
+RIGHT, WRONG = HUES[0], HUES[5]
+
+INK = "#0a0b0c"
+"""Stands for the colour of the text."""
+
+FAINT = "#7f7f7f"
+
+WIDTH = 6.4
+"""Inches that most drawings are wide."""
+
+_LETTERS = 11  # an inch
+_HANDLE = 9  # letters that the line and the space beside a name take
+_COLUMNS = 3
+
+
+def blank(width: float, height: float) -> tuple[Drawing, Axes]:
+    """An empty drawing of so many inches, with its axes."""
+    from matplotlib.figure import Figure as Drawing
+
+    drawn = Drawing(figsize=(width, height), layout="constrained")
+    return drawn, drawn.subplots()
+
+
+def legend(axes: Axes, width: float = WIDTH) -> None:
+    """The names of the series above the axes, in as many columns as there is room for.
+
+    The width is that of the drawing, in inches.
+    """
+    names = axes.get_legend_handles_labels()[1]
+    longest = max(map(len, names), default=0)
+    fitting = int(width * _LETTERS) // (longest + _HANDLE)
+    columns = max(1, min(len(names), _COLUMNS, fitting))
+    axes.legend(
+        loc="lower left", bbox_to_anchor=(0, 1), ncols=columns, borderaxespad=0.2
+    )
+
+
+def named(axes: Axes, data: Mapping[str, Any]) -> None:
+    """The axes with the names that the data gives them."""
+    axes.set_xlabel(data.get("xlabel", ""))
+    axes.set_ylabel(data.get("ylabel", ""))
