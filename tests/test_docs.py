@@ -172,7 +172,7 @@ class Stage:
             encoding="utf-8",
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
-            timeout=60,
+            timeout=600,
             check=False,
         )
         return done.returncode, done.stdout
@@ -330,6 +330,7 @@ def test_the_python_reference_names_what_is_public() -> None:
             **seeing(),
             **sensing(),
             **measuring(),
+            **studying(),
             **talking(),
             "ttr.Model": public(ttr.Model()),
             "ttr.Judgement": public(ttr.Model().judge("a", ttr.Ind)),
@@ -386,6 +387,27 @@ def measuring() -> dict[str, set[str]]:
     package = importlib.import_module("kille.experiments")
     inner = [it.name for it in pkgutil.iter_modules(package.__path__) if not it.ispkg]
     return found | {"kille.experiments": {it for it in inner if has_protocol(it)}}
+
+
+def studying() -> dict[str, set[str]]:
+    """The public names of what studies are made of, and are read and played by."""
+    modules = (
+        "study",
+        "played",
+        "reading",
+        "theories",
+        "running",
+        "log",
+        "measuring",
+        "reporting",
+        "playing",
+        "scenes",
+        "robots",
+        "tutors.tutor",
+        "tutors.words",
+    )
+    named = [f"kille.studies.{module}" for module in modules]
+    return {name: set(importlib.import_module(name).__all__) for name in named}
 
 
 def has_protocol(module: str) -> bool:

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from errno import ENOSPC
 from pathlib import Path
+from shlex import join
 from typing import Any, NoReturn
 
 from kille.interfaces.parsing import Parser, Version, counted, positive, seed
@@ -78,6 +79,7 @@ def _parser() -> argparse.ArgumentParser:
     actions = memory.add_subparsers(metavar="ACTION", parser_class=Parser)
     _add_memory_actions(actions)
     _add_evaluate(commands)
+    _add_experiment(commands)
     _add_ros(commands)
     doctor = commands.add_parser("doctor", help="what works here, what is missing")
     doctor.add_argument("--json", action="store_true", help="report for machines")
@@ -303,6 +305,66 @@ def _add_measuring(
     parser.set_defaults(run=_evaluate)
 
 
+def _add_experiment(commands: Any) -> None:
+    experiment = commands.add_parser(
+        "experiment", help="theories of meaning compared by the dialogues they lead to"
+    )
+    actions = experiment.add_subparsers(metavar="ACTION", parser_class=Parser)
+    checking = actions.add_parser("check", help="all that is wrong with studies")
+    checking.add_argument("files", nargs="+", type=Path, metavar="FILE.toml")
+    checking.set_defaults(run=_experiment_check)
+    running = actions.add_parser("run", help="play all dialogues, or go on with them")
+    running.add_argument("file", type=Path, metavar="FILE.toml")
+    running.add_argument(
+        "--out", type=Path, metavar="FOLDER", help="for the results (FILE.results)"
+    )
+    _add_players(running)
+    running.set_defaults(run=_experiment_run)
+    resuming = actions.add_parser("resume", help="go on where it was stopped")
+    _add_results(resuming)
+    resuming.add_argument("--again", action="store_true", help="also with what broke")
+    _add_players(resuming)
+    resuming.set_defaults(run=_experiment_resume)
+    showing = actions.add_parser("show", help="a dialogue, or how many there are")
+    _add_results(showing)
+    showing.add_argument(
+        "name", nargs="?", metavar="RUN", help="such as theory/tutor/scene/seed"
+    )
+    showing.add_argument("--json", action="store_true", help="report for machines")
+    showing.set_defaults(run=_experiment_show)
+    replaying = actions.add_parser("replay", help="do dialogues go as they went?")
+    _add_results(replaying)
+    replaying.add_argument("names", nargs="*", metavar="RUN", help="(all of them)")
+    _add_players(replaying)
+    replaying.set_defaults(run=_experiment_replay)
+    reporting = actions.add_parser("report", help="write the tables and the page")
+    _add_results(reporting)
+    reporting.set_defaults(run=_experiment_report)
+    comparing = actions.add_parser("compare", help="how two folders of results differ")
+    comparing.add_argument("one", type=Path, metavar="A")
+    comparing.add_argument("other", type=Path, metavar="B")
+    comparing.add_argument(
+        "--report", type=Path, metavar="FILE.html", help="write a page"
+    )
+    comparing.set_defaults(run=_experiment_compare)
+
+
+def _add_results(action: argparse.ArgumentParser) -> None:
+    action.add_argument("folder", type=Path, metavar="FOLDER", help="of results")
+
+
+def _add_players(action: argparse.ArgumentParser) -> None:
+    action.add_argument(
+        "--workers", type=counted, metavar="N", help="processes (one for each core)"
+    )
+    action.add_argument(
+        "--scheduler",
+        default="",
+        metavar="ADDRESS",
+        help="a cluster of Dask that is there already, such as tcp://127.0.0.1:8786",
+    )
+
+
 def _add_memory_actions(actions: Any) -> None:
     listing = actions.add_parser(
         "list", help="the words, and how often each was taught"
@@ -442,6 +504,56 @@ def _evaluate(options: argparse.Namespace) -> int:
         words=options.words,
     )
     return evaluate(request, as_json() if options.json else as_tables())
+
+
+def _experiment_check(options: argparse.Namespace) -> int:
+    from kille.interfaces.experiment.checking import check_files
+
+    return check_files(options.files)
+
+
+def _experiment_run(options: argparse.Namespace) -> int:
+    from kille.interfaces.experiment.running import Request, run_study
+
+    request = Request(options.workers, options.scheduler, _command(options))
+    return run_study(options.file, options.out, request)
+
+
+def _experiment_resume(options: argparse.Namespace) -> int:
+    from kille.interfaces.experiment.running import Request, as_it_is, resume_study
+    from kille.studies.running.runner import forget_broken
+
+    request = Request(options.workers, options.scheduler, _command(options))
+    first = forget_broken if options.again else as_it_is
+    return resume_study(options.folder, request, first)
+
+
+def _experiment_show(options: argparse.Namespace) -> int:
+    from kille.interfaces.experiment.showing import as_json, as_text, show
+
+    return show(options.folder, options.name, as_json if options.json else as_text)
+
+
+def _experiment_replay(options: argparse.Namespace) -> int:
+    from kille.interfaces.experiment.replaying import replay_all
+
+    return replay_all(options.folder, options.names, options.workers, options.scheduler)
+
+
+def _experiment_report(options: argparse.Namespace) -> int:
+    from kille.interfaces.experiment.reporting import report
+
+    return report(options.folder, _command(options))
+
+
+def _experiment_compare(options: argparse.Namespace) -> int:
+    from kille.interfaces.experiment.reporting import compare
+
+    return compare(options.one, options.other, options.report, _command(options))
+
+
+def _command(options: argparse.Namespace) -> str:
+    return join(["kille", *options.words])
 
 
 def _ros(options: argparse.Namespace) -> int:

@@ -284,7 +284,7 @@ def test_an_interrupt_is_quiet(tmp_path: Path) -> None:
     with subprocess.Popen(command, stdout=-1, stderr=-1) as process:
         with pipe.open("w"):  # opens once the command has opened it to read
             process.send_signal(signal.SIGINT)
-            out, err = process.communicate(timeout=30)
+            out, err = process.communicate(timeout=120)
         assert (process.returncode, out, err) == (130, b"", b"")
 
 

@@ -184,7 +184,7 @@ def test_ctrl_c_tells_what_was_covered_so_far(folder):
     )
     time.sleep(6)
     process.send_signal(signal.SIGINT)
-    printed, complained = process.communicate(timeout=30)
+    printed, complained = process.communicate(timeout=120)
     assert process.returncode == 130
     assert "talk: stopped after " in printed
     assert "rules applied" in printed

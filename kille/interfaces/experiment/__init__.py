@@ -1,0 +1,1 @@
+"""`kille experiment`: studies checked, run, shown, replayed, reported and compared."""

@@ -1,0 +1,44 @@
+"""A bar that shows on a terminal how far a study has come, and how long it takes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.progress import BarColumn, TaskID, TextColumn, TimeRemainingColumn
+from rich.progress import Progress as Bar
+
+from kille.studies.running import Progress
+
+__all__ = ["bar"]
+
+PACE_SECONDS = 300
+"""The time left is reckoned from the pace of so long."""
+
+
+@contextmanager
+def bar() -> Iterator[Callable[[Progress], None]]:
+    """On a terminal a bar shows how far it has come, and how long it will take."""
+    err = Console(stderr=True)
+    shown = Bar(
+        BarColumn(bar_width=24),
+        TextColumn("{task.completed:,.0f} of {task.total:,.0f}{task.description}"),
+        TimeRemainingColumn(),
+        TextColumn("left"),
+        console=err,
+        transient=True,
+        disable=not err.is_terminal,
+        speed_estimate_period=PACE_SECONDS,
+        refresh_per_second=4,
+    )
+    with shown:
+        tasks: list[TaskID] = []
+
+        def told(it: Progress) -> None:
+            if not tasks:  # what was over before says nothing of the time left
+                tasks.append(shown.add_task("", total=it.planned, completed=it.over))
+            broken = f", {it.broken:,} broke" if it.broken else ""
+            shown.update(tasks[0], completed=it.over, description=broken)
+
+        yield told

@@ -1,0 +1,60 @@
+"""`kille experiment check`: what is wrong with studies, before anything is played."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from kille.interfaces.terminal import FINE, WRONG_USE, complain, console
+from kille.studies.errors import StudyError
+from kille.studies.reading import checked
+from kille.studies.study import Study
+from ttr import TTRError
+
+__all__ = ["MISTAKES", "check_files", "complain_all", "in_numbers"]
+
+MISTAKES = StudyError, TTRError
+"""What is told in a line, or in some, and is no fault of the program."""
+
+
+def check_files(files: Sequence[Path]) -> int:
+    """Says of each file what it would play, or all that is wrong with it."""
+    codes = [_check_file(path) for path in files]
+    return max(codes, default=FINE)
+
+
+def _check_file(path: Path) -> int:
+    try:
+        study = checked(path)
+    except MISTAKES as error:
+        return complain_all(error)
+    console().print(f"{path}: fine, {in_numbers(study)}", markup=False)
+    return FINE
+
+
+def complain_all(error: StudyError | TTRError) -> int:
+    """Says all that is wrong, each in a line; the exit code."""
+    for fault in getattr(error, "faults", [error]):
+        complain(fault)
+    return WRONG_USE
+
+
+def in_numbers(study: Study) -> str:
+    """What a study combines.
+
+    >>> from kille.studies.study import Named, Theory
+    >>> in_numbers(Study("", {"a": Theory("a")}, {}, {}, (), (1, 2)))
+    '0 dialogues: 1 theory × 0 tutors × 0 scenes × 2 seeds'
+    """
+    parts = (
+        _counted(len(study.theories), "theory", "theories"),
+        _counted(len(study.tutors), "tutor", "tutors"),
+        _counted(len(study.scenes), "scene", "scenes"),
+        _counted(len(study.seeds), "seed", "seeds"),
+    )
+    count = sum(1 for _ in study.runs())
+    return f"{_counted(count, 'dialogue', 'dialogues')}: {' × '.join(parts)}"
+
+
+def _counted(count: int, one: str, many: str) -> str:
+    return f"{count:,} {one if count == 1 else many}"

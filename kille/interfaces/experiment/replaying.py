@@ -1,0 +1,68 @@
+"""`kille experiment replay`: dialogues played again: do they go as they went?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from kille.interfaces.experiment.bars import bar
+from kille.interfaces.experiment.checking import MISTAKES, complain_all
+from kille.interfaces.experiment.people import has_people
+from kille.interfaces.terminal import FAILED, FINE, complain, console, hanging
+from kille.studies import log
+from kille.studies.log import Broken, Outcome, RunError
+from kille.studies.log.sources import changed, sources
+from kille.studies.running import Difference, Progress, crew, replay
+from kille.studies.study import Run
+
+__all__ = ["replay_all"]
+
+
+def replay_all(
+    folder: Path, names: Sequence[str], workers: int | None, scheduler: str
+) -> int:
+    """Plays dialogues of a folder again, all if none is named; 1 where one differs."""
+    try:
+        befores = [log.named(folder, it) for it in names] or [*log.outcomes(folder)]
+        found = _replayed(folder, befores, workers, scheduler)
+    except MISTAKES as error:
+        return complain_all(error)
+    out = console()
+    for it in befores:
+        if names or found[it.run]:
+            out.print(_told(it, found[it.run]), markup=False)
+    same = sum(differs is None for differs in found.values())
+    if not names:
+        out.print(f"{same:,} of {len(found):,} dialogues go as they went", markup=False)
+    return FINE if same == len(found) else FAILED
+
+
+def _replayed(
+    folder: Path, befores: Sequence[Outcome], workers: int | None, scheduler: str
+) -> dict[Run, Difference | None]:
+    """What each dialogue differs in now."""
+    study = log.study(folder)
+    if has_people(study):
+        raise RunError(f"a person takes part in {folder}, who would type anew")
+    for name in changed(log.about(folder).sources, sources(study)):
+        complain(f"{name} has changed since these dialogues were played")
+    by = crew(1 if len(befores) == 1 else workers, scheduler)
+    found: dict[Run, Difference | None] = {}
+    with bar() as told:
+        for before, differs in replay(study, befores, by=by):
+            found[before.run] = differs
+            told(Progress(len(found), len(befores)))
+    return found
+
+
+def _told(before: Outcome, found: Difference | None) -> str:
+    if found is None:
+        went = "breaks as it did" if isinstance(before, Broken) else _size(before)
+        return f"{before.run}: the same, {went}"
+    told = f"{found.where} was {found.before!r} and is {found.now!r}"
+    return hanging(f"{before.run}: ", told)
+
+
+def _size(before: Outcome) -> str:
+    played = getattr(before, "played", None)
+    return f"{len(played.turns) if played else 0:,} turns"

@@ -1,0 +1,75 @@
+"""`kille experiment report` and `compare`: what was found, here and on a page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.text import Text
+
+from kille.experiments.results import Result
+from kille.interfaces.experiment.checking import MISTAKES, complain_all
+from kille.interfaces.grids import print_table
+from kille.interfaces.terminal import FINE, console
+from kille.studies import reporting
+from kille.studies.log import write_tables
+
+__all__ = ["compare", "print_summary", "report"]
+
+
+def report(folder: Path, command: str) -> int:
+    """Writes the tables and the page of a folder of results, and prints it."""
+    try:
+        write_tables(folder)
+        page, results = reporting.report(folder, command=command)
+        print_results(results)
+    except MISTAKES as error:
+        return complain_all(error)
+    console().print(f"\nreport: {page}", markup=False)
+    return FINE
+
+
+def compare(one: Path, other: Path, page: Path | None, command: str) -> int:
+    """Prints how two folders of results differ, and writes a page if one is named."""
+    try:
+        if page is None:
+            print_results(reporting.compared(one, other))
+            return FINE
+        print_results(reporting.compare(one, other, page, command=command).results)
+        console().print(f"\nreport: {page}", markup=False)
+    except MISTAKES as error:
+        return complain_all(error)
+    return FINE
+
+
+def print_results(results: Sequence[Result]) -> None:
+    """Prints tables, and what there is to see in them."""
+    out = _wide_console()
+    for result in filter(lambda it: it.tables, results):
+        out.print(Text(f"\n{result.title}", style="bold"), soft_wrap=False)
+        _print_text(out, result)
+        for table in result.tables:
+            print_table(out, table)
+
+
+def print_summary(results: Sequence[Result]) -> None:
+    """Prints the first table, and what there is to see in the others."""
+    out = _wide_console()
+    for table in results[0].tables[:1] if results else ():
+        print_table(out, table)
+    for result in results:
+        _print_text(out, result)
+
+
+def _print_text(out: Console, result: Result) -> None:
+    if result.text:
+        out.print(Text(f"\n{result.text}"), soft_wrap=False)
+
+
+def _wide_console() -> Console:
+    """A pipe counts as 100 columns wide."""
+    out = console()
+    if not out.is_terminal:
+        out.width = 100
+    return out

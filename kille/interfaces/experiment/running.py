@@ -1,0 +1,116 @@
+"""`kille experiment run` and `resume`: dialogues played, with a bar, until stopped."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from shlex import quote
+from typing import TypeAlias
+
+from kille.interfaces.experiment.bars import bar
+from kille.interfaces.experiment.checking import MISTAKES, complain_all, in_numbers
+from kille.interfaces.experiment.people import crew_for, has_people
+from kille.interfaces.experiment.reporting import print_summary
+from kille.interfaces.experiment.stopping import stoppable
+from kille.interfaces.terminal import FAILED, FINE, complain, console
+from kille.studies import log, reporting
+from kille.studies.errors import StudyError
+from kille.studies.log import write_tables
+from kille.studies.reading import check, checked
+from kille.studies.running import Progress, Summary, run
+from kille.studies.study import Study
+
+__all__ = ["Request", "as_it_is", "resume_study", "run_study"]
+
+SHOWN = 10
+"""So many broken dialogues are told; the table of runs has them all."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """By whom a study is to be played, and how the user said so."""
+
+    workers: int | None
+    scheduler: str
+    command: str
+
+
+First: TypeAlias = Callable[[Study, Path], object]
+
+
+def as_it_is(study: Study, folder: Path) -> None:
+    """What broke is not played again."""
+
+
+def run_study(path: Path, folder: Path | None, request: Request) -> int:
+    """Plays a study into a folder, or goes on with it; the exit code."""
+    folder = folder or Path(f"{path.stem}.results")
+    try:
+        study = checked(path)
+        return _run(study, folder, request)
+    except MISTAKES as error:
+        return complain_all(error)
+
+
+def resume_study(folder: Path, request: Request, first: First = as_it_is) -> int:
+    """Goes on with the study in a folder, after something was done to it first."""
+    try:
+        study = log.study(folder)
+        if faults := check(study):
+            raise StudyError(faults)
+        first(study, folder)
+        return _run(study, folder, request)
+    except MISTAKES as error:
+        return complain_all(error)
+
+
+def _run(study: Study, folder: Path, request: Request) -> int:
+    console().print(f"{study.title}: {in_numbers(study)}", markup=False)
+    by = crew_for(study, request.workers, request.scheduler)
+    shown = nullcontext(_untold) if has_people(study) else bar()
+    with shown as told, stoppable() as stopped:
+        try:
+            summary = run(study, folder, by=by, told=told)
+        except KeyboardInterrupt:
+            return _stopped(folder, stopped())
+    write_tables(folder)
+    page, results = reporting.report(folder, command=request.command)
+    print_summary(results)
+    _tell(folder, page, summary)
+    return FAILED if summary.broken else FINE
+
+
+def _stopped(folder: Path, code: int) -> int:
+    over, planned = log.over(folder), log.about(folder).planned
+    return complain(
+        f"stopped with {over:,} of {planned:,} dialogues over; go on with: "
+        f"kille experiment resume {quote(str(folder))}",
+        code,
+    )
+
+
+def _tell(folder: Path, page: Path, summary: Summary) -> None:
+    out = console()
+    before = summary.planned - summary.played
+    told = f"{summary.played:,} dialogues played"
+    told += f", {before:,} were over before" if before else ""
+    out.print(f"{told}: {folder}", markup=False)
+    out.print(f"report: {page}", markup=False)
+    if not summary.broken:
+        return
+    broken = log.broken(folder)
+    complain(f"{len(broken):,} of {summary.planned:,} dialogues broke:")
+    for it in broken[:SHOWN]:
+        complain(f"{it.run}: {it.reason}")
+    more = len(broken) - SHOWN
+    hint = f"and {more:,} more; " if more > 0 else ""
+    complain(
+        f"{hint}kille experiment show {quote(str(folder))} RUN says where, and "
+        f"kille experiment resume {quote(str(folder))} --again plays them again"
+    )
+
+
+def _untold(it: Progress) -> None:
+    """Where people type, nothing moves."""

@@ -1,0 +1,154 @@
+"""`kille experiment show`: what is in a folder of results, and any dialogue of it."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterator, Sequence
+from itertools import groupby
+from pathlib import Path
+from shlex import join
+from typing import Any, TypeAlias
+
+from kille.experiments.results import Table
+from kille.interfaces.experiment.checking import MISTAKES, complain_all
+from kille.interfaces.grids import print_table
+from kille.interfaces.terminal import FAILED, FINE, console, hanging
+from kille.simulation.worlds import World
+from kille.studies import log
+from kille.studies.log.outcomes import Broken, Finished, Outcome
+from kille.studies.played import Answer, Turn
+
+__all__ = ["as_json", "as_text", "show"]
+
+SHOWN = 10
+"""So many broken dialogues are listed."""
+
+Report: TypeAlias = Callable[[Outcome], None]
+"""How a dialogue is printed."""
+
+
+def show(folder: Path, name: str | None, report: Report) -> int:
+    """Prints a dialogue, or of which there are some; the exit code."""
+    try:
+        if name is None:
+            _show_all(folder)
+            return FINE
+        found = log.named(folder, name)
+    except MISTAKES as error:
+        return complain_all(error)
+    report(found)
+    return FAILED if isinstance(found, Broken) else FINE
+
+
+# --- the study -----------------------------------------------------------------------
+
+
+def _show_all(folder: Path) -> None:
+    about = log.about(folder)
+    out = console()
+    if not out.is_terminal:
+        out.width = 100
+    rows = tuple(_counted(folder))
+    over = sum(row[1] for row in rows)
+    heads = "theory", "dialogues", "broken", "turns", "answers", "seconds each"
+    note = f"{over:,} of {about.planned:,} dialogues are over"
+    print_table(out, Table(about.title, heads, rows, note))
+    broken = log.broken(folder)
+    for it in broken[:SHOWN]:
+        out.print(hanging(f"{it.run}  ", f"broken: {it.reason}"), markup=False)
+    if more := len(broken) - len(broken[:SHOWN]):
+        out.print(f"and {more:,} more that broke: runs.csv has them", markup=False)
+    first = next(log.outcomes(folder), None)
+    if first is not None:
+        words = ["kille", "experiment", "show", str(folder), str(first.run)]
+        out.print(f"see one: {join(words)}", markup=False)
+
+
+def _counted(folder: Path) -> Iterator[tuple[Any, ...]]:
+    """How many dialogues with what in them each theory has."""
+    found: dict[str, list[Outcome]] = {}
+    for it in log.outcomes(folder):
+        found.setdefault(it.run.theory, []).append(it)
+    for theory, some in found.items():
+        played = [it.played for it in some if isinstance(it, Finished)]
+        yield (
+            theory,
+            len(some),
+            len(some) - len(played),
+            sum(len(it.turns) for it in played),
+            sum(len(it.answers) for it in played),
+            round(sum(it.seconds for it in some) / len(some), 3),
+        )
+
+
+# --- a dialogue ----------------------------------------------------------------------
+
+
+def as_json(it: Outcome) -> None:
+    """The dialogue as an object, for machines."""
+    told: dict[str, Any] = {"run": str(it.run), "seconds": it.seconds}
+    match it:
+        case Broken(_, reason, trace, _):
+            told |= {"broken": reason, "trace": trace}
+        case Finished(_, played, _):
+            told |= {
+                "lessons": played.lessons,
+                "facts": dict(played.facts),
+                "turns": [turn._asdict() for turn in played.turns],
+                "answers": [_plain(answer) for answer in played.answers],
+            }
+    console().print_json(json.dumps(told, allow_nan=False))
+
+
+def _plain(answer: Answer) -> dict[str, Any]:
+    found = answer._asdict()
+    return found | {"degree": None if math.isnan(answer.degree) else answer.degree}
+
+
+def as_text(it: Outcome) -> None:
+    """The dialogue as it went, phase by phase; the answers marked that were tested."""
+    out = console()
+    if isinstance(it, Broken):
+        out.print(f"{it.run} broke: {it.reason}\n\n{it.trace.rstrip()}", markup=False)
+        return
+    played = it.played
+    told = f"{it.run}: {len(played.turns):,} turns, {played.lessons:,} lessons kept"
+    out.print(told, markup=False)
+    answers: dict[int, list[Answer]] = {}
+    for answer in played.answers:
+        answers.setdefault(answer.turn, []).append(answer)
+    for phase, turns in groupby(played.turns, key=lambda turn: turn.phase):
+        out.print(f"\n{phase}", markup=False)
+        for turn in turns:
+            for line in _lines(turn, answers.get(turn.number, ())):
+                out.print(line, markup=False)
+
+
+def _lines(turn: Turn, answers: Sequence[Answer]) -> Iterator[str]:
+    number = f"{turn.number:>5}  "
+    yield hanging(f"{number}{turn.tutor:<8} ", _given(turn))
+    blank = " " * len(number)
+    for line in turn.answer.splitlines():
+        yield hanging(f"{blank}{'robot':<8} ", line)
+    for answer in answers:
+        yield hanging(f"{blank}{'':<8} ", _judged(answer))
+
+
+def _given(turn: Turn) -> str:
+    """What he said; of a look at a simulated world, only what is in view."""
+    world = World.named(turn.given)
+    if world is None:
+        return turn.given or f"({turn.act})"
+    things = (
+        f"{'*' * (number == world.focus)}{world.thing(number)}"
+        for number in world.in_view
+    )
+    return f"({turn.act}: {'; '.join(things) or 'nothing'})"
+
+
+def _judged(it: Answer) -> str:
+    said = it.said or "nothing"
+    degree = "" if math.isnan(it.degree) else f", {it.degree:.2f}"
+    verdict = "right" if it.is_right else f"not right, it is {it.right}"
+    return f"→ {said} ({it.way}{degree}): {verdict}"

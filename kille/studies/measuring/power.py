@@ -1,0 +1,81 @@
+"""How many dialogues it takes to see a difference, given how much they vary."""
+
+from __future__ import annotations
+
+import math
+from statistics import NormalDist
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+__all__ = ["ALPHA", "POWER", "least_difference", "power_of", "runs_needed"]
+
+ALPHA = 0.05
+"""How often a difference may be told of that is none."""
+
+POWER = 0.8
+"""How often a difference that there is should be seen."""
+
+_FLIPS = 999
+_TINY = 1e-12
+
+
+def runs_needed(
+    spread: float, d: float, power: float = POWER, alpha: float = ALPHA
+) -> int | None:
+    """How many pairs of dialogues it takes to see a difference of d with this power.
+
+    n = (z_{1-α/2} + z_power)² σ² / d² + z²_{1-α/2} / 2, σ the standard deviation of the
+    differences within pairs. None where that is not known or d is 0.
+    Source: Guenther 1981, Sample size formulas for normal theory t tests.
+
+    >>> runs_needed(spread=0.2, d=0.1)
+    34
+    """
+    if not (math.isfinite(spread) and math.isfinite(d)) or d == 0:
+        return None
+    z, beyond = _z(1 - alpha / 2), _z(power)
+    return max(2, math.ceil(((z + beyond) * spread / d) ** 2 + z**2 / 2))
+
+
+def least_difference(
+    spread: float, runs: int, power: float = POWER, alpha: float = ALPHA
+) -> float:
+    """The smallest difference that so many pairs of dialogues show with this power.
+
+    The inverse of `runs_needed`; NaN for too few.
+
+    >>> round(least_difference(spread=0.2, runs=34), 2)
+    0.1
+    """
+    z, beyond = _z(1 - alpha / 2), _z(power)
+    left = runs - z**2 / 2
+    return (z + beyond) * spread / math.sqrt(left) if left > 0 else float("nan")
+
+
+def power_of(
+    apart: ArrayLike,
+    d: float,
+    runs: int,
+    chance: np.random.Generator,
+    *,
+    rounds: int = 400,
+    alpha: float = ALPHA,
+) -> float:
+    """How often so many pairs show a difference of d, found by simulation.
+
+    Differences are drawn from those seen, moved to the mean d, and tested by flipping
+    their signs, as theories are compared. NaN for fewer than two differences.
+    """
+    seen = np.asarray(apart, np.float64)
+    if len(seen) < 2:
+        return float("nan")
+    drawn = chance.choice(seen - seen.mean() + d, size=(rounds, runs))
+    signs = chance.choice([-1.0, 1.0], size=(runs, _FLIPS))
+    flipped = np.abs(drawn @ signs)
+    large = (flipped >= np.abs(drawn.sum(axis=1))[:, None] - _TINY).sum(axis=1)
+    return float(((large + 1) / (_FLIPS + 1) <= alpha).mean())
+
+
+def _z(share: float) -> float:
+    return NormalDist().inv_cdf(share)

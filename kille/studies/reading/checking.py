@@ -1,0 +1,79 @@
+"""What is wrong with a study, all of it at once, before anything is played.
+
+A mistake is one line: where it is, what it is, and what to do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from pathlib import Path
+
+from kille.studies import protocols, scenes, tutors
+from kille.studies.errors import StudyError
+from kille.studies.reading.file import (
+    data_of,
+    study_of,
+    text_of,
+    theories_of,
+)
+from kille.studies.reading.shape import faults
+from kille.studies.reading.troubles import Trouble, told
+from kille.studies.reading.trying import troubles
+from kille.studies.study import Study, Theory
+
+__all__ = ["check", "checked"]
+
+
+def checked(path: Path) -> Study:
+    """The study in a file, ready to be played; `StudyError` with a line for each
+    mistake, in how it is written and in its theories.
+    """
+    text = text_of(path)
+    data = data_of(text, path)
+    if wrong := [*faults(data)]:
+        sound = theories_of(data, path.resolve().parent, [it.key for it in wrong])
+        wrong += _of_theories(sound, ())
+        raise StudyError(told(wrong, text, path))
+    study = study_of(data, text, path)
+    if lines := check(study):
+        raise StudyError(lines)
+    return study
+
+
+def check(study: Study) -> tuple[str, ...]:
+    """A line for everything that is wrong with a study, in the order of its file."""
+    return told(_troubles(study), study.source, study.file)
+
+
+def _troubles(study: Study) -> Iterator[Trouble]:
+    kinds = [scene.kind for scene in study.scenes.values()]
+    eyes = {"whole" if kind in scenes.WHOLE else "simulated" for kind in kinds}
+    yield from _of_theories(study.theories, eyes)
+    yield from _unheard(study)
+    for name, tutor in study.tutors.items():
+        yield from _at(("tutors", name), tutors.faults(tutor, study))
+    for name, scene in study.scenes.items():
+        yield from _at(("scenes", name), scenes.faults(scene, study))
+    for number, phase in enumerate(study.phases):
+        yield from _at(("phases", number), protocols.faults(phase, study))
+
+
+def _of_theories(
+    theories: Mapping[str, Theory], eyes: Collection[str]
+) -> Iterator[Trouble]:
+    for name, theory in theories.items():
+        for it in troubles(theory, eyes):
+            yield it._replace(key=("theories", name, *it.key))
+
+
+def _unheard(study: Study) -> Iterator[Trouble]:
+    """Theories that are played by a process without a keyboard, and who would type."""
+    typing = [it.name for it in study.tutors.values() if it.kind == "keyboard"]
+    for name, theory in study.theories.items():
+        if theory.meanings and typing:
+            told = f"{typing[0]} is at the keyboard, and cannot teach a theory that has"
+            yield Trouble(("theories", name, "meanings"), f"{told} meanings of its own")
+
+
+def _at(key: tuple[str | int, ...], what: Iterable[str]) -> Iterator[Trouble]:
+    return (Trouble(key, it) for it in what)

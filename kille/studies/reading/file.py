@@ -1,0 +1,149 @@
+"""Studies as files: from TOML to a value, or all that is wrong with how it is written.
+
+Whether what it names can be used, `kille.studies.reading.checking` says.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import fields
+from itertools import count
+from os.path import expanduser
+from pathlib import Path
+from typing import Any
+
+from kille.studies.errors import StudyError
+from kille.studies.reading.lines import Key
+from kille.studies.reading.shape import APART, STUDY, faults
+from kille.studies.reading.troubles import told
+from kille.studies.study import Named, Phase, Study, Theory
+from ttr.files import why_unread
+
+__all__ = [
+    "data_of",
+    "parsed",
+    "read",
+    "study_of",
+    "text_of",
+    "theories_of",
+]
+
+_OWN = re.compile(r"\.py(?=:)|\.ttr$")
+"""Whether a name is that of something in a file of one's own."""
+
+
+def read(path: Path) -> Study:
+    """The study in a file; `StudyError` with a line for each mistake."""
+    return parsed(text_of(path), path)
+
+
+def parsed(text: str, path: Path) -> Study:
+    """The study of a text that is, or once was, in this file; `StudyError` as `read`.
+
+    Paths in it begin at the folder of the file.
+    """
+    data = data_of(text, path)
+    if found := [*faults(data)]:
+        raise StudyError(told(found, text, path))
+    return study_of(data, text, path)
+
+
+def text_of(path: Path) -> str:
+    """The text of a file; `StudyError` where there is none."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise StudyError([why_unread(path, error)]) from error
+
+
+def data_of(text: str, path: Path) -> Mapping[str, Any]:
+    """What is in a text; `StudyError` where it is no TOML."""
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # numbers and lists without end
+        raise StudyError([_not_toml(path, text, error)]) from error
+
+
+def _not_toml(path: Path, text: str, error: Exception) -> str:
+    """Python 3.11 has the place of a mistake only in its message."""
+    what, _, place = str(error).partition(" (at ")
+    found = re.search(r"line (\d+)", place)
+    line = found[1] if found else max(1, len(text.splitlines()))
+    lower = f"{what[:1].lower()}{what[1:]}"
+    return f"{path}:{line}: this is no TOML: {lower}; see https://toml.io"
+
+
+def study_of(data: Mapping[str, Any], text: str, path: Path) -> Study:
+    """The study of data without faults."""
+    folder = path.resolve().parent
+    seeds = data["seeds"]
+    return Study(
+        title=data["title"],
+        theories=theories_of(data, folder),
+        tutors={name: _named(name, one) for name, one in data["tutors"].items()},
+        scenes={name: _named(name, one) for name, one in data["scenes"].items()},
+        phases=tuple(_phases(data["phases"])),
+        seeds=tuple(range(1, seeds + 1) if isinstance(seeds, int) else seeds),
+        about=data.get("about", "").strip(),
+        turns=data.get("turns", STUDY["turns"].default),
+        source=text,
+        folder=folder,
+        file=path,
+    )
+
+
+def theories_of(
+    data: Mapping[str, Any], folder: Path, faulty: Collection[Key] = ()
+) -> dict[str, Theory]:
+    """The theories, but for those in which something is wrong."""
+    given = data.get("theories")
+    return {
+        name: _theory(name, one, folder)
+        for name, one in (given.items() if isinstance(given, dict) else ())
+        if not any(key[:2] == ("theories", name) for key in faulty)
+    }
+
+
+def _theory(name: str, given: Mapping[str, Any], folder: Path) -> Theory:
+    known = {one.name for one in fields(Theory)}
+    values = {key: value for key, value in given.items() if key in known and value}
+    if "without" in values:
+        values["without"] = tuple(values["without"])
+    if "rules" in values:
+        values["rules"] = _found(values["rules"], folder)
+    if isinstance(values.get("meanings"), str):
+        values["meanings"] = str(_path(values["meanings"], folder))
+    if "grammar" in values:
+        values["grammar"] = _path(values["grammar"], folder)
+    if "learners" in values:
+        own = values["learners"].items()
+        values["learners"] = {kind: _found(one, folder) for kind, one in own}
+    return Theory(name, **values)
+
+
+def _found(reference: str, folder: Path) -> str:
+    """What a name in a file of one's own is named from everywhere."""
+    return str(_path(reference, folder)) if _OWN.search(reference) else reference
+
+
+def _path(name: str, folder: Path) -> Path:
+    return folder / expanduser(name)
+
+
+def _named(name: str, given: Mapping[str, Any]) -> Named:
+    settings = {key: value for key, value in given.items() if key != "kind"}
+    return Named(name, given["kind"], settings)
+
+
+def _phases(given: list[Mapping[str, Any]]) -> Iterator[Phase]:
+    """The phases; each has a name of its own, by which its answers are known."""
+    taken: set[str] = set()
+    for one in given:
+        wanted = one.get("name") or one["do"]
+        names = (wanted if n == 1 else f"{wanted} {n}" for n in count(1))
+        name = next(it for it in names if it not in taken)
+        taken.add(name)
+        settings = {k: value for k, value in one.items() if k not in APART["do"]}
+        yield Phase(name, one["do"], settings)

@@ -1,0 +1,127 @@
+"""Languages of one's own tried: whether grammar and lexicon read, and say something."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from string import Formatter
+
+from kille.dialogue.language import grammar_text, understand
+from kille.dialogue.lexicon import Lexicon, lexicon
+from kille.dialogue.parsing import Grammar, GrammarError
+from kille.dialogue.sources import FILES
+from kille.studies.reading.lines import Key, line_of, lines_of
+from kille.studies.reading.troubles import Trouble
+from kille.studies.settings import unknown
+from kille.studies.study import Theory
+from kille.studies.theories.games import language_of
+from ttr import TTRError
+
+__all__ = ["of_language"]
+
+_KEY: Key = ("grammar",)
+
+_TRIED = ("This is a cup.", "What is this?", "Where is the red cup?", "No.", "Hello.")
+"""What is said to see whether the theory has types for what the grammar finds."""
+
+_ODD = (ValueError, TypeError, AttributeError, LookupError)
+"""What becomes of tables that are not what a lexicon is made of."""
+
+
+def of_language(theory: Theory) -> Iterator[Trouble]:
+    """What is wrong with the grammar and the lexicon in a theory's own folder."""
+    if theory.grammar is None:
+        return
+    own = [theory.grammar / file.format(theory.language) for file in FILES]
+    if not any(file.is_file() for file in own):
+        names = " or ".join(file.name for file in own)
+        told = f"expected {names} in {theory.grammar}, found neither"
+        yield Trouble(_KEY, told)
+        return
+    grammar, words = own
+    wrong = [*_of_lexicon(theory, words)] if words.is_file() else []
+    yield from wrong
+    if grammar.is_file():
+        yield from _of_grammar(language_of(theory), grammar, tried=not wrong)
+
+
+def _of_grammar(language: str, file: Path, *, tried: bool) -> Iterator[Trouble]:
+    try:
+        Grammar(grammar_text(language)).parse("a")
+    except UnicodeDecodeError:
+        yield Trouble(_KEY, "this is no text: it must be UTF-8", f"{file}:1")
+        return
+    except GrammarError as error:
+        what = str(error).partition("\n")[0]
+        at = f"{file}:{_line_in(error)}"
+        yield Trouble(_KEY, f"this grammar does not read: {what}", at)
+        return
+    for text in _TRIED if tried else ():
+        try:
+            understand(text, language)
+        except (TTRError, *_ODD) as error:
+            told = f"this grammar makes of “{text}” what tutor.ttr has no type for: "
+            yield Trouble(_KEY, f"{told}{error}", f"{file}:1")
+            return
+
+
+def _of_lexicon(theory: Theory, file: Path) -> Iterator[Trouble]:
+    packaged, at = lexicon(theory.language), f"{file}:1"
+    try:
+        own = lexicon(language_of(theory), theory.wording or "paper")
+    except tomllib.TOMLDecodeError as error:
+        where = f"{file}:{_line_in(error)}"
+        yield Trouble(_KEY, f"this lexicon is no TOML: {error}", where)
+    except UnicodeDecodeError:
+        yield Trouble(_KEY, "this is no text: it must be UTF-8", at)
+    except KeyError as error:
+        told = f"this lexicon lacks {error.args[0]}, which that of the package has"
+        yield Trouble(_KEY, told, at)
+    except _ODD as error:
+        yield Trouble(_KEY, f"this lexicon does not read: {error}", at)
+    else:
+        lines = lines_of(file.read_text(encoding="utf-8"))
+        for key, what in _of_wordings(own, packaged):
+            yield Trouble(_KEY, what, f"{file}:{line_of(lines, key)}")
+
+
+def _of_wordings(own: Lexicon, packaged: Lexicon) -> Iterator[tuple[Key, str]]:
+    for table in ("says", "tells"):
+        mine, theirs = getattr(own, table), getattr(packaged, table)
+        lacking = sorted(theirs.keys() - mine.keys())
+        if lacking:
+            yield (_FILED[table],), f"there is no wording for {', '.join(lacking)}"
+    known = sorted({slot for it in packaged.wordings.values() for slot in _slots(it)})
+    for section, acts in own.sections.items():
+        if not section.startswith("says") or not isinstance(acts, Mapping):
+            continue
+        for act, wordings in acts.items():
+            several = [wordings] if isinstance(wordings, str) else wordings
+            yield from ((((section, act)), it) for it in _unfilled(several, known))
+
+
+_FILED = {"says": "says", "tells": "tutor"}
+"""What the tables of a lexicon are called in its file."""
+
+
+def _unfilled(wordings: list[str], known: list[str]) -> Iterator[str]:
+    try:
+        found = _slots(wordings)
+    except ValueError as error:
+        yield f"this wording does not read: {error}"
+        return
+    for slot in found:
+        if slot not in known:
+            yield f"there is no slot {{{slot}}}: {unknown(slot, known)}"
+
+
+def _slots(wordings: tuple[str, ...] | list[str]) -> list[str]:
+    parsed = (part for wording in wordings for part in Formatter().parse(wording))
+    return [slot for _, slot, _, _ in parsed if slot is not None]
+
+
+def _line_in(error: Exception) -> str:
+    found = re.search(r"line (\d+)", str(error))
+    return found[1] if found else "1"

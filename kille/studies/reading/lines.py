@@ -1,0 +1,97 @@
+"""On which line of a TOML file each of its keys stands.
+
+The standard reader gives values without places. So each statement, a header or a key
+with its value, is read once more by itself: what it declares is on its line.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+__all__ = ["Key", "line_of", "lines_of"]
+
+Key = tuple[str | int, ...]
+"""The names that lead to a value, and the numbers of the tables in a list."""
+
+
+def lines_of(text: str) -> Mapping[Key, int]:
+    r"""The line of every key in a text that is TOML.
+
+    >>> lines_of("title = 'a'\n[[phases]]\ndo = 'teach'\n[[phases]]\ndo = 'ask'")
+    {('title',): 1, ('phases', 0): 2, ('phases', 0, 'do'): 3, ('phases', 1): 4, ...}
+    """
+    found: dict[Key, int] = {}
+    here: Key = ()
+    counts: Counter[Key] = Counter()
+    for number, statement in _statements(text):
+        if not statement.startswith("["):
+            for key in _keys(tomllib.loads(statement)):
+                found.setdefault((*here, *key), number)
+            continue
+        names = _header(tomllib.loads(statement))
+        here = _numbered(names, counts, statement.startswith("[["))
+        found.setdefault(here, number)
+    return found
+
+
+def line_of(lines: Mapping[Key, int], key: Key) -> int:
+    """The line of a key, or of the nearest that it is in; 1 where none is known.
+
+    >>> line_of({("tutors", "Ann"): 4}, ("tutors", "Ann", "kind"))
+    4
+    """
+    while key and key not in lines:
+        key = key[:-1]
+    return lines.get(key, 1)
+
+
+def _statements(text: str) -> Iterator[tuple[int, str]]:
+    """The statements, each with its first line; a value may go on over several."""
+    began, so_far = 0, ""
+    for number, line in enumerate(text.replace("\r\n", "\n").split("\n"), start=1):
+        if not so_far and (not line.strip() or line.lstrip().startswith("#")):
+            continue
+        began = began if so_far else number
+        so_far = f"{so_far}\n{line}" if so_far else line.strip()
+        if _is_whole(so_far):
+            yield began, so_far
+            so_far = ""
+
+
+def _is_whole(statement: str) -> bool:
+    try:
+        tomllib.loads(statement)
+    except tomllib.TOMLDecodeError:
+        return False
+    return True
+
+
+def _keys(table: Mapping[str, Any]) -> Iterator[Key]:
+    for name, value in table.items():
+        yield (name,)
+        if isinstance(value, dict):
+            yield from ((name, *key) for key in _keys(value))
+
+
+def _header(table: Any) -> tuple[str, ...]:
+    """The names in a header, which declares one table within another."""
+    names: list[str] = []
+    while table := table[0] if isinstance(table, list) else table:
+        [(name, table)] = table.items()
+        names.append(name)
+    return tuple(names)
+
+
+def _numbered(names: tuple[str, ...], counts: Counter[Key], is_listed: bool) -> Key:
+    """The key of a header, with the numbers of the tables that are in a list."""
+    here: Key = ()
+    for place, name in enumerate(names, start=1):
+        here = (*here, name)
+        if is_listed and place == len(names):
+            counts[here] += 1
+        if counts[here]:
+            here = (*here, counts[here] - 1)
+    return here

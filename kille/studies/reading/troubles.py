@@ -1,0 +1,42 @@
+"""What is wrong with a study, and the lines that tell it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import NamedTuple
+
+from kille.studies.reading.lines import Key, line_of, lines_of
+
+__all__ = ["Trouble", "told"]
+
+_LONGEST = 300
+"""Characters; many a type is longer than anybody reads on one line."""
+
+
+class Trouble(NamedTuple):
+    """What is wrong: the key of the study that says so, and where, if elsewhere."""
+
+    key: Key
+    what: str
+    at: str = ""
+
+
+def told(found: Iterable[Trouble], text: str, path: Path) -> tuple[str, ...]:
+    """A line for each mistake in a text of this file, in the order of the text.
+
+    >>> told([Trouble(("seeds",), "there is no seed")], "seeds = 0", "a.toml")
+    ('a.toml:1: there is no seed',)
+    """
+    lines = lines_of(text)
+    ordered = sorted(found, key=lambda it: line_of(lines, it.key))
+    each = (
+        f"{it.at or f'{path}:{line_of(lines, it.key)}'}: {_on_one_line(it.what)}"
+        for it in ordered
+    )
+    return tuple(dict.fromkeys(each))
+
+
+def _on_one_line(text: str) -> str:
+    plain = " ".join(text.split())
+    return plain if len(plain) <= _LONGEST else f"{plain[:_LONGEST]}…"

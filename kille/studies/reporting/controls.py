@@ -1,0 +1,115 @@
+"""Whether other tutors and other scenes change anything: each against the first one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from kille.experiments.results import Cell, Table
+from kille.studies.measuring.comparing import Difference, differences, in_pairs
+from kille.studies.measuring.measures import Measure
+from kille.studies.measuring.scored import Dialogue
+from kille.studies.reporting.contrasts import corrected, told_p
+from kille.studies.reporting.findings import Theories
+from kille.studies.reporting.places import Places
+from kille.studies.study import Run
+
+__all__ = ["against_the_first"]
+
+_SEED = 3  # of the chance by which pairs are drawn anew and exchanged
+_TESTED = ("accuracy", "κ robot–tutor", "words")
+_NOTE = (
+    "Each less the first, theory by theory, over dialogues that are alike in all else. "
+    "Other tutors and scenes have other luck, so that these differences spread more "
+    "than those of theories. p as above."
+)
+
+
+class _Told(NamedTuple):
+    """A difference, of what, and where it leads to."""
+
+    theory: str
+    measure: str
+    names: str
+    difference: Difference
+    place: str
+
+    @property
+    def named(self) -> tuple[str, str, str]:
+        """What it is a difference of."""
+        return self.theory, self.measure, self.names
+
+
+def against_the_first(
+    theories: Theories, measures: Sequence[Measure], places: Places
+) -> Iterator[Table]:
+    """The tutors against the first tutor, and the scenes against the first scene."""
+    tested = [it for it in measures if it.name in _TESTED]
+    yield from _against("tutor", list(places.tutors), theories, tested, places)
+    yield from _against("scene", list(places.scenes), theories, tested, places)
+
+
+def _against(
+    what: str,
+    names: Sequence[str],
+    theories: Theories,
+    measures: Sequence[Measure],
+    places: Places,
+) -> Iterator[Table]:
+    first, *others = names
+    told = [
+        one
+        for theory, them in theories.items()
+        for name in others
+        for one in _one(what, theory, them, (first, name), measures, places)
+    ]
+    if not told:
+        return
+    ps = corrected([(it.measure, it.difference.p) for it in told])
+    rows = tuple(
+        (*it.named, it.difference.estimate, *_tested(it.difference, p))
+        for it, p in zip(told, ps, strict=True)
+    )
+    columns = ("theory", "measure", what, "difference", "p", "p (Holm)", "pairs")
+    links = {(row, 3): it.place for row, it in enumerate(told)}
+    yield Table(f"Against the {what} {first}", columns, rows, _NOTE, links)
+
+
+def _tested(difference: Difference, p: float) -> tuple[Cell, ...]:
+    return told_p(difference.p), told_p(p), difference.pairs
+
+
+def _one(
+    what: str,
+    theory: str,
+    dialogues: Sequence[Dialogue],
+    names: tuple[str, str],
+    measures: Sequence[Measure],
+    places: Places,
+) -> Iterator[_Told]:
+    """How the dialogues of a theory differ between two tutors, or scenes."""
+    sides = (_without(what, dialogues, name) for name in names)
+    pairs = in_pairs(*sides)
+    if not pairs:
+        return
+    place = places.tutor if what == "tutor" else places.scene
+    found = differences(measures, pairs, np.random.default_rng(_SEED))
+    for measure, difference in found.items():
+        told = f"{names[1]} − {names[0]}"
+        yield _Told(theory, measure, told, difference, place(theory, names[1]))
+
+
+def _without(what: str, dialogues: Sequence[Dialogue], name: str) -> list[Dialogue]:
+    """The dialogues of a tutor or scene, as if there were no other."""
+    return [
+        replace(it, run=_run(what, it.run))
+        for it in dialogues
+        if getattr(it.run, what) == name
+    ]
+
+
+def _run(what: str, run: Run) -> Run:
+    return replace(run, tutor="") if what == "tutor" else replace(run, scene="")

@@ -1,0 +1,208 @@
+"""Reports of folders of results: what was found in one, and in two compared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from shlex import quote
+from typing import NamedTuple
+
+from kille.experiments.results import ExperimentError, Result
+from kille.studies import log
+from kille.studies.errors import StudyError, TheoryError
+from kille.studies.measuring.scored import Dialogue, scored
+from kille.studies.reporting.findings import Theories, grouped
+from kille.studies.reporting.layouts import Described
+from kille.studies.reporting.places import places_of
+from kille.studies.reporting.writing import Subject, every_two, results_of, write
+from kille.studies.study import Study, Theory
+from kille.studies.theories.describing import described
+from ttr import TTRError
+
+__all__ = ["Report", "compare", "compared", "report"]
+
+_NAME = "report.html"
+_USUAL = ".results"
+"""What the name of a folder of results ends in, if nobody has named another."""
+
+
+class Report(NamedTuple):
+    """A page that was written, and what was found."""
+
+    page: Path
+    results: list[Result]
+
+
+def report(folder: Path, *, command: str = "") -> Report:
+    """Writes the report of a folder of results into it.
+
+    StudyError where there are none, TTRError where it cannot be written.
+    """
+    page = folder / _NAME
+    return Report(page, write(_subject(folder, command), page))
+
+
+def compare(one: Path, other: Path, page: Path, *, command: str = "") -> Report:
+    """Writes a report of two folders of results side by side."""
+    return Report(page, write(_both(one, other, command), page))
+
+
+def compared(one: Path, other: Path) -> list[Result]:
+    """What was found in two folders of results, for a terminal."""
+    subject = _both(one, other, "")
+    everything = [it for them in subject.theories.values() for it in them]
+    return results_of(subject, places_of(list(subject.theories), everything, ""))
+
+
+# --- one folder ----------------------------------------------------------------------
+
+
+def _subject(folder: Path, command: str) -> Subject:
+    study = log.study(folder)
+    dialogues = [scored(*it) for it in log.read(folder)]
+    theories = grouped(list(study.theories), dialogues)
+    return Subject(
+        study.title,
+        theories,
+        _described(study, theories),
+        every_two(theories),
+        _about(folder, study, command, len(dialogues)),
+        lead=study.about,
+        source=study.source,
+        broken=[(str(it.run), it.reason) for it in log.broken(folder)],
+        warnings=list(_cut_short(theories, study.turns)),
+        files=sorted(
+            it.name for it in folder.iterdir() if it.suffix in (".csv", ".parquet")
+        ),
+    )
+
+
+def _cut_short(theories: Theories, most: int) -> Iterator[str]:
+    """Of which theories dialogues came to the last turn that the study allows.
+
+    A theory that talks more is then asked less.
+    """
+    for name, them in theories.items():
+        if count := sum(len(it.turns) >= most for it in them):
+            yield (
+                f"{name}: {count:,} of {len(them):,} dialogues came to the most turns "
+                f"that the study allows, {most:,}: not all may have been asked in them."
+            )
+
+
+def _described(study: Study, names: Iterable[str]) -> dict[str, Described]:
+    return {name: _shown(study.theories[name]) for name in names}
+
+
+def _shown(theory: Theory) -> Described:
+    """A theory by its parts; of one whose own files are gone, that they are."""
+    try:
+        return described(theory)
+    except (TheoryError, ExperimentError, TTRError, OSError) as error:
+        return {"about": f"{theory.about} It cannot be shown: {error}".strip()}
+
+
+def _about(folder: Path, study: Study, command: str, count: int) -> Mapping[str, str]:
+    about = log.about(folder)
+    versions = ", ".join(f"{name} {it}" for name, it in about.versions.items())
+    told = {
+        "command": command,
+        "to repeat it": f"kille experiment run {quote(study.file.name)}",
+        "theories": ", ".join(study.theories),
+        "tutors": ", ".join(study.tutors),
+        "scenes": ", ".join(study.scenes),
+        "seeds": _seeds(study.seeds),
+        "dialogues": f"{count:,} of {about.planned:,} played to their end",
+        "begun": about.began,
+        "versions": versions,
+    }
+    return {head: text for head, text in told.items() if text}
+
+
+def _seeds(seeds: tuple[int, ...]) -> str:
+    """The seeds in short.
+
+    >>> _seeds((1, 2, 3, 4)), _seeds((3, 7))
+    ('1 to 4', '3, 7')
+    """
+    first, last = min(seeds), max(seeds)
+    if len(seeds) > 2 and seeds == tuple(range(first, last + 1)):
+        return f"{first} to {last}"
+    return ", ".join(map(str, seeds))
+
+
+# --- two folders ---------------------------------------------------------------------
+
+
+def _both(one: Path, other: Path, command: str) -> Subject:
+    """Both as one: theories of one name are compared with each other, or else all."""
+    first, second = _subject(one, command), _subject(other, command)
+    names = _called(one, other)
+    common = [name for name in first.theories if name in second.theories]
+    which = [(name, name) for name in common] or [
+        (name, it) for name in first.theories for it in second.theories
+    ]
+    subjects = dict(zip(names, (first, second), strict=True))
+    theories = {
+        f"{label}: {name}": [_renamed(it, f"{label}: {name}") for it in them]
+        for label, subject in subjects.items()
+        for name, them in subject.theories.items()
+    }
+    _check_shared(first, second, one, other)
+    return Subject(
+        f"{names[1]} against {names[0]}",
+        theories,
+        {
+            f"{label}: {name}": it
+            for label, subject in subjects.items()
+            for name, it in subject.described.items()
+        },
+        [(f"{names[0]}: {a}", f"{names[1]}: {b}") for a, b in which],
+        {
+            "command": command,
+            **{
+                f"{label}: {head}": text
+                for label, subject in subjects.items()
+                for head, text in subject.about.items()
+                if head != "command"
+            },
+        },
+        broken=[
+            (f"{label}: {name}", reason)
+            for label, subject in subjects.items()
+            for name, reason in subject.broken
+        ],
+        warnings=[
+            f"{label}: {text}"
+            for label, subject in subjects.items()
+            for text in subject.warnings
+        ],
+    )
+
+
+def _called(one: Path, other: Path) -> tuple[str, str]:
+    """What two folders are called: by their names, or by where they are."""
+    if one.resolve() == other.resolve():
+        raise StudyError([f"{one} and {other} are one folder: name two"])
+    names = [it.resolve().name.removesuffix(_USUAL) for it in (one, other)]
+    return (names[0], names[1]) if names[0] != names[1] else (str(one), str(other))
+
+
+def _renamed(dialogue: Dialogue, theory: str) -> Dialogue:
+    return replace(dialogue, run=replace(dialogue.run, theory=theory))
+
+
+def _check_shared(first: Subject, second: Subject, one: Path, other: Path) -> None:
+    mine, theirs = (
+        {it.pair for them in subject.theories.values() for it in them}
+        for subject in (first, second)
+    )
+    if not mine & theirs:
+        raise StudyError(
+            [
+                f"{one} and {other} have no dialogues with the same tutor, scene and "
+                f"seed: compare results of studies with the same tutors, scenes and "
+                f"seeds"
+            ]
+        )

@@ -1,0 +1,282 @@
+"""Pages of dialogues: what was said, by all theories side by side, and where to look.
+
+Each number of a report leads to one of them. They need nothing but the report's folder.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from html import escape
+from itertools import combinations, cycle
+
+from kille.experiments.report import beginning
+from kille.experiments.strokes import HUES
+from kille.studies.measuring.comparing import in_pairs
+from kille.studies.measuring.measures import ACCURACY, value
+from kille.studies.measuring.scored import Dialogue, Scored
+from kille.studies.played import Turn
+from kille.studies.reporting.findings import Theories
+from kille.studies.reporting.happenings import happening
+from kille.studies.reporting.layouts import STYLE
+from kille.studies.reporting.places import Places
+
+__all__ = ["pages"]
+
+Page = tuple[str, str]
+"""The name of a file, and what is in it."""
+
+_Piece = tuple[str, str, Iterable[str]]
+
+_STYLE = (
+    STYLE
+    + """
+.turn { display: grid; grid-template-columns: 2.2rem 1fr; gap: 0 .4rem;
+  padding: .25rem 0; border-bottom: 1px solid var(--line); }
+.turn:target, tr:target, h3:target { background: rgba(229, 160, 13, .2); }
+.turn > :first-child { color: var(--quiet); font-size: .82em; text-align: right;
+  font-variant-numeric: tabular-nums; }
+.turn p { margin: 0; grid-column: 2; } .robot { font-weight: 600; }
+.happens { color: var(--quiet); font-size: .85em; overflow-wrap: anywhere; }
+.yes { color: var(--accent); } .no { color: var(--wrong); }
+.phase { font-size: .8rem; letter-spacing: .04em; color: var(--quiet);
+  margin: 1rem 0 .2rem; } h3 { scroll-margin-top: 1rem; }
+.links a { display: inline-block; margin-right: .5em;
+  font-variant-numeric: tabular-nums; }
+"""
+)
+
+
+def pages(theories: Theories, places: Places, report: str) -> Iterator[Page]:
+    """All pages, each with the name of its file in the folder of the places.
+
+    `report` is the name of the page that leads to them, a folder further out.
+    """
+    for name, title, body in _pages(theories, places):
+        back = f'<p><a href="../{escape(report, quote=True)}">report</a></p>'
+        parts = (*beginning(title, _STYLE), back, *body, "</body></html>")
+        yield _file(name), "\n".join(parts) + "\n"
+
+
+def _pages(theories: Theories, places: Places) -> Iterator[_Piece]:
+    """The place, the title and the body of each."""
+    occasions: dict[tuple[str, str, int], list[Dialogue]] = {}
+    for them in theories.values():
+        for it in them:
+            occasions.setdefault(it.pair, []).append(it)
+    for them in occasions.values():
+        place, title = places.dialogue(them[0].run), _title(them[0])
+        yield place, title, _said(them, places)
+    for name, them in theories.items():
+        yield places.theory(name), name, _dialogues(name, them, places)
+        title = f"{name}: all answers"
+        yield places.answers(name), title, _answers(name, them, places)
+    for one, other in combinations(theories, 2):
+        title = f"{other} against {one}"
+        body = _against(theories[one], theories[other], places)
+        yield places.against(one, other), title, body
+
+
+def _file(place: str) -> str:
+    """The name of the file of a place."""
+    return place.partition("#")[0].rpartition("/")[2]
+
+
+def _beside(place: str) -> str:
+    """A place as seen from another page."""
+    return place.rpartition("/")[2]
+
+
+def _title(dialogue: Dialogue) -> str:
+    tutor, scene, seed = dialogue.pair
+    return f"{tutor}, {scene}, seed {seed}"
+
+
+def _link(place: str, text: str) -> str:
+    return f'<a href="{escape(_beside(place), quote=True)}">{escape(text)}</a>'
+
+
+# --- what was said -------------------------------------------------------------------
+
+
+def _said(dialogues: Sequence[Dialogue], places: Places) -> Iterator[str]:
+    yield '<div class="theories">'
+    hues = dict(zip(places.theories, cycle(HUES), strict=False))
+    for it in dialogues:
+        name = it.run.theory
+        number = places.theories[name]
+        yield f'<div id="theory-{number}" style="--hue: {hues[name]}">'
+        yield f"<h4>{_link(places.theory(name), name)}</h4>"
+        yield f'<p class="note">{escape(_summary(it))}</p>'
+        yield from _turns(it, f"theory-{number}-turn")
+        yield "</div>"
+    yield "</div>"
+
+
+def _summary(dialogue: Dialogue) -> str:
+    right = sum(it.is_right for it in dialogue.answers)
+    turns = sum(it.turns for it in dialogue.efforts)
+    words = sum(it.words for it in dialogue.efforts)
+    return (
+        f"{right} of {len(dialogue.answers)} right, {dialogue.lessons} lessons kept, "
+        f"{turns} turns and {words} words of the tutor"
+    )
+
+
+def _turns(dialogue: Dialogue, anchor: str) -> Iterator[str]:
+    answers: dict[int, list[Scored]] = {}
+    for answer in dialogue.answers:
+        answers.setdefault(answer.turn, []).append(answer)
+    phase = ""
+    for turn in dialogue.turns:
+        if turn.phase != phase:
+            phase = turn.phase
+            yield f'<p class="phase">{escape(phase)}</p>'
+        yield _turn(turn, answers.get(turn.number, ()), f"{anchor}-{turn.number}")
+
+
+def _turn(turn: Turn, answers: Sequence[Scored], anchor: str) -> str:
+    lines = [_given(turn)] if turn.given else []
+    if turn.answer:
+        lines.append(f'<p class="robot">{escape(turn.answer)}</p>')
+    lines += [f"<p>{_mark(it)} {escape(_told(it))}</p>" for it in answers]
+    told = f"<span>{turn.number}</span>"
+    return f'<div class="turn" id="{anchor}">{told}{"".join(lines)}</div>'
+
+
+def _given(turn: Turn) -> str:
+    if turn.words:
+        return f"<p>{escape(turn.given)}</p>"
+    return f'<p class="happens">{escape(happening(turn.given))}</p>'
+
+
+def _mark(answer: Scored) -> str:
+    return (
+        '<span class="yes">✓</span>' if answer.is_right else '<span class="no">✗</span>'
+    )
+
+
+def _told(answer: Scored) -> str:
+    degree = f" ({answer.degree:.2f})" if answer.degree == answer.degree else ""
+    said = f"{answer.said or '–'}{degree}"
+    return said if answer.is_right else f"{said}, right is {answer.right}"
+
+
+# --- lists ---------------------------------------------------------------------------
+
+_HEADS = ("dialogue", "right", "of", "turns", "words", "corrections", "lessons")
+
+
+def _dialogues(
+    name: str, dialogues: Sequence[Dialogue], places: Places
+) -> Iterator[str]:
+    yield f"<p>{_link(places.answers(name), 'all answers')}</p>"
+    for tutor, number in places.tutors.items():
+        found = [it for it in dialogues if it.run.tutor == tutor]
+        yield f'<h3 id="tutor-{number}">tutor {escape(tutor)}</h3>'
+        yield from _table(_HEADS, (_row(it, places) for it in found))
+    for scene, number in places.scenes.items():
+        found = [it for it in dialogues if it.run.scene == scene]
+        yield f'<h3 id="scene-{number}">scene {escape(scene)}</h3>'
+        yield from _table(_HEADS, (_row(it, places) for it in found))
+
+
+def _row(it: Dialogue, places: Places) -> tuple[str, ...]:
+    return (
+        _link(places.dialogue(it.run), _title(it)),
+        str(sum(one.is_right for one in it.answers)),
+        str(len(it.answers)),
+        str(sum(one.turns for one in it.efforts)),
+        str(sum(one.words for one in it.efforts)),
+        str(sum(one.corrections for one in it.efforts)),
+        str(it.lessons),
+    )
+
+
+def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
+    """Cells are pieces of a page already; all but the first are numbers."""
+    yield '<div class="scroll"><table><thead><tr>'
+    yield _cells("th", [escape(head) for head in heads])
+    yield "</tr></thead><tbody>"
+    for row in rows:
+        yield f"<tr>{_cells('td', row)}</tr>"
+    yield "</tbody></table></div>"
+
+
+def _cells(tag: str, cells: Sequence[str]) -> str:
+    first, *others = cells
+    return f"<{tag}>{first}</{tag}>" + "".join(
+        f'<{tag} class="number">{it}</{tag}>' for it in others
+    )
+
+
+_Given = tuple[Dialogue, Scored]
+
+
+def _answers(name: str, dialogues: Sequence[Dialogue], places: Places) -> Iterator[str]:
+    """The answers by kind of word and by word, then by phase."""
+    yield f"<p>{_link(places.theory(name), 'all dialogues')}</p>"
+    given = [(it, answer) for it in dialogues for answer in it.answers]
+    for kind, number in places.kinds.items():
+        of_kind = [it for it in given if it[1].kind == kind]
+        yield f'<h2 id="kind-{number}">{escape(kind)}</h2>'
+        for (its, word), place in places.words.items():
+            if its != kind:
+                continue
+            found = [it for it in of_kind if it[1].right == word]
+            yield f'<h3 id="word-{place}">{escape(word)}</h3>'
+            yield from _grouped(found, places)
+    for phase, number in places.phases.items():
+        found = [it for it in given if it[1].phase == phase]
+        if found:
+            yield f'<h2 id="phase-{number}">in {escape(phase)}</h2>'
+            yield from _grouped(found, places)
+    for way, number in places.ways.items():
+        found = [it for it in given if it[1].way == way]
+        if found:
+            yield f'<h2 id="way-{number}">as {escape(way)}</h2>'
+            yield from _grouped(found, places)
+
+
+def _grouped(given: Sequence[_Given], places: Places) -> Iterator[str]:
+    """Answers by what was right and what was said, each a link to its turn."""
+    groups: dict[tuple[str, str], list[_Given]] = {}
+    for it in given:
+        groups.setdefault((it[1].right, it[1].said), []).append(it)
+    yield '<div class="scroll"><table><thead><tr><th></th><th>right</th>'
+    yield '<th>said</th><th class="number">times</th><th></th></tr></thead><tbody>'
+    for (right, said), them in sorted(groups.items()):
+        links = "".join(_to_turn(it, answer, places) for it, answer in them)
+        yield (
+            f"<tr><td>{_mark(them[0][1])}</td><td>{escape(right)}</td>"
+            f'<td>{escape(said or "–")}</td><td class="number">{len(them)}</td>'
+            f'<td class="links">{links}</td></tr>'
+        )
+    yield "</tbody></table></div>"
+
+
+def _to_turn(dialogue: Dialogue, answer: Scored, places: Places) -> str:
+    place = _beside(places.turn(dialogue.run, answer.turn))
+    return f'<a href="{place}">{places.pairs[dialogue.pair]}:{answer.turn}</a>'
+
+
+def _against(
+    one: Sequence[Dialogue], other: Sequence[Dialogue], places: Places
+) -> Iterator[str]:
+    """The dialogues in which they differ most come first."""
+    rows = []
+    for first, second in in_pairs(one, other):
+        before, after = value(ACCURACY, [first]), value(ACCURACY, [second])
+        rows.append((after - before, before, after, first))
+    rows.sort(key=lambda it: (it[0] != it[0], -abs(it[0]), it[3].pair))
+    heads = ("dialogue", one[0].run.theory, other[0].run.theory, "difference")
+    yield "<p>Accuracy in each pair of dialogues, the largest difference first.</p>"
+    yield from _table(
+        heads,
+        (
+            (
+                _link(places.dialogue(it.run), _title(it)),
+                *(f"{x:.3f}" if x == x else "–" for x in (before, after, apart)),
+            )
+            for apart, before, after, it in rows
+        ),
+    )

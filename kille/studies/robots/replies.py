@@ -1,0 +1,178 @@
+"""Replies: what a robot said and did in a turn, and what it thinks after it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from kille.dialogue.beliefs import degree
+from kille.dialogue.meanings import CLAIMS, claims, predicate_at, value_at, word_of
+from kille.dialogue.reference.perspectives import front_of
+from ttr import Judgement, Model, Negation, Record, RecordType
+
+__all__ = ["OWN", "Reply", "WAYS", "degrees"]
+
+WAYS = {
+    "assert": "assert",
+    "hedge": "hedge",
+    "guess": "think",
+    "doubt": "doubt",
+    "admit": "admit",
+    "yes": "yes",
+    "no": "no",
+    "rather": "rather",
+    "probably": "probably",
+    "point": "point",
+}
+"""How an answer is put, by how the name of the move begins, or goes on after `say`."""
+
+OWN = frozenset(
+    {
+        "ask_again",
+        "ask_example",
+        "ask_frame",
+        "ask_front",
+        "ask_heard",
+        "ask_heard_one",
+        "ask_referent",
+        "ask_relation",
+        "ask_thing",
+        "ask_which",
+        "ask_which_place",
+        "ask_which_quality",
+        "offer_referents",
+        "offer_word",
+        "pardon",
+    }
+)
+"""The moves by which it asks something of its own accord."""
+
+WANTING = OWN | {"admit_name", "admit_place", "admit_quality"}
+"""The moves after which a tutor may tell it something."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reply:
+    """What a robot replies in a turn: its sentences, its moves, and what it thinks.
+
+    `rules` are those that ran. `number` says which thing of the world a name of its own
+    is for, if it is for any.
+    """
+
+    text: str
+    moves: tuple[Judgement, ...]
+    state: Record
+    model: Model
+    rules: tuple[str, ...] = ()
+    number: Callable[[str], int | None] = lambda x: None
+
+    @cached_property
+    def acts(self) -> tuple[str, ...]:
+        """The names of its moves."""
+        return tuple(_act(it) for it in self.moves)
+
+    @property
+    def asks(self) -> bool:
+        """Whether it asks something of its own accord."""
+        return not OWN.isdisjoint(self.acts)
+
+    @property
+    def wants(self) -> str:
+        """The last move after which it wants to be told something, if there is one."""
+        return next((it for it in reversed(self.acts) if it in WANTING), "")
+
+    @property
+    def is_lost(self) -> bool:
+        """Whether it says that it has not understood, which is no move."""
+        return bool(self.text) and not self.moves
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it asks about what was said, so that it has not answered it yet."""
+        return bool(self.state.shared.qud)
+
+    @property
+    def way(self) -> str:
+        """How it has answered: `assert`, `think`, `admit` …; `none` if it has not."""
+        ways = (_way(act) for act in self.acts)
+        return next((way for way in ways if way), "none")
+
+    @property
+    def pointed(self) -> int | None:
+        """The thing of the world at which it points, if it does."""
+        points = (x for move in self.moves for x in move.sit.points)
+        return next((self.number(x) for x in points), None)
+
+    @property
+    def things(self) -> tuple[int | None, ...]:
+        """What it speaks of in its last move: a target, and what that is beside."""
+        content = self.moves[-1].sit.content if self.moves else None
+        if not isinstance(content, RecordType):
+            return ()
+        return tuple(self.number(x) for x in _things(content))
+
+    @property
+    def word(self) -> str:
+        """The first word in its last move."""
+        signs = self.moves[-1].sit.signs if self.moves else ()
+        return next((str(it.form) for it in signs), "")
+
+    @property
+    def focus(self) -> int | None:
+        """The thing that it attends to."""
+        return next((self.number(x) for x in self.state.view.focus), None)
+
+    @property
+    def fronts(self) -> Mapping[int | None, str]:
+        """Which way it knows that things of the world face."""
+        return {self.number(it.x): str(it.front) for it in self.state.shared.turned}
+
+    def said(self, kind: str) -> str:
+        """The word of a kind that it claims to be true, the first of several."""
+        for move in self.moves:
+            content = move.sit.content
+            if isinstance(content, RecordType) and _affirms(content):
+                for sign in move.sit.signs:
+                    if sign.kind == kind and claims(content, sign):
+                        return str(sign.form)
+        return ""
+
+
+def _way(act: str) -> str:
+    first, _, rest = act.partition("_")
+    return WAYS.get(rest if first == "say" else first, "")
+
+
+def _act(move: Judgement) -> str:
+    assert isinstance(move.type, RecordType)
+    return predicate_at(move.type, "e").name
+
+
+def _affirms(content: RecordType) -> bool:
+    """Whether a content claims something, and not that it is not so."""
+    found = [content[label] for label in CLAIMS if label in content]
+    return bool(found) and not any(isinstance(it, Negation) for it in found)
+
+
+def _things(content: RecordType) -> Iterator[str]:
+    for label in ("target", "landmark"):
+        part = content.get(label)
+        if isinstance(part, RecordType) and "x" in part:
+            try:
+                yield str(value_at(part, "x"))
+            except TypeError:
+                return
+
+
+def degrees(
+    s: Record, model: Model, kind: str, x: str, y: str = ""
+) -> Mapping[str, float]:
+    """How probably each word of a kind that it knows is true of x, or of x beside y.
+
+    Adjectives are those for colours, of which a thing has one.
+    """
+    look = s.view.look
+    signs = s.private.colours if kind == "adjective" else s.private[f"{kind}s"]
+    args = (x, y, look, front_of(s, y)) if kind == "relation" else (x, look)
+    return {str(it.form): degree(model, word_of(it)(*args)) for it in signs}

@@ -1,0 +1,105 @@
+"""A robot that is its games alone, in front of a simulated world."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+from kille.dialogue.wording import did_not_understand, lexicon
+from kille.simulation.perceiving import glanced, number_of, seen, thing
+from kille.simulation.playing import world_of
+from kille.simulation.schooling import rested
+from kille.simulation.worlds import World
+from kille.studies.errors import StudyError
+from kille.studies.robots.replies import Reply
+from kille.studies.scenes.occasions import Occasion
+from ttr.updates import Game, Run, Turn
+
+__all__ = ["Simulated"]
+
+
+class Simulated:
+    """A robot that is its games alone: what it sees follows from the world's name."""
+
+    def __init__(self, game: Game, language: str = "en") -> None:
+        self._game, self._language = game, language
+        self._now: Run = game.begin()
+
+    def see(self, occasion: Occasion) -> Reply:
+        """A glance at what is shown."""
+        return self._taken(glanced(occasion.shown, self._world))
+
+    def wait(self, occasion: Occasion) -> Reply:
+        """A look on its own turn."""
+        return self._taken(seen(occasion.shown, self._world))
+
+    def hear(self, text: str) -> Reply:
+        """A text; it says so if it does not understand it."""
+        assert self._game.hear is not None
+        event = self._game.hear(text)
+        if event is None:
+            sorry = did_not_understand(lexicon(self._language), text)
+            return Reply(sorry, (), *self._now[:2])
+        return self._taken(event)
+
+    def happen(self, command: str) -> Reply:
+        """`look`, `point 2`, `place 2 3.5 4`, `remove 2` or `restart`."""
+        verb, *rest = command.split()
+        world = self._world
+        if verb == "restart":
+            return self.rest()
+        if verb == "look":
+            return self._taken(seen(world.looked(), world))
+        return self._taken(glanced(_changed(world, verb, rest), world))
+
+    def rest(self) -> Reply:
+        """Another day: see `kille.simulation.schooling.rested`."""
+        state, model, _ = self._now
+        ended = dataclasses.replace(self._game, start=state, model=model)
+        self._now = rested(ended).begin()
+        return self._replied("", ())
+
+    def name(self, number: int) -> str | None:
+        """Things have the numbers that they have in the world."""
+        return thing(number) if number in self._world else None
+
+    def close(self) -> None:
+        """Nothing is to be let go of."""
+
+    @property
+    def _world(self) -> World:
+        """What is in view."""
+        return world_of(self._now.state)
+
+    def _taken(self, event: object) -> Reply:
+        turn = self._game.take(self._now, event)
+        self._now = turn.run
+        assert self._game.say is not None
+        text = "\n".join(map(self._game.say, turn.said))
+        return self._replied(text, tuple(it.rule.name for it in turn.trace), turn)
+
+    def _replied(
+        self, text: str, rules: tuple[str, ...], turn: Turn | None = None
+    ) -> Reply:
+        moves = () if turn is None else turn.said
+        return Reply(text, moves, self._now.state, self._now.model, rules, number_of)
+
+
+def _changed(world: World, verb: str, rest: Sequence[str]) -> World:
+    """The world after a command. Raises `StudyError` for one that is not known."""
+    try:
+        match verb, [float(it.lstrip("#")) for it in rest]:
+            case "point", [number]:
+                return world.pointed(int(number))
+            case "remove", [number]:
+                return world.moved(int(number), None)
+            case "place", [number, right, away]:
+                return world.moved(int(number), (right, away))
+    except (ValueError, IndexError):
+        pass
+    raise StudyError(
+        [
+            f"@ {' '.join((verb, *rest))}: in front of a simulated scene write `look`, "
+            "`point 2`, `place 2 3.5 4`, `remove 2` or `restart`"
+        ]
+    )

@@ -1,0 +1,17 @@
+"""Running studies: by this process, by others here, or by a cluster; and once more."""
+
+from kille.studies.running.crews import Crew, alone, crew
+from kille.studies.running.replaying import Difference, replay
+from kille.studies.running.runner import Progress, Summary, forget_broken, run
+
+__all__ = [
+    "Crew",
+    "Difference",
+    "Progress",
+    "Summary",
+    "alone",
+    "crew",
+    "forget_broken",
+    "replay",
+    "run",
+]

@@ -1,0 +1,98 @@
+"""Theories shown: by what they differ, in the notation of the literature.
+
+What is the same for all theories of a study is there as well, under the same names and
+in the same order, so that they can be set side by side.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from kille.dialogue.meanings import KINDS
+from kille.dialogue.meanings import theory as theory_of_process
+from kille.dialogue.state import STATE
+from kille.dialogue.strategies import strategy
+from kille.simulation.vocabulary import vocabulary
+from kille.studies.apart import ask, is_apart
+from kille.studies.study import PERSON, Theory
+from kille.studies.theories.games import strategy_of
+from kille.studies.theories.rules import algorithm_of, told
+from ttr import Record, TypeNode, record
+from ttr.updates import rules_of
+
+__all__ = ["Shown", "described", "rules_apart"]
+
+Shown = TypeNode | Record | str | Mapping[str, str]
+
+_EXAMPLES = {"noun": ("nouns", "cup"), "adjective": ("adjectives", "red")}
+_PLACE = ("relations", "left")
+
+
+def described(theory: Theory) -> Mapping[str, Shown]:
+    """A theory by its parts: its strategy, its learners, the meaning of a word of each
+    kind, what its types are called, its information states, its rules, its language.
+
+    `TheoryError` where it cannot be used.
+
+    >>> print(described(Theory("proto", learners={"noun": "prototype"}))["learners"])
+    {adjective = default, noun = prototype, relation = default}
+    >>> print(described(Theory("proto"))["noun"])
+    [look : Look, x : Ind, c : cup(x, look)]
+    """
+    if is_apart(theory):
+        shown: Mapping[str, Shown] = ask(theory, f"{__name__}:described", theory)
+        return shown
+    learners = {kind: _short(theory.learners.get(kind, "default")) for kind in KINDS}
+    by_person = theory.mode == PERSON
+    return {
+        "about": theory.about,
+        "language": _language(theory),
+        "strategy": strategy() if by_person else strategy_of(theory),
+        "learners": record(learners),
+        **{kind: _meaning(theory.language, kind) for kind in KINDS},
+        "meanings": _meanings(),
+        "state": STATE,
+        "rules": {} if by_person else _rules(theory),
+    }
+
+
+def rules_apart(one: Theory, other: Theory) -> Mapping[str, tuple[str, str]]:
+    """The rules in which two theories differ, as each has them; one may lack it.
+
+    >>> [(name, texts[1]) for name, texts in rules_apart(
+    ...     Theory("all"), Theory("bold", without=("hedge_name",))).items()]
+    [('hedge_name', '')]
+    """
+    ours, theirs = _rules(one), _rules(other)
+    names = dict.fromkeys([*ours, *theirs])
+    both = {name: (ours.get(name, ""), theirs.get(name, "")) for name in names}
+    return {name: it for name, it in both.items() if it[0] != it[1]}
+
+
+def _rules(theory: Theory) -> Mapping[str, str]:
+    return {rule.name: told(rule) for rule in rules_of(algorithm_of(theory))}
+
+
+def _meaning(language: str, kind: str) -> TypeNode:
+    words, name = _EXAMPLES.get(kind, _PLACE)
+    meaning = getattr(vocabulary(language), words)[name].meaning
+    assert isinstance(meaning, TypeNode)
+    return meaning
+
+
+def _meanings() -> Mapping[str, str]:
+    """All types by which words, phrases and moves have their meanings."""
+    named = theory_of_process().definitions
+    return {name: str(T) for name, T in named.items() if T is not STATE}
+
+
+def _language(theory: Theory) -> str:
+    own = "" if theory.grammar is None else f" with {theory.grammar.name}"
+    return f"{theory.language}{own}"
+
+
+def _short(name: str) -> str:
+    """What a learner is called, without where its file is."""
+    path, colon, thing = name.rpartition(":")
+    return f"{Path(path).name}{colon}{thing}"

@@ -1,0 +1,151 @@
+"""Theories at work: the games that they make, in a simulated world or by a robot.
+
+In what two theories differ is in the value of each, a `Theory`; all else is the same.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
+from sys import float_info
+from typing import Any
+
+from kille.agent import Agent
+from kille.dialogue.sources import language_in
+from kille.dialogue.strategies import strategy
+from kille.sensors.sensor import Sensor
+from kille.simulation.learning import Word
+from kille.simulation.playing import simulated
+from kille.simulation.vocabulary import vocabulary
+from kille.simulation.worlds import World
+from kille.studies.errors import TheoryError
+from kille.studies.settings import unknown
+from kille.studies.study import Theory
+from kille.studies.theories.judging import learners_of, words_of
+from kille.studies.theories.rules import algorithm_of
+from kille.studies.theories.words import acting, known_by
+from ttr import Record, replace
+from ttr.updates import Game
+
+__all__ = ["agent_of", "changed", "game_of", "language_of", "strategy_of"]
+
+
+def game_of(
+    theory: Theory, world: World, *, colours: Iterable[Record] | None = None
+) -> Game:
+    """The game that the theory makes in front of a simulated world.
+
+    Its robot knows these `colours`, or else all; which words are of colours it knows
+    anyhow. `TheoryError` where the theory cannot be used.
+
+    >>> from kille.simulation.worlds import Thing
+    >>> world = World((Thing("cup", "red", place=(2, 3)),))
+    >>> game = game_of(Theory("four", wording="four"), world)
+    >>> turns = game.play(map(game.hear, ["This is a cup.", "What is this?"]))
+    >>> [game.say(move) for turn in turns for move in turn.said]
+    ['Please, show me more examples of cup.', 'This is a cup. Am I right?']
+    """
+    every = vocabulary(theory.language).colours
+    signs = every if colours is None else tuple(colours)
+    game = simulated(
+        world,
+        colours=signs,
+        language=language_of(theory),
+        mode=theory.mode,
+        wording=theory.wording,
+    )
+    start = replace(game.start, {"private.colours": list(every)})
+    game = dataclasses.replace(game, start=start)
+    makes = words_of(theory)
+    if all(make is Word for make in makes.values()):
+        return changed(game, theory)
+    model = known_by(game.model, makes, signs)
+    game = dataclasses.replace(game, model=model, act=acting(makes))
+    return changed(game, theory)
+
+
+def agent_of(theory: Theory, sensor: str | Sensor, **settings: Any) -> Agent:
+    """The whole robot with this theory, looking through a sensor.
+
+    `settings` are those of `Agent`; errors as it raises them, and `TheoryError`.
+    """
+    return Agent(
+        sensor,
+        language=language_of(theory),
+        mode=theory.mode,
+        wording=theory.wording,
+        learners=learners_of(theory),
+        theory=partial(changed, theory=theory),
+        **settings,
+    )
+
+
+def changed(game: Game, theory: Theory) -> Game:
+    """The game with the theory's own strategy and rules."""
+    if not (theory.strategy or theory.rules or theory.without):
+        return game
+    start = replace(game.start, {"private.strategy": strategy_of(theory)})
+    return dataclasses.replace(game, start=start, algorithm=algorithm_of(theory))
+
+
+def language_of(theory: Theory) -> str:
+    """The language as games are told it, with the folder of its own files if any."""
+    if theory.grammar is None:
+        return theory.language
+    return language_in(theory.grammar, theory.language)
+
+
+def strategy_of(theory: Theory) -> Record:
+    """The strategy of a theory; `TheoryError` for what it cannot be set to.
+
+    >>> strategy_of(Theory("sure", strategy={"bands": {"sure": 0.9}})).bands.sure
+    0.9
+    """
+    plain = strategy(theory.mode, theory.wording)
+    wrong = next(unsettable(theory), None)
+    if wrong is not None:
+        raise TheoryError(wrong[1])
+    return replace(plain, dict(_numbers(theory.strategy)))
+
+
+def unsettable(theory: Theory) -> Iterator[tuple[tuple[str, ...], str]]:
+    """What the strategy cannot be set to: the names that lead to it, and why."""
+    yield from _unsettable(theory.strategy, strategy(theory.mode, theory.wording), ())
+
+
+def _unsettable(
+    given: Mapping[str, Any], known: Record, outer: tuple[str, ...]
+) -> Iterator[tuple[tuple[str, ...], str]]:
+    for name, value in given.items():
+        here = (*outer, name)
+        path = ".".join(here)
+        if name not in known:
+            yield here, f"a strategy has no {path}: {unknown(name, tuple(known))}"
+        elif isinstance(value, dict) and isinstance(known[name], Record):
+            yield from _unsettable(value, known[name], here)
+        elif isinstance(known[name], str):
+            yield (
+                here,
+                f"the {name} of a strategy is that of the theory: write it there",
+            )
+        elif isinstance(known[name], Record):
+            inner = ", ".join(known[name])
+            yield here, f"{path} of a strategy is a table of {inner}, found {value!r}"
+        elif not _is_number(value):
+            yield here, f"{path} of a strategy is a number, found {value!r}"
+
+
+def _is_number(value: object) -> bool:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    return abs(value) <= float_info.max
+
+
+def _numbers(given: Mapping[str, Any], outer: str = "") -> Iterator[tuple[str, float]]:
+    """All numbers that are set, by their paths."""
+    for name, value in given.items():
+        if isinstance(value, dict):
+            yield from _numbers(value, f"{outer}{name}.")
+        else:
+            yield f"{outer}{name}", float(value)

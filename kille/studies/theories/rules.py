@@ -1,0 +1,226 @@
+"""The rules of a theory: the games of tutoring, less some rules, and with one's own."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+from collections.abc import Callable, Collection, Iterable, Mapping
+from functools import lru_cache
+from pathlib import Path
+from traceback import extract_tb
+from typing import Any
+
+from kille.dialogue.games import TUTORING
+from kille.studies.errors import TheoryError
+from kille.studies.settings import unknown
+from kille.studies.study import Theory
+from ttr import TTRError
+from ttr.modules import run_file
+from ttr.theories import load
+from ttr.updates import (
+    Algorithm,
+    ByClass,
+    Maybe,
+    Repeat,
+    Rule,
+    Seq,
+    replaced,
+    rules_of,
+    seq,
+)
+
+__all__ = ["PACKAGED", "algorithm_of", "lacking", "told"]
+
+_WRITTEN = "FILE.ttr or FILE.py:NAME"
+
+_NOTHING = seq()
+"""What always applies, and changes nothing."""
+
+
+def algorithm_of(theory: Theory) -> Algorithm:
+    """The games as the theory has them; `TheoryError` where its rules cannot be used.
+
+    A Python file is run anew each time, so that what its rules draw by chance does not
+    depend on what was played before.
+    """
+    whole = _with(TUTORING, theory.rules) if theory.rules else TUTORING
+    if not theory.without:
+        return whole
+    known = [one.name for one in rules_of(whole)]
+    for name in theory.without:
+        if name not in known:
+            raise TheoryError(f"there is no rule {name}: {unknown(name, known)}")
+    left = lacking(whole, theory.without)
+    if left is None:
+        raise TheoryError(f"without {', '.join(theory.without)} nothing ever applies")
+    return left
+
+
+def lacking(algorithm: Algorithm, names: Collection[str]) -> Algorithm | None:
+    """The strategy as it is if rules of these names never apply; None if it never does.
+
+    >>> from kille.dialogue.games.naming import NAMING
+    >>> print(lacking(NAMING, ["recognise", "hedge_name", "guess_name"]))
+    seq(first(assert_name, doubt_name, admit_name))
+    """
+    match algorithm:
+        case Rule():
+            return None if algorithm.name in names else algorithm
+        case Maybe(part):
+            left = lacking(part, names)
+            return _NOTHING if left is None else Maybe(left)
+        case Repeat(part):
+            left = lacking(part, names)
+            return None if left is None else dataclasses.replace(algorithm, part=left)
+        case ByClass(classes):
+            few = [
+                (k, tuple(r for r in rs if r.name not in names)) for k, rs in classes
+            ]
+            return ByClass(tuple(few)) if any(rules for _, rules in few) else None
+        case Seq(parts):
+            both = [lacking(part, names) for part in parts]
+            if None in both:
+                return None
+            return Seq(tuple(it for it in both if it is not None and it != _NOTHING))
+    some = [lacking(part, names) for part in algorithm.parts]
+    parts = tuple(it for it in some if it is not None)
+    return dataclasses.replace(algorithm, parts=parts) if parts else None
+
+
+def told(rule: Rule) -> str:
+    """What a rule is, to be read: in the notation, or what it is for and its Python.
+
+    Of the package's own rules it is what they are for.
+    """
+    if rule.text:
+        return f"rule {rule.text}"
+    if rule in PACKAGED:
+        return rule.doc
+    try:
+        code = inspect.getsource(rule.effect)
+    except (OSError, TypeError):  # a file that has gone, or no function of a file
+        return rule.doc
+    return inspect.cleandoc(code)
+
+
+PACKAGED = frozenset(rules_of(TUTORING))
+"""The rules of the games of tutoring as they are."""
+
+
+# --- rules of one's own ---------------------------------------------------------------
+
+
+def _with(whole: Algorithm, reference: str) -> Algorithm:
+    """The games with what a name stands for: rules in place of those of their names."""
+    if reference.endswith(".ttr"):
+        return _in_place(whole, _of_theory(Path(reference)), reference)
+    found = _of_python(reference)
+    if isinstance(found, Algorithm) and not isinstance(found, Rule):
+        return found
+    if callable(found) and not isinstance(found, Rule):
+        return _made(found, whole, reference)
+    return _in_place(whole, _rules(found, reference), reference)
+
+
+def _of_theory(file: Path) -> Mapping[str, Rule]:
+    """The rules of a theory file, by those that they replace.
+
+    Many a rule there cannot have the name of the other, which is that of a predicate:
+    then it is of its kind, `rule silent(…) of admit_name`.
+    """
+    _check_there(file)
+    try:
+        rules = _loaded(file, file.stat().st_mtime_ns)
+    except TTRError as error:
+        place = f"{error.span.source}:{error.span.line}" if error.span else ""
+        hint = f" ({error.hint})" if error.hint else ""
+        raise TheoryError(f"{error.message}{hint}", place) from error
+    return _each_for_one([(it.kind or it.name, it) for it in rules.values()], str(file))
+
+
+def _each_for_one(rules: Iterable[tuple[str, Rule]], of: str) -> Mapping[str, Rule]:
+    """Rules by the names that they stand for, of which no two may be the same."""
+    found: dict[str, Rule] = {}
+    for name, one in rules:
+        if name in found:
+            both = f"both {found[name]} and {one} stand in place of {name}"
+            raise TheoryError(f"{of}: {both}: write one, or rules in Python")
+        found[name] = one
+    return found
+
+
+@lru_cache
+def _loaded(file: Path, _: int) -> Mapping[str, Rule]:
+    """The rules of a theory file as it was when it was changed last."""
+    return load(file).rules
+
+
+def _of_python(reference: str) -> Any:
+    path, colon, name = reference.rpartition(":")
+    if not colon or not path.endswith(".py"):
+        raise TheoryError(f"rules are named {_WRITTEN}, found {reference}")
+    _check_there(Path(path))
+    try:
+        module = run_file(Path(path), f"_rules_{Path(path).stem}")
+    except (Exception, SystemExit) as error:
+        first = next(iter(str(error).splitlines()), "")
+        why = f"{type(error).__name__}: {first}".removesuffix(": ")
+        at = f"{path}:{_line_in(path, error)}"
+        raise TheoryError(f"{path} cannot be run: {why}", at) from error
+    if name not in vars(module):
+        own = tuple(it for it in vars(module) if not it.startswith("_"))
+        raise TheoryError(f"{path} has no {name}: {unknown(name, own)}")
+    return vars(module)[name]
+
+
+def _line_in(path: str, error: BaseException) -> int:
+    """The line of a file at which it failed: the last one on the way to the error."""
+    if isinstance(error, SyntaxError):
+        return error.lineno or 1
+    passed = extract_tb(error.__traceback__)
+    return next((it.lineno or 1 for it in passed[::-1] if it.filename == path), 1)
+
+
+def _check_there(file: Path) -> None:
+    if not file.is_file():
+        beside = tuple(one.name for one in file.parent.glob(f"*{file.suffix}"))
+        raise TheoryError(f"there is no file {file}: {unknown(file.name, beside)}")
+
+
+def _made(change: Callable[[Algorithm], Any], whole: Algorithm, of: str) -> Algorithm:
+    """The games as a function changes them."""
+    try:
+        made = change(whole)
+    except Exception as error:
+        raise TheoryError(f"{of} failed: {type(error).__name__}: {error}") from error
+    if isinstance(made, Algorithm):
+        return made
+    raise TheoryError(f"{of} gives no rules: expected an algorithm, found {made!r}")
+
+
+def _rules(found: object, reference: str) -> Mapping[str, Rule]:
+    """Rules by the names of those in whose place they stand."""
+    match found:
+        case Rule():
+            return {found.name: found}
+        case list() | tuple() if all(isinstance(it, Rule) for it in found):
+            return _each_for_one([(it.name, it) for it in found], reference)
+        case dict() if all(isinstance(it, Rule) for it in found.values()):
+            return found
+    raise TheoryError(
+        f"{reference} is no rules: expected a rule, several, a dict of them by the "
+        "rules that they replace, an algorithm, or a function that gives one"
+    )
+
+
+def _in_place(whole: Algorithm, rules: Mapping[str, Rule], reference: str) -> Algorithm:
+    known = [one.name for one in rules_of(whole)]
+    if not rules:
+        raise TheoryError(f"{reference} has no rule")
+    for name in rules:
+        if name not in known:
+            raise TheoryError(
+                f"{reference}: there is no rule {name} that it could stand for: "
+                f"{unknown(name, known)}"
+            )
+    return replaced(whole, rules)

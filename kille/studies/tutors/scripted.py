@@ -1,0 +1,59 @@
+"""A tutor who says the lines of a file `.dlg`, whatever the robot replies.
+
+`U>` is what he says, `@` what happens: `look`, `point 2`, `restart`, and in front of
+simulated scenes `place 2 3.5 4` and `remove 2`. What the file has the robot say after
+`S>` is what he expects; each answer is told as right if it is that sentence.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from kille.studies.tutors.tutor import Asked, Happens, Move, Says, Shows, Task, Turns
+from ttr.stories import Line, read_stories
+
+__all__ = ["Scripted", "scripted"]
+
+
+class Scripted:
+    """Who says these lines, all of them in the first task that he is given."""
+
+    def __init__(self, name: str, lines: Sequence[Line]) -> None:
+        self.name = name
+        self._left = tuple(lines)
+
+    def turns(self, task: Task) -> Turns:
+        """The lines, in front of what the task shows; nothing in any later task."""
+        lines, self._left = self._left, ()
+        if lines and task.of is not None:
+            yield Shows(task.of)
+        yield from _moves(lines)
+
+
+def scripted(name: str, path: Path) -> Scripted:
+    """The tutor who plays the stories of a file, one after the other.
+
+    `StoryError` where the file has none.
+    """
+    stories = read_stories(path)
+    return Scripted(name, [line for story in stories for line in story.lines])
+
+
+def _moves(lines: Sequence[Line]) -> Iterator[Move]:
+    for place, line in enumerate(lines):
+        match line.mark:
+            case "U>":
+                yield Says(line.text, "says", _expected(lines[place + 1 :]))
+            case "@":
+                yield Happens(line.text)
+
+
+def _expected(after: Sequence[Line]) -> Asked | None:
+    """What the robot should reply, if the script says so."""
+    expected = []
+    for line in after:
+        if line.mark != "S>":
+            break
+        expected.append(line.text)
+    return Asked("reply", "\n".join(expected), 0) if expected else None

@@ -1,0 +1,270 @@
+"""Tables and figures say what the dialogues say, and lead to them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from kille.experiments.results import Estimate, Table
+from kille.studies.measuring.scored import Dialogue, scored
+from kille.studies.played import Answer, Played, Turn
+from kille.studies.reporting import curves
+from kille.studies.reporting.conditions import by_conditions
+from kille.studies.reporting.contrasts import contrasted, corrected
+from kille.studies.reporting.costs import costs
+from kille.studies.reporting.findings import (
+    Theories,
+    grouped,
+    in_detail,
+    measures_of,
+    overall,
+)
+from kille.studies.reporting.places import places_of
+from kille.studies.study import Run
+
+SHARES: Mapping[str, Mapping[str, float]] = {
+    "driven": {"silent": 0.5, "corrects": 0.5},
+    "autonomous": {"silent": 0.25, "corrects": 1.0},
+}
+"""How much of what is asked each theory gets right, tutor by tutor."""
+
+
+def talk(theory: str, tutor: str, scene: str, seed: int) -> Dialogue:
+    """Two lessons each of a round, and four questions after each of the two rounds."""
+    turns, answers = [], []
+    for part in (1, 2):
+        words = 3 + 2 * (tutor == "corrects")
+        turns.append(
+            Turn(2 * part, f"teach {part}", tutor, "instruct", "…", "OK.", words)
+        )
+        turns.append(Turn(2 * part + 1, f"test {part}", tutor, "ask_name", "?", "!", 2))
+        for n in range(4):
+            is_right = n < 4 * SHARES[theory][tutor]
+            word = ("cup", "car")[(n + seed) % 2]
+            other = "car" if word == "cup" else "cup"
+            answers.append(
+                Answer(
+                    2 * part + 1,
+                    f"test {part}",
+                    "noun",
+                    word,
+                    word if is_right else other,
+                    "assert" if is_right else "hedge",
+                    0.75 if is_right else 0.25,
+                    {word: 0.75, other: 0.25} if is_right else {word: 0.1, other: 0.25},
+                    lessons=2 * part,
+                )
+            )
+    run = Run(theory, tutor, scene, seed)
+    return scored(run, Played(tuple(turns), tuple(answers), 4), 0.1)
+
+
+def study(seeds: int = 6, scenes: tuple[str, ...] = ("table",)) -> Theories:
+    talks = [
+        talk(theory, tutor, scene, seed)
+        for seed in range(1, seeds + 1)
+        for scene in scenes
+        for tutor in ("silent", "corrects")
+        for theory in SHARES
+    ]
+    return grouped(list(SHARES), talks)
+
+
+def row(table: Table, *start: object) -> tuple[object, ...]:
+    """What a row says after what it is called, estimates by their value."""
+    (found,) = (it for it in table.rows if it[: len(start)] == start)
+    cells = found[len(start) :]
+    return tuple(it.value if isinstance(it, Estimate) else it for it in cells)
+
+
+@pytest.fixture(scope="module")
+def theories() -> Theories:
+    return study()
+
+
+def test_all_measures_are_there_for_all_theories(theories: Theories) -> None:
+    measures = measures_of(theories)
+    talks = [it for them in theories.values() for it in them]
+    table = overall(theories, measures, places_of(list(theories), talks, "talks"))
+    assert table.columns == ("", "driven", "autonomous")
+    assert row(table, "dialogues") == (12, 12)
+    assert row(table, "answers") == (96, 96)
+    assert row(table, "accuracy") == (0.5, 0.625)
+    assert row(table, "words") == (12, 12)
+    assert not any(it[0] in ("κ tutor–judge", "reference") for it in table.rows)
+
+
+def test_a_judge_who_always_agrees_with_the_tutor_is_no_ceiling() -> None:
+    def judged(judge: str) -> list[str]:
+        talk = asked("bold", ["assert"] * 3)
+        first, *others = (it._replace(judge=judge) for it in talk.answers)
+        answers = (first._replace(said="mug"), *others)
+        measures = measures_of({"bold": [replace(talk, answers=answers)]})
+        return [it.name for it in measures if "judge" in it.name]
+
+    assert judged("") == judged("cup") == []
+    assert judged("car") == ["κ robot–judge", "κ tutor–judge"]
+
+
+def test_parts_are_told_and_lead_to_their_answers(theories: Theories) -> None:
+    talks = [it for them in theories.values() for it in them]
+    places = places_of(list(theories), talks, "talks")
+    found = {it.title: it for it in in_detail(theories, places)}
+    assert row(found["By phase"], "test 2") == (0.5, 0.625, 48)
+    assert row(found["By how it was put"], "assert") == (1.0, 1.0, "48, 60")
+    assert row(found["By word"], "noun", "cup")[-1] == 48
+    place = found["By word"].links[0, 2]
+    assert place == "talks/theory-1-answers.html#word-1"
+
+
+def test_answers_are_counted_for_each_theory_where_they_are_not_as_many() -> None:
+    """Two of eight are put as a hedge by one theory, and all eight by the other."""
+    theories = {
+        name: [asked(name, ["assert"] * (8 - hedges) + ["hedge"] * hedges)]
+        for name, hedges in (("bold", 2), ("shy", 8))
+    }
+    talks = [it for them in theories.values() for it in them]
+    places = places_of(list(theories), talks, "talks")
+    found = {it.title: it for it in in_detail(theories, places)}
+    assert row(found["By how it was put"], "hedge")[-1] == "2, 8"
+    assert row(found["By how it was put"], "assert")[-1] == "6, 0"
+    assert row(found["By kind of word"], "noun")[-1] == 8
+
+
+def asked(theory: str, ways: Sequence[str], kind: str = "noun") -> Dialogue:
+    answers = [
+        Answer(turn, "test", kind, "cup", "cup", way)
+        for turn, way in enumerate(ways, start=1)
+    ]
+    return scored(Run(theory, "Ann", "table", 1), Played((), tuple(answers)), 0.1)
+
+
+def test_things_are_not_counted_as_answers_with_words() -> None:
+    talk = asked("bold", ["assert"] * 3)
+    things = asked("bold", ["point"] * 2, "reference").answers
+    theories = {"bold": [replace(talk, answers=talk.answers + things)]}
+    places = places_of(["bold"], theories["bold"], "talks")
+    table = overall(theories, measures_of(theories), places)
+    assert row(table, "answers") == (3,)
+    assert row(table, "things asked for") == (2,)
+    assert table.links[2, 1] == places.answers("bold")
+    assert table.links[3, 1] == places.theory("bold")
+
+
+def test_of_words_that_were_never_asked_for_nothing_is_said() -> None:
+    theories = {
+        name: [asked(name, ["point"] * count, "reference")]
+        for name, count in (("a", 1), ("b", 2))
+    }
+    talks = [it for them in theories.values() for it in them]
+    places = places_of(list(theories), talks, "")
+    measures = measures_of(theories)
+    (result,) = contrasted(theories, [("a", "b")], measures, places)
+    assert "accuracy" not in result.text
+    assert "Question by question" not in {it.title for it in result.tables}
+
+
+def test_tutors_are_compared_with_the_first_one(theories: Theories) -> None:
+    talks = [it for them in theories.values() for it in them]
+    places = places_of(list(theories), talks, "talks")
+    (result,) = by_conditions(theories, measures_of(theories), places)
+    found = {it.title: it for it in result.tables}
+    assert "By scene" not in found
+    assert row(found["By tutor"], "accuracy", "corrects") == (0.5, 1.0)
+    against = found["Against the tutor silent"]
+    names = "corrects − silent"
+    assert row(against, "autonomous", "accuracy", names)[0] == 0.75
+    assert row(against, "autonomous", "accuracy", names)[1] == "0.031"
+    assert row(against, "driven", "words", names)[0] == 4
+    assert not any(it[:2] == ("driven", "accuracy") for it in against.rows)
+
+
+def test_several_scenes_are_told_with_the_tutors() -> None:
+    theories = study(2, ("table", "floor"))
+    talks = [it for them in theories.values() for it in them]
+    places = places_of(list(theories), talks, "")
+    (result,) = by_conditions(theories, measures_of(theories), places)
+    (both,) = (it for it in result.tables if it.title == "By tutor and scene")
+    assert len(both.rows) == 4
+    assert both.rows[0][:3] == ("κ robot–tutor", "silent", "table")
+
+
+def test_what_was_learned_is_drawn_against_what_it_cost(theories: Theories) -> None:
+    by_phase, by_tutor = costs(theories)
+    driven = by_phase.data["series"]["driven"]
+    assert driven["x"] == [4, 10]
+    assert driven["mean"] == [0.5, 0.5]
+    autonomous = by_tutor.data["series"]["autonomous"]
+    assert autonomous["labels"] == ["silent", "corrects"]
+    assert autonomous["x"] == [8, 12]
+    assert autonomous["y"] == [0.25, 1.0]
+
+
+def test_learning_is_drawn_by_lessons(theories: Theories) -> None:
+    (figure,) = curves.learning(theories)
+    assert figure.data["series"]["driven"]["x"] == [2, 4]
+    assert figure.data["series"]["autonomous"]["mean"] == [0.625, 0.625]
+
+
+def test_places_on_a_learning_curve_have_as_much_room_as_each_other() -> None:
+    """Thirteen lessons are drawn by twos: each place is of two numbers of lessons."""
+    given = [
+        Answer(turn, "test", "noun", "cup", "cup", "assert", lessons=turn // 5)
+        for turn in range(5 * 14)
+    ]
+    talk = scored(Run("a", "Ann", "table", 1), Played((), tuple(given)), 0.1)
+    (figure,) = curves.learning({"a": [talk]})
+    assert figure.data["series"]["a"]["x"] == [0, 2, 4, 6, 8, 10, 12, 14]
+
+
+def test_degrees_are_drawn_against_shares(theories: Theories) -> None:
+    (figure,) = curves.reliable(theories)
+    driven = figure.data["series"]["driven"]
+    assert driven["x"] == [0.25, 0.75]
+    assert driven["y"] == [0, 1]
+    assert driven["counts"] == [48, 48]
+
+
+def test_what_is_taken_for_what_is_drawn_for_each_theory(theories: Theories) -> None:
+    first, second = curves.confusions(theories)
+    assert (first.title, second.title) == ("driven: nouns", "autonomous: nouns")
+    assert np.trace(np.array(first.data["counts"])) == 48
+
+
+def test_a_sentence_says_what_was_found(theories: Theories) -> None:
+    talks = [it for them in theories.values() for it in them]
+    places = places_of(list(theories), talks, "")
+    which = [("driven", "autonomous")]
+    (result,) = contrasted(theories, which, measures_of(theories), places)
+    told = "The accuracy of autonomous differs from that of driven by 0.125 ["
+    assert result.text.startswith(told)
+
+
+def test_sentences_have_the_p_that_is_corrected_for_how_many_they_are() -> None:
+    talks = [it for them in study().values() for it in them]
+    theories = {
+        "driven": [it for it in talks if it.run.theory == "driven"],
+        "autonomous": [it for it in talks if it.run.theory == "autonomous"],
+    }
+    theories["third"] = [
+        replace(it, run=replace(it.run, theory="third")) for it in theories["driven"]
+    ]
+    places = places_of(list(theories), talks, "")
+    which = [("driven", "autonomous"), ("autonomous", "third"), ("driven", "third")]
+    (result,) = contrasted(theories, which, measures_of(theories), places)
+    (table, *_) = (it for it in result.tables if it.title == "Paired differences")
+    ps = [row[4] for row in table.rows if row[1] == "accuracy"]
+    assert len(ps) == 2
+    assert re.findall(r"p = ([\d.]+)\)", result.text) == ps
+    assert "third and driven do equally well in every pair" in result.text
+    assert result.text.endswith("Each p is after Holm's correction.")
+
+
+def test_the_main_measure_is_corrected_by_itself() -> None:
+    ps = [("accuracy", 0.03), ("words", 0.01), ("accuracy", 0.04), ("turns", 0.02)]
+    assert corrected(ps) == [0.06, 0.02, 0.06, 0.02]
+    assert corrected([("accuracy", 0.03), ("words", 0.5)])[0] == 0.03

@@ -1,0 +1,234 @@
+"""A report as a page: all that it says is there, and all that it leads to."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator
+from html.parser import HTMLParser
+from pathlib import Path
+from random import Random
+from urllib.parse import unquote
+
+import pytest
+
+from kille.experiments.figures import MISSING
+from kille.experiments.results import Estimate
+from kille.studies.measuring.scored import Dialogue, scored
+from kille.studies.played import Answer, Played, Turn
+from kille.studies.reporting.findings import grouped
+from kille.studies.reporting.places import places_of
+from kille.studies.reporting.writing import Subject, every_two, results_of, write
+from kille.studies.study import Run
+from ttr import record
+
+WORDS = ("cup", "car", "book")
+SURE, ODD = "sure", "<b>odd</b> & shy"
+SKILL = {SURE: 0.9, ODD: 0.5}
+
+
+def dialogue(theory: str, seed: int, judged: bool = True) -> Dialogue:
+    """A tutor says what three things are, and asks; the better theory knows more."""
+    shown, own = Random(f"shown {seed}"), Random(f"{theory} {seed}")
+    turns, answers = [], []
+    for number in range(1, 13):
+        word, luck = shown.choice(WORDS), shown.random()
+        said = word if luck < SKILL[theory] else own.choice((*WORDS, ""))
+        degrees = {it: own.random() / 4 for it in WORDS} | {said or "cup": 0.7}
+        if number % 2:
+            turns.append(
+                Turn(number, "teach", "Ann", "instruct", f"A {word}.", "OK.", 2)
+            )
+            continue
+        turns.append(
+            Turn(number, "test", "Ann", "ask_name", "What is <this>?", said, 3)
+        )
+        judge = shown.choice((word, *WORDS)) if judged else ""
+        answers.append(
+            Answer(
+                number, "test", "noun", word, said, "assert", degrees.get(said, 0.0)
+            )._replace(degrees=degrees, judge=judge, lessons=number // 2)
+        )
+    run = Run(theory, "Ann", "table & chairs", seed)
+    return scored(run, Played(tuple(turns), tuple(answers), 6), 0.25)
+
+
+def subject(*theories: str, seeds: int = 6, **more: object) -> Subject:
+    names = theories or (SURE, ODD)
+    talks = [dialogue(name, seed) for seed in range(1, seeds + 1) for name in names]
+    found = grouped(names, talks)
+    described = {
+        name: {"strategy": record(mode=name[:4], sure=0.6), "rules": {"hedge": name}}
+        for name in names
+    }
+    about = {"command": "kille experiment run <me>.toml", "seeds": f"1 to {seeds}"}
+    return Subject(
+        "Who's <i>sure</i>?", found, described, every_two(found), about, **more
+    )  # type: ignore[arg-type]
+
+
+class Reader(HTMLParser):
+    """What a page leads to, what can be led to in it, and whether its tags close."""
+
+    def __init__(self, page: Path) -> None:
+        super().__init__()
+        self.links: list[str] = []
+        self.ids: list[str] = []
+        self.open: list[str] = []
+        self.feed(page.read_text("utf-8"))
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = dict(attrs)
+        if tag == "a" and given.get("href"):
+            self.links.append(str(given["href"]))
+        if given.get("id"):
+            self.ids.append(str(given["id"]))
+        if tag not in ("meta", "img", "br"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        pass
+
+
+def pages_of(folder: Path) -> Iterator[Path]:
+    yield from sorted(folder.rglob("*.html"))
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("results")
+    (folder / "runs.csv").write_text("run\n")
+    write(reported(), folder / "report.html")
+    return folder
+
+
+def reported() -> Subject:
+    return subject(
+        broken=[(f"{SURE}/Ann/{n}", "KeyError: <cup>") for n in range(7)],
+        files=["runs.csv"],
+        lead="Why?\n\nSo.",
+        source="title = '<x>'",
+    )
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As it is where matplotlib is not installed, which is quicker, too."""
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+
+
+def test_every_link_leads_somewhere(written: Path) -> None:
+    readers = {page.resolve(): Reader(page) for page in pages_of(written)}
+    assert len(readers) == 1 + 6 + 2 * 2 + 1
+    for page, reader in readers.items():
+        assert not reader.open
+        assert len(reader.ids) == len({*reader.ids})
+        for link in reader.links:
+            path, _, anchor = unquote(link).partition("#")
+            target = (page.parent / path).resolve() if path else page
+            assert target.is_file(), link
+            assert not anchor or anchor in readers[target].ids, link
+
+
+def test_nothing_is_fetched_and_all_is_escaped(written: Path) -> None:
+    for page in pages_of(written):
+        text = page.read_text("utf-8")
+        assert "<script" not in text
+        assert not re.search(r"""(?:src|href)=["']?(?:https?:)?//""", text)
+        assert ODD not in text
+        assert "<this>" not in text
+        assert "<cup>" not in text
+
+
+def test_the_page_says_what_there_is_to_say(written: Path) -> None:
+    text = (written / "report.html").read_text("utf-8")
+    for told in (
+        "<p>So.</p>",
+        "2 more dialogues broke.",
+        "κ tutor–judge",
+        "p (Holm)",
+        "How many dialogues it takes",
+        "Learning curve",
+        "Reliability",
+        "title = &#x27;&lt;x&gt;&#x27;",
+        'href="runs.csv"',
+        "kille experiment run &lt;me&gt;.toml",
+    ):
+        assert told in text, told
+
+
+def test_every_number_of_a_theory_leads_to_its_dialogues(written: Path) -> None:
+    text = (written / "report.html").read_text("utf-8")
+    found = re.search(r"<tr><td[^>]*>accuracy</td>(.*?)</tr>", text)
+    assert found
+    assert re.findall(r'href="([^"]+)"', found[1]) == [
+        "report-dialogues/theory-1.html",
+        "report-dialogues/theory-2.html",
+    ]
+
+
+def test_figures_lie_beside_the_page_for_a_paper(written: Path) -> None:
+    files = sorted((written / "report-figures").iterdir())
+    assert all(it.read_bytes().startswith(b"%PDF") for it in files)
+    assert "2-1-learning-curve.pdf" in {it.name for it in files}
+
+
+def test_the_same_dialogues_are_the_same_report(written: Path, tmp_path: Path) -> None:
+    write(reported(), tmp_path / "report.html")
+    files = sorted(it for it in tmp_path.rglob("*") if it.is_file())
+    assert len(files) > 10
+    for file in files:
+        twin = written / file.relative_to(tmp_path)
+        assert file.read_bytes() == twin.read_bytes(), file.name
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_what_an_earlier_report_left_is_gone(tmp_path: Path) -> None:
+    page = tmp_path / "report.html"
+    write(subject(seeds=3), page)
+    own = tmp_path / "report-dialogues" / "my-notes.html"
+    own.write_text("mine")
+    write(subject(seeds=2), page)
+    kept = {it.name for it in own.parent.iterdir()}
+    assert "dialogue-2.html" in kept
+    assert "dialogue-3.html" not in kept
+    assert own.name in kept
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_one_theory_is_compared_with_none(tmp_path: Path) -> None:
+    write(subject(SURE), tmp_path / "report.html")
+    text = (tmp_path / "report.html").read_text("utf-8")
+    assert "How they differ" not in text
+    assert "The same in all" not in text
+
+
+def test_without_dialogues_there_is_a_page_all_the_same(tmp_path: Path) -> None:
+    write(subject(seeds=0, broken=[("a/b/c/1", "no")]), tmp_path / "report.html")
+    assert "a/b/c/1 broke: no" in (tmp_path / "report.html").read_text("utf-8")
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_without_matplotlib_it_says_so(tmp_path: Path) -> None:
+    write(subject(), tmp_path / "report.html")
+    text = (tmp_path / "report.html").read_text("utf-8")
+    assert MISSING.replace("'", "&#x27;") in text
+    assert "<svg" not in text
+    assert "accuracy" in text
+
+
+def test_the_better_theory_is_found_to_be_better() -> None:
+    about = subject(seeds=20)
+    talks = [it for them in about.theories.values() for it in them]
+    found = results_of(about, places_of(list(about.theories), talks, ""))
+    (table,) = (
+        it for one in found for it in one.tables if it.title == "Paired differences"
+    )
+    (row,) = (row for row in table.rows if row[1] == "accuracy")
+    assert isinstance(row[2], Estimate)
+    assert row[2].high < 0
+    assert row[3] == "< 0.001"
+    assert row[5] == 20

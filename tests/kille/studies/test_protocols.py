@@ -1,0 +1,106 @@
+"""Protocols: the tasks of phases, and what is wrong with them."""
+
+import pytest
+
+from kille.studies import protocols, scenes
+from kille.studies.protocols import tasks
+from kille.studies.study import Named, Phase, Run, Study, Theory
+
+
+def made(*phases, tutors=("Ann", "Bo"), scene=None, seed=1):
+    scene = scene or Named("s", "drawn", {"kinds": ["cup", "mug", "book"]})
+    return Study(
+        "t",
+        {"robot": Theory("robot")},
+        {name: Named(name, "simulated") for name in tutors},
+        {"s": scene},
+        tuple(Phase(f"{n}", do, set_) for n, (do, set_) in enumerate(phases)),
+        (seed,),
+    )
+
+
+def done(*phases, tutor="Ann", theory="robot", **settings):
+    study = made(*phases, **settings)
+    run = Run(theory, tutor, "s", 1)
+    return [task for _, task in tasks(study, run, scenes.opened(study, run))]
+
+
+def test_a_round_has_a_task_for_each_thing():
+    found = done(("teach", {"rounds": 2}), ("rest", {}), ("ask", {}))
+    assert [task.do for task in found] == ["teach"] * 6 + ["rest"] + ["ask"] * 3
+    assert [task.number for task in found] == list(range(1, 11))
+
+
+@pytest.mark.parametrize("turns", [1, 4, 7])
+def test_so_many_things_are_shown(turns):
+    assert len(done(("talk", {"turns": turns}))) == turns
+
+
+def test_no_two_tasks_have_a_look_in_common():
+    found = done(("teach", {"rounds": 3}), ("ask", {}))
+    looks = [task.occasion.world.name for task in found]
+    later = [task.occasion.looked().world.name for task in found]
+    assert len({*looks, *later}) == 2 * len(found)
+
+
+def test_every_word_is_forgotten_by_itself():
+    found = done(("forget", {"words": ["cup", "mug"]}))
+    assert [task.settings["word"] for task in found] == ["cup", "mug"]
+
+
+def test_the_chance_of_a_task_is_its_own():
+    one, other, *_ = done(("teach", {}))
+    assert one.chance("error").random() == one.chance("error").random()
+    assert one.chance("error").random() != other.chance("error").random()
+    assert one.chance("error").random() != one.chance("place").random()
+
+
+def test_the_chance_of_a_task_is_the_tutors_and_not_the_theorys():
+    ann, bo = done(("teach", {})), done(("teach", {}), tutor="Bo")
+    other = done(("teach", {}), theory="other")
+    assert ann[0].chance("error").random() == other[0].chance("error").random()
+    assert ann[0].chance("error").random() != bo[0].chance("error").random()
+    assert [it.of for it in ann] == [it.of for it in bo]
+
+
+def test_orders_are_the_same_for_all():
+    first, second = (done(("teach", {"order": "shuffled"})) for _ in range(2))
+    assert first == second
+
+
+def test_who_goes_on_must_be_there():
+    study = made(("change_tutor", {"to": "Cy"}))
+    (told,) = protocols.faults(study.phases[0], study)
+    assert told == "there is no tutor Cy: there is Ann, Bo"
+    alone = made(("swap", {}), tutors=("Ann",))
+    assert list(protocols.faults(alone.phases[0], alone))
+
+
+def test_what_a_scene_lacks_is_told(tmp_path):
+    one = Named("s", "drawn", {"kinds": ["cup"]})
+    study = made(("teach", {"what": "relations"}), scene=one)
+    (told,) = protocols.faults(study.phases[0], study)
+    assert told == "there is but one thing in s: name kinds, or each = 2"
+    seen = Named("s", "pictures", {"folder": str(tmp_path)})
+    study = made(("find", {}), scene=seen)
+    (told,) = protocols.faults(study.phases[0], study)
+    assert told == "find cannot be done with s, which is pictures"
+
+
+@pytest.mark.parametrize("kind", ["drawn", "around"])
+def test_what_is_alone_in_view_is_not_to_be_found(kind):
+    """It would be found whatever is said: a success of nobody's."""
+    study = made(("find", {}), scene=Named("s", kind))
+    (told,) = protocols.faults(study.phases[0], study)
+    assert told == (
+        "one thing at a time is in view in s, and is found whatever is asked for: "
+        'write kind = "drawn" and in_view = 4'
+    )
+    study = made(("find", {}), scene=Named("s", "drawn", {"in_view": 2}))
+    assert not list(protocols.faults(study.phases[0], study))
+
+
+@pytest.mark.parametrize("do", sorted(protocols.SETTINGS))
+def test_every_phase_says_what_may_be_set(do):
+    for name, setting in protocols.SETTINGS[do].items():
+        assert setting.needed or not setting.unfit(setting.default), name

@@ -1,0 +1,349 @@
+"""Running: all that is left is played, whoever plays, and however often it stops."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TypeAlias
+
+import pytest
+from distributed import Client
+from threadpoolctl import threadpool_info
+
+import little_study
+from kille.studies import log
+from kille.studies.errors import StudyError
+from kille.studies.log import Log, write_tables
+from kille.studies.log.outcomes import Outcome, RunError
+from kille.studies.running.clusters import _Cluster
+from kille.studies.running.crews import alone, crew, playing
+from kille.studies.running.runner import Progress, forget_broken, run
+from kille.studies.running.threads import one_thread
+from kille.studies.study import Run, Study
+from little_study import BAD, DEADLY, GOOD, folder_of, play
+
+HELPERS = str(Path(little_study.__file__).parent)
+SETTLED = 120
+"""So many seconds a busy machine may take to start a cluster."""
+
+
+def names(folder: Path) -> list[str]:
+    return [str(it.run) for it in log.outcomes(folder)]
+
+
+def test_all_dialogues_are_played_and_none_twice(tmp_path: Path) -> None:
+    study = little_study.study()
+    told: list[Progress] = []
+    summary = run(study, tmp_path, play, told=told.append)
+    assert (summary.planned, summary.played, summary.broken) == (6, 6, 0)
+    assert [it.over for it in told] == list(range(7))
+    assert names(tmp_path) == list(map(str, study.runs()))
+    assert run(study, tmp_path, play).played == 0
+
+
+def test_what_breaks_stops_no_other_dialogue(tmp_path: Path) -> None:
+    study = little_study.study(theories=(BAD, GOOD))
+    summary = run(study, tmp_path, play)
+    assert (summary.played, summary.broken) == (6, 1)
+    assert [str(it.run) for it in log.broken(tmp_path)] == ["bad/Ann/table/2"]
+    assert run(study, tmp_path, play).played == 0
+    assert forget_broken(study, tmp_path) == 1
+    assert run(study, tmp_path, play).played == 1
+
+
+def test_it_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
+    study = little_study.study()
+    played: list[Run] = []
+
+    def counting(study: Study, run: Run) -> object:
+        played.append(run)
+        if len(played) == 4:
+            raise KeyboardInterrupt
+        return play(study, run)
+
+    with pytest.raises(KeyboardInterrupt):
+        run(study, tmp_path, counting)  # type: ignore[arg-type]
+    assert log.over(tmp_path) == 3
+    assert run(study, tmp_path, counting).played == 3  # type: ignore[arg-type]
+    assert played == [*list(study.runs())[:4], *list(study.runs())[3:]]
+
+
+def test_a_thousand_dialogues_that_are_over_are_passed_over_at_once(
+    tmp_path: Path,
+) -> None:
+    study = little_study.study(seeds=500)
+    run(study, tmp_path, play)
+    start = time.thread_time()
+    assert run(study, tmp_path, play).played == 0
+    assert time.thread_time() - start < 5
+
+
+def test_nothing_is_played_where_another_plays(tmp_path: Path) -> None:
+    study = little_study.study()
+    with Log.opened(study, tmp_path), pytest.raises(RunError, match="another run"):
+        run(study, tmp_path, play)
+
+
+# --- several processes ---------------------------------------------------------------
+
+
+def test_results_are_the_same_bytes_for_any_number_of_workers(tmp_path: Path) -> None:
+    study = little_study.study(seeds=40, theories=(GOOD, BAD))
+    for workers in (1, 2):
+        folder = tmp_path / str(workers)
+        assert run(study, folder, play, crew(workers)).played == 80
+        write_tables(folder)
+    assert folder_of(tmp_path / "1") == folder_of(tmp_path / "2")
+    assert log.broken(tmp_path / "2")[0].reason == log.broken(tmp_path / "1")[0].reason
+
+
+def test_a_dialogue_that_kills_its_workers_is_found_and_the_others_played(
+    tmp_path: Path,
+) -> None:
+    study = little_study.study(seeds=10, theories=(GOOD, DEADLY))
+    summary = run(study, tmp_path, play, crew(2))
+    assert (summary.played, summary.broken) == (20, 1)
+    (broken,) = log.broken(tmp_path)
+    assert str(broken.run) == "deadly/Ann/table/2"
+    assert "every worker that played it died" in broken.reason
+
+
+def test_a_cluster_plays_on_when_one_of_its_workers_is_killed(tmp_path: Path) -> None:
+    study = little_study.study(seeds=300)
+    with cluster(workers=2) as (address, _, workers):
+
+        def told(it: Progress) -> None:
+            if it.over == 100:
+                workers[0].kill()
+
+        assert run(study, tmp_path, play, crew(None, address), told).broken == 0
+        workers[0].wait()
+    assert names(tmp_path) == list(map(str, study.runs()))
+    assert [it.played for it in log.read(tmp_path)] == [
+        play(study, it) for it in study.runs()
+    ]
+
+
+def test_a_scheduler_that_goes_away_is_one_line_and_loses_nothing(
+    tmp_path: Path,
+) -> None:
+    study = little_study.study(seeds=5_000)
+    with cluster(workers=1) as (address, scheduler, _):
+
+        def told(it: Progress) -> None:
+            if it.over == 200:
+                scheduler.kill()
+
+        with pytest.raises(RunError, match="is gone: what was over is kept"):
+            run(study, tmp_path, play, crew(None, address), told)
+    over = log.over(tmp_path)
+    assert 200 <= over < 10_000
+    assert run(study, tmp_path, play).played == 10_000 - over
+
+
+def test_a_cluster_without_workers_is_one_line_and_loses_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("kille.studies.running.clusters.PATIENCE", 0.5)
+    study = little_study.study(seeds=300)
+    with cluster(workers=1) as (address, _, (worker,)):
+
+        def told(it: Progress) -> None:
+            if it.over == 100:
+                worker.kill()
+
+        with pytest.raises(RunError, match="no worker is left at tcp"):
+            run(study, tmp_path, play, crew(None, address), told)
+    assert 100 <= log.over(tmp_path) < 600
+
+
+def test_a_scheduler_that_is_gone_when_runs_are_to_be_sent_is_one_line() -> None:
+    study = little_study.study()
+    with cluster(workers=1) as (address, _, _):
+        client = Client(address, timeout=SETTLED, set_as_default=False)
+        there = _Cluster(client, address, study, play)
+        assert there._workers() == 1
+        client.close()
+        with pytest.raises(RunError, match="is gone: what was over is kept"):
+            list(there.play_all(list(study.runs())))
+
+
+def test_an_address_where_nobody_is_is_one_line(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("kille.studies.running.clusters.CONNECTING", 0.5)
+    with pytest.raises(RunError, match="no scheduler can be reached at nowhere"):
+        played_by("nowhere")
+
+
+def played_by(address: str) -> list[Outcome]:
+    study = little_study.study()
+    with playing(study, list(study.runs()), play, crew(None, address)) as outcomes:
+        return list(outcomes)
+
+
+Program: TypeAlias = subprocess.Popen[bytes]
+
+
+@contextmanager
+def cluster(workers: int) -> Iterator[tuple[str, Program, list[Program]]]:
+    """A scheduler of Dask and its workers, on loopback."""
+    host = "--host", "127.0.0.1", "--no-dashboard"
+    with TemporaryDirectory() as folder, ended() as programs:
+        told = Path(folder, "scheduler.json")
+        file = "--scheduler-file", str(told)
+        scheduler = dask("scheduler", "--port", "0", *file, *host)
+        programs.append(scheduler)
+        alone = "--no-nanny", "--nthreads", "1"
+        some = [dask("worker", *file, *alone, *host) for _ in range(workers)]
+        programs.extend(some)
+        address = settled(told, workers)
+        yield address, scheduler, some
+
+
+@contextmanager
+def ended() -> Iterator[list[Program]]:
+    """Programs that are ended, however a test ends."""
+    programs: list[Program] = []
+    try:
+        yield programs
+    finally:
+        for it in programs:
+            it.kill()
+            it.wait()
+
+
+def dask(*words: str) -> Program:
+    return subprocess.Popen(
+        [sys.executable, "-m", "dask", *words],
+        env=os.environ | {"PYTHONPATH": HELPERS},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+
+
+def settled(told: Path, workers: int) -> str:
+    """The address that a scheduler has told in a file, when all workers are there."""
+    until = time.monotonic() + SETTLED
+    while not told.is_file() and time.monotonic() < until:
+        time.sleep(0.05)
+    file = str(told)
+    with Client(scheduler_file=file, timeout=SETTLED, set_as_default=False) as client:
+        client.wait_for_workers(workers, timeout=SETTLED)
+        return str(client.scheduler_info()["address"])
+
+
+# --- without Dask --------------------------------------------------------------------
+
+
+def test_without_dask_one_worker_plays_and_more_are_refused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("kille.studies.running.crews.find_spec", lambda name: None)
+    assert crew() is alone
+    assert crew(1) is alone
+    for wanted in ({"workers": 2}, {"scheduler": "tcp://127.0.0.1:1"}):
+        with pytest.raises(StudyError, match=r"pip install 'kille\[experiments\]'"):
+            crew(**wanted)  # type: ignore[arg-type]
+
+
+# --- threads -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_what_is_added_up_is_added_up_in_one_thread(
+    tmp_path: Path, workers: int
+) -> None:
+    run(little_study.study(), tmp_path, little_study.count_threads, crew(workers))
+    found = [it.played.facts for it in log.read(tmp_path)]
+    assert found == [{"threads": 1.0, "asked for": 1.0}] * 6
+
+
+def test_as_many_threads_as_before_are_there_afterwards(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    before = threadpool_info()
+    with one_thread():
+        pass
+    assert threadpool_info() == before
+    assert os.environ["OMP_NUM_THREADS"] == "3"
+    assert "OPENBLAS_NUM_THREADS" not in os.environ
+
+
+# --- stopping ------------------------------------------------------------------------
+
+STOPPED = """
+import signal, sys
+from pathlib import Path
+import little_study
+from kille.interfaces.experiment.stopping import stoppable
+from kille.studies.running.crews import crew
+from kille.studies.running.runner import run
+
+def told(it):
+    print(it.over, flush=True)
+    if it.over == it.planned - 1:  # whoever is to stop it has not come to it yet
+        signal.pause()
+
+with stoppable() as code:
+    try:
+        run(little_study.study(int(sys.argv[3])), Path(sys.argv[1]), little_study.play,
+            crew(int(sys.argv[2])), told)
+    except KeyboardInterrupt:
+        sys.exit(code())
+"""
+
+
+def started(folder: Path, workers: str, over: int, seeds: int) -> Program:
+    """A program that runs a study of so many seeds, and has come so far."""
+    program = subprocess.Popen(
+        [sys.executable, "-c", STOPPED, str(folder), workers, str(seeds)],
+        env=os.environ | {"PYTHONPATH": HELPERS},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+    )
+    assert program.stdout
+    for line in program.stdout:
+        if int(line) >= over:
+            break
+    return program
+
+
+@pytest.mark.parametrize("workers", ["1", "2"])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_stop_is_clean_and_quick(
+    tmp_path: Path, workers: str, number: signal.Signals
+) -> None:
+    program = started(tmp_path, workers, over=50, seeds=2_000)
+    # Ctrl-C is heard by all processes of a terminal.
+    send = os.killpg if number == signal.SIGINT else os.kill
+    send(program.pid, number)
+    _, told = program.communicate(timeout=60)
+    assert program.returncode == 128 + number
+    assert told == b""
+    assert 50 <= log.over(tmp_path) < 4_000
+
+
+def test_what_was_killed_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
+    study = little_study.study(seeds=300)
+    killed, whole = tmp_path / "killed", tmp_path / "whole"
+    for over in (50, 200):
+        program = started(killed, "2", over, seeds=300)
+        program.kill()
+        program.communicate()
+        assert over <= log.over(killed) < 600
+    run(study, killed, play)
+    run(study, whole, play)
+    for folder in (killed, whole):
+        write_tables(folder)
+    assert folder_of(killed) == folder_of(whole)
