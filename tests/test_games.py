@@ -14,6 +14,7 @@ STORIES = [
     pytest.param(story, id=f"{file.stem}: {story.title}")
     for folder in FOLDERS
     for file in sorted(folder.rglob("*.dlg"))
+    if "studies" not in file.parts  # what tutors of studies say is no game
     for story in read_stories(file)
 ]
 

@@ -68,9 +68,13 @@ def test_a_pickle_is_found(text: str) -> None:
     assert list(unsafe_uses(ast.parse(text)))
 
 
-def test_nothing_is_pickled() -> None:
+BETWEEN_PROCESSES = {"kille/studies/apart.py", "kille/studies/running/clusters.py"}
+"""What is sent between processes that one has started, or that one trusts to play."""
+
+
+def test_nothing_is_pickled_but_between_processes() -> None:
     uses = {
         str(file.relative_to(ROOT)): list(unsafe_uses(ast.parse(file.read_bytes())))
         for file in CODE
     }
-    assert {file: found for file, found in uses.items() if found} == {}
+    assert {file for file, found in uses.items() if found} == BETWEEN_PROCESSES

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-import pickle
+import subprocess
+import sys
+import textwrap
 import time
 from contextlib import suppress
 from pathlib import Path
@@ -200,8 +202,22 @@ Meow := [x : Ind, c : meow(x), d : hug(x)]
     spans = [one.span for one in error.errors]
     assert [span and span.line for span in spans] == [5, 8, 10]
     assert "there is no predicate dgo" in str(error)
-    again = pickle.loads(pickle.dumps(error))
-    assert str(again) == str(error)
+
+
+def test_mistakes_can_be_sent_to_another_process() -> None:
+    # In a process of its own: Dask would send what led to an error with it.
+    sent = r"""
+        import pickle, ttr
+        try:
+            ttr.Theory.parse("Dog := [x : Ind, c : dgo(x)]\nCat := [x : Ind")
+        except ttr.TTRError as error:
+            again = pickle.loads(pickle.dumps(error))
+            assert len(error.errors) > 1 and str(again) == str(error)
+            print("the same")
+    """
+    command = [sys.executable, "-c", textwrap.dedent(sent)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.stdout == "the same\n", done.stderr
 
 
 # --- importing -----------------------------------------------------------------------
