@@ -14,7 +14,7 @@ from __future__ import annotations
 import json
 import re
 import struct
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -231,10 +231,3 @@ def _content(folder: Path, event: Event) -> bytes:
         expected = HEADS[event.kind].decode().strip()
         raise SensorError(f"{path}: is damaged; expected `{expected}` and its pixels")
     return content
-
-
-def recorded_files(folder: Path) -> Iterator[Path]:
-    """The files in a folder that belong to a fakenect recording."""
-    for path in folder.iterdir():
-        if path.name in (INDEX, DEVICE) or _NAME.fullmatch(path.name):
-            yield path

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -16,30 +15,10 @@ from kille.sensors.recordings.opening import open_recording
 from kille.sensors.recordings.playing import RawRecording
 from kille.sensors.recordings.recorder import Disk, End, Limits, Progress, record
 from kille.sensors.sensor import SensorError
-from kinect_emulator.host import Host
 from kinect_emulator.inside import InsideBus
 from kinect_emulator.kinect import Kinect
-from kinect_emulator.running import PATIENCE
 
 TICKS_OF_A_FRAME = 2_000_000
-
-
-@pytest.fixture
-def kinect() -> Kinect:
-    return Kinect()
-
-
-@pytest.fixture
-def bus(kinect: Kinect) -> Iterator[InsideBus]:
-    with InsideBus(Host(kinect, patience=PATIENCE)).running() as running:
-        yield running
-
-
-@pytest.fixture
-def sensor(bus: InsideBus) -> Iterator[KinectSensor]:
-    opened = KinectSensor("kinect", bus)
-    yield opened
-    opened.close()
 
 
 class Witness:

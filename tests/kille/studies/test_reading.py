@@ -116,12 +116,14 @@ def test_what_is_written_as_empty_is_not_set(key: str) -> None:
     assert study(text).theories["plain"] == study().theories["plain"]
 
 
-def test_paths_may_begin_at_home(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("HOME", "/home/ann")
+def test_paths_may_begin_at_home(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
     text = STUDY.replace('"rules/own.py', '"~/own.py').replace('"mine"', '"~/mine"')
     theory = study(text).theories["proto"]
-    assert theory.rules == "/home/ann/own.py:RULES"
-    assert theory.grammar == Path("/home/ann/mine")
+    assert theory.rules == f"{tmp_path}/own.py:RULES"
+    assert theory.grammar == tmp_path / "mine"
 
 
 def test_runs_to_be_compared_are_in_a_row() -> None:

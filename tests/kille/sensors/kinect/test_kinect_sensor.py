@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from types import SimpleNamespace
 
 import numpy as np
@@ -32,7 +32,6 @@ from kinect_emulator.host import Host
 from kinect_emulator.inside import InsideBus
 from kinect_emulator.kinect import Kinect
 from kinect_emulator.modes import MICROFRAMES_PER_SECOND
-from kinect_emulator.running import PATIENCE
 
 DEPTH = "depth of 11 bits"
 A_FRAME, A_SECOND = 2_000_000, 60_000_000
@@ -40,24 +39,6 @@ A_FRAME, A_SECOND = 2_000_000, 60_000_000
 
 LONG = 60.0
 """Seconds after which what has not come never comes, also on a busy machine."""
-
-
-@pytest.fixture
-def kinect() -> Kinect:
-    return Kinect()
-
-
-@pytest.fixture
-def bus(kinect: Kinect) -> Iterator[InsideBus]:
-    with InsideBus(Host(kinect, patience=PATIENCE)).running() as running:
-        yield running
-
-
-@pytest.fixture
-def sensor(bus: InsideBus) -> Iterator[KinectSensor]:
-    opened = KinectSensor("kinect", bus)
-    yield opened
-    opened.close()
 
 
 @pytest.fixture
