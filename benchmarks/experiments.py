@@ -1,10 +1,11 @@
 """How quickly studies are run, gone on with, and reported.
 
-    python benchmarks/experiments.py [--dialogues N] [--json]
+    python benchmarks/experiments.py [--dialogues N] [--rounds N] [--json]
 
-A study of dialogues of 40 turns with simulated perception is played by one process and
-by two. What the runner itself takes is measured with dialogues that take no time. Exit
-code 1 where a limit does not hold.
+A study of dialogues of 40 turns with simulated perception is played by two processes
+and by one, in turns; medians are of the rounds, each ratio of one round. What the
+runner itself takes is measured with dialogues that take no time. Exit code 1 where a
+limit does not hold.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from statistics import median
 from typing import NamedTuple
 
 from kille.studies.log import write_tables
@@ -85,11 +87,11 @@ def seconds(task: Callable[[], object]) -> float:
     return time.perf_counter() - start
 
 
-def found(dialogues: int) -> Iterator[Found]:
+def found(dialogues: int, rounds: int) -> Iterator[Found]:
     with tempfile.TemporaryDirectory() as folder:
         yield from overhead(Path(folder))
     with tempfile.TemporaryDirectory() as folder:
-        yield from throughput(dialogues, Path(folder))
+        yield from throughput(dialogues, rounds, Path(folder))
 
 
 def overhead(folder: Path) -> Iterator[Found]:
@@ -114,17 +116,20 @@ def times_of(study: Study, folder: Path, by: Crew, play: object = None) -> list[
     return times
 
 
-def throughput(dialogues: int, folder: Path) -> Iterator[Found]:
-    study, spent = study_of(dialogues), dict[int, float]()
-    for workers in (2, 1):
-        place = folder / str(workers)
-        by = crew(workers)
-        spent[workers] = seconds(partial(run, study, place, by=by))
-        minutes = spent[workers] * 1000 / dialogues / 60
+def throughput(dialogues: int, rounds: int, folder: Path) -> Iterator[Found]:
+    study = study_of(dialogues)
+    spent: dict[int, list[float]] = {2: [], 1: []}
+    for number in range(rounds):
+        for workers, times in spent.items():
+            place = folder / f"{workers} {number}"
+            times.append(seconds(partial(run, study, place, by=crew(workers))))
+    for workers, times in spent.items():
+        minutes = median(times) * 1000 / dialogues / 60
         what = f"1,000 dialogues of {TURNS} turns, {workers} at a time"
         yield Found(what, minutes, "min", most=10 if workers == 2 else float("inf"))
-    yield Found("two workers as one", spent[1] / spent[2], "times", least=1.7)
-    place = folder / "2"
+    ratios = [one / two for two, one in zip(spent[2], spent[1], strict=True)]
+    yield Found("two workers as one", median(ratios), "times", least=1.7)
+    place = folder / "2 0"
     yield Found(f"tables of {dialogues:,}", seconds(partial(write_tables, place)), "s")
     page = seconds(partial(report, place, command="benchmark"))
     yield Found(f"report of {dialogues:,}", page, "s", most=30)
@@ -142,10 +147,11 @@ def told(it: Found) -> str:
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--dialogues", type=int, default=1000, metavar="N")
+    parser.add_argument("--rounds", type=int, default=3, metavar="N")
     parser.add_argument("--json", action="store_true", help="print JSON, one object")
     options = parser.parse_args()
     all_found = []
-    for it in found(options.dialogues):
+    for it in found(options.dialogues, options.rounds):
         all_found.append(it)
         if not options.json:
             print(told(it).rstrip(), flush=True)

@@ -1,15 +1,15 @@
 """Those who play dialogues in processes of their own: here, or on a cluster of Dask.
 
 Runs are sent in batches that take about as long as each other, few at a time, so that
-little is lost when all is stopped. A worker that dies is replaced, or another plays its
-runs. Runs with which several died are played alone at the end: if one dies again, it
-was that run.
+little is lost when all is stopped. What a worker had that dies is played by another.
+Runs with which several died are played alone at the end: if one dies again, it was that
+run.
 """
 
 from __future__ import annotations
 
 import logging
-import signal
+import math
 import threading
 import time
 import warnings
@@ -24,17 +24,18 @@ from typing import Any
 
 import cloudpickle
 import dask
-from distributed import Client, Future, KilledWorker, LocalCluster, WorkerPlugin
+from distributed import Client, Future, KilledWorker, LocalCluster
 from distributed.client import ClosedClientError
 
 from kille.studies.log.outcomes import Broken, Outcome, Play, RunError, outcome
 from kille.studies.running.crews import PlayAll
-from kille.studies.running.threads import READ_WHEN_LOADED, one_thread
+from kille.studies.running.local import Workers
+from kille.studies.running.threads import one_thread
 from kille.studies.study import Run, Study
 
-__all__ = ["elsewhere", "here"]
+__all__ = ["elsewhere", "led", "play_batch", "quietly"]
 
-BATCH_SECONDS = 0.5
+BATCH_SECONDS = 1.0
 LARGEST = 100
 AHEAD = 2
 """How many batches each worker has, so that it never waits for the next."""
@@ -48,35 +49,49 @@ STARTING = 60.0
 WAITING = 10.0
 CLOSING = 5.0
 
-_SETTINGS = {
-    "distributed.worker.profile.enabled": False,
+_SETTINGS: dict[str, object] = {
     "distributed.scheduler.allowed-failures": 1,
     "distributed.comm.retry.count": 0,
-    # Dask has freed memory given back to the system at once, which takes a worker as
-    # long again as the dialogues: it is not asked to.
-    "distributed.nanny.pre-spawn-environ": dict.fromkeys(READ_WHEN_LOADED, 1),
+    # What Dask would learn of this machine many times a second takes time to learn.
+    "distributed.scheduler.work-stealing": False,
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.tick.interval": "1s",
+    "distributed.admin.system-monitor.interval": "10s",
 }
 
 
 @contextmanager
-def here(workers: int, study: Study, play: Play) -> Iterator[PlayAll]:
-    """So many processes of this machine, as `Crew` has it."""
-    with _quietly(), dask.config.set(_SETTINGS):
-        cluster = LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            processes=True,
-            dashboard_address=None,
-            silence_logs=logging.CRITICAL + 1,
-            env={"OPENCV_FOR_THREADS_NUM": "1"},
-        )
-        try:
-            with _connected(cluster, "this machine", STARTING) as client:
-                client.register_plugin(_Deaf())
-                yield _Cluster(client, "this machine", study, play).play_all
-        finally:
-            with suppress(Exception):
-                cluster.close(timeout=CLOSING)
+def led(begun: Workers, study: Study, play: Play) -> Iterator[PlayAll]:
+    """Processes of this machine, led by a scheduler in this one, as `Crew` has it."""
+    place = "this machine"
+    with quietly(), dask.config.set(_SETTINGS), _scheduler() as scheduler:
+        begun.join(scheduler.scheduler_address, _SETTINGS)
+        with _connected(scheduler, place, STARTING) as client:
+            _wait(client, begun)
+            yield _Cluster(client, place, study, play).play_all
+
+
+@contextmanager
+def _scheduler() -> Iterator[LocalCluster]:
+    """A scheduler in this process, which hears this machine alone."""
+    cluster = LocalCluster(
+        n_workers=0, host="127.0.0.1", protocol="tcp://", dashboard_address=None
+    )
+    try:
+        yield cluster
+    finally:
+        with suppress(Exception):
+            cluster.close(timeout=CLOSING)
+
+
+def _wait(client: Client, begun: Workers) -> None:
+    """Until all are there, or have had long enough."""
+    until = time.monotonic() + STARTING
+    while time.monotonic() < until:
+        begun.check()
+        with suppress(TimeoutError):
+            client.wait_for_workers(begun.count, timeout=GLANCE)
+            return
 
 
 @contextmanager
@@ -85,7 +100,7 @@ def elsewhere(scheduler: str, study: Study, play: Play) -> Iterator[PlayAll]:
 
     RunError where nobody is at this address, or the workers have no such kille.
     """
-    with _quietly(), _connected(scheduler, scheduler, CONNECTING) as client:
+    with quietly(), _connected(scheduler, scheduler, CONNECTING) as client:
         _check_workers(client, scheduler)
         yield _Cluster(client, scheduler, study, play).play_all
 
@@ -136,7 +151,9 @@ class _Cluster:
         return Broken(run, _DEADLY, "", 0.0)
 
     def _send(self, left: deque[Run]) -> None:
-        size = max(1, min(LARGEST, round(BATCH_SECONDS / self.pace), len(left)))
+        # The last are small, so that all workers come to their end together.
+        share = math.ceil(len(left) / (AHEAD * self._workers()))
+        size = max(1, min(LARGEST, round(BATCH_SECONDS / self.pace), share))
         runs = [left.popleft() for _ in range(size)]
         try:
             future = self.client.submit(play_batch, self.payload, runs, pure=False)
@@ -242,16 +259,6 @@ def _loaded(payload: bytes) -> tuple[Study, Play]:
     return found
 
 
-class _Deaf(WorkerPlugin):  # type: ignore[misc]
-    """Workers do not hear Ctrl-C: it is meant for the one who sends them runs."""
-
-    name = "deaf"
-
-    def setup(self, worker: object) -> None:
-        with suppress(ValueError):  # only a main thread may say so
-            signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
 def kille_here() -> str:
     """The version of kille that a worker has."""
     return version("kille")
@@ -308,7 +315,7 @@ _LOGGERS = (
 
 
 @contextmanager
-def _quietly() -> Iterator[None]:
+def quietly() -> Iterator[None]:
     """What Dask logs is for those who mend it: one line of an error says enough."""
     loggers = [logging.getLogger(name) for name in _LOGGERS]
     before = [it.level for it in loggers]

@@ -70,7 +70,7 @@ def crew(workers: int | None = None, scheduler: str = "") -> Crew:
     if workers == 1:
         return alone
     _need_dask()
-    from kille.studies.running.clusters import here
+    from kille.studies.running.local import here
 
     return partial(here, workers)
 

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -18,6 +18,7 @@ from distributed import Client
 from threadpoolctl import threadpool_info
 
 import little_study
+from kille.interfaces.experiment.stopping import stoppable
 from kille.studies import log
 from kille.studies.errors import StudyError
 from kille.studies.log import Log, write_tables
@@ -25,7 +26,7 @@ from kille.studies.log.outcomes import Outcome, RunError
 from kille.studies.running.clusters import _Cluster
 from kille.studies.running.crews import alone, crew, playing
 from kille.studies.running.runner import Progress, forget_broken, run
-from kille.studies.running.threads import one_thread
+from kille.studies.running.threads import READ_WHEN_LOADED, one_thread
 from kille.studies.study import Run, Study
 from little_study import BAD, DEADLY, GOOD, folder_of, play
 
@@ -217,7 +218,7 @@ def ended() -> Iterator[list[Program]]:
     finally:
         for it in programs:
             it.kill()
-            it.wait()
+            it.communicate()
 
 
 def dask(*words: str) -> Program:
@@ -238,6 +239,64 @@ def settled(told: Path, workers: int) -> str:
     with Client(scheduler_file=file, timeout=SETTLED, set_as_default=False) as client:
         client.wait_for_workers(workers, timeout=SETTLED)
         return str(client.scheduler_info()["address"])
+
+
+# --- workers of this machine ---------------------------------------------------------
+
+SCRIPT = """
+import sys
+from pathlib import Path
+import little_study
+from kille.studies.running import crew, run
+
+print(run(little_study.study(), Path(sys.argv[1]), little_study.play, crew(2)).played)
+"""
+
+
+def test_a_script_plays_with_many_whatever_else_it_does(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT)
+    found = subprocess.run(
+        [sys.executable, script, tmp_path / "results"],
+        env=os.environ | {"PYTHONPATH": HELPERS},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (found.stdout, found.stderr, found.returncode) == ("6\n", "", 0)
+
+
+def test_workers_end_with_who_began_them_whatever_ends_it(tmp_path: Path) -> None:
+    with started(tmp_path / "results", "2", 50, seeds=300) as program:
+        assert list(tmp_path.glob("kille-workers-*"))
+        program.kill()
+        program.communicate()
+        settle(lambda: not list(tmp_path.glob("kille-workers-*")))
+
+
+def test_one_thread_is_there_when_workers_are_forked() -> None:
+    told = "import os; print(len(os.listdir('/proc/self/task')))"
+    load = "from kille.studies.running.workers import load; load(); "
+    single = dict.fromkeys((*READ_WHEN_LOADED, "OPENCV_FOR_THREADS_NUM"), "1")
+    found = subprocess.check_output(
+        [sys.executable, "-c", load + told], env=os.environ | single, text=True
+    )
+    assert found == "1\n"
+
+
+def test_workers_that_cannot_begin_are_one_line(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr("sys.executable", "false")
+    with pytest.raises(RunError, match="no workers can be begun"):
+        run(little_study.study(), tmp_path, play, crew(2))
+
+
+def settle(is_so: Callable[[], bool]) -> None:
+    until = time.monotonic() + SETTLED
+    while not is_so():
+        assert time.monotonic() < until
+        time.sleep(0.05)
 
 
 # --- without Dask --------------------------------------------------------------------
@@ -290,33 +349,51 @@ from kille.studies.running.crews import crew
 from kille.studies.running.runner import run
 
 def told(it):
+    stop.check()
     print(it.over, flush=True)
     if it.over == it.planned - 1:  # whoever is to stop it has not come to it yet
         signal.pause()
 
-with stoppable() as code:
+with stoppable() as stop:
     try:
         run(little_study.study(int(sys.argv[3])), Path(sys.argv[1]), little_study.play,
             crew(int(sys.argv[2])), told)
     except KeyboardInterrupt:
-        sys.exit(code())
+        sys.exit(stop.code)
 """
 
 
-def started(folder: Path, workers: str, over: int, seeds: int) -> Program:
+@contextmanager
+def started(folder: Path, workers: str, over: int, seeds: int) -> Iterator[Program]:
     """A program that runs a study of so many seeds, and has come so far."""
-    program = subprocess.Popen(
-        [sys.executable, "-c", STOPPED, str(folder), workers, str(seeds)],
-        env=os.environ | {"PYTHONPATH": HELPERS},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        start_new_session=True,
-    )
-    assert program.stdout
-    for line in program.stdout:
-        if int(line) >= over:
-            break
-    return program
+    with ended() as programs:
+        program = subprocess.Popen(
+            [sys.executable, "-c", STOPPED, str(folder), workers, str(seeds)],
+            env=os.environ | {"PYTHONPATH": HELPERS, "TMPDIR": str(folder.parent)},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            start_new_session=True,
+        )
+        programs.append(program)
+        assert program.stdout
+        for line in program.stdout:
+            if int(line) >= over:
+                break
+        yield program
+
+
+def test_a_stop_is_heard_that_python_drops(capfd: pytest.CaptureFixture[str]) -> None:
+    class Dropping:
+        def __del__(self) -> None:
+            signal.raise_signal(signal.SIGTERM)
+
+    with stoppable() as stop:
+        stop.check()
+        Dropping()
+        with pytest.raises(KeyboardInterrupt):
+            stop.check()
+    assert stop.code == 128 + signal.SIGTERM
+    assert capfd.readouterr().err == ""
 
 
 @pytest.mark.parametrize("workers", ["1", "2"])
@@ -324,11 +401,11 @@ def started(folder: Path, workers: str, over: int, seeds: int) -> Program:
 def test_a_stop_is_clean_and_quick(
     tmp_path: Path, workers: str, number: signal.Signals
 ) -> None:
-    program = started(tmp_path, workers, over=50, seeds=2_000)
     # Ctrl-C is heard by all processes of a terminal.
     send = os.killpg if number == signal.SIGINT else os.kill
-    send(program.pid, number)
-    _, told = program.communicate(timeout=60)
+    with started(tmp_path, workers, over=50, seeds=2_000) as program:
+        send(program.pid, number)
+        _, told = program.communicate(timeout=60)
     assert program.returncode == 128 + number
     assert told == b""
     assert 50 <= log.over(tmp_path) < 4_000
@@ -338,9 +415,9 @@ def test_what_was_killed_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
     study = little_study.study(seeds=300)
     killed, whole = tmp_path / "killed", tmp_path / "whole"
     for over in (50, 200):
-        program = started(killed, "2", over, seeds=300)
-        program.kill()
-        program.communicate()
+        with started(killed, "2", over, seeds=300) as program:
+            program.kill()
+            program.communicate()
         assert over <= log.over(killed) < 600
     run(study, killed, play)
     run(study, whole, play)

@@ -1,0 +1,124 @@
+"""Workers of Dask on this machine, forked from one process that has loaded all.
+
+    python -m kille.studies.running.workers
+
+Loading is done once, so that each worker is there at once, and one that dies is soon
+replaced. Whom they work for is one line of JSON in the input, see `begin`; they end
+when the input does, and so outlive nobody who began them, whatever ends that one.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import json
+import os
+import select
+import signal
+import sys
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from tempfile import TemporaryDirectory
+
+__all__ = ["begin"]
+
+GLANCE = 0.2
+"""After so many seconds it is seen which worker died, and whether all is over."""
+APART = 1.0
+"""Seconds between two workers in one place: some may never be able to work."""
+
+
+def begin() -> None:
+    """Forks workers for the scheduler that the input names, until the input ends.
+
+    The line has its `address`, how many `workers` there shall be, and the `settings` of
+    Dask.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # meant for who sends the runs
+    load()
+    line = sys.stdin.readline()
+    if not line:
+        return
+    asked = json.loads(line)
+    with TemporaryDirectory(prefix="kille-workers-") as folder:
+
+        def work(number: int) -> None:
+            asyncio.run(working(asked["address"], number, folder, asked["settings"]))
+
+        keep(asked["workers"], work)
+
+
+def load() -> None:
+    """Loads Dask and what plays; what is there then is not looked at any more."""
+    import kille.studies.playing
+    import kille.studies.running.clusters  # noqa: F401
+
+    gc.collect()
+    gc.freeze()
+
+
+def keep(workers: int, work: Callable[[int], None]) -> None:
+    """Keeps so many at work until the input ends, and ends them then."""
+    at_work = dict[int, int]()
+    begun = dict[int, float]()
+    try:
+        while not select.select([sys.stdin], [], [], GLANCE * bool(begun))[0]:
+            gone = ended()
+            at_work = {it: n for it, n in at_work.items() if it not in gone}
+            for number in set(range(workers)) - set(at_work.values()):
+                if time.monotonic() - begun.get(number, -APART) >= APART:
+                    begun[number] = time.monotonic()
+                    at_work[forked(work, number)] = number
+    finally:
+        for process in at_work:
+            with suppress(ProcessLookupError, ChildProcessError):
+                os.kill(process, signal.SIGKILL)
+                os.waitpid(process, 0)
+
+
+def forked(work: Callable[[int], None], number: int) -> int:
+    """The process that does this work, and nothing after it."""
+    process = os.fork()
+    if process:
+        return process
+    try:
+        os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+        work(number)
+    finally:
+        os._exit(0)
+
+
+def ended() -> set[int]:
+    """The processes that have ended since it was asked last."""
+    found = set[int]()
+    with suppress(ChildProcessError):
+        while process := os.waitpid(-1, os.WNOHANG)[0]:
+            found.add(process)
+    return found
+
+
+async def working(
+    address: str, number: int, folder: str, settings: dict[str, object]
+) -> None:
+    """Works for this scheduler for as long as it is there."""
+    import dask
+    from distributed import Worker
+
+    from kille.studies.running.clusters import quietly
+
+    with quietly(), dask.config.set(settings):
+        worker = Worker(
+            address,
+            nthreads=1,
+            name=number,
+            memory_limit=0,
+            dashboard=False,
+            local_directory=folder,
+        )
+        async with worker:
+            await worker.finished()
+
+
+if __name__ == "__main__":
+    begin()
