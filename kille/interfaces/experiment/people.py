@@ -1,12 +1,33 @@
-"""Whether somebody at this terminal takes part in a study, and who then plays it."""
+"""Studies in which somebody at this terminal takes part: who then plays them, and how.
+
+People are asked dialogue by dialogue, before all that is played without them. They are
+not told which theory they talk to, and meet theories in an order that does not tell it:
+drawn by chance, but so that each is as often the first as any other. The log has the
+dialogues in the order of the study, and which one each was as `order`.
+"""
 
 from __future__ import annotations
 
-from kille.studies.log import RunError
-from kille.studies.running import Crew, alone, crew
-from kille.studies.study import PERSON, Study
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from itertools import product
+from random import Random
 
-__all__ = ["crew_for", "has_people"]
+from kille.interfaces.terminal import console
+from kille.studies.log import Broken, Finished, Outcome, RunError
+from kille.studies.log.outcomes import Play
+from kille.studies.persons.lines import ready
+from kille.studies.protocols import CHANGING, tasks
+from kille.studies.running import Crew, alone, crew
+from kille.studies.running.crews import PlayAll
+from kille.studies.scenes import opened
+from kille.studies.study import PERSON, Run, Study
+
+__all__ = ["crew_for", "has_people", "in_turn", "people_in", "told_people"]
+
+_FIRST = "The robot was taught nothing yet."
+_NEXT = "It is another robot now, and was taught nothing yet."
 
 
 def has_people(study: Study) -> bool:
@@ -27,4 +48,100 @@ def crew_for(study: Study, workers: int | None, scheduler: str) -> Crew:
             "a person takes part in this study, whom only one process can ask: play it "
             "with --workers 1"
         )
-    return alone
+    return in_person
+
+
+def told_people(study: Study) -> str:
+    """In how many dialogues of a study people take part, to be told after them all."""
+    count = len(in_turn(study))
+    return f", a person takes part in {count:,}" if count else ""
+
+
+def people_in(study: Study, run: Run) -> tuple[str, ...]:
+    """Who types in a dialogue, and as what, as it is told them."""
+    typing = [f"{it} is the tutor" for it in _tutors(study, run) if _types(study, it)]
+    plays = study.theories[run.theory].mode == PERSON
+    return (*typing, *[f"{run.theory} plays the robot"] * plays)
+
+
+def _types(study: Study, tutor: str) -> bool:
+    return study.tutors[tutor].kind == "keyboard"
+
+
+def _tutors(study: Study, run: Run) -> Iterator[str]:
+    """All who may be the tutor in a dialogue, before or after a change of tutors."""
+    changes = any(phase.do in CHANGING for phase in study.phases)
+    for name in study.tutors if changes else (run.tutor,):
+        yield from study.tutors[name].settings.get("of", (name,))
+
+
+def in_turn(study: Study) -> list[Run]:
+    """The dialogues in which people take part, in the order in which they are asked.
+
+    A tutor goes on to the end; each scene of each seed is met with all theories.
+    """
+    scenes = [*product(study.seeds, study.scenes)]
+    found = [
+        Run(theory, tutor, scene, seed)
+        for tutor in study.tutors
+        for place, (seed, scene) in enumerate(scenes)
+        for theory in _mixed(study, tutor, place)
+    ]
+    return [it for it in found if people_in(study, it)]
+
+
+def _mixed(study: Study, tutor: str, place: int) -> list[str]:
+    """The theories in the order in which they are met at a place in the study.
+
+    They are drawn by chance, and then each is the first once, the second once …
+    """
+    names = [*study.theories]
+    block, first = divmod(place, len(names))
+    Random(f"the order of theories for {tutor}, {block}").shuffle(names)
+    return [*names[first:], *names[:first]]
+
+
+@contextmanager
+def in_person(study: Study, play: Play) -> Iterator[PlayAll]:
+    """This process plays: with people first, when they are ready, and then the rest."""
+    with alone(study, play) as play_each:
+
+        def play_all(runs: Sequence[Run]) -> Generator[Outcome, None, None]:
+            theirs, left = in_turn(study), frozenset(runs)
+            for number, run in enumerate(theirs, start=1):
+                if run in left:
+                    _begin(study, run, number, len(theirs))
+                    (outcome,) = play_each([run])
+                    yield _numbered(outcome, number)
+                    _end(outcome, number)
+            others = [it for it in runs if not people_in(study, it)]
+            if others:
+                console().print(f"{len(others):,} more are played without you.")
+            yield from play_each(others)
+
+        yield play_all
+
+
+def _begin(study: Study, run: Run, number: int, count: int) -> None:
+    """Says what comes, and nothing of the theory; goes on when they are ready."""
+    steps = sum(1 for _ in tasks(study, run, opened(study, run)))
+    who = ", and ".join(people_in(study, run))
+    long = f"{steps:,} step{'s' * (steps != 1)}"
+    told = f"\nDialogue {number:,} of {count:,}, {long}: {who}."
+    if study.theories[run.theory].mode != PERSON:
+        told += f"\n{_FIRST if number == 1 else _NEXT}"
+    ready(told)
+
+
+def _numbered(outcome: Outcome, number: int) -> Outcome:
+    """What became of a dialogue, with which one it was for the people in it."""
+    if isinstance(outcome, Broken):
+        return outcome
+    facts = {**outcome.played.facts, "order": float(number)}
+    return Finished(outcome.run, replace(outcome.played, facts=facts), outcome.seconds)
+
+
+def _end(outcome: Outcome, number: int) -> None:
+    """Says that a dialogue is over, after it was written to the log."""
+    became = "broke off" if isinstance(outcome, Broken) else "is over, and kept"
+    console().print(f"\nDialogue {number:,} {became}.")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from kille.interfaces.experiment.bars import bar
 from kille.interfaces.experiment.checking import MISTAKES, complain_all
-from kille.interfaces.experiment.people import has_people
+from kille.interfaces.experiment.people import people_in
 from kille.interfaces.terminal import FAILED, FINE, complain, console, hanging
 from kille.studies import log
 from kille.studies.log import Broken, Outcome, RunError
@@ -42,8 +42,12 @@ def _replayed(
 ) -> dict[Run, Difference | None]:
     """What each dialogue differs in now."""
     study = log.study(folder)
-    if has_people(study):
-        raise RunError(f"a person takes part in {folder}, who would type anew")
+    for it in befores:
+        if people_in(study, it.run):
+            raise RunError(
+                f"a person takes part in {it.run} of {folder}, and would type anew: "
+                "name dialogues that are played without people, if there are any"
+            )
     for name in changed(log.about(folder).sources, sources(study)):
         complain(f"{name} has changed since these dialogues were played")
     by = crew(1 if len(befores) == 1 else workers, scheduler)

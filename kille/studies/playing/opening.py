@@ -60,7 +60,7 @@ def tutor_of(study: Study, run: Run, name: str, scene: Scene) -> Tutor:
             make = maker_of(set_["make"], study.folder)
             return make(name=name, words=words, **set_["settings"])
         case "keyboard":
-            return Keyboard(name)
+            return Keyboard(name, theory.language)
         case "several":
             some = tuple(tutor_of(study, run, it, scene) for it in set_["of"])
             return Several(some, set_["turns"])

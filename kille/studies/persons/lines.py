@@ -1,0 +1,90 @@
+"""Lines that a person types at the terminal, each after a text that they are shown."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import textwrap
+from collections.abc import Callable
+from contextlib import suppress
+from importlib import import_module
+from typing import TypeAlias
+
+__all__ = ["Ask", "Gone", "ready", "typed"]
+
+Ask: TypeAlias = Callable[[str], str]
+"""Shows a text, of which the last line is the prompt, and gives the line typed."""
+
+
+class Gone(KeyboardInterrupt):
+    """The input has ended: nobody is there any more who could type.
+
+    It stops a study as Ctrl-C does, so that nothing is kept of what nobody has said.
+    """
+
+
+def typed(text: str) -> str:
+    """The line that a person types, without blanks around it.
+
+    Raises `Gone` where the input has ended, or the terminal was closed.
+    """
+    told, _, prompt = text.rpartition("\n")
+    try:
+        return _line(told, prompt)
+    except KeyboardInterrupt:
+        _end_line()
+        raise
+    except (EOFError, OSError, ValueError, RuntimeError) as error:
+        _end_line("The input has ended.")
+        raise Gone from error
+
+
+def ready(text: str) -> None:
+    """Shows a text; at a terminal, it goes on when the person there is ready."""
+    if sys.stdin is not None and sys.stdin.isatty():
+        with suppress(ImportError):
+            import_module("readline")  # so that lines can be edited as they are typed
+        typed(f"{text}\nPress Enter to begin: ")
+    else:
+        _show(text)
+
+
+def _line(told: str, prompt: str) -> str:
+    if told:
+        _show(told)
+    line = input(prompt)
+    if not sys.stdin.isatty():  # what comes through a pipe is not on the screen yet
+        _show(line)
+    return line.strip()
+
+
+def _show(text: str) -> None:
+    sys.stdout.write(f"{_fitted(text)}\n")
+    sys.stdout.flush()
+
+
+def _end_line(told: str = "") -> None:
+    """Begins a new line after what was typed, if there still is a terminal."""
+    try:
+        _show(f"\n{told}" if told else "")
+    except (OSError, ValueError):
+        return
+
+
+def _fitted(text: str) -> str:
+    """A text as wide as the terminal, with further lines a little farther in."""
+    if not sys.stdout.isatty():
+        return text
+    columns = shutil.get_terminal_size().columns
+    return "\n".join(_wrapped(line, columns) for line in text.split("\n"))
+
+
+def _wrapped(line: str, columns: int) -> str:
+    blank = " " * (len(line) - len(line.lstrip()) + 2)
+    return textwrap.fill(
+        line,
+        max(columns, 20),
+        subsequent_indent=blank,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
