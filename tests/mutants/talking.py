@@ -233,7 +233,7 @@ FITTING = {
     | ASKING,
     "ask_place": {
         *("assert_place", "hedge_place", "guess_place", "admit_place"),
-        *("need_landmark", "need_depth", "unknown_noun"),
+        *("admit_name", "need_landmark", "need_depth", "unknown_noun"),
     }
     | MISSING
     | ASKING,

@@ -28,7 +28,7 @@ def say_place(s: Record, *, model: Model) -> Update | None:
         return None
     thing, model = asked_for(s, model, x)
     if thing is None:
-        return None
+        return plan(s, "AdmitName"), model
     landmark, model = landmark_for(s, model, thing)
     if landmark is None:
         return plan(s, "NeedLandmark", thing.sign.meaning, signs=[thing.sign]), model

@@ -149,6 +149,10 @@ def test_a_relation_is_learned_of_the_two_things_that_fit(scene: Make) -> None:
     assert sign.form == "to the left of"
 
 
+def test_it_has_no_name_for_what_it_is_asked_the_place_of(scene: Make) -> None:
+    assert scene(things=2).acts("Where is this?") == ["admit_name"]
+
+
 @pytest.mark.parametrize("text", [SAYING, ASKING])
 @pytest.mark.parametrize(
     ("about", "act"),
