@@ -19,11 +19,14 @@ from random import Random
 from kille.studies import scenes
 from kille.studies.scenes import Scene
 from kille.studies.scenes.occasions import KINDS, ORDERS, Occasion, ordered
-from kille.studies.settings import Setting, Settings, filled
+from kille.studies.settings import Setting, Settings, Wrong, filled, unknown
 from kille.studies.study import Named, Phase, Run, Study
 from kille.studies.tutors.tutor import Task
 
-__all__ = ["CHANGING", "RESTING", "SETTINGS", "faults", "tasks"]
+__all__ = ["CHANGING", "RESTING", "SETTINGS", "faults", "length", "tasks"]
+
+MOST = 1000
+"""Rounds: a dialogue that has more of them is nobody's study, but a slip."""
 
 _WHAT = Setting(
     str, "nouns", among=tuple(KINDS), about="nouns, adjectives or relations"
@@ -32,8 +35,10 @@ _WHICH = Setting(str, "same", among=("same", "new"), about="what was taught, or 
 _OCCASIONS: Settings = {
     "what": _WHAT,
     "of": _WHICH,
-    "rounds": Setting(int, 1, least=1),
-    "turns": Setting(int, 0, about="how many of them, where that is not whole rounds"),
+    "rounds": Setting(int, 1, least=1, most=MOST),
+    "turns": Setting(
+        int, 0, most=100_000, about="how many of them, where that is not whole rounds"
+    ),
     "order": Setting(str, "given", among=ORDERS),
 }
 
@@ -50,7 +55,7 @@ SETTINGS: Mapping[str, Settings] = {
     "talk": _OCCASIONS,
     "find": {
         "of": _WHICH,
-        "rounds": Setting(int, 1, least=1),
+        "rounds": Setting(int, 1, least=1, most=MOST),
         "order": Setting(str, "given", among=ORDERS),
         "by": Setting(str, "both", among=("both", "noun", "colour")),
     },
@@ -75,37 +80,79 @@ _LACKING = {
 """What cannot be talked of in front of scenes of a kind."""
 
 
-def faults(phase: Phase, study: Study) -> Iterator[str]:
+def faults(phase: Phase, study: Study) -> Iterator[Wrong]:
     """What is wrong with a phase in this study: its tutors and scenes do not fit."""
+    key = ("what",) if "what" in phase.settings else ("do",)
     for scene in study.scenes.values():
-        lacking = _LACKING.get(scene.kind, ())
-        for what in (phase.do, phase.settings.get("what", "")):
-            if what in lacking:
-                yield f"{what} cannot be done with {scene.name}, which is {scene.kind}"
-        if phase.settings.get("what") == "relations" and _is_single(scene):
-            yield f"there is but one thing in {scene.name}: name kinds, or each = 2"
-        if phase.do == "find" and _shows_one(scene):
-            yield (
-                f"one thing at a time is in view in {scene.name}, and is found "
-                'whatever is asked for: write kind = "drawn" and in_view = 4'
-            )
+        yield from ((key, it) for it in _unfit(phase, scene))
+    yield from ((("to",), it) for it in _of_change(phase, study))
+    if phase.settings.get("turns") and "rounds" in phase.settings:
+        told = "rounds and turns both say how much comes: write one of them"
+        yield ("turns",), told
+
+
+def _unfit(phase: Phase, scene: Named) -> Iterator[str]:
+    """Why a phase cannot be done with a scene."""
+    lacking = _LACKING.get(scene.kind, ())
+    for what in (phase.do, phase.settings.get("what", "")):
+        if what in lacking:
+            yield f"{what} cannot be done with {scene.name}, which is {scene.kind}"
+    if phase.settings.get("what") == "relations" and _is_single(scene):
+        told = f"there is one kind of thing in {scene.name}, and nothing is told to be"
+        yield f"{told} beside its like: name two kinds"
+    if phase.do == "find" and _shows_one(phase, scene):
+        yield (
+            f"one thing at a time is in view in {scene.name}, and is found "
+            'whatever is asked for: write kind = "drawn" and in_view = 4'
+        )
+
+
+def _of_change(phase: Phase, study: Study) -> Iterator[str]:
+    """Why nobody else could go on."""
+    if phase.do not in CHANGING:
+        return
     to = phase.settings.get("to", "")
-    if phase.do in CHANGING and to and to not in study.tutors:
-        yield f"there is no tutor {to}: there is {', '.join(study.tutors)}"
-    if phase.do in CHANGING and not to and len(study.tutors) < 2:
+    if to and to not in study.tutors:
+        yield f"there is no tutor {to}: {unknown(to, study.tutors)}"
+    if not to and len(study.tutors) < 2:
         yield "there is no other tutor: write one more, or to = NAME"
 
 
 def _is_single(scene: Named) -> bool:
-    """Whether a table has one thing only, which stands beside nothing."""
-    set_ = filled(scene.settings, scenes.SETTINGS[scene.kind])
-    return scene.kind == "drawn" and len(set_["kinds"]) * set_["each"] < 2
+    """Whether a table has things of one kind only: a cup stands beside no cup.
+
+    "The cup is to the left of the cup" says nothing, so that it is never said.
+    """
+    kinds = scene.settings.get("kinds")
+    return scene.kind == "drawn" and kinds is not None and len(kinds) < 2
 
 
-def _shows_one(scene: Named) -> bool:
+def _shows_one(phase: Phase, scene: Named) -> bool:
     """Whether things that are not beside each other are shown one by one."""
-    alone = scene.kind == "drawn" and scene.settings.get("in_view", 1) < 2
-    return alone or scene.kind in ("around", "statements")
+    if scene.kind != "drawn":
+        return scene.kind in ("around", "statements")
+    of = "new" if phase.settings.get("of") == "new" else "each"
+    return min(int(scene.settings.get("in_view", 1)), _count(scene, of)) == 1
+
+
+def _count(scene: Named, of: str) -> int:
+    """How many things there are of `each` kind together, or of the `new` ones."""
+    set_ = filled(scene.settings, scenes.SETTINGS[scene.kind])
+    return len(set_["kinds"]) * int(set_[of])
+
+
+def length(phase: Phase, scene: Scene) -> int:
+    """How many tasks there are in a phase, in front of a scene."""
+    set_ = filled(phase.settings, SETTINGS[phase.do])
+    if phase.do == "forget":
+        return len(set_["words"])
+    if phase.do in (*RESTING, *CHANGING):
+        return 1
+    if phase.do == "align":
+        return len(scene.round("relation", False, Random(0))[:1])
+    kind = KINDS.get(str(set_.get("what", "")), "noun")
+    one = len(scene.round(kind, set_["of"] == "new", Random(0)))
+    return (set_.get("turns") or set_["rounds"] * one) if one else 0
 
 
 def tasks(study: Study, run: Run, scene: Scene) -> Iterator[tuple[Phase, Task]]:

@@ -3,12 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping
+import os
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from pathlib import Path
 from typing import Any
 
-__all__ = ["Setting", "Settings", "filled", "near", "unfit", "unknown"]
+__all__ = [
+    "Setting",
+    "Settings",
+    "Wrong",
+    "filled",
+    "near",
+    "no_file",
+    "no_folder",
+    "shown",
+    "unfit",
+    "unknown",
+]
+
+Wrong = tuple[tuple[str, ...], str]
+"""The setting in which something is wrong, by the names that lead to it; and what."""
 
 _SORTS: Mapping[type, str] = {
     str: "a text",
@@ -26,8 +42,10 @@ _MOST = 12
 class Setting:
     """A setting: of which types its values are, and what it is where it is not set.
 
-    A text is one `among` some, if any are named, and a number from `least` to `most`.
-    With `several` it is a list of such values. What is `needed` has no default.
+    A text is one `among` some, if any are named, and a number from `least` to `most`,
+    in a `unit` if it has one. With `several` it is a list of such values, in which none
+    is there `twice` unless that says something. What is `needed` has no default, and is
+    not empty.
 
     >>> Setting((str, float), "viewer", among=("viewer", "landmark"), most=1.0).unfit(2)
     'expected viewer, landmark or a number from 0 to 1, found 2'
@@ -41,17 +59,28 @@ class Setting:
     least: float = 0.0
     most: float = math.inf
     several: bool = False
+    twice: bool = False
     needed: bool = False
+    unit: str = ""
     about: str = ""
 
     def unfit(self, value: object) -> str:
         """Why a value is none for it, as a sentence without an end; else nothing."""
-        if not self.several:
-            return "" if self._fits(value) else self._expected(value)
+        if self.several:
+            return self._unfit_list(value)
+        is_blank = self.needed and isinstance(value, str) and not value.strip()
+        return self._expected(value) if is_blank or not self._fits(value) else ""
+
+    def _unfit_list(self, value: object) -> str:
         if not isinstance(value, list | tuple):
-            return f"expected a list, each {self._wanted()}, found {_shown(value)}"
-        wrong = (self._expected(one) for one in value if not self._fits(one))
-        return next(wrong, "")
+            return f"expected a list, each {self._wanted()}, found {shown(value)}"
+        for one in value:
+            if not self._fits(one):
+                return self._expected(one)
+        if self.needed and not value:
+            return "expected one at least, found an empty list"
+        again = [] if self.twice else [it for it in value if value.count(it) > 1]
+        return f"{shown(again[0])} is there twice" if again else ""
 
     def _fits(self, value: object) -> bool:
         types = self.types if isinstance(self.types, tuple) else (self.types,)
@@ -70,24 +99,25 @@ class Setting:
         hint = ""
         if isinstance(value, str) and self.among:
             hint = near(value, self.among, " (did you mean {}?)")
-        return f"expected {self._wanted()}, found {_shown(value)}{hint}"
+        return f"expected {self._wanted()}, found {shown(value)}{hint}"
 
     def _wanted(self) -> str:
         types = self.types if isinstance(self.types, tuple) else (self.types,)
         wanted: list[str] = []
         for one in types:
             if one is str and self.among:
-                wanted += self.among
+                wanted += (name or '""' for name in self.among)
             elif one in (int, float):
-                wanted.append(f"{_SORTS[one]}{self._bounds()}")
+                of = f" of {self.unit}" if self.unit else ""
+                wanted.append(f"{_SORTS[one]}{of}{self._bounds()}")
             else:
                 wanted.append(_SORTS.get(one, one.__name__))
         return " or ".join(filter(None, (", ".join(wanted[:-1]), wanted[-1])))
 
     def _bounds(self) -> str:
         if math.isinf(self.most):
-            return "" if math.isinf(self.least) else f" from {self.least:g} on"
-        return f" from {self.least:g} to {self.most:g}"
+            return "" if math.isinf(self.least) else f" from {_plain(self.least)} on"
+        return f" from {_plain(self.least)} to {_plain(self.most)}"
 
 
 Settings = Mapping[str, Setting]
@@ -124,20 +154,62 @@ def unfit(
 
 
 def near(name: str, known: Collection[str], told: str) -> str:
-    """The known name that is most like this one, told so; nothing if none is."""
-    found = get_close_matches(name, list(known), n=1)
-    return told.format(found[0]) if found else ""
+    """The known name that is most like this one, told so; nothing if none is.
+
+    >>> near("NUONS", ["nouns", "relations"], "did you mean {}?")
+    'did you mean nouns?'
+    """
+    small = {one.casefold(): one for one in known}
+    found = get_close_matches(name.casefold(), list(small), n=1)
+    return told.format(small[found[0]]) if found else ""
 
 
 def unknown(name: str, known: Collection[str]) -> str:
     """A way out for a name that nothing has: the nearest known one, or all of them."""
     if found := near(name, known, "did you mean {}?"):
         return found
-    shown = ", ".join([*known][:_MOST]) + ", …" * (len(known) > _MOST)
-    return f"there is {shown}" if known else "there is none"
+    listed = ", ".join([*known][:_MOST]) + ", …" * (len(known) > _MOST)
+    return f"there is {listed}" if known else "there is none"
 
 
-def _shown(value: object) -> str:
+def no_file(path: Path) -> str:
+    """Why this is no file; nothing if it is one."""
+    if os.path.isfile(path):
+        return ""
+    if os.path.isdir(path):
+        return f"{path} is a folder, not a file"
+    return _none("file", path, [it for it in _beside(path) if it.is_file()])
+
+
+def no_folder(path: Path) -> str:
+    """Why this is no folder; nothing if it is one."""
+    if os.path.isdir(path):
+        return ""
+    if os.path.exists(path):
+        return f"{path} is a file, not a folder"
+    return _none("folder", path, [it for it in _beside(path) if it.is_dir()])
+
+
+def _none(kind: str, path: Path, others: Sequence[Path]) -> str:
+    """That there is no such path, with the nearest of the others that are there."""
+    names = [it.name for it in others if it.suffix == path.suffix]
+    hint = f": {unknown(path.name, names)}" if names else ""
+    return f"there is no {kind} {path}{hint}"
+
+
+def _beside(path: Path) -> Sequence[Path]:
+    try:
+        return sorted(it for it in path.parent.iterdir() if it.name[:1] != ".")
+    except (OSError, ValueError):  # no text with a zero in it is a path
+        return ()
+
+
+def shown(value: object) -> str:
+    """A value as it is told: in short, and as it would be written.
+
+    >>> shown(True), shown("cup"), shown([1, 2])
+    ('true', '"cup"', 'a list')
+    """
     match value:
         case bool():
             return str(value).lower()
@@ -148,3 +220,7 @@ def _shown(value: object) -> str:
         case dict():
             return "a table"
     return str(value)
+
+
+def _plain(number: float) -> str:
+    return str(int(number)) if float(number).is_integer() else f"{number:g}"

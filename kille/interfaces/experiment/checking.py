@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from kille.interfaces.experiment.people import told_people
 from kille.interfaces.terminal import FINE, WRONG_USE, complain, console
 from kille.studies.errors import StudyError
 from kille.studies.reading import checked
+from kille.studies.reading.doubts import doubts
 from kille.studies.study import Study
 from ttr import TTRError
 
-__all__ = ["MISTAKES", "check_files", "complain_all", "in_numbers"]
+__all__ = ["MISTAKES", "check_files", "complain_all", "in_numbers", "tell_doubts"]
 
 MISTAKES = StudyError, TTRError
 """What is told in a line, or in some, and is no fault of the program."""
@@ -28,8 +30,16 @@ def _check_file(path: Path) -> int:
         study = checked(path)
     except MISTAKES as error:
         return complain_all(error)
-    console().print(f"{path}: fine, {in_numbers(study)}", markup=False)
+    tell_doubts(study)
+    told = f"{path}: fine, {in_numbers(study)}{told_people(study)}"
+    console().print(told, markup=False)
     return FINE
+
+
+def tell_doubts(study: Study) -> None:
+    """Says what is no mistake, but probably not meant."""
+    for it in doubts(study):
+        complain(f"{it} (this can be played)")
 
 
 def complain_all(error: StudyError | TTRError) -> int:

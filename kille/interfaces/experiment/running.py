@@ -10,7 +10,12 @@ from shlex import quote
 from typing import TypeAlias
 
 from kille.interfaces.experiment.bars import bar
-from kille.interfaces.experiment.checking import MISTAKES, complain_all, in_numbers
+from kille.interfaces.experiment.checking import (
+    MISTAKES,
+    complain_all,
+    in_numbers,
+    tell_doubts,
+)
 from kille.interfaces.experiment.people import crew_for, has_people
 from kille.interfaces.experiment.reporting import print_summary
 from kille.interfaces.experiment.stopping import stoppable
@@ -49,6 +54,7 @@ def run_study(path: Path, folder: Path | None, request: Request) -> int:
     folder = folder or Path(f"{path.stem}.results")
     try:
         study = checked(path)
+        tell_doubts(study)
         return _run(study, folder, request)
     except MISTAKES as error:
         return complain_all(error)
@@ -70,11 +76,16 @@ def _run(study: Study, folder: Path, request: Request) -> int:
     console().print(f"{study.title}: {in_numbers(study)}", markup=False)
     by = crew_for(study, request.workers, request.scheduler)
     shown = nullcontext(_untold) if has_people(study) else bar()
-    with shown as told, stoppable() as stopped:
+    with shown as told, stoppable() as stop:
+
+        def heard(it: Progress) -> None:
+            stop.check()
+            told(it)
+
         try:
-            summary = run(study, folder, by=by, told=told)
+            summary = run(study, folder, by=by, told=heard)
         except KeyboardInterrupt:
-            return _stopped(folder, stopped())
+            return _stopped(folder, stop.code)
     write_tables(folder)
     page, results = reporting.report(folder, command=request.command)
     print_summary(results)

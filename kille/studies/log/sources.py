@@ -17,6 +17,8 @@ from kille.studies.study import Study
 __all__ = ["STUDY", "changed", "sources"]
 
 STUDY = "the study"
+PLACES = {"file", "folder"}
+"""The settings that are paths, whatever they look like."""
 LARGE = 10_000_000
 """A folder of more bytes is known by its files' names and sizes alone."""
 
@@ -72,6 +74,7 @@ def _texts(value: Any) -> Iterator[str]:
         case str() if "." in value or "/" in value:
             yield value
         case Mapping():
+            yield from (str(value[key]) for key in PLACES & value.keys())
             yield from _texts(value.values())
         case str() | bytes():
             return

@@ -10,32 +10,31 @@ from pathlib import Path
 
 from kille.studies import protocols, scenes, tutors
 from kille.studies.errors import StudyError
-from kille.studies.reading.file import (
-    data_of,
-    study_of,
-    text_of,
-    theories_of,
-)
+from kille.studies.reading.file import data_of, study_of, text_of
+from kille.studies.reading.hearing import misheard
+from kille.studies.reading.lines import Key
+from kille.studies.reading.reaching import unreached
 from kille.studies.reading.shape import faults
+from kille.studies.reading.sound import UNKNOWN, sound
 from kille.studies.reading.troubles import Trouble, told
 from kille.studies.reading.trying import troubles
-from kille.studies.study import Study, Theory
+from kille.studies.reading.words import names_in, unsaid
+from kille.studies.settings import Wrong
+from kille.studies.study import Run, Study, Theory
 
 __all__ = ["check", "checked"]
 
 
 def checked(path: Path) -> Study:
     """The study in a file, ready to be played; `StudyError` with a line for each
-    mistake, in how it is written and in its theories.
+    mistake, in how it is written and in what it names.
     """
     text = text_of(path)
     data = data_of(text, path)
-    if wrong := [*faults(data)]:
-        sound = theories_of(data, path.resolve().parent, [it.key for it in wrong])
-        wrong += _of_theories(sound, ())
-        raise StudyError(told(wrong, text, path))
-    study = study_of(data, text, path)
-    if lines := check(study):
+    wrong = [*faults(data)]
+    left = sound(data, [it.key for it in wrong]) if wrong else data
+    study = study_of(left, text, path)
+    if lines := told([*wrong, *_troubles(study)], text, path):
         raise StudyError(lines)
     return study
 
@@ -46,16 +45,27 @@ def check(study: Study) -> tuple[str, ...]:
 
 
 def _troubles(study: Study) -> Iterator[Trouble]:
-    kinds = [scene.kind for scene in study.scenes.values()]
-    eyes = {"whole" if kind in scenes.WHOLE else "simulated" for kind in kinds}
-    yield from _of_theories(study.theories, eyes)
+    """What is wrong with the parts of a study, and with how they fit together."""
+    known = [it.kind for it in study.scenes.values() if it.kind != UNKNOWN]
+    eyes = {"whole" if kind in scenes.WHOLE else "simulated" for kind in known}
+    of_theories = [*_of_theories(study.theories, eyes)]
+    yield from of_theories
     yield from _unheard(study)
     for name, tutor in study.tutors.items():
         yield from _at(("tutors", name), tutors.faults(tutor, study))
-    for name, scene in study.scenes.items():
-        yield from _at(("scenes", name), scenes.faults(scene, study))
     for number, phase in enumerate(study.phases):
         yield from _at(("phases", number), protocols.faults(phase, study))
+    opened = {}
+    for name, scene in study.scenes.items():
+        if wrong := [*_at(("scenes", name), scenes.faults(scene, study))]:
+            yield from wrong
+        elif scene.kind != UNKNOWN:
+            opened[name] = scenes.opened(study, Run("", "", name, 0))
+    yield from unreached(study, opened)
+    if len(opened) == len(study.scenes):
+        names = names_in(study, opened)
+        yield from unsaid(study, names)
+        yield from misheard(study, names) if not of_theories else ()
 
 
 def _of_theories(
@@ -75,5 +85,5 @@ def _unheard(study: Study) -> Iterator[Trouble]:
             yield Trouble(("theories", name, "meanings"), f"{told} meanings of its own")
 
 
-def _at(key: tuple[str | int, ...], what: Iterable[str]) -> Iterator[Trouble]:
-    return (Trouble(key, it) for it in what)
+def _at(key: Key, what: Iterable[Wrong]) -> Iterator[Trouble]:
+    return (Trouble((*key, *inner), it) for inner, it in what)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from itertools import count
 from os.path import expanduser
@@ -15,9 +15,10 @@ from pathlib import Path
 from typing import Any
 
 from kille.studies.errors import StudyError
-from kille.studies.reading.lines import Key
+from kille.studies.reading.notation import why_not_toml
 from kille.studies.reading.shape import APART, STUDY, faults
 from kille.studies.reading.troubles import told
+from kille.studies.settings import no_file
 from kille.studies.study import Named, Phase, Study, Theory
 from ttr.files import why_unread
 
@@ -27,7 +28,6 @@ __all__ = [
     "read",
     "study_of",
     "text_of",
-    "theories_of",
 ]
 
 _OWN = re.compile(r"\.py(?=:)|\.ttr$")
@@ -53,7 +53,9 @@ def parsed(text: str, path: Path) -> Study:
 def text_of(path: Path) -> str:
     """The text of a file; `StudyError` where there is none."""
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError as error:
+        raise StudyError([no_file(path)]) from error
     except (OSError, UnicodeDecodeError) as error:
         raise StudyError([why_unread(path, error)]) from error
 
@@ -63,16 +65,8 @@ def data_of(text: str, path: Path) -> Mapping[str, Any]:
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # numbers and lists without end
-        raise StudyError([_not_toml(path, text, error)]) from error
-
-
-def _not_toml(path: Path, text: str, error: Exception) -> str:
-    """Python 3.11 has the place of a mistake only in its message."""
-    what, _, place = str(error).partition(" (at ")
-    found = re.search(r"line (\d+)", place)
-    line = found[1] if found else max(1, len(text.splitlines()))
-    lower = f"{what[:1].lower()}{what[1:]}"
-    return f"{path}:{line}: this is no TOML: {lower}; see https://toml.io"
+        line, why = why_not_toml(text, error)
+        raise StudyError([f"{path}:{line}: {why}"]) from error
 
 
 def study_of(data: Mapping[str, Any], text: str, path: Path) -> Study:
@@ -81,7 +75,7 @@ def study_of(data: Mapping[str, Any], text: str, path: Path) -> Study:
     seeds = data["seeds"]
     return Study(
         title=data["title"],
-        theories=theories_of(data, folder),
+        theories={it: _theory(it, one, folder) for it, one in data["theories"].items()},
         tutors={name: _named(name, one) for name, one in data["tutors"].items()},
         scenes={name: _named(name, one) for name, one in data["scenes"].items()},
         phases=tuple(_phases(data["phases"])),
@@ -92,18 +86,6 @@ def study_of(data: Mapping[str, Any], text: str, path: Path) -> Study:
         folder=folder,
         file=path,
     )
-
-
-def theories_of(
-    data: Mapping[str, Any], folder: Path, faulty: Collection[Key] = ()
-) -> dict[str, Theory]:
-    """The theories, but for those in which something is wrong."""
-    given = data.get("theories")
-    return {
-        name: _theory(name, one, folder)
-        for name, one in (given.items() if isinstance(given, dict) else ())
-        if not any(key[:2] == ("theories", name) for key in faulty)
-    }
 
 
 def _theory(name: str, given: Mapping[str, Any], folder: Path) -> Theory:

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from string import Formatter
 
-from kille.dialogue.language import grammar_text, understand
+from kille.dialogue.language import LANGUAGES, grammar_text, understand
 from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.parsing import Grammar, GrammarError
 from kille.dialogue.sources import FILES
 from kille.studies.reading.lines import Key, line_of, lines_of
 from kille.studies.reading.troubles import Trouble
-from kille.studies.settings import unknown
+from kille.studies.settings import no_folder, unknown
 from kille.studies.study import Theory
 from kille.studies.theories.games import language_of
 from ttr import TTRError
@@ -23,7 +23,24 @@ __all__ = ["of_language"]
 
 _KEY: Key = ("grammar",)
 
-_TRIED = ("This is a cup.", "What is this?", "Where is the red cup?", "No.", "Hello.")
+_TRIED = {
+    "en": (
+        "This is a cup.",
+        "What is this?",
+        "Where is the red cup?",
+        "This is to the left of the red one.",
+        "No.",
+        "Hello.",
+    ),
+    "sv": (
+        "Det här är en kopp.",
+        "Vad är det här?",
+        "Var är den röda koppen?",
+        "Det här är till vänster om den röda.",
+        "Nej.",
+        "Hej.",
+    ),
+}
 """What is said to see whether the theory has types for what the grammar finds."""
 
 _ODD = (ValueError, TypeError, AttributeError, LookupError)
@@ -34,20 +51,34 @@ def of_language(theory: Theory) -> Iterator[Trouble]:
     """What is wrong with the grammar and the lexicon in a theory's own folder."""
     if theory.grammar is None:
         return
+    if told := no_folder(theory.grammar):
+        hint = ": name the folder that it is in" if theory.grammar.is_file() else ""
+        yield Trouble(_KEY, f"{told}{hint}")
+        return
     own = [theory.grammar / file.format(theory.language) for file in FILES]
     if not any(file.is_file() for file in own):
         names = " or ".join(file.name for file in own)
         told = f"expected {names} in {theory.grammar}, found neither"
-        yield Trouble(_KEY, told)
+        yield Trouble(_KEY, f"{told}{_others(theory)}")
         return
     grammar, words = own
     wrong = [*_of_lexicon(theory, words)] if words.is_file() else []
     yield from wrong
     if grammar.is_file():
-        yield from _of_grammar(language_of(theory), grammar, tried=not wrong)
+        texts = () if wrong else _TRIED[theory.language]
+        yield from _of_grammar(language_of(theory), grammar, texts)
 
 
-def _of_grammar(language: str, file: Path, *, tried: bool) -> Iterator[Trouble]:
+def _others(theory: Theory) -> str:
+    """That the folder has files of another language, if it has."""
+    assert theory.grammar is not None
+    for language in LANGUAGES:
+        if any((theory.grammar / it.format(language)).is_file() for it in FILES):
+            return f', but files of language = "{language}"'
+    return ""
+
+
+def _of_grammar(language: str, file: Path, texts: Iterable[str]) -> Iterator[Trouble]:
     try:
         Grammar(grammar_text(language)).parse("a")
     except UnicodeDecodeError:
@@ -58,7 +89,7 @@ def _of_grammar(language: str, file: Path, *, tried: bool) -> Iterator[Trouble]:
         at = f"{file}:{_line_in(error)}"
         yield Trouble(_KEY, f"this grammar does not read: {what}", at)
         return
-    for text in _TRIED if tried else ():
+    for text in texts:
         try:
             understand(text, language)
         except (TTRError, *_ODD) as error:

@@ -21,7 +21,7 @@ def lines_of(text: str) -> Mapping[Key, int]:
     r"""The line of every key in a text that is TOML.
 
     >>> lines_of("title = 'a'\n[[phases]]\ndo = 'teach'\n[[phases]]\ndo = 'ask'")
-    {('title',): 1, ('phases', 0): 2, ('phases', 0, 'do'): 3, ('phases', 1): 4, ...}
+    {('title',): 1, ('phases',): 2, ('phases', 0): 2, ('phases', 0, 'do'): 3, ...}
     """
     found: dict[Key, int] = {}
     here: Key = ()
@@ -33,6 +33,7 @@ def lines_of(text: str) -> Mapping[Key, int]:
             continue
         names = _header(tomllib.loads(statement))
         here = _numbered(names, counts, statement.startswith("[["))
+        found.setdefault(names[:1], number)
         found.setdefault(here, number)
     return found
 

@@ -12,21 +12,36 @@ from kille.dialogue.strategies import MODES, WORDINGS
 from kille.studies import protocols, scenes, tutors
 from kille.studies.reading.lines import Key
 from kille.studies.reading.troubles import Trouble
-from kille.studies.settings import Setting, Settings, unfit, unknown
+from kille.studies.settings import Setting, Settings, near, shown, unfit
 from kille.studies.study import PERSON
 
 __all__ = ["APART", "STUDY", "faults"]
 
+MOST_SEEDS = 100_000
+"""Dialogues of one theory, tutor and scene; the power of any test is 1 long before."""
+
 STUDY: Settings = {
     "title": Setting(needed=True, about='write title = "…"'),
     "about": Setting(),
-    "turns": Setting(int, 1000, least=1),
-    "seeds": Setting(int, (), several=True),
+    "turns": Setting(int, 1000, least=1, most=1_000_000),
+    "seeds": Setting(
+        int,
+        (),
+        most=2**32 - 1,
+        several=True,
+        needed=True,
+        about="write seeds = 20, or a list of numbers",
+    ),
     "theories": Setting(dict, needed=True, about="write [theories.NAME]"),
     "tutors": Setting(dict, needed=True, about="write [tutors.NAME]"),
     "scenes": Setting(dict, needed=True, about="write [scenes.NAME]"),
     "phases": Setting(
-        dict, (), several=True, needed=True, about='write [[phases]] and do = "…"'
+        dict,
+        (),
+        several=True,
+        twice=True,
+        needed=True,
+        about='write [[phases]] and do = "…"',
     ),
 }
 """What stands in a study."""
@@ -45,9 +60,6 @@ THEORY: Settings = {
 }
 """What stands in a theory."""
 
-MOST_SEEDS = 100_000
-"""Dialogues of one theory, tutor and scene; the power of any test is 1 long before."""
-
 LEARNERS: Settings = {kind: Setting() for kind in KINDS}
 
 
@@ -60,14 +72,18 @@ def faults(data: Mapping[str, Any]) -> Iterator[Trouble]:
 def _faults(data: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
     shape = dict(data)
     if not isinstance(shape.get("seeds", []), list):
-        shape["seeds"] = [shape["seeds"]]
+        shape["seeds"] = (
+            [min(shape["seeds"], 1)] if _is_count(data) else [data["seeds"]]
+        )
     for key, what in unfit(shape, STUDY, "a study"):
-        yield (key,) if key else (), what
-    yield from _wrong_seeds(data)
+        told = key in STUDY and STUDY[key].needed
+        yield (key,) if key else (), f"{what}: {STUDY[key].about}" if told else what
+    if _is_count(data):
+        yield from _wrong_count(data["seeds"])
     yield from _each(data, "theories", _wrong_theory)
     kinds = (
-        ("tutors", "a tutor", tutors.SETTINGS),
-        ("scenes", "scenes", scenes.SETTINGS),
+        ("tutors", "kind of tutor", tutors.SETTINGS),
+        ("scenes", "kind of scene", scenes.SETTINGS),
     )
     for table, what, known in kinds:
         yield from _each(data, table, _of_kind("kind", what, known))
@@ -78,17 +94,18 @@ def _faults(data: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
                 yield ("phases", number, *inner), what
 
 
-def _wrong_seeds(data: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
+def _is_count(data: Mapping[str, Any]) -> bool:
+    """Whether it says how many seeds there are, and not which."""
     seeds = data.get("seeds")
-    if seeds is None:
-        yield (), "a study needs seeds: write seeds = 20, or a list of numbers"
-    elif seeds in (0, []):
+    return isinstance(seeds, int) and not isinstance(seeds, bool)
+
+
+def _wrong_count(seeds: int) -> Iterator[tuple[Key, str]]:
+    if seeds == 0:
         yield ("seeds",), "there is no seed, so nothing to play: write seeds = 20"
-    elif isinstance(seeds, int) and seeds > MOST_SEEDS:
+    elif seeds > MOST_SEEDS:
         told = f"so many as {seeds} are more than anybody plays: write {MOST_SEEDS}"
         yield ("seeds",), f"{told} at most, or a list of seeds"
-    elif isinstance(seeds, list) and len({str(it) for it in seeds}) < len(seeds):
-        yield ("seeds",), "a seed is there twice: the same dialogue is not played again"
 
 
 Wrong = Callable[[str, Mapping[str, Any]], Iterator[tuple[Key, str]]]
@@ -104,7 +121,7 @@ def _each(
     if not named:
         yield (table,), f"there is nothing in {table}: write [{table}.NAME]"
     for name, one in named.items():
-        if not re.fullmatch(r"[^/\s]([^/\n]*[^/\s])?", name):
+        if not re.fullmatch(r"[^/\s]([^/]*[^/\s])?", name) or not name.isprintable():
             yield (table, name), f"{name!r} is no name: expected a word without a slash"
         if not isinstance(one, dict):
             yield (table, name), f"{name} of {table} is a table: write [{table}.{name}]"
@@ -119,7 +136,7 @@ def _wrong_theory(name: str, given: Mapping[str, Any]) -> Iterator[tuple[Key, st
     types = given.get("meanings")
     for key, value in types.items() if isinstance(types, dict) else ():
         if not isinstance(value, str):
-            told = f'a type is written as a text, {key} = "[…]", found {value}'
+            told = f'a type is written as a text, {key} = "[…]", found {shown(value)}'
             yield ("meanings", key), told
     learners = given.get("learners")
     if isinstance(learners, dict):
@@ -128,9 +145,12 @@ def _wrong_theory(name: str, given: Mapping[str, Any]) -> Iterator[tuple[Key, st
 
 
 def _wrong_phase(name: str, given: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
-    if why := Setting().unfit(given.get("name", "")):
+    called = given.get("name", "")
+    if why := Setting().unfit(called):
         yield ("name",), f"name of {name}: {why}"
-    yield from _of_kind("do", "a phase", protocols.SETTINGS)(name, given)
+    elif not called.isprintable():
+        yield ("name",), f"name of {name}: expected one line, found {called!r}"
+    yield from _of_kind("do", "phase to do", protocols.SETTINGS)(name, given)
 
 
 def _of_kind(key_of_kind: str, what: str, known: Mapping[str, Settings]) -> Wrong:
@@ -139,11 +159,15 @@ def _of_kind(key_of_kind: str, what: str, known: Mapping[str, Settings]) -> Wron
     def wrong(name: str, given: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
         kind = given.get(key_of_kind)
         if kind is None:
-            yield (), f"{name} needs {key_of_kind}: {_one_of(known)}"
+            slip = near(key_of_kind, [*given], "{}")
+            found = f", and has {slip}" if slip else ""
+            told = f"{name} needs {key_of_kind}{found}: {_one_of(known)}"
+            yield (slip,) if slip else (), told
             return
         if not isinstance(kind, str) or kind not in known:
-            hint = unknown(str(kind), known)
-            yield (key_of_kind,), f"{name}: {what} is of no kind {kind}: {hint}"
+            meant = near(str(kind), known, "did you mean {}? ")
+            told = f"{name}: there is no {what} {shown(kind)}: {meant}{_one_of(known)}"
+            yield (key_of_kind,), told
             return
         own = {key: it for key, it in given.items() if key not in APART[key_of_kind]}
         named = f'{name} ({key_of_kind} = "{kind}")'

@@ -11,7 +11,6 @@ import re
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from traceback import extract_tb
 
 from kille.dialogue.redefining import types_of
 from kille.dialogue.tutoring import hear, tutoring
@@ -20,10 +19,12 @@ from kille.simulation.perceiving import glanced
 from kille.simulation.worlds import Thing, World
 from kille.studies.apart import ask, is_apart, own_types
 from kille.studies.errors import TheoryError
+from kille.studies.failing import line_in, why
 from kille.studies.reading.languages import of_language
+from kille.studies.reading.learners import of_learners
 from kille.studies.reading.lines import Key
 from kille.studies.reading.troubles import Trouble
-from kille.studies.settings import unknown
+from kille.studies.settings import no_file
 from kille.studies.study import PERSON, Theory
 from kille.studies.theories.games import (
     changed,
@@ -31,8 +32,7 @@ from kille.studies.theories.games import (
     language_of,
     unsettable,
 )
-from kille.studies.theories.judging import NAMES, learners_of, words_of
-from kille.studies.theories.rules import PACKAGED
+from kille.studies.theories.rules import PACKAGED, absent
 from ttr import TTRError
 from ttr.checking import check
 from ttr.errors import Span
@@ -54,7 +54,7 @@ def troubles(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
         yield from _apart(theory, eyes)
         return
     found = [Trouble(("strategy", *key), it) for key, it in unsettable(theory)]
-    found += _of_learners(theory, eyes)
+    found += of_learners(theory, eyes)
     found += of_language(theory)
     found += _of_rules(replace(theory, strategy={}, grammar=None))
     yield from found
@@ -77,6 +77,9 @@ def _apart(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
     """What is wrong with meanings of one's own, or else with what is made of them."""
     key: Key = ("meanings",)
     own = theory.meanings
+    if isinstance(own, str) and (told := no_file(Path(own))):
+        yield Trouble(key, told)
+        return
     try:
         if isinstance(own, str) and (failing := [*_failing(key, Path(own))]):
             yield from failing
@@ -87,8 +90,7 @@ def _apart(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
         found = _of_error(key, error)
         yield from found if isinstance(own, str) else _inline(own, error)
     except Exception as error:
-        first = next(iter(str(error).splitlines()), "")
-        told = f"the games cannot be made of it: {type(error).__name__}: {first}"
+        told = f"the games cannot be made of it: {why(error)}"
         yield Trouble(key, told, f"{own}:1" if isinstance(own, str) else "")
 
 
@@ -123,6 +125,9 @@ def _of_rules(theory: Theory) -> Iterator[Trouble]:
         if failing := [*_failing(key, Path(theory.rules))] if of_file else []:
             yield from failing
             return
+        if wanting := [Trouble(("without",), it) for it in absent(theory)]:
+            yield from wanting
+            return
         game = changed(tutoring(), theory)
         wrong = (it for it in faults_of(game) if _is_error(it) and not _is_moot(it))
         yield from (_of_fault(key, it) for it in wrong)
@@ -142,8 +147,8 @@ def _failing(key: Key, file: Path) -> Iterator[Trouble]:
     """What a theory file claims of itself and does not hold."""
     report = check(load(file))
     for failure in report.failures:
-        why = f", {failure.why}" if failure.why else ""
-        told = f"{failure.check.text} does not hold: found {failure.found}{why}"
+        because = f", {failure.why}" if failure.why else ""
+        told = f"{failure.check.text} does not hold: found {failure.found}{because}"
         yield Trouble(key, told, _place(failure.check.span))
     yield from (_of_fault(key, it) for it in report.faults if _is_error(it))
 
@@ -164,40 +169,6 @@ def _of_fault(key: Key, fault: Fault) -> Trouble:
 
 def _place(span: Span | None) -> str:
     return "" if span is None else f"{span.source}:{span.line}"
-
-
-# --- learners -------------------------------------------------------------------------
-
-
-def _of_learners(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
-    for kind, name in theory.learners.items():
-        for seen in sorted(eyes):
-            yield from _of_learner(kind, name, seen)
-
-
-def _of_learner(kind: str, name: str, seen: str) -> Iterator[Trouble]:
-    known = tuple(NAMES[seen][kind])
-    key = ("learners", kind)
-    if name not in known and (":" not in name or known == ("default",)):
-        told = f"nothing named {name} judges {kind}s {_SEEN[seen]}"
-        yield Trouble(key, f"{told}: {unknown(name, known)}")
-        return
-    alone = Theory("", learners={kind: name})
-    try:
-        if seen == "simulated":
-            words_of(alone)
-        else:
-            made = learners_of(alone)
-            made.objects(())
-            made.relations()
-    except ExperimentError as error:
-        yield Trouble(key, str(error))
-
-
-_SEEN = {
-    "simulated": "of simulated scenes",
-    "whole": "of the scenes that the robot sees itself",
-}
 
 
 # --- a first dialogue -----------------------------------------------------------------
@@ -233,7 +204,7 @@ def _tried(theory: Theory) -> Iterator[Trouble]:
             for text in texts:
                 heard = hear(text, language_of(theory))
                 now = now if heard is None else game.take(now, heard).run
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         cause = _cause(error)
         key: Key = (next(it for it in _OWN if getattr(theory, it)),)
         if isinstance(theory.meanings, Mapping):
@@ -244,13 +215,11 @@ def _tried(theory: Theory) -> Iterator[Trouble]:
 
 def _why(error: BaseException, theory: Theory) -> str:
     """What an error says; of what it is, too, and where, in rules of one's own."""
-    kind, first = type(error).__name__, next(iter(str(error).splitlines()), "")
     file = theory.rules.rpartition(":")[0]
-    passed = [it for it in extract_tb(error.__traceback__) if it.filename == file]
-    if not passed:
-        return first or kind
-    named = f"{kind}: {first}".removesuffix(": ")
-    return f"{named} ({Path(file).name}, line {passed[-1].lineno})"
+    line = line_in(file, error)
+    if line:
+        return f"{why(error)} ({Path(file).name}, line {line})"
+    return next(iter(str(error).splitlines()), type(error).__name__)
 
 
 def _cause(error: BaseException) -> BaseException:

@@ -9,7 +9,8 @@ what people have said of places. rendered: a simulated camera. pictures, capture
 a camera has taken.
 """
 
+from kille.studies.scenes.checking import faults
 from kille.studies.scenes.occasions import Occasion
-from kille.studies.scenes.scene import SETTINGS, WHOLE, Scene, faults, opened
+from kille.studies.scenes.scene import SETTINGS, WHOLE, Scene, opened
 
 __all__ = ["SETTINGS", "WHOLE", "Occasion", "Scene", "faults", "opened"]

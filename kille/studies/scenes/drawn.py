@@ -64,17 +64,23 @@ class Drawn:
 
     def _stood(self, side: str, pool: Sequence[int], chance: Random) -> Occasion:
         """Two things of other kinds, the one on this side of the other."""
-        pairs = [(x, y) for x in pool for y in pool if self._differ(x, y)]
-        x, y = chance.choice(pairs or [(x, y) for x in pool for y in pool if x != y])
+        x, y = chance.choice(self._pairs(pool))
         spot = chance.uniform(3.5, 5.5), chance.uniform(3.5, 5.5)
         bearing = BEARINGS[side] + chance.uniform(-math.pi / 6, math.pi / 6)
         put = beside(spot, chance.uniform(0.12, 0.35), bearing)
         world = self.start.moved(y, rounded(*spot)).moved(x, put)
         return related(world, x, y, self.astray, (x, y), chance)
 
-    def _differ(self, x: int, y: int) -> bool:
-        one, other = self.start.thing(x), self.start.thing(y)
-        return one.kind != other.kind and one.colour != other.colour
+    def _pairs(self, pool: Sequence[int]) -> Sequence[tuple[int, int]]:
+        """Two things each, of other kinds and colours, or at least of other kinds.
+
+        Of two things of one kind nobody says how they stand to each other.
+        """
+        thing = self.start.thing
+        every = [(x, y) for x in pool for y in pool if x != y]
+        apart = [(x, y) for x, y in every if thing(x).kind != thing(y).kind]
+        told = [(x, y) for x, y in apart if thing(x).colour != thing(y).colour]
+        return told or apart or every
 
 
 def drawn(set_: Mapping[str, Any], chance: Random) -> Drawn:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from random import Random
 from typing import Any
+from urllib.parse import quote
 
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic.catalogue import NAMES
@@ -106,7 +107,8 @@ def rendered(set_: Mapping[str, Any], chance: Random) -> Rendered:
     """A table on which the ten things of the paper can be put."""
     target, landmark = set_["target"], set_["landmark"]
     wanted = dict.fromkeys((*(set_["kinds"] or NAMES), target, landmark))
-    source = f"synthetic:empty?seed={chance.randrange(10**6)}&faults={set_['faults']}"
+    faults = quote(set_["faults"], safe=",")
+    source = f"synthetic:empty?seed={chance.randrange(10**6)}&faults={faults}"
     things = tuple(Thing(name, "", front=_FRONTS.get(name, "")) for name in wanted)
     return Rendered(
         World(things),

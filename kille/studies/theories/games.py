@@ -8,7 +8,6 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
-from sys import float_info
 from typing import Any
 
 from kille.agent import Agent
@@ -20,7 +19,7 @@ from kille.simulation.playing import simulated
 from kille.simulation.vocabulary import vocabulary
 from kille.simulation.worlds import World
 from kille.studies.errors import TheoryError
-from kille.studies.settings import unknown
+from kille.studies.settings import Setting, shown, unknown
 from kille.studies.study import Theory
 from kille.studies.theories.judging import learners_of, words_of
 from kille.studies.theories.rules import algorithm_of
@@ -131,15 +130,20 @@ def _unsettable(
             )
         elif isinstance(known[name], Record):
             inner = ", ".join(known[name])
-            yield here, f"{path} of a strategy is a table of {inner}, found {value!r}"
-        elif not _is_number(value):
-            yield here, f"{path} of a strategy is a number, found {value!r}"
+            told = f"is a table of {inner}, found {shown(value)}"
+            yield here, f"{path} of a strategy {told}"
+        elif why := _NUMBERS.get(here[0], _CHANCE).unfit(value):
+            yield here, f"{path} of a strategy: {why}"
 
 
-def _is_number(value: object) -> bool:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return False
-    return abs(value) <= float_info.max
+_CHANCE = Setting(float, most=2.0)
+"""A probability; what more than 1 would be needed for never is."""
+
+_NUMBERS = {
+    "wants": Setting(float, least=-1_000_000, most=1_000_000),
+    "examples": Setting(float, most=1_000_000),
+}
+"""Numbers of a strategy that are no probabilities, by where they stand."""
 
 
 def _numbers(given: Mapping[str, Any], outer: str = "") -> Iterator[tuple[str, float]]:

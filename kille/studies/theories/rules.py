@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
-from traceback import extract_tb
 from typing import Any
 
 from kille.dialogue.games import TUTORING
 from kille.studies.errors import TheoryError
-from kille.studies.settings import unknown
+from kille.studies.failing import line_in, why
+from kille.studies.settings import no_file, unknown
 from kille.studies.study import Theory
 from ttr import TTRError
 from ttr.modules import run_file
@@ -29,7 +29,7 @@ from ttr.updates import (
     seq,
 )
 
-__all__ = ["PACKAGED", "algorithm_of", "lacking", "told"]
+__all__ = ["PACKAGED", "absent", "algorithm_of", "lacking", "told"]
 
 _WRITTEN = "FILE.ttr or FILE.py:NAME"
 
@@ -43,17 +43,32 @@ def algorithm_of(theory: Theory) -> Algorithm:
     A Python file is run anew each time, so that what its rules draw by chance does not
     depend on what was played before.
     """
-    whole = _with(TUTORING, theory.rules) if theory.rules else TUTORING
+    whole = _whole(theory)
     if not theory.without:
         return whole
-    known = [one.name for one in rules_of(whole)]
-    for name in theory.without:
-        if name not in known:
-            raise TheoryError(f"there is no rule {name}: {unknown(name, known)}")
+    for told in _absent(theory, whole):
+        raise TheoryError(told)
     left = lacking(whole, theory.without)
     if left is None:
         raise TheoryError(f"without {', '.join(theory.without)} nothing ever applies")
     return left
+
+
+def absent(theory: Theory) -> Iterator[str]:
+    """What it is to be without, and is not there; `TheoryError` as `algorithm_of`."""
+    yield from _absent(theory, _whole(theory))
+
+
+def _absent(theory: Theory, whole: Algorithm) -> Iterator[str]:
+    known = [one.name for one in rules_of(whole)]
+    for name in theory.without:
+        if name not in known:
+            yield f"there is no rule {name}: {unknown(name, known)}"
+
+
+def _whole(theory: Theory) -> Algorithm:
+    """The games with the rules of one's own."""
+    return _with(TUTORING, theory.rules) if theory.rules else TUTORING
 
 
 def lacking(algorithm: Algorithm, names: Collection[str]) -> Algorithm | None:
@@ -163,36 +178,27 @@ def _of_python(reference: str) -> Any:
     try:
         module = run_file(Path(path), f"_rules_{Path(path).stem}")
     except (Exception, SystemExit) as error:
-        first = next(iter(str(error).splitlines()), "")
-        why = f"{type(error).__name__}: {first}".removesuffix(": ")
-        at = f"{path}:{_line_in(path, error)}"
-        raise TheoryError(f"{path} cannot be run: {why}", at) from error
+        at = f"{path}:{line_in(path, error) or 1}"
+        raise TheoryError(f"{path} cannot be run: {why(error)}", at) from error
     if name not in vars(module):
         own = tuple(it for it in vars(module) if not it.startswith("_"))
         raise TheoryError(f"{path} has no {name}: {unknown(name, own)}")
     return vars(module)[name]
 
 
-def _line_in(path: str, error: BaseException) -> int:
-    """The line of a file at which it failed: the last one on the way to the error."""
-    if isinstance(error, SyntaxError):
-        return error.lineno or 1
-    passed = extract_tb(error.__traceback__)
-    return next((it.lineno or 1 for it in passed[::-1] if it.filename == path), 1)
-
-
 def _check_there(file: Path) -> None:
-    if not file.is_file():
-        beside = tuple(one.name for one in file.parent.glob(f"*{file.suffix}"))
-        raise TheoryError(f"there is no file {file}: {unknown(file.name, beside)}")
+    if told := no_file(file):
+        raise TheoryError(told)
 
 
 def _made(change: Callable[[Algorithm], Any], whole: Algorithm, of: str) -> Algorithm:
     """The games as a function changes them."""
     try:
         made = change(whole)
-    except Exception as error:
-        raise TheoryError(f"{of} failed: {type(error).__name__}: {error}") from error
+    except (Exception, SystemExit) as error:
+        path = of.rpartition(":")[0]
+        at = f"{path}:{line_in(path, error) or 1}"
+        raise TheoryError(f"{of} failed: {why(error)}", at) from error
     if isinstance(made, Algorithm):
         return made
     raise TheoryError(f"{of} gives no rules: expected an algorithm, found {made!r}")

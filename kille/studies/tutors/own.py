@@ -15,10 +15,12 @@ from pathlib import Path
 from types import ModuleType
 
 from kille.studies.errors import StudyError
+from kille.studies.failing import line_in, why
+from kille.studies.settings import no_file, unknown
 from kille.studies.tutors.tutor import Tutor
 from ttr.modules import importing_from, run_file
 
-__all__ = ["Make", "maker_of"]
+__all__ = ["Make", "located", "maker_of"]
 
 Make = Callable[..., Tutor]
 
@@ -31,25 +33,36 @@ def maker_of(name: str, folder: Path) -> Make:
     where, colon, what = name.rpartition(":")
     if not colon:
         raise StudyError([f"{name} names no tutor: write FILE.py:NAME or MODULE:NAME"])
+    if where.endswith(".py") and (told := no_file(_file(where, folder))):
+        raise StudyError([told])
     try:
         module = _module(where, folder)
-    except Exception as error:
-        raise StudyError([f"{where} cannot be used: {_told(error)}"]) from error
+    except (Exception, SystemExit) as error:
+        told = located(where, folder, error)
+        raise StudyError([f"{where} cannot be used: {told}"]) from error
     made: Make | None = getattr(module, what, None)
+    if made is None:
+        own = [it for it in vars(module) if not it.startswith("_")]
+        raise StudyError([f"{where} has no {what}: {unknown(what, own)}"])
     if not callable(made):
-        found = "nothing" if made is None else repr(made)
-        raise StudyError([f"{where}: {what} should make a tutor, but there is {found}"])
+        raise StudyError([f"{what} of {where} makes no tutor: name a class"])
     return made
+
+
+def located(where: str, folder: Path, error: BaseException) -> str:
+    """What was raised, and on which line of the file, if it does not say so itself."""
+    line = line_in(str(_file(where, folder)), error)
+    says = isinstance(error, SyntaxError) or not line
+    return why(error) if says else f"{why(error)} (line {line})"
+
+
+def _file(where: str, folder: Path) -> Path:
+    return folder / os.path.expanduser(where)
 
 
 def _module(where: str, folder: Path) -> ModuleType:
     if where.endswith(".py"):
-        file = folder / os.path.expanduser(where)
+        file = _file(where, folder)
         return run_file(file, f"_tutor_{file.stem}")
     with importing_from(folder.resolve()):
         return importlib.import_module(where)
-
-
-def _told(error: Exception) -> str:
-    first = next(iter(str(error).splitlines()), "")
-    return f"{type(error).__name__}: {first}".removesuffix(": ")

@@ -7,13 +7,16 @@ simulated scenes `place 2 3.5 4` and `remove 2`. What the file has the robot say
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from kille.studies.scenes import WHOLE
+from kille.studies.study import Study
 from kille.studies.tutors.tutor import Asked, Happens, Move, Says, Shows, Task, Turns
 from ttr.stories import Line, read_stories
 
-__all__ = ["Scripted", "scripted"]
+__all__ = ["Scripted", "scripted", "unplayable"]
 
 
 class Scripted:
@@ -38,6 +41,32 @@ def scripted(name: str, path: Path) -> Scripted:
     """
     stories = read_stories(path)
     return Scripted(name, [line for story in stories for line in story.lines])
+
+
+# --- what nobody could play -----------------------------------------------------------
+
+
+def unplayable(lines: Sequence[Line], study: Study) -> Iterator[str]:
+    """The lines of a script that nobody could play in this study, and why."""
+    kinds = {scene.kind for scene in study.scenes.values()}
+    known = {**_EVERYWHERE} if kinds & WHOLE else {**_EVERYWHERE, **_SIMULATED}
+    for line in lines:
+        text = " ".join(line.text.split())
+        if line.mark == "U~":
+            yield f"{line.place}: nobody mishears in a study: write U> and one text"
+        elif line.mark == "@" and not re.fullmatch("|".join(known.values()), text):
+            told = f"@ {text} is no command in these scenes"
+            yield f"{line.place}: {told}: write {', '.join(known)}"
+
+
+_THING = r"#?[1-9]\d{0,5}"
+_NUMBER = r"[-+]?(\d+\.?\d*|\.\d+)"
+_EVERYWHERE = {"look": "look", "restart": "restart", "point 2": f"point {_THING}"}
+_SIMULATED = {
+    "place 2 3.5 4": f"place {_THING} {_NUMBER} {_NUMBER}",
+    "remove 2": f"remove {_THING}",
+}
+"""What may happen in a script, as it is written, in all scenes or in simulated ones."""
 
 
 def _moves(lines: Sequence[Line]) -> Iterator[Move]:

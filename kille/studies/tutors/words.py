@@ -20,7 +20,12 @@ _SIDES = {
     "behind": "behind",
     "in front of": "in front",
 }
-_SWEDISH = {"near": "nära", "close to": "intill"}
+_SWEDISH = {
+    "near": "nära",
+    "close to": "intill",
+    "next to": "bredvid",
+    "far from": "långt från",
+}
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,6 @@ Run = Callable[..., Any]
 STUDY = """
 title = "Two ways to learn"
 seeds = 2
-turns = 24
 
 [theories.driven]
 mode = "driven"
@@ -100,15 +99,15 @@ def test_a_study_is_run_shown_replayed_and_reported(kille: Run, study: Path) -> 
     done = kille("experiment", "show", str(folder))
     assert "4 of 4 dialogues are over" in done.out
     done = kille("experiment", "show", str(folder), "driven/Ann/table/2")
-    assert done.out.startswith("driven/Ann/table/2: 24 turns")
+    assert done.out.startswith("driven/Ann/table/2: 32 turns")
     assert "robot    OK, I learned a" in done.out
     done = kille("experiment", "show", str(folder), "3", "--json")
     told = json.loads(done.out)
     assert told["run"] == "driven/Ann/table/2"
-    assert [turn["number"] for turn in told["turns"]] == list(range(1, 25))
+    assert [turn["number"] for turn in told["turns"]] == list(range(1, 33))
 
     done = kille("experiment", "replay", str(folder), "assisted/Ann/table/1")
-    assert (done.code, done.out) == (0, "assisted/Ann/table/1: the same, 24 turns\n")
+    assert (done.code, done.out) == (0, "assisted/Ann/table/1: the same, 32 turns\n")
     done = kille("experiment", "replay", str(folder), "--workers", "1")
     assert (done.code, done.out) == (0, "4 of 4 dialogues go as they went\n")
 
@@ -176,6 +175,19 @@ def test_a_study_without_fault_says_what_it_would_play(kille: Run, study: Path) 
     done = kille("experiment", "check", str(study))
     told = "ways.toml: fine, 4 dialogues: 2 theories × 1 tutor × 1 scene × 2 seeds\n"
     assert (done.code, done.out, done.err) == (0, told, "")
+
+
+def test_what_is_probably_not_meant_is_told_before_it_is_played(
+    kille: Run, study: Path
+) -> None:
+    study.write_text(STUDY.replace("seeds = 2", "seeds = 2\nturns = 24"))
+    for action in (["check"], ["run", "--workers", "1"]):
+        done = kille("experiment", *action, str(study))
+        assert done.code == 0
+        assert done.complaint == (
+            "kille: ways.toml:4: a dialogue takes 32 turns at least, and ends after "
+            "24: write turns = 32 or more (this can be played)"
+        )
 
 
 @pytest.mark.parametrize(

@@ -164,6 +164,21 @@ def test_a_study_whose_learner_has_changed_is_another(tmp_path: Path) -> None:
         pass
 
 
+def test_a_study_whose_folder_has_changed_is_another(tmp_path: Path) -> None:
+    (tmp_path / "people").mkdir()
+    settings = {"folder": "people"}
+    tutors = {"people": Named("people", "statements", settings)}
+    study = replace(STUDY, tutors=tutors, folder=tmp_path)
+    with Log.opened(study, tmp_path / "out"):
+        pass
+    (tmp_path / "people" / "more.csv").write_text("1")
+    with (
+        pytest.raises(RunError, match="another study: people has changed"),
+        Log.opened(study, tmp_path / "out"),
+    ):
+        pass
+
+
 def test_a_log_says_what_it_is_of(tmp_path: Path) -> None:
     study = replace(STUDY, folder=tmp_path, file=Path("numbers.toml"))
     with Log.opened(study, tmp_path / "results" / "first"):

@@ -71,19 +71,24 @@ def test_orders_are_the_same_for_all():
 def test_who_goes_on_must_be_there():
     study = made(("change_tutor", {"to": "Cy"}))
     (told,) = protocols.faults(study.phases[0], study)
-    assert told == "there is no tutor Cy: there is Ann, Bo"
+    assert told == (("to",), "there is no tutor Cy: there is Ann, Bo")
+    study = made(("change_tutor", {"to": "ann"}))
+    (told,) = protocols.faults(study.phases[0], study)
+    assert told == (("to",), "there is no tutor ann: did you mean Ann?")
     alone = made(("swap", {}), tutors=("Ann",))
     assert list(protocols.faults(alone.phases[0], alone))
 
 
 def test_what_a_scene_lacks_is_told(tmp_path):
-    one = Named("s", "drawn", {"kinds": ["cup"]})
+    one = Named("s", "drawn", {"kinds": ["cup"], "each": 3})
     study = made(("teach", {"what": "relations"}), scene=one)
-    (told,) = protocols.faults(study.phases[0], study)
-    assert told == "there is but one thing in s: name kinds, or each = 2"
+    ((key, told),) = protocols.faults(study.phases[0], study)
+    assert key == ("what",)
+    assert told.startswith("there is one kind of thing in s, and nothing is told to ")
     seen = Named("s", "pictures", {"folder": str(tmp_path)})
     study = made(("find", {}), scene=seen)
-    (told,) = protocols.faults(study.phases[0], study)
+    ((key, told),) = protocols.faults(study.phases[0], study)
+    assert key == ("do",)
     assert told == "find cannot be done with s, which is pictures"
 
 
@@ -91,13 +96,43 @@ def test_what_a_scene_lacks_is_told(tmp_path):
 def test_what_is_alone_in_view_is_not_to_be_found(kind):
     """It would be found whatever is said: a success of nobody's."""
     study = made(("find", {}), scene=Named("s", kind))
-    (told,) = protocols.faults(study.phases[0], study)
+    ((_, told),) = protocols.faults(study.phases[0], study)
     assert told == (
         "one thing at a time is in view in s, and is found whatever is asked for: "
         'write kind = "drawn" and in_view = 4'
     )
     study = made(("find", {}), scene=Named("s", "drawn", {"in_view": 2}))
     assert not list(protocols.faults(study.phases[0], study))
+    cup = Named("s", "drawn", {"in_view": 2, "kinds": ["cup"], "each": 2})
+    assert not list(protocols.faults(study.phases[0], made(scene=cup)))
+    study = made(("find", {"of": "new"}), scene=cup)
+    assert "one thing at a time" in str(list(protocols.faults(study.phases[0], study)))
+
+
+def test_how_much_comes_is_said_once():
+    study = made(("teach", {"rounds": 2, "turns": 4}))
+    assert list(protocols.faults(study.phases[0], study)) == [
+        (("turns",), "rounds and turns both say how much comes: write one of them")
+    ]
+
+
+@pytest.mark.parametrize(
+    "phase",
+    [
+        ("teach", {"rounds": 3}),
+        ("talk", {"turns": 7}),
+        ("ask", {"what": "relations", "of": "new"}),
+        ("find", {"rounds": 2}),
+        ("align", {}),
+        ("rest", {}),
+        ("swap", {}),
+        ("forget", {"words": ["cup", "mug"]}),
+    ],
+)
+def test_a_phase_is_as_long_as_it_has_tasks(phase):
+    study = made(phase)
+    scene = scenes.opened(study, Run("robot", "Ann", "s", 1))
+    assert protocols.length(study.phases[0], scene) == len(done(phase))
 
 
 @pytest.mark.parametrize("do", sorted(protocols.SETTINGS))

@@ -155,12 +155,12 @@ def test_a_file_is_read_as_its_text(tmp_path: Path) -> None:
     ("old", "new", "line", "told"),
     [
         ("title", "titel", 1, "a study has no titel: did you mean title?"),
-        ("turns = 40", "turns = 0", 5, "expected a whole number from 1 on, found 0"),
+        ("turns = 40", "turns = 0", 5, "expected a whole number from 1 to 1000000"),
         ("seeds = 3", "seeds = 0", 6, "there is no seed"),
         ("seeds = 3", "seeds = 9000000000", 6, "write 100000 at most"),
-        ("seeds = 3", "seeds = [1, 1]", 6, "a seed is there twice"),
-        ("seeds = 3", "seeds = [1.5]", 6, "expected a whole number from 0 on"),
-        ("seeds = 3", "seeds = 1.5", 6, "study: expected a whole number from 0 on"),
+        ("seeds = 3", "seeds = [1, 1]", 6, "seeds of a study: 1 is there twice"),
+        ("seeds = 3", "seeds = [1.5]", 6, "expected a whole number from 0 to 429"),
+        ("seeds = 3", "seeds = 1.5", 6, "study: expected a whole number from 0"),
         ('"driven"', '"drivn"', 11, "(did you mean driven?)"),
         ("[theories.plain]", '[theories."a/b"]', 8, "is no name"),
         ("without = [", "without = [3,", 12, "expected a text, found 3"),
@@ -172,6 +172,24 @@ def test_a_file_is_read_as_its_text(tmp_path: Path) -> None:
         ('kind = "drawn"', "", 25, "a table needs kind: it is one of drawn"),
         ('do = "teach"', 'do = "tech"', 29, "did you mean teach?"),
         ('what = "nouns"', 'what = "noun"', 30, "(did you mean nouns?)"),
+        ('title = "Does it pay to be sure?"', "title = ' '", 1, 'write title = "…"'),
+        ("seeds = 3", "seeds = [5000000000]", 6, "from 0 to 4294967295, found 500"),
+        ("seeds = 3", "seeds = []", 6, "expected one at least, found an empty list"),
+        ("[theories.plain]", '[theories."a\\tb"]', 8, "is no name"),
+        ('"hedge_name",', '"hedge_name", "hedge_name",', 12, '"hedge_name" is there'),
+        ('kind = "simulated"', 'knd = "simulated"', 22, "Ann needs kind, and has knd"),
+        ("errors = 0.1", 'calls = ["mug"]', 23, "expected a table, found a list"),
+        ("errors = 0.1", "habit = 99", 23, "expected a number from 0 to 10"),
+        ("errors = 0.1", 'vocabulary = ["a", "a"]', 23, '"a" is there twice'),
+        ("errors = 0.1", 'frame = "VIEWER"', 23, "(did you mean viewer?)"),
+        ('kind = "drawn"', 'kind = "drawn"\nkinds = ["cup", "cup"]', 27, '"cup" is'),
+        ('kind = "drawn"', 'kind = "drawn"\nhues = ["red", "red"]', 27, '"red" is'),
+        ('kind = "drawn"', 'kind = "around"\nrings = [0.1, 0.1]', 27, "0.1 is there"),
+        ('kind = "drawn"', 'kind = "around"\nfront = "up"', 27, 'expected "", any, aw'),
+        ('kind = "drawn"', 'kind = "statements"\nfolder = ""', 27, "expected a text"),
+        ('do = "teach"', 'do = "test"', 29, "it is one of teach, ask, practise"),
+        ('what = "nouns"', "rounds = 1000000000", 30, "whole number from 1 to 1000"),
+        ('name = "ask"', 'name = "a\\nb"', 37, "expected one line, found 'a\\nb'"),
         ('name = "ask"', "name = 3", 37, "name of phase 3: expected a text, found 3"),
         ('name = "ask"', 'name = ["a"]', 37, "expected a text, found a list"),
         ("errors = 0.1", "patience = 1.5", 23, "expected a whole number from 0 on"),
@@ -192,6 +210,41 @@ def test_all_mistakes_are_told_at_once_in_order() -> None:
     assert len(found) == 4
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "line", "told"),
+    [
+        ("[[phases]]", "[[phase]]", 28, "a study has no phase: did you mean phases?"),
+        ('[scenes."a table"]', "[scene.a]", 25, "did you mean scenes?"),
+        ("[theories.plain]", "[[theories]]", 8, "found a list: write [theories.NAME]"),
+    ],
+)
+def test_a_header_is_told_where_it_stands(
+    old: str, new: str, line: int, told: str
+) -> None:
+    text = STUDY.replace(old, new)
+    if "theories" in new:
+        text = text.replace("[theories.sure]", "[[theories]]")
+        text = text.replace("[theories.proto]", "[[theories]]")
+    assert any(it.startswith(f"{PATH}:{line}: ") and told in it for it in faults(text))
+
+
+def test_one_table_in_the_place_of_several_is_told_how_to_write_it() -> None:
+    text = STUDY.split("[[phases]]")[0] + '[phases]\ndo = "teach"\n'
+    assert faults(text)[0].endswith('found a table: write [[phases]] and do = "…"')
+
+
+def test_no_phases_are_no_study() -> None:
+    text = "phases = []\n" + STUDY.split("[[phases]]")[0]
+    [fault] = faults(text)
+    assert fault.startswith(f"{PATH}:1: phases of a study: expected one at least")
+
+
+def test_seeds_are_told_once_where_they_are_misspelt() -> None:
+    assert [it.partition(": ")[2] for it in changed("seeds = 3", "seed = 3")] == [
+        "a study has no seed: did you mean seeds?"
+    ]
+
+
 @pytest.mark.parametrize("table", ["theories", "tutors", "scenes", "phases"])
 def test_what_is_lacking_is_told_with_how_to_write_it(table: str) -> None:
     parts = STUDY.split("\n[")
@@ -209,6 +262,44 @@ def test_what_is_no_toml_is_told_with_its_line() -> None:
     assert fault.startswith(f"{PATH}:1: this is no TOML: ")
     [fault] = faults(f"seeds = {'[' * 5000}")
     assert fault.startswith(f"{PATH}:1: this is no TOML: ")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "told"),
+    [
+        ("seeds = 3", "seeds = 3\nseeds = 4", 7, "seeds is there twice"),
+        ("[theories.sure]", "[theories.plain]", 9, "[theories.plain] is there twice"),
+        ('do = "ask"\nname', 'do = "ask"\n[phases]\nname', 37, "write [[phases]] each"),
+        ("strategy.bands", "learners = {}\nlearners.a", 16, "between { and }: write"),
+        ('"simulated"', "simulated", 22, 'a text has quotes, "…"'),
+        ('"simulated"', "“simulated”", 22, "between straight quotes"),
+        ("errors = 0.1", "orients = True", 23, "write true or false, in small letters"),
+        ("errors = 0.1", "errors = .1", 23, "a number begins with a digit, 0.1"),
+        ("errors = 0.1", "errors = 0,1", 23, "a number has a point, 0.1"),
+        ("seeds = 3", "seeds: 3", 6, "write KEY = VALUE"),
+        ("seeds = 3", "seeds = 3 4", 6, "see https://toml.io"),
+    ],
+)
+def test_slips_in_toml_are_told_with_what_to_write(
+    old: str, new: str, line: int, told: str
+) -> None:
+    [fault] = changed(old, new)
+    assert fault.startswith(f"{PATH}:{line}: this is no TOML: ")
+    assert told in fault
+    assert "('" not in fault
+
+
+def test_a_mark_of_byte_order_is_no_mistake(tmp_path: Path) -> None:
+    """Some editors put it at the beginning of a file."""
+    file = tmp_path / "sure.toml"
+    file.write_text(STUDY, encoding="utf-8-sig")
+    assert read(file) == parsed(STUDY, file)
+
+
+def test_a_name_much_like_that_of_a_file_is_told(tmp_path: Path) -> None:
+    (tmp_path / "sure.toml").write_text(STUDY)
+    with pytest.raises(StudyError, match=r"sur\.toml: did you mean sure\.toml\?$"):
+        read(tmp_path / "sur.toml")
 
 
 @pytest.mark.parametrize("make", [Path.mkdir, lambda path: path.write_bytes(b"\xff")])
@@ -296,11 +387,35 @@ def test_what_has_no_line_is_where_it_is_in() -> None:
         (Setting(int, several=True), [1, 2], [1, "a"]),
         (Setting(int, several=True), [], 1),
         (Setting(dict), {}, []),
+        (Setting(int, needed=True, several=True), [1], []),
+        (Setting(needed=True), "a", " "),
     ],
 )
 def test_a_value_fits_or_is_told(setting: Setting, fits, unfit_) -> None:
     assert setting.unfit(fits) == ""
     assert setting.unfit(unfit_).startswith("expected ")
+
+
+def test_nothing_is_in_a_list_twice_unless_that_says_something() -> None:
+    assert Setting(several=True).unfit(["a", "b", "a"]) == '"a" is there twice'
+    assert Setting(float, several=True).unfit([1, 1.0]) == "1 is there twice"
+    assert not Setting(several=True, twice=True).unfit(["a", "a"])
+
+
+@pytest.mark.parametrize(
+    ("kinds", "free"),
+    [(tutors.SETTINGS, {("several", "of")}), (scenes.SETTINGS, set())],
+)
+def test_only_tutors_may_be_named_twice(
+    kinds: Mapping[str, Mapping[str, Setting]], free: set[tuple[str, str]]
+) -> None:
+    lists = {
+        (kind, key): it
+        for kind, settings_ in kinds.items()
+        for key, it in settings_.items()
+        if it.several
+    }
+    assert {key for key, it in lists.items() if it.twice} == free
 
 
 def test_a_slip_in_a_needed_key_is_told_once() -> None:

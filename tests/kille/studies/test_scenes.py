@@ -55,6 +55,14 @@ def test_each_side_of_a_landmark_is_shown(seed):
     assert all(it.thing.kind != it.landmark.kind for it in round_)
 
 
+@given(st.integers(1, 50))
+def test_of_one_colour_are_things_of_other_kinds_beside_each_other(seed):
+    """Else there is nothing to say of where they are."""
+    scene = opened("drawn", seed=seed, kinds=["cup", "mug"], each=3, hues=["red"])
+    round_ = scene.round("relation", False, Random(seed))
+    assert all(it.thing.kind != it.landmark.kind for it in round_)
+
+
 # --- round a landmark ----------------------------------------------------------------
 
 
@@ -184,17 +192,25 @@ def test_pictures_are_drawn_by_the_seed(data):
 def test_a_folder_that_is_not_there_is_told(tmp_path):
     named = Named("s", "pictures", {"folder": "none"})
     study = Study("t", {}, {}, {"s": named}, (), (1,), folder=tmp_path)
-    (told,) = scenes.faults(named, study)
-    assert told.startswith("there is no folder none")
+    assert list(scenes.faults(named, study)) == [
+        (("folder",), f"there is no folder {tmp_path / 'none'}")
+    ]
+    (tmp_path / "nine").mkdir()
+    (tmp_path / "none").write_text("")
+    ((_, told),) = scenes.faults(named, study)
+    assert told == f"{tmp_path / 'none'} is a file, not a folder"
+    (tmp_path / "none").unlink()
+    ((_, told),) = scenes.faults(named, study)
+    assert told.endswith("none: did you mean nine?")
 
 
 def faulty(kind, *phases, at=None, **set_):
-    """What is wrong with a scene in a study of these phases."""
+    """What is wrong with a scene in a study of these phases, without its place."""
     named = Named("s", kind, set_)
     made = tuple(Phase(do, do, its) for do, its in phases)
     settings = {} if at is None else {"folder": at}
     study = Study("t", {}, {}, {"s": named}, made, (1,), **settings)
-    return list(scenes.faults(named, study))
+    return [told for _, told in scenes.faults(named, study)]
 
 
 NEW = ("ask", {"of": "new"})
@@ -266,8 +282,31 @@ def test_a_thing_stands_beside_another():
     named = Named("s", "around", {"target": "car"})
     study = Study("t", {}, {}, {"s": named}, (), (1,))
     assert list(scenes.faults(named, study)) == [
-        "both target and landmark are the car: name two kinds"
+        (("target",), "both target and landmark are the car: name two kinds")
     ]
+
+
+def test_a_fault_of_the_camera_that_there_is_not_is_told():
+    """It would be known only to whoever opens the camera, dialogue by dialogue."""
+    (told,) = faulty("rendered", faults="nois")
+    assert told.startswith("there is no fault 'nois' (did you mean noise?)")
+    (told,) = faulty("rendered", faults="none&seed=3")
+    assert told.startswith("there is no fault 'none&seed=3'")
+    assert not faulty("rendered", faults="noise,steps")
+
+
+@pytest.mark.parametrize("key", ["off", "spread", "shift"])
+def test_who_means_centimetres_is_told(key):
+    told = scenes.SETTINGS["around"][key].unfit(5)
+    assert told == "expected a number of metres from 0 to 1, found 5"
+
+
+@pytest.mark.parametrize(
+    ("kind", "key"), [("drawn", "noise"), ("drawn", "each"), ("around", "points")]
+)
+def test_a_slip_of_the_keyboard_is_no_setting(kind, key):
+    """A noise that no name of a world can say, or more things than anybody draws."""
+    assert scenes.SETTINGS[kind][key].unfit(10**6)
 
 
 @pytest.mark.parametrize("kind", sorted(scenes.SETTINGS))

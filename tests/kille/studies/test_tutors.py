@@ -1,6 +1,5 @@
 """Tutors: what they hold to be so, how they err, answer and give feedback."""
 
-import io
 import math
 from itertools import pairwise
 from random import Random
@@ -266,7 +265,7 @@ def test_a_tutor_speaks_as_people_rate(data):
     assert it.facts["not understood"] == 0.0
 
 
-# --- scripts, persons, several -------------------------------------------------------
+# --- scripts, several, one's own -----------------------------------------------------
 
 
 def test_a_script_is_said_line_by_line(tmp_path):
@@ -317,44 +316,6 @@ def test_a_script_with_what_cannot_happen_ends_the_dialogue(tmp_path):
         played(phases, kind="scripted", file="a.dlg", at=tmp_path)
 
 
-def test_a_person_teaches_at_the_keyboard(monkeypatch, capsys):
-    lines = "This is a cup.\n@ fly\n@ point 1\n\nWhat is this?\n.\n"
-    monkeypatch.setattr("sys.stdin", io.StringIO(lines))
-    it = played((Phase("talk", "talk", {"turns": 1}),), kind="keyboard")
-    assert [turn.act for turn in it.turns if turn.act != "shows"] == [
-        "says",
-        "happens",
-        "waits",
-        "says",
-    ]
-    printed = capsys.readouterr().out
-    assert "OK, I learned a cup." in printed
-    assert "@ fly: in front of a simulated scene write `look`" in printed
-    assert "(pointed at)" in printed
-
-
-def test_a_person_asks_what_the_phase_asks(monkeypatch):
-    monkeypatch.setattr("sys.stdin", io.StringIO("What is this?\n.\n" * 3))
-    it = played((Phase("ask", "ask", {}),), kind="keyboard")
-    assert [answer.right for answer in it.answers] == ["cup", "mug", "book"]
-
-
-def test_what_happens_first_is_no_question(monkeypatch):
-    monkeypatch.setattr("sys.stdin", io.StringIO("@ point 1\nWhat is this?\n.\n"))
-    it = played((Phase("ask", "ask", {"turns": 1}),), kind="keyboard")
-    assert [(answer.right, answer.judge) for answer in it.answers] == [("cup", "")]
-
-
-def test_a_person_plays_the_robot(monkeypatch, capsys):
-    lines = "OK.\n" * 3 + "This is a cup.\nI do not know.\nIt is a book.\n"
-    monkeypatch.setattr("sys.stdin", io.StringIO(lines))
-    phases = (Phase("lessons", "teach", {}), Phase("questions", "ask", {}))
-    it = played(phases, theory=Theory("me", mode="person"))
-    assert [answer.said for answer in it.answers] == ["cup", "", "book"]
-    assert [answer.is_right for answer in it.answers] == [True, False, True]
-    assert "Tutor: What is this?" in capsys.readouterr().out
-
-
 @pytest.mark.parametrize("turns", ["phase", "task"])
 def test_several_take_turns(turns):
     others = (Named("Ann", "simulated"), Named("Bo", "simulated"))
@@ -399,6 +360,19 @@ def test_a_tutor_may_be_ones_own(tmp_path):
     assert it.lessons == 6
 
 
+ODD = """
+nobody = 3
+
+class Mute:
+    def __init__(self, name, words):
+        self.name = name
+
+class Broken:
+    def __init__(self, name, words):
+        raise ValueError("no voice")
+"""
+
+
 def test_a_tutor_of_ones_own_is_made_anew_for_each_dialogue(tmp_path):
     """What his file draws by chance does not go on from the dialogue before."""
     counting = OWN.replace("name, words, times\n", "name, words, len(made)\n").replace(
@@ -416,16 +390,22 @@ def test_a_tutor_of_ones_own_is_made_anew_for_each_dialogue(tmp_path):
     ("make", "why"),
     [
         ("own.py", "own.py names no tutor: write FILE.py:NAME or MODULE:NAME"),
-        ("none.py:A", "none.py cannot be used: FileNotFoundError: "),
-        ("own.py:nobody", "own.py: nobody should make a tutor, but there is nothing"),
+        ("none.py:A", "there is no file "),
+        ("own.py:Shoutin", "own.py has no Shoutin: did you mean Shouting?"),
+        ("own.py:nobody", "nobody of own.py makes no tutor: name a class"),
+        ("own.py:Mute", "a tutor needs turns, and what own.py:Mute makes has none"),
+        ("own.py:Broken", "own.py:Broken makes no tutor: ValueError: no voice (line "),
+        ("gone.py:A", "gone.py cannot be used: SystemExit: 3 (line 2)"),
         ("no_such:A", "no_such cannot be used: ModuleNotFoundError: "),
     ],
 )
 def test_what_makes_no_tutor_is_told(tmp_path, make, why):
-    (tmp_path / "own.py").write_text(OWN)
+    (tmp_path / "own.py").write_text(OWN + ODD)
+    (tmp_path / "gone.py").write_text("import sys\nsys.exit(3)\n")
     named = Named("me", "own", {"make": make})
     study = Study("t", {}, {"me": named}, {}, (), (1,), folder=tmp_path)
-    (told,) = kinds.faults(named, study)
+    ((key, told),) = kinds.faults(named, study)
+    assert key == ("make",)
     assert told.startswith(why)
 
 
@@ -435,9 +415,14 @@ def test_settings_that_a_tutor_of_ones_own_does_not_take_are_told(tmp_path):
     make = {"make": "own.py:Shouting"}
     assert not list(kinds.faults(Named("me", "own", make), study))
     wrong = Named("me", "own", {**make, "settings": {"time": 2}})
-    assert list(kinds.faults(wrong, study)) == [
+    ((_, told),) = kinds.faults(wrong, study)
+    assert told == (
         "own.py:Shouting cannot be called with name, words and its settings: "
         "got an unexpected keyword argument 'time'"
+    )
+    named = Named("me", "own", {**make, "settings": {"name": "you"}})
+    assert list(kinds.faults(named, study)) == [
+        (("settings", "name"), "name is not to be set: the study gives it")
     ]
 
 
@@ -469,15 +454,67 @@ def test_what_is_not_there_is_told(tmp_path):
         *kinds.faults(Named("S", "scripted", {"file": "none.dlg"}), study),
         *kinds.faults(Named("P", "people", {"folder": "none"}), study),
         *kinds.faults(Named("B", "several", {"of": ["Ann", "Bo"]}), study),
-        *kinds.faults(Named("N", "several", {"of": []}), study),
+        *kinds.faults(Named("O", "several", {"of": ["Ann", "Ann"]}), study),
         *kinds.faults(Named("C", "simulated", {"calls": {"mug": 3}}), study),
-        *kinds.faults(Named("H", "scripted", {"file": "~nobody/a.dlg"}), study),
+        *kinds.faults(Named("H", "scripted", {"file": "~no-such-user/a.dlg"}), study),
     ]
     assert found == [
-        "there is no file none.dlg",
-        "there is no folder none",
-        "there is no tutor Bo: there is Ann",
-        "of names no tutor: there is Ann",
-        'calls: a mug is called a text, as in { mug = "cup" }, and not 3',
-        "there is no file ~nobody/a.dlg",
+        (("file",), f"there is no file {tmp_path / 'none.dlg'}"),
+        (("folder",), f"there is no folder {tmp_path / 'none'}"),
+        (("of",), "there is no tutor Bo: there is Ann"),
+        (("of",), "Ann alone is not several: name another tutor, too"),
+        (
+            ("calls", "mug"),
+            'a mug is called a text, as in { mug = "cup" }, and not 3',
+        ),
+        (("file",), f"there is no file {tmp_path / '~no-such-user/a.dlg'}"),
     ]
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("@ pont 2", "@ pont 2 is no command in these scenes: write look, restart, po"),
+        ("@ point 0", "@ point 0 is no command in these scenes"),
+        ("@ place 2", "@ place 2 is no command in these scenes"),
+        ("@ sensor synthetic", "@ sensor synthetic is no command in these scenes"),
+        ("U~ This is a cup. 1", "nobody mishears in a study: write U> and one text"),
+    ],
+)
+def test_lines_that_nobody_could_play_are_told(tmp_path, line, told):
+    """They would break every dialogue, or be passed over."""
+    (tmp_path / "a.dlg").write_text(f"--- a\nU> Hello.\n{line}\n")
+    named = Named("S", "scripted", {"file": "a.dlg"})
+    study = Study("t", {}, {}, {"table": TABLE}, (), (1,), folder=tmp_path)
+    ((key, found),) = kinds.faults(named, study)
+    assert key == ("file",)
+    assert found.startswith(f"{tmp_path / 'a.dlg'}:3: {told}")
+
+
+def test_nothing_is_laid_or_removed_by_a_script_before_the_robots_own_eyes(tmp_path):
+    (tmp_path / "a.dlg").write_text("--- a\n@ point #2\n@ place 2  3.5 4\n@ look\n")
+    named = Named("S", "scripted", {"file": "a.dlg"})
+    seen = {"table": Named("table", "rendered")}
+    study = Study("t", {}, {}, {"table": TABLE}, (), (1,), folder=tmp_path)
+    assert not list(kinds.faults(named, study))
+    study = Study("t", {}, {}, seen, (), (1,), folder=tmp_path)
+    ((_, told),) = kinds.faults(named, study)
+    assert told.endswith(": write look, restart, point 2")
+
+
+def test_in_swedish_he_has_the_words_for_places_that_people_rated(data):
+    ring = Named("table", "around", {"rings": [0.1], "points": 8, "spread": 0.0})
+    phases = (Phase("teach", "teach", {"what": "relations"}),)
+    it = played(
+        phases,
+        scene=ring,
+        theory=Theory("robot", language="sv"),
+        kind="people",
+        places="drawn",
+        folder=str(data / "spatial_logan_sadler"),
+        vocabulary=["next to", "far from"],
+    )
+    said = [turn.given for turn in it.turns if turn.act == "relate"]
+    assert said
+    assert all("bredvid" in text or "långt från" in text for text in said)
+    assert it.facts["not understood"] == 0.0

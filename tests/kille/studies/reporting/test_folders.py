@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -79,18 +80,35 @@ def test_a_folder_has_its_report(tmp_path: Path) -> None:
 
 def test_what_broke_is_told_and_the_rest_is_there(tmp_path: Path) -> None:
     page, results = reporting.report(ran(tmp_path / "results", other="bad"))
-    assert "bad/Ann/table/2 broke: ValueError: nobody likes" in page.read_text("utf-8")
+    text = page.read_text("utf-8")
+    assert re.search(
+        r"1 dialogue broke: ValueError: nobody likes .*: bad/Ann/table/2", text
+    )
     assert table(results, "All measures").rows[0] == ("dialogues", 4, 3)
-    assert "7 of 8 played to their end" in page.read_text("utf-8")
+    assert "7 of 8 played to their end" in text
+    assert "7 of 8 dialogues: 2 theories × 1 tutor × 1 scene × 4 seeds" in text
+
+
+def test_theories_are_shown_though_all_their_dialogues_broke(tmp_path: Path) -> None:
+    folder, study = tmp_path / "results", STUDY.replace("[theories.good]", "")
+    found = parsed(study.format(seeds="[2]", other="bad"), Path("numbers.toml"))
+    with Log.opened(found, folder) as log:
+        for run in found.runs():
+            log.write(outcome(found, run, little_study.play))
+    page, results = reporting.report(folder)
+    assert not results
+    assert "No dialogue was played to its end." in page.read_text("utf-8")
+    assert "strategy" in page.read_text("utf-8")
 
 
 def test_dialogues_that_were_cut_short_are_told(tmp_path: Path) -> None:
     """All dialogues are of four turns."""
     for turns, is_told in (("4", True), ("5", False)):
         folder = ran(tmp_path / turns, f"3\nturns = {turns}")
-        text = reporting.report(folder).page.read_text("utf-8")
-        told = "good: 3 of 3 dialogues came to the most turns that the study allows, 4"
-        assert (told in text) == is_told
+        page, results = reporting.report(folder)
+        told = "good: 3 of 3 dialogues came to turn 4, the last that the study allows: "
+        assert (told in page.read_text("utf-8")) == is_told
+        assert results[0].text.startswith(told) == is_told
 
 
 def test_two_folders_are_compared_by_what_they_share(tmp_path: Path) -> None:
@@ -104,6 +122,10 @@ def test_two_folders_are_compared_by_what_they_share(tmp_path: Path) -> None:
     (differing,) = (it for it in results if it.title == "How they differ")
     assert "two: good and one: good do equally well" in differing.text
     assert [it.title for it in differing.tables] == ["Question by question"]
+    assert results[0].text == (
+        "Of 4 and 4 occasions (tutor, scene and seed) 2 are the same: differences are "
+        "of these alone, all else is of all."
+    )
     page, _ = reporting.compare(one, other, tmp_path / "both.html", command="compare")
     assert "two against one" in page.read_text("utf-8")
     assert (tmp_path / "both-dialogues" / "dialogue-1.html").is_file()
@@ -114,6 +136,7 @@ def test_other_theories_are_all_compared(tmp_path: Path) -> None:
     other = ran(tmp_path / "two", other="third")
     found = table(reporting.compared(one, other), "Question by question")
     assert [(row[0], row[2]) for row in found.rows] == [("one: good", "two: good")]
+    assert not reporting.compared(one, other)[0].text
 
 
 def test_folders_of_one_name_are_told_apart_by_where_they_are(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from hypothesis import given
@@ -98,5 +99,49 @@ def test_parts_that_are_the_same_come_last_and_folded() -> None:
     page = "".join(
         side_by_side({"a": {**parts, "mode": "x"}, "b": {**parts, "mode": "y"}})
     )
-    assert page.index("mode") < page.index("The same in all") < page.index("state")
+    assert page.index("mode") < page.index("the same in all: state") < page.index("Ind")
     assert "about" not in page
+
+
+def test_theories_that_are_alike_stand_together() -> None:
+    """Of three the first and the last have the same strategy."""
+    strategies = {"a": "bold", "<b>": "shy", "c": "bold"}
+    shown = {
+        name: {"strategy": record(mode=it), "rules": {"hear": it, "ask": "so"}}
+        for name, it in strategies.items()
+    }
+    page = "".join(side_by_side(shown))
+    strategy, rules = page.split("<h3>rules</h3>")
+    assert [
+        re.findall(r">([^<]+)<", it) for it in re.findall(r"<h4>.*?</h4>", strategy)
+    ] == [
+        ["a", "c"],
+        ["&lt;b&gt;"],
+    ]
+    assert strategy.count('class="ttr"') == 2
+    assert rules.count("<th>") == 3
+    assert rules.count('<td class="apart">') == 2
+
+
+def test_types_by_name_are_matrices_with_what_differs_marked() -> None:
+    dog, hug = Pred("dog", Ind), Pred("hug", Ind)
+    one, other = rectype(x=Ind, c=dog(this.x)), rectype(x=Ind, c=hug(this.x))
+    page = "".join(
+        side_by_side(
+            {
+                "one": {"meanings": {"It": one, "This": one}},
+                "other": {"meanings": {"It": other, "This": one}},
+            }
+        )
+    )
+    assert page.count('<td class="type">') == 2
+    assert page.count("ttr-changed") == 2
+    assert "1 the same in all" in page
+
+
+def test_what_theories_are_about_is_told_of_those_that_say_it() -> None:
+    page = "".join(side_by_side({"a": {"about": "Bold."}, "b": {"about": ""}}))
+    assert "<dt>a</dt>" in page
+    assert "<dt>b</dt>" not in page
+    alone = "".join(side_by_side({"a": {"about": "Bold <3."}}))
+    assert alone == "<p>Bold &lt;3.</p>"

@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 import pytest
 
-from kille.experiments.results import Estimate, Table
+from kille.experiments.figures import drawing
+from kille.experiments.results import Estimate, Result, Table
 from kille.studies.measuring.scored import Dialogue, scored
 from kille.studies.played import Answer, Played, Turn
 from kille.studies.reporting import curves
@@ -23,6 +25,7 @@ from kille.studies.reporting.findings import (
     measures_of,
     overall,
 )
+from kille.studies.reporting.gist import in_short
 from kille.studies.reporting.places import places_of
 from kille.studies.study import Run
 
@@ -31,6 +34,9 @@ SHARES: Mapping[str, Mapping[str, float]] = {
     "autonomous": {"silent": 0.25, "corrects": 1.0},
 }
 """How much of what is asked each theory gets right, tutor by tutor."""
+
+
+TESTS = [["teach 1", "teach 2"], ["test 1", "test 2"]]
 
 
 def talk(theory: str, tutor: str, scene: str, seed: int) -> Dialogue:
@@ -115,7 +121,8 @@ def test_parts_are_told_and_lead_to_their_answers(theories: Theories) -> None:
     places = places_of(list(theories), talks, "talks")
     found = {it.title: it for it in in_detail(theories, places)}
     assert row(found["By phase"], "test 2") == (0.5, 0.625, 48)
-    assert row(found["By how it was put"], "assert") == (1.0, 1.0, "48, 60")
+    assert row(found["By how it was put"], "assert") == (1.0, 1.0)
+    assert row(found["By how it was put: answers"], "assert") == (48, 60)
     assert row(found["By word"], "noun", "cup")[-1] == 48
     place = found["By word"].links[0, 2]
     assert place == "talks/theory-1-answers.html#word-1"
@@ -130,9 +137,13 @@ def test_answers_are_counted_for_each_theory_where_they_are_not_as_many() -> Non
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "talks")
     found = {it.title: it for it in in_detail(theories, places)}
-    assert row(found["By how it was put"], "hedge")[-1] == "2, 8"
-    assert row(found["By how it was put"], "assert")[-1] == "6, 0"
+    put = found["By how it was put: answers"]
+    assert put.columns == ("way", "bold", "shy")
+    assert row(put, "hedge") == (2, 8)
+    assert row(put, "assert") == (6, 0)
+    assert put.links[0, 1] == places.way("bold", "assert")
     assert row(found["By kind of word"], "noun")[-1] == 8
+    assert "By kind of word: answers" not in found
 
 
 def asked(theory: str, ways: Sequence[str], kind: str = "noun") -> Dialogue:
@@ -187,14 +198,56 @@ def test_several_scenes_are_told_with_the_tutors() -> None:
     theories = study(2, ("table", "floor"))
     talks = [it for them in theories.values() for it in them]
     places = places_of(list(theories), talks, "")
+    _, result = by_conditions(theories, measures_of(theories), places)
+    (both,) = result.tables
+    assert both.title == "By tutor and scene"
+    assert len(both.rows) == 8
+    assert both.rows[0][:3] == ("accuracy", "silent", "table")
+    assert both.rows[4][:3] == ("κ robot–tutor", "silent", "table")
+
+
+def test_each_phase_is_told_with_each_tutor(theories: Theories) -> None:
+    talks = [it for them in theories.values() for it in them]
+    places = places_of(list(theories), talks, "talks")
     (result,) = by_conditions(theories, measures_of(theories), places)
-    (both,) = (it for it in result.tables if it.title == "By tutor and scene")
-    assert len(both.rows) == 4
-    assert both.rows[0][:3] == ("κ robot–tutor", "silent", "table")
+    table = result.tables[0]
+    assert table.title == "Accuracy, phase by phase"
+    assert row(table, "test 2", "corrects") == (0.5, 1.0)
+    assert len(table.rows) == 4
+    assert table.links[1, 3] == places.tutor("autonomous", "corrects")
+
+
+def test_two_people_who_never_quite_agree_are_drawn_as_the_ceiling() -> None:
+    """The second judge says car where the first says cup, once in four times."""
+
+    def judged(it: Dialogue) -> Dialogue:
+        answers = (
+            one._replace(judge="car" if n % 4 == 0 else one.right)
+            for n, one in enumerate(it.answers)
+        )
+        return replace(it, answers=tuple(answers))
+
+    theories = {name: list(map(judged, of)) for name, of in study().items()}
+    talks = [it for them in theories.values() for it in them]
+    places = places_of(list(theories), talks, "")
+    (result,) = by_conditions(theories, measures_of(theories), places)
+    (figure,) = result.figures
+    assert list(figure.data["series"]) == [*theories, "tutor and judge: the ceiling"]
+
+
+def test_of_one_theory_it_is_said_what_tutors_change() -> None:
+    theories = {"autonomous": study()["autonomous"]}
+    places = places_of(list(theories), theories["autonomous"], "")
+    (result,) = by_conditions(theories, measures_of(theories), places)
+    assert result.text == (
+        "The accuracy of autonomous with the tutor corrects differs from that with "
+        "silent by 0.750 [0.750, 0.750] (p = 0.031)."
+    )
 
 
 def test_what_was_learned_is_drawn_against_what_it_cost(theories: Theories) -> None:
-    by_phase, by_tutor = costs(theories)
+    by_phase, by_tutor = costs(theories, TESTS)
+    assert by_phase.title == "Accuracy against what it cost: test 1, test 2"
     driven = by_phase.data["series"]["driven"]
     assert driven["x"] == [4, 10]
     assert driven["mean"] == [0.5, 0.5]
@@ -205,9 +258,66 @@ def test_what_was_learned_is_drawn_against_what_it_cost(theories: Theories) -> N
 
 
 def test_learning_is_drawn_by_lessons(theories: Theories) -> None:
-    (figure,) = curves.learning(theories)
+    (figure,) = curves.learning(theories, TESTS)
+    assert figure.title == "Learning curve"
     assert figure.data["series"]["driven"]["x"] == [2, 4]
     assert figure.data["series"]["autonomous"]["mean"] == [0.625, 0.625]
+
+
+def test_other_tests_are_no_points_of_the_same_curve() -> None:
+    """Before and after two lessons nouns are all named right, and adjectives never."""
+
+    def answer(phase: str, kind: str, lessons: int) -> list[Answer]:
+        said = "cup" if kind == "noun" else ""
+        it = Answer(1, phase, kind, "cup", said, "assert", lessons=lessons)
+        return [it] * 5
+
+    given = [
+        *answer("nouns 1", "noun", 0),
+        *answer("colours 1", "adjective", 0),
+        *answer("nouns 2", "noun", 2),
+        *answer("colours 2", "adjective", 2),
+    ]
+    talk = scored(Run("a", "Ann", "table", 1), Played((), tuple(given)), 0.1)
+    tests = [["nouns 1", "nouns 2"], ["lessons"], ["colours 1", "colours 2"]]
+    nouns, colours = curves.learning({"a": [talk]}, tests)
+    assert nouns.title == "Learning curve: nouns 1, nouns 2"
+    assert nouns.data["series"]["a"] | {"low": [], "high": []} == {
+        "x": [0, 2],
+        "mean": [1, 1],
+        "low": [],
+        "high": [],
+    }
+    assert colours.data["series"]["a"]["mean"] == [0, 0]
+
+
+def test_of_a_test_that_is_not_repeated_no_cost_is_drawn(theories: Theories) -> None:
+    (by_tutor,) = costs(theories, [["test 1"], ["test 2"]])
+    assert by_tutor.title == "Accuracy in test 2 against what it cost, by tutor"
+
+
+def test_tutors_who_say_as_much_are_not_drawn_by_what_they_cost() -> None:
+    talks = [talk("driven", "silent", "table", seed) for seed in range(1, 13)]
+    talks = [
+        replace(it, run=replace(it.run, tutor=f"tutor {it.run.seed % 2}"))
+        for it in talks
+    ]
+    assert not list(costs({"driven": talks}, []))
+
+
+def test_where_one_tutor_cost_more_with_another_theory_he_is_not_named() -> None:
+    theories = {
+        name: [
+            replace(
+                talk("driven", tutor, "table", seed), run=Run(name, "Ann", "t", seed)
+            )
+            for seed in range(1, 7)
+        ]
+        for name, tutor in (("a", "silent"), ("b", "corrects"))
+    }
+    (figure,) = costs(theories, [])
+    assert figure.title == "Accuracy in test 2 against what it cost"
+    assert figure.data["series"]["a"]["labels"] == []
 
 
 def test_places_on_a_learning_curve_have_as_much_room_as_each_other() -> None:
@@ -217,7 +327,7 @@ def test_places_on_a_learning_curve_have_as_much_room_as_each_other() -> None:
         for turn in range(5 * 14)
     ]
     talk = scored(Run("a", "Ann", "table", 1), Played((), tuple(given)), 0.1)
-    (figure,) = curves.learning({"a": [talk]})
+    (figure,) = curves.learning({"a": [talk]}, [["test"]])
     assert figure.data["series"]["a"]["x"] == [0, 2, 4, 6, 8, 10, 12, 14]
 
 
@@ -268,3 +378,107 @@ def test_the_main_measure_is_corrected_by_itself() -> None:
     ps = [("accuracy", 0.03), ("words", 0.01), ("accuracy", 0.04), ("turns", 0.02)]
     assert corrected(ps) == [0.06, 0.02, 0.06, 0.02]
     assert corrected([("accuracy", 0.03), ("words", 0.5)])[0] == 0.03
+
+
+def test_differences_are_told_measure_by_measure_the_main_one_first() -> None:
+    theories = of_three()
+    talks = [it for them in theories.values() for it in them]
+    places = places_of(list(theories), talks, "")
+    which = [("driven", "third"), ("driven", "autonomous"), ("autonomous", "third")]
+    (result,) = contrasted(theories, which, measures_of(theories), places)
+    told = [row[:2] for row in result.tables[0].rows]
+    assert told[:3] == [
+        ("autonomous − driven", "accuracy"),
+        ("third − autonomous", "accuracy"),
+        ("autonomous − driven", "κ robot–tutor"),
+    ]
+    (figure,) = result.figures
+    assert figure.data["labels"] == ["autonomous − driven", "third − autonomous"]
+
+
+def test_of_many_pairs_of_theories_those_are_told_that_differ() -> None:
+    """Four are the same; the fifth knows all that is asked by the second tutor."""
+    second = {
+        name: [it for it in them if it.run.tutor == "corrects"]
+        for name, them in study(12).items()
+    }
+    theories = {
+        name: [replace(it, run=replace(it.run, theory=name)) for it in second[of]]
+        for name, of in {**dict.fromkeys("abcd", "driven"), "e": "autonomous"}.items()
+    }
+    talks = [it for them in theories.values() for it in them]
+    places = places_of(list(theories), talks, "")
+    which = list(combinations(theories, 2))
+    (result,) = contrasted(theories, which, measures_of(theories), places)
+    first, *others = result.text.splitlines()
+    assert first.startswith("Of 10 pairs of theories 4 differ in accuracy (p < 0.05 ")
+    assert [it.partition(" differs from that of ")[2][:2] for it in others] == [
+        f"{name} " for name in "abcd"
+    ]
+    short = in_short(theories, measures_of(theories), [result], places)
+    assert short.text == first
+
+
+def of_three() -> Theories:
+    base = study()
+    copied = [replace(it, run=replace(it.run, theory="third")) for it in base["driven"]]
+    return {**base, "third": copied}
+
+
+def test_what_is_told_in_short(theories: Theories) -> None:
+    talks = [it for them in theories.values() for it in them]
+    places = places_of(list(theories), talks, "talks")
+    found = [Result("How they differ", text="One line.\nAnd another.")]
+    short = in_short(theories, measures_of(theories), found, places)
+    assert short.text == found[0].text
+    (table,) = short.tables
+    assert table.columns == (
+        "theory",
+        "dialogues",
+        "accuracy",
+        "accuracy in test 2",
+        "κ robot–tutor",
+        "words",
+    )
+    assert row(table, "autonomous")[:3] == (12, 0.625, 0.625)
+    assert table.links[1, 2] == places.theory("autonomous")
+    assert [it.title for it in short.figures] == [
+        "Accuracy in test 2, by tutor",
+        "Accuracy, phase by phase",
+    ]
+    assert short.figures[0].data["series"]["autonomous"]["values"] == [0.25, 1.0]
+
+
+def test_in_short_things_are_told_where_no_words_were_asked_for() -> None:
+    theories = {"bold": [asked("bold", ["point"] * 2, "reference")]}
+    places = places_of(["bold"], theories["bold"], "")
+    (table,) = in_short(theories, measures_of(theories), [], places).tables
+    assert row(table, "bold") == (1, 1.0)
+    assert table.columns[2] == "reference"
+
+
+def test_in_short_it_is_said_that_nothing_was_asked() -> None:
+    theories = {"bold": [asked("bold", [])]}
+    places = places_of(["bold"], theories["bold"], "")
+    short = in_short(theories, measures_of(theories), [], places)
+    assert short.text.startswith("Nothing was asked to which the tutor knew an answer")
+    assert not short.figures
+
+
+def test_thirty_words_of_six_theories_are_figures_that_fit_on_a_page() -> None:
+    words = [f"word {n:02}" for n in range(30)]
+    answers = [
+        Answer(n, "test", "noun", word, word, "assert") for n, word in enumerate(words)
+    ]
+    names = [f"a theory with a rather long name, number {n}" for n in range(6)]
+    theories = {
+        name: [scored(Run(name, "A", "t", 1), Played((), tuple(answers)), 0.1)]
+        for name in names
+    }
+    figures = list(curves.words(theories))
+    assert [it for one in figures for it in one.data["labels"]] == words
+    assert figures[0].title == "Word by word (1 of 5)"
+    for figure in figures:
+        assert drawing(figure).get_size_inches()[1] <= 9.5
+        assert len(figure.data["series"]) == 6
+        assert max(map(len, figure.data["series"])) <= 28

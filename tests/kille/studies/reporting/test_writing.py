@@ -63,7 +63,13 @@ def subject(*theories: str, seeds: int = 6, **more: object) -> Subject:
     }
     about = {"command": "kille experiment run <me>.toml", "seeds": f"1 to {seeds}"}
     return Subject(
-        "Who's <i>sure</i>?", found, described, every_two(found), about, **more
+        "Who's <i>sure</i>?",
+        found,
+        described,
+        every_two(found),
+        [["teach"], ["test"]],
+        about,
+        **more,
     )  # type: ignore[arg-type]
 
 
@@ -110,6 +116,7 @@ def reported() -> Subject:
         broken=[(f"{SURE}/Ann/{n}", "KeyError: <cup>") for n in range(7)],
         files=["runs.csv"],
         lead="Why?\n\nSo.",
+        numbers="12 dialogues of <two> theories",
         source="title = '<x>'",
     )
 
@@ -147,7 +154,9 @@ def test_the_page_says_what_there_is_to_say(written: Path) -> None:
     text = (written / "report.html").read_text("utf-8")
     for told in (
         "<p>So.</p>",
-        "2 more dialogues broke.",
+        "7 dialogues broke: KeyError: &lt;cup&gt;: sure/Ann/0, sure/Ann/1, ",
+        "sure/Ann/4 and 2 more",
+        "12 dialogues of &lt;two&gt; theories",
         "κ tutor–judge",
         "p (Holm)",
         "How many dialogues it takes",
@@ -158,6 +167,37 @@ def test_the_page_says_what_there_is_to_say(written: Path) -> None:
         "kille experiment run &lt;me&gt;.toml",
     ):
         assert told in text, told
+
+
+def test_what_was_found_comes_first(written: Path) -> None:
+    text = (written / "report.html").read_text("utf-8")
+    told = (
+        "The accuracy of &lt;b&gt;odd&lt;/b&gt; &amp; shy differs from that of sure by"
+    )
+    assert text.index(told) < text.index('id="part-2">The theories')
+    titles = re.findall(r'<h2 id="part-\d+">([^<]+)', text)
+    assert titles[:4] == ["In short", "The theories", "What they do", "How they differ"]
+    assert re.findall(r'<a href="#part-\d+">([^<]+)', text) == titles
+
+
+def test_warnings_are_told_once_on_a_page_and_with_what_was_found(
+    tmp_path: Path, undrawn: None
+) -> None:
+    results = write(subject(warnings=["Too <few> turns."]), tmp_path / "report.html")
+    assert results[0].text == "Too <few> turns."
+    text = (tmp_path / "report.html").read_text("utf-8")
+    assert text.count("Too &lt;few&gt; turns.") == 1
+    assert text.index("Too &lt;few&gt; turns.") < text.index("In short</h2>")
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_many_reasons_for_which_dialogues_broke_are_counted(tmp_path: Path) -> None:
+    broken = [(f"a/b/c/{n}", f"E{n}") for n in range(1, 8)]
+    write(subject(broken=[*broken, ("a/b/c/9", "E7")]), tmp_path / "report.html")
+    text = (tmp_path / "report.html").read_text("utf-8")
+    assert "1 dialogue broke: E5: a/b/c/5<" in text
+    assert "broke: E6" not in text
+    assert "3 dialogues more broke, for other reasons." in text
 
 
 def test_every_number_of_a_theory_leads_to_its_dialogues(written: Path) -> None:
@@ -173,7 +213,7 @@ def test_every_number_of_a_theory_leads_to_its_dialogues(written: Path) -> None:
 def test_figures_lie_beside_the_page_for_a_paper(written: Path) -> None:
     files = sorted((written / "report-figures").iterdir())
     assert all(it.read_bytes().startswith(b"%PDF") for it in files)
-    assert "2-1-learning-curve.pdf" in {it.name for it in files}
+    assert {"1-1-accuracy.pdf", "3-1-learning-curve.pdf"} <= {it.name for it in files}
 
 
 def test_the_same_dialogues_are_the_same_report(written: Path, tmp_path: Path) -> None:
@@ -203,12 +243,14 @@ def test_one_theory_is_compared_with_none(tmp_path: Path) -> None:
     write(subject(SURE), tmp_path / "report.html")
     text = (tmp_path / "report.html").read_text("utf-8")
     assert "How they differ" not in text
-    assert "The same in all" not in text
+    assert "the same in all" not in text
 
 
 def test_without_dialogues_there_is_a_page_all_the_same(tmp_path: Path) -> None:
     write(subject(seeds=0, broken=[("a/b/c/1", "no")]), tmp_path / "report.html")
-    assert "a/b/c/1 broke: no" in (tmp_path / "report.html").read_text("utf-8")
+    text = (tmp_path / "report.html").read_text("utf-8")
+    assert "1 dialogue broke: no: a/b/c/1" in text
+    assert "No dialogue was played to its end." in text
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -1,0 +1,34 @@
+"""What is talked about in a study, as far as its file says."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from kille.studies.reading.words import SPEAKING
+from kille.studies.scenes.occasions import KINDS
+from kille.studies.study import Phase, Study
+
+__all__ = ["TEACHING", "is_plain", "kind_of", "kinds_in"]
+
+TEACHING = ("teach", "practise", "talk")
+"""The phases in which words are taught."""
+
+
+def is_plain(study: Study) -> bool:
+    """Whether all tutors do what the phases say, and nothing else."""
+    plain = (*SPEAKING, "several")
+    return all(tutor.kind in plain for tutor in study.tutors.values())
+
+
+def kind_of(phase: Phase) -> str:
+    """The kind of words that a phase is about."""
+    return KINDS[phase.settings.get("what", "nouns")]
+
+
+def kinds_in(study: Study) -> Collection[str]:
+    """The kinds of words that are talked about; where the robot has the floor, all."""
+    if any(phase.do == "talk" for phase in study.phases):
+        return KINDS.values()
+    about = [it for it in study.phases if it.do in ("ask", *TEACHING)]
+    found = {kind_of(phase) for phase in about}
+    return found | {"noun"} if any(it.do == "find" for it in study.phases) else found
