@@ -1,4 +1,4 @@
-"""Draws what the studies of `examples/studies` show, from their results.
+"""Draws what the studies of `examples/studies` show, with the numbers of their reports.
 
 kille experiment run examples/studies/NAME.toml --out FOLDER/NAME     # each of them
 python docs/pictures/studies.py FOLDER
@@ -7,16 +7,18 @@ python docs/pictures/studies.py FOLDER
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable
+from itertools import chain
 from pathlib import Path
 
-import numpy as np
-
 from kille.experiments.figures import drawing
-from kille.experiments.metrics import bootstrap, kappa
 from kille.experiments.results import Figure
 from kille.studies import log
-from kille.studies.played import Answer, Played
+from kille.studies.measuring import Dialogue, kappas, scored, vocabulary
+from kille.studies.measuring.measures import ACCURACY
+from kille.studies.reporting.asked import in_phase
+from kille.studies.reporting.findings import Theories, estimated, grouped
+from kille.studies.reporting.rows import as_drawn
 
 HERE = Path(__file__).parent
 
@@ -37,7 +39,8 @@ CAUSES = {
 }
 """What may have gone wrong: the tutor and the scene."""
 
-Band = tuple[float, float, float]
+LESSONS = {"one lesson": 1, "three lessons": 3, "six lessons": 6}
+"""How many there are of each kind, by scene."""
 
 
 def main() -> None:
@@ -49,103 +52,60 @@ def main() -> None:
         "what_is_a_cup": what_is_a_cup,
     }
     for name, figure in drawn.items():
-        dialogues = list(log.read(folder / name))
-        picture = drawing(figure(dialogues))
+        dialogues = [scored(*it) for it in log.read(folder / name)]
+        names = list(log.study(folder / name).theories)
+        picture = drawing(figure(grouped(names, dialogues)))
         picture.savefig(HERE / f"{name}.png", dpi=110, facecolor="white")
 
 
-def why_was_kappa_low(dialogues: Sequence[log.Finished]) -> Figure:
+def why_was_kappa_low(theories: Theories) -> Figure:
     """Kappa of robot and tutor under each cause."""
-
-    def of(theory: str, cause: tuple[str, str]) -> Band:
-        return band(
-            kappa([it.right for it in asked], [it.said for it in asked])
-            for run, played, _ in dialogues
-            if run.theory == theory and (run.tutor, run.scene) == cause
-            for asked in [answers(played, "questions")]
-        )
-
+    kappa, *_ = kappas(vocabulary(chain.from_iterable(theories.values())))
     series = {
-        theory: columns([of(theory, cause) for cause in CAUSES.values()])
-        for theory in theories(dialogues)
+        name: as_drawn([estimated(kappa, of_cause(them, it)) for it in CAUSES.values()])
+        for name, them in theories.items()
     }
     data = {"labels": list(CAUSES), "series": series, "zero": 0.0}
     return Figure("intervals", "", {**data, "xlabel": "κ of robot and tutor"})
 
 
-def does_correction_pay(dialogues: Sequence[log.Finished]) -> Figure:
+def of_cause(dialogues: Iterable[Dialogue], cause: tuple[str, str]) -> list[Dialogue]:
+    """The dialogues with a tutor in front of a scene."""
+    return [it for it in dialogues if (it.run.tutor, it.run.scene) == cause]
+
+
+def does_correction_pay(theories: Theories) -> Figure:
     """What is right in the last test, by tutor."""
-    tutors = list(dict.fromkeys(run.tutor for run, _, _ in dialogues))
-    right = right_in("test 3")
-
-    def of(theory: str, tutor: str) -> Band:
-        return band(
-            right(played)
-            for run, played, _ in dialogues
-            if (run.theory, run.tutor) == (theory, tutor)
-        )
-
+    asked = in_phase(theories, ACCURACY, "test 3")
+    tutors = list(dict.fromkeys(it.run.tutor for them in asked.values() for it in them))
     series = {
-        theory: columns([of(theory, tutor) for tutor in tutors])
-        for theory in theories(dialogues)
+        name: as_drawn(
+            [
+                estimated(ACCURACY, [it for it in them if it.run.tutor == tutor])
+                for tutor in tutors
+            ]
+        )
+        for name, them in asked.items()
     }
     data = {"labels": tutors, "series": series}
     return Figure("intervals", "", {**data, "xlabel": "right in the last test"})
 
 
-def what_is_a_cup(dialogues: Sequence[log.Finished]) -> Figure:
+def what_is_a_cup(theories: Theories) -> Figure:
     """How many other pictures are named rightly, by the number of lessons."""
-    lessons = {"one lesson": 1, "three lessons": 3, "six lessons": 6}
-
-    def of(theory: str) -> Mapping[str, list[float]]:
-        right = right_in("others")
-        found = columns(
+    asked = in_phase(theories, ACCURACY, "others")
+    series = {
+        name: as_drawn(
             [
-                band(
-                    right(played)
-                    for run, played, _ in dialogues
-                    if (run.theory, run.scene) == (theory, scene)
-                )
-                for scene in lessons
-            ]
+                estimated(ACCURACY, [it for it in them if it.run.scene == scene])
+                for scene in LESSONS
+            ],
+            "mean",
         )
-        return {"mean": found["values"], "low": found["low"], "high": found["high"]}
-
-    series = {theory: of(theory) for theory in theories(dialogues)}
-    told = {"xlabel": "lessons of each kind", "ylabel": "other pictures named right"}
-    return Figure("curves", "", {"x": list(lessons.values()), "series": series, **told})
-
-
-# --- reckoning -----------------------------------------------------------------------
-
-
-def theories(dialogues: Sequence[log.Finished]) -> list[str]:
-    """The theories, in the study's order."""
-    return list(dict.fromkeys(run.theory for run, _, _ in dialogues))
-
-
-def answers(played: Played, phase: str) -> list[Answer]:
-    """The answers in a phase of a dialogue."""
-    return [it for it in played.answers if it.phase == phase]
-
-
-def right_in(phase: str) -> Callable[[Played], float]:
-    """The share of right answers in a phase of a dialogue."""
-    return lambda it: float(np.mean([a.is_right for a in answers(it, phase)]))
-
-
-def band(values: Iterable[float]) -> Band:
-    """The mean over dialogues, and its band of 95 %."""
-    found = list(values)
-    return float(np.mean(found)), *bootstrap(found, np.random.default_rng(0))
-
-
-def columns(bands: Sequence[Band]) -> dict[str, list[float]]:
-    """Means and bands as a figure has them."""
-    return {
-        name: [it[place] for it in bands]
-        for place, name in enumerate(("values", "low", "high"))
+        for name, them in asked.items()
     }
+    told = {"xlabel": "lessons of each kind", "ylabel": "other pictures named right"}
+    return Figure("curves", "", {"x": list(LESSONS.values()), "series": series, **told})
 
 
 if __name__ == "__main__":

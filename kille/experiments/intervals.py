@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kille.experiments.labels import labelled
 from kille.experiments.strokes import (
     FAINT,
     HUES,
@@ -26,15 +27,6 @@ __all__ = ["drawn_intervals", "drawn_points", "drawn_reliability"]
 
 _ROW, _SERIES = 0.2, 0.16  # inches
 _SQUARE = 4.8
-
-_POINTS: Any = {"textcoords": "offset points"}
-_BESIDE: Any = (
-    {"xytext": (4, 4), **_POINTS},
-    {"xytext": (4, -4), "va": "top", **_POINTS},
-    {"xytext": (-4, 4), "ha": "right", **_POINTS},
-    {"xytext": (-4, -4), "ha": "right", "va": "top", **_POINTS},
-)
-"""Where the labels of each series stand: not where those of the next do."""
 
 
 def drawn_intervals(data: Mapping[str, Any]) -> Drawing:
@@ -98,8 +90,8 @@ def drawn_points(data: Mapping[str, Any]) -> Drawing:
     """Points of each series, with bands both ways and labels where there are any."""
     drawn, axes = blank(WIDTH, 3.6)
     series = data["series"]
-    for number, ((name, it), hue, marker) in enumerate(
-        zip(series.items(), cycle(HUES), cycle(MARKERS), strict=False)
+    for (name, it), hue, marker in zip(
+        series.items(), cycle(HUES), cycle(MARKERS), strict=False
     ):
         axes.scatter(
             it["x"], it["y"], s=16, color=hue, marker=marker, alpha=0.75, label=name
@@ -107,10 +99,9 @@ def drawn_points(data: Mapping[str, Any]) -> Drawing:
         if "x_low" in it:
             axes.hlines(it["y"], it["x_low"], it["x_high"], color=hue, lw=1.2)
             axes.vlines(it["x"], it["y_low"], it["y_high"], color=hue, lw=1.2)
-        for x, y, label in zip(it["x"], it["y"], it.get("labels", ()), strict=False):
-            axes.annotate(label, (x, y), fontsize=8, **_BESIDE[number % len(_BESIDE)])
     named(axes, data)
     axes.margins(0.12, 0.08)
     axes.grid(color=FAINT, alpha=0.25, lw=0.6)
     legend(axes)
+    labelled(drawn, axes, series.values())
     return drawn

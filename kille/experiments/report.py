@@ -224,11 +224,12 @@ def _estimated(it: Estimate) -> str:
 def _figure(figure: Figure, number: int, file: str) -> str:
     broad = ' class="broad"' if figure.kind in _BROAD else ""
     body = _pictures(figure) if figure.kind == "pictures" else _drawn(figure, number)
+    note = escape(figure.note)
     if file and figure.kind != "pictures":
-        body += f'<p class="note"><a href="{escape(file, quote=True)}">PDF</a></p>'
-    note = f'<p class="note">{escape(figure.note)}</p>' if figure.note else ""
+        note += f' <a href="{escape(file, quote=True)}">PDF</a>'
+    told = f'<p class="note">{note.strip()}</p>' if note else ""
     head = f"<figcaption>{escape(figure.title)}</figcaption>"
-    return f"<figure{broad}>{head}{body}{note}</figure>"
+    return f"<figure{broad}>{head}{body}{told}</figure>"
 
 
 def _drawn(figure: Figure, number: int) -> str:

@@ -27,7 +27,7 @@ __all__ = [
 ]
 
 HUES = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00")
-MARKERS = ("o", "s", "^", "D", "v", "P")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 RIGHT, WRONG = HUES[0], HUES[5]
 
 INK = "#0a0b0c"

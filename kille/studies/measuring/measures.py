@@ -207,7 +207,8 @@ WORDS = Measure(
 )
 CORRECTIONS = Measure(
     "corrections",
-    "how often the tutor set the robot right in a dialogue",
+    "how often the tutor said in a dialogue that the robot was wrong, or what is right "
+    "instead",
     _per_dialogue(lambda it: sum(one.corrections for one in it.efforts)),
     ratio,
     better=-1,

@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
-from kille.experiments.results import Cell, Figure, Result, Table
+from kille.experiments.results import Cell, Estimate, Figure, Result, Table
+from kille.experiments.strokes import HUES
 from kille.studies.measuring.measures import Measure
 from kille.studies.measuring.scored import Dialogue
+from kille.studies.reporting.asked import in_phase, main_of, phases_of
 from kille.studies.reporting.controls import against_the_first
-from kille.studies.reporting.findings import Theories, as_drawn, estimated
+from kille.studies.reporting.findings import Theories, estimated
+from kille.studies.reporting.names import short
 from kille.studies.reporting.places import Places
+from kille.studies.reporting.rows import in_rows
 
-__all__ = ["by_conditions"]
+__all__ = ["by_conditions", "in_last_phase"]
 
+_ROBOT, _PEOPLE = "κ robot–tutor", "κ tutor–judge"
 _TOLD = (
     "accuracy",
-    "κ robot–tutor",
+    _ROBOT,
     "κ robot–judge",
-    "κ tutor–judge",
+    _PEOPLE,
     "accepted",
     "reference",
     "words",
@@ -26,46 +31,77 @@ _TOLD = (
     "questions",
     "lessons",
 )
-_CHIEF = ("κ robot–tutor", "κ tutor–judge")
-"""What is told of each tutor in front of each scene, and drawn."""
-_DRAWN = 30
+_CHIEF = ("accuracy", _ROBOT, "accepted", "reference")
+"""What is told of each tutor in front of each scene."""
+_DRAWN = 40
 """At most so many conditions are drawn."""
+_ROWS = 48
+"""Of more phases and conditions, the last phase alone is told."""
 
 _Key: TypeAlias = tuple[str, ...]
 _Parts: TypeAlias = dict[str, dict[_Key, list[Dialogue]]]
+_Heads: TypeAlias = Mapping[str, Callable[[Dialogue], str]]
+
+_TUTOR: _Heads = {"tutor": lambda it: it.run.tutor}
+_SCENE: _Heads = {"scene": lambda it: it.run.scene}
 
 
 def by_conditions(
     theories: Theories, measures: Sequence[Measure], places: Places
 ) -> Iterator[Result]:
-    """What is told of each tutor and each scene, where there are several."""
+    """What is told of each tutor and each scene, where there are several.
+
+    Of one theory it is said in words how much they matter.
+    """
+    heads = _varied(places)
+    if not heads:
+        return
     told = [it for it in measures if it.name in _TOLD]
-    chief = [it for it in measures if it.name in _CHIEF]
-    tutors = _parts(theories, lambda it: (it.run.tutor,))
-    scenes = _parts(theories, lambda it: (it.run.scene,))
-    both = _parts(theories, lambda it: (it.run.tutor, it.run.scene))
-    tables: list[Table] = []
+    tables = [*_by_phase(theories, measures, heads, places)]
     figures: list[Figure] = []
-    if len(places.tutors) > 1:
-        tables.append(_table("By tutor", ("tutor",), tutors, told, places))
-        figures += _figures("by tutor", tutors, chief)
-    if len(places.scenes) > 1:
-        tables.append(_table("By scene", ("scene",), scenes, told, places))
-        figures += _figures("by scene", scenes, chief)
-    if len(tables) > 1:
-        heads = ("tutor", "scene")
-        tables.append(_table("By tutor and scene", heads, both, chief, places))
-        figures += _figures("by tutor and scene", both, chief[:1])
-    tables += against_the_first(theories, measures, places)
-    if tables:
-        yield Result("Tutors and scenes", tuple(tables), tuple(figures))
+    for head in heads:
+        parts = _parts(theories, head)
+        tables.append(_table(_by(head), head, parts, told, places))
+        figures += _agreement(_by(head), parts, measures)
+    against = list(against_the_first(theories, measures, places))
+    tables += [it.table for it in against]
+    text = "\n".join(it.text for it in against if it.text)
+    yield Result(
+        "Tutors and scenes",
+        tuple(tables),
+        tuple(figures),
+        text=text if len(theories) == 1 else "",
+    )
+    if len(heads) > 1:
+        yield _crossed(theories, measures, places)
 
 
-def _parts(theories: Theories, key: Callable[[Dialogue], _Key]) -> _Parts:
+def _crossed(theories: Theories, measures: Sequence[Measure], places: Places) -> Result:
+    """What is told of each tutor in front of each scene."""
+    heads = {**_TUTOR, **_SCENE}
+    parts = _parts(theories, heads)
+    chief = [it for it in measures if it.name in _CHIEF]
+    table = _table(_by(heads), heads, parts, chief, places)
+    figures = tuple(_agreement(_by(heads), parts, measures))
+    return Result("Each tutor in front of each scene", (table,), figures)
+
+
+def _varied(places: Places) -> list[_Heads]:
+    """Tutors if there are several, and scenes."""
+    of = ((_TUTOR, places.tutors), (_SCENE, places.scenes))
+    return [heads for heads, names in of if len(names) > 1]
+
+
+def _by(heads: _Heads) -> str:
+    return f"by {' and '.join(heads)}"
+
+
+def _parts(theories: Theories, heads: _Heads) -> _Parts:
     parts: _Parts = {name: {} for name in theories}
     for name, them in theories.items():
         for it in them:
-            parts[name].setdefault(key(it), []).append(it)
+            key = tuple(of(it) for of in heads.values())
+            parts[name].setdefault(key, []).append(it)
     return parts
 
 
@@ -73,8 +109,11 @@ def _keys(parts: _Parts) -> list[_Key]:
     return list(dict.fromkeys(key for of in parts.values() for key in of))
 
 
+# --- tables --------------------------------------------------------------------------
+
+
 def _table(
-    title: str, heads: _Key, parts: _Parts, measures: Sequence[Measure], places: Places
+    by: str, heads: _Heads, parts: _Parts, measures: Sequence[Measure], places: Places
 ) -> Table:
     """Measure by measure; what is the same everywhere is left out."""
     rows: list[tuple[Cell, ...]] = []
@@ -91,25 +130,98 @@ def _table(
             for column, name in enumerate(parts, start=1 + len(key)):
                 links[len(rows), column] = _place(places, name, heads, key)
             rows.append((measure.name, *key, *estimates))
-    return Table(title, ("measure", *heads, *parts), tuple(rows), "", links)
+    columns = ("measure", *heads, *parts)
+    return Table(by.capitalize(), columns, tuple(rows), "", links)
 
 
-def _place(places: Places, theory: str, heads: _Key, key: _Key) -> str:
-    to = places.scene if heads[-1] == "scene" else places.tutor
-    return to(theory, key[-1])
+def _place(places: Places, theory: str, heads: _Heads, key: _Key) -> str:
+    named = dict(zip(heads, key, strict=True))
+    if "scene" in named:
+        return places.scene(theory, named["scene"])
+    return places.tutor(theory, named["tutor"])
 
 
-def _figures(by: str, parts: _Parts, measures: Sequence[Measure]) -> Iterator[Figure]:
+def _by_phase(
+    theories: Theories,
+    measures: Sequence[Measure],
+    varied: Sequence[_Heads],
+    places: Places,
+) -> Iterator[Table]:
+    """How much is right in each phase, where something is asked in several."""
+    main = main_of(measures)
+    if main is None:
+        return
+    phases = phases_of(theories, main)
+    if len(phases) < 2:
+        return
+    heads = {name: of for it in varied for name, of in it.items()}
+    keys = _keys(_parts(theories, heads))
+    if len(phases) * len(keys) > _ROWS:
+        phases = phases[-1:]
+    rows: list[tuple[Cell, ...]] = []
+    links = {}
+    for phase in phases:
+        parts = _parts(in_phase(theories, main, phase), heads)
+        for key in keys:
+            for column, name in enumerate(parts, start=1 + len(key)):
+                links[len(rows), column] = _place(places, name, heads, key)
+            told = (estimated(main, of.get(key, ())) for of in parts.values())
+            rows.append((phase, *key, *told))
+    title = f"{main.name}, phase by phase".capitalize()
+    yield Table(title, ("phase", *heads, *theories), tuple(rows), "", links)
+
+
+# --- figures -------------------------------------------------------------------------
+
+
+def in_last_phase(
+    theories: Theories, main: Measure, places: Places
+) -> Iterator[Figure]:
+    """How much is right in the last phase in which something is asked.
+
+    Tutor by tutor and scene by scene, where there are several.
+    """
+    phases = phases_of(theories, main)
+    last = in_phase(theories, main, phases[-1])
+    where = f" in {phases[-1]}" if len(phases) > 1 else ""
+    for heads in _varied(places):
+        title = f"{main.name}{where}, {_by(heads)}".capitalize()
+        yield from _drawn(title, _estimates(_parts(last, heads), main), main.name)
+
+
+_Estimates: TypeAlias = Mapping[str, Mapping[_Key, Estimate]]
+
+
+def _estimates(parts: _Parts, measure: Measure) -> _Estimates:
     keys = _keys(parts)
-    for measure in measures if 1 < len(keys) <= _DRAWN else ():
-        series = {}
-        for name, of in parts.items():
-            found = [estimated(measure, of.get(key, ())) for key in keys]
-            series[name] = as_drawn(found)
-        data = {
-            "labels": [", ".join(key) for key in keys],
-            "series": series,
-            "xlabel": measure.name,
-        }
-        title = f"{measure.name} {by}"
-        yield Figure("intervals", title, data, "Bands of 95 %.")
+    return {
+        name: {key: estimated(measure, of.get(key, ())) for key in keys}
+        for name, of in parts.items()
+    }
+
+
+def _drawn(title: str, found: _Estimates, xlabel: str) -> Iterator[Figure]:
+    keys = list(dict.fromkeys(key for of in found.values() for key in of))
+    if not 1 < len(keys) <= _DRAWN:
+        return
+    called = short(part for key in keys for part in key)
+    labels = [", ".join(called[part] for part in key) for key in keys]
+    series = {name: [of[key] for key in keys] for name, of in found.items()}
+    yield from in_rows(title, labels, series, {"xlabel": xlabel})
+
+
+def _agreement(by: str, parts: _Parts, measures: Sequence[Measure]) -> Iterator[Figure]:
+    """Kappa of the robots and the tutors; beside it that of the tutors and a judge.
+
+    These two are the same people whatever the theory, and set a ceiling to it; it is
+    drawn while there is a hue for it.
+    """
+    named = {it.name: it for it in measures}
+    if _ROBOT not in named:
+        return
+    found = dict(_estimates(parts, named[_ROBOT]))
+    if _PEOPLE in named and len(found) < len(HUES):
+        people = list(_estimates(parts, named[_PEOPLE]).values())
+        if all(repr(it) == repr(people[0]) for it in people):
+            found["tutor and judge: the ceiling"] = people[0]
+    yield from _drawn(f"{_ROBOT} {by}", found, "κ")

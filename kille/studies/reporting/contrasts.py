@@ -7,17 +7,30 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from kille.experiments.report import shown
-from kille.experiments.results import Cell, Figure, Result, Table
+from kille.experiments.results import Cell, Estimate, Figure, Result, Table
 from kille.studies.measuring.comparing import Contrast, Difference, contrasts, holm
 from kille.studies.measuring.measures import ACCURACY, Measure
 from kille.studies.measuring.power import POWER, least_difference, power_of, runs_needed
-from kille.studies.reporting.findings import Theories, as_drawn
+from kille.studies.reporting.findings import Theories
+from kille.studies.reporting.names import short
 from kille.studies.reporting.places import Places
+from kille.studies.reporting.rows import in_rows
 
-__all__ = ["contrast_names", "contrasted", "corrected", "told_p"]
+__all__ = [
+    "CORRECTED",
+    "contrast_names",
+    "contrasted",
+    "corrected",
+    "told_by",
+    "told_p",
+]
 
 _SEED = 2  # of the chance by which pairs are drawn anew and exchanged
 _MAIN = ACCURACY.name
+_CHANCE = 0.05
+_FEW = 3
+"""Of more pairs of theories only those are told that differ."""
+CORRECTED = "Each p is after Holm's correction."
 _LEAST = 0.001
 _SOUGHT = (0.05, 0.02)
 """Differences for which it is told how many dialogues they take."""
@@ -54,19 +67,32 @@ def contrasted(
     if not found:
         return []
     asked = found if ACCURACY in measures else []
-    tables = (_differences(found, places), _answers(asked, places), _powers(found))
+    tables = (
+        _differences(found, tested, places),
+        _answers(asked, places),
+        _powers(found),
+    )
     told = tuple(it for it in tables if it.rows)
     return [Result("How they differ", told, _figures(found), text=_in_words(asked))]
 
 
 def _in_words(found: Sequence[Contrast]) -> str:
-    """What became of the main measure, a sentence for each two theories."""
+    """What became of the main measure, a line for each two theories.
+
+    Of many, how many differ, and those that do.
+    """
     mains = [it.differences.get(_MAIN) for it in found]
     ps = holm([float("nan") if it is None else it.p for it in mains])
-    told = [_sentence(it, p) for it, p in zip(found, ps, strict=True)]
-    if np.isfinite(ps).sum() > 1:
-        told.append("Each p is after Holm's correction.")
-    return " ".join(told)
+    if len(found) <= _FEW:
+        told = [_sentence(it, p) for it, p in zip(found, ps, strict=True)]
+        several = np.isfinite(ps).sum() > 1
+        return "\n".join([*told, CORRECTED] if several else told)
+    seen = [_sentence(it, p) for it, p in zip(found, ps, strict=True) if p < _CHANCE]
+    first = (
+        f"Of {len(found)} pairs of theories {len(seen)} differ in {_MAIN} "
+        f"(p < {_CHANCE} after Holm's correction)."
+    )
+    return "\n".join([first, *seen])
 
 
 def _sentence(it: Contrast, p: float) -> str:
@@ -77,8 +103,13 @@ def _sentence(it: Contrast, p: float) -> str:
         return f"{it.other} and {it.one} have the same {_MAIN} in every pair."
     if not main.pairs:
         return f"{it.other} and {it.one} were never both asked for words."
-    told = f"{shown(main.estimate)} (p = {told_p(p)})".replace("= <", "<")
+    told = told_by(main, p)
     return f"The {_MAIN} of {it.other} differs from that of {it.one} by {told}."
+
+
+def told_by(difference: Difference, p: float) -> str:
+    """A difference, with its band and how likely it is by chance, in a sentence."""
+    return f"{shown(difference.estimate)} (p = {told_p(p)})".replace("= <", "<")
 
 
 def contrast_names(contrast: Contrast) -> str:
@@ -97,8 +128,16 @@ def told_p(p: float) -> str:
     return f"{p:.3f}" if p >= _LEAST else f"< {_LEAST}"
 
 
-def _differences(found: Sequence[Contrast], places: Places) -> Table:
-    told = [(it, name, d) for it in found for name, d in it.differences.items()]
+def _differences(
+    found: Sequence[Contrast], measures: Sequence[Measure], places: Places
+) -> Table:
+    """Measure by measure, as they are corrected for how many they are."""
+    told = [
+        (it, measure.name, it.differences[measure.name])
+        for measure in measures
+        for it in found
+        if measure.name in it.differences
+    ]
     ps = corrected([(name, d.p) for _, name, d in told])
     rows = tuple(
         (contrast_names(it), name, d.estimate, told_p(d.p), told_p(p), d.pairs)
@@ -180,20 +219,27 @@ def _power(d: Difference) -> tuple[Cell, ...]:
 
 _SHARES = ("accuracy", "κ robot–tutor", "accepted", "reference", "margin")
 """Measures on one scale, whose differences are drawn together."""
+_LINE = 24
+"""Letters of two names for which there is room in a line beside a figure."""
 
 
 def _figures(found: Sequence[Contrast]) -> tuple[Figure, ...]:
-    drawn = [it for it in _SHARES if all(it in one.differences for one in found)]
+    shares = [it for it in _SHARES if any(it in one.differences for one in found)]
+    pairs = [it for it in found if any(name in it.differences for name in shares)]
     series = {
-        name: as_drawn([it.differences[name].estimate for it in found])
-        for name in drawn
+        name: [_estimate(it.differences.get(name)) for it in pairs] for name in shares
     }
-    if not series:
-        return ()
-    data = {
-        "labels": [contrast_names(it) for it in found],
-        "series": series,
-        "xlabel": "difference",
-        "zero": 0.0,
-    }
-    return (Figure("intervals", "Differences", data, "With bands of 95 %."),)
+    called = short(name for it in pairs for name in (it.one, it.other))
+    labels = [_on_two_lines(called[it.other], called[it.one]) for it in pairs]
+    told = {"xlabel": "difference", "zero": 0.0}
+    return tuple(in_rows("Differences", labels, series, told))
+
+
+def _estimate(difference: Difference | None) -> Estimate:
+    nothing = Estimate(float("nan"), float("nan"), float("nan"))
+    return nothing if difference is None else difference.estimate
+
+
+def _on_two_lines(other: str, one: str) -> str:
+    """A pair of names, the second below the first if they are long."""
+    return f"{other} −{' ' if len(other + one) <= _LINE else chr(10)}{one}"

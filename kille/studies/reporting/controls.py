@@ -12,15 +12,16 @@ from kille.experiments.results import Cell, Table
 from kille.studies.measuring.comparing import Difference, differences, in_pairs
 from kille.studies.measuring.measures import Measure
 from kille.studies.measuring.scored import Dialogue
-from kille.studies.reporting.contrasts import corrected, told_p
+from kille.studies.reporting.contrasts import CORRECTED, corrected, told_by, told_p
 from kille.studies.reporting.findings import Theories
 from kille.studies.reporting.places import Places
 from kille.studies.study import Run
 
-__all__ = ["against_the_first"]
+__all__ = ["Against", "against_the_first"]
 
 _SEED = 3  # of the chance by which pairs are drawn anew and exchanged
-_TESTED = ("accuracy", "κ robot–tutor", "words")
+_MAIN = "accuracy"
+_TESTED = (_MAIN, "κ robot–tutor", "words")
 _NOTE = (
     "Each less the first, theory by theory, over dialogues that are alike in all else. "
     "Other tutors and scenes have other luck, so that these differences spread more "
@@ -28,24 +29,32 @@ _NOTE = (
 )
 
 
+class Against(NamedTuple):
+    """A table of differences, and what became of the main measure, line by line."""
+
+    table: Table
+    text: str
+
+
 class _Told(NamedTuple):
     """A difference, of what, and where it leads to."""
 
     theory: str
     measure: str
-    names: str
+    first: str
+    other: str
     difference: Difference
     place: str
 
     @property
     def named(self) -> tuple[str, str, str]:
         """What it is a difference of."""
-        return self.theory, self.measure, self.names
+        return self.theory, self.measure, f"{self.other} − {self.first}"
 
 
 def against_the_first(
     theories: Theories, measures: Sequence[Measure], places: Places
-) -> Iterator[Table]:
+) -> Iterator[Against]:
     """The tutors against the first tutor, and the scenes against the first scene."""
     tested = [it for it in measures if it.name in _TESTED]
     yield from _against("tutor", list(places.tutors), theories, tested, places)
@@ -58,7 +67,7 @@ def _against(
     theories: Theories,
     measures: Sequence[Measure],
     places: Places,
-) -> Iterator[Table]:
+) -> Iterator[Against]:
     first, *others = names
     told = [
         one
@@ -75,7 +84,20 @@ def _against(
     )
     columns = ("theory", "measure", what, "difference", "p", "p (Holm)", "pairs")
     links = {(row, 3): it.place for row, it in enumerate(told)}
-    yield Table(f"Against the {what} {first}", columns, rows, _NOTE, links)
+    table = Table(f"Against the {what} {first}", columns, rows, _NOTE, links)
+    mains = [pair for pair in zip(told, ps, strict=True) if pair[0].measure == _MAIN]
+    lines = [_sentence(what, first, it, p) for it, p in mains]
+    if len(lines) > 1:
+        lines.append(CORRECTED)
+    yield Against(table, "\n".join(lines))
+
+
+def _sentence(what: str, first: str, it: _Told, p: float) -> str:
+    told = told_by(it.difference, p)
+    return (
+        f"The {_MAIN} of {it.theory} with the {what} {it.other} differs from that "
+        f"with {first} by {told}."
+    )
 
 
 def _tested(difference: Difference, p: float) -> tuple[Cell, ...]:
@@ -98,8 +120,7 @@ def _one(
     place = places.tutor if what == "tutor" else places.scene
     found = differences(measures, pairs, np.random.default_rng(_SEED))
     for measure, difference in found.items():
-        told = f"{names[1]} − {names[0]}"
-        yield _Told(theory, measure, told, difference, place(theory, names[1]))
+        yield _Told(theory, measure, *names, difference, place(theory, names[1]))
 
 
 def _without(what: str, dialogues: Sequence[Dialogue], name: str) -> list[Dialogue]:

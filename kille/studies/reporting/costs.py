@@ -2,40 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from kille.experiments.results import Figure
 from kille.studies.measuring.measures import ACCURACY, Measure, Vector, ratio
 from kille.studies.measuring.scored import Dialogue, parted
-from kille.studies.reporting.findings import Theories, as_drawn, estimated
+from kille.studies.reporting.asked import Tests, called, phases_of
+from kille.studies.reporting.findings import Theories, estimated
+from kille.studies.reporting.names import short
+from kille.studies.reporting.rows import BANDS, as_drawn
 
 __all__ = ["costs", "said_before"]
 
 
-def costs(theories: Theories) -> Iterator[Figure]:
-    """The accuracy of each phase against what was said before it; then by tutor.
+def costs(theories: Theories, tests: Tests) -> Iterator[Figure]:
+    """The accuracy in each test against what was said before it; then by tutor.
 
-    Nothing of what is drawn as single points in one place.
+    Nothing of a test that is not repeated, nor of tutors who all say as much.
     """
-    phases = _asked(theories)
-    if len(phases) > 1:
-        yield _by_phase(theories, phases)
+    phases = phases_of(theories, ACCURACY)
+    for test in tests:
+        asked = [phase for phase in test if phase in phases]
+        if len(asked) > 1:
+            yield _by_phase(theories, asked)
     for phase in phases[-1:]:
         series = {name: _by_tutor(them, phase) for name, them in theories.items()}
-        if len({x for it in series.values() for x in it["x"]}) > 1:
-            if sum(len(it["x"]) for it in series.values()) > _LABELLED:
-                series = {name: it | {"labels": []} for name, it in series.items()}
-            title = f"Accuracy in {phase} against what it cost, by tutor"
-            yield Figure("points", title, {"series": series, **_LABELS}, _NOTE)
+        if _differ(series):
+            yield _by_tutors(series, phase)
 
+
+_Series: TypeAlias = Mapping[str, Mapping[str, Sequence[Any]]]
 
 _LABELS = {"xlabel": "words of the tutor until then", "ylabel": "accuracy"}
 _LABELLED = 16
 """At most so many points are called by the tutor."""
-_NOTE = "In a dialogue. Bands of 95 %."
+_NOTE = f"Words are those of one dialogue. {BANDS}"
 
 
 def said_before(phase: str) -> Measure:
@@ -52,14 +56,25 @@ def said_before(phase: str) -> Measure:
     return Measure("words", f"words of the tutor before {phase}", tally, ratio, -1, 1)
 
 
-def _asked(theories: Theories) -> list[str]:
-    """The phases in which words were asked for, in their order."""
-    found: dict[str, None] = {}
-    for them in theories.values():
-        for dialogue in them:
-            asked = {it.phase for it in dialogue.answers if it.is_word}
-            found |= {it.phase: None for it in dialogue.efforts if it.phase in asked}
-    return list(found)
+def _differ(series: _Series) -> bool:
+    """Whether some two points lie beside each other, and not by chance alone."""
+    points = [
+        (x, low if low == low else x, high if high == high else x)
+        for it in series.values()
+        for x, low, high in zip(it["x"], it["x_low"], it["x_high"], strict=True)
+    ]
+    least = min((high for _, _, high in points), default=0)
+    return any(low > least for _, low, _ in points)
+
+
+def _by_tutors(series: _Series, phase: str) -> Figure:
+    """The points by the tutor, called so where there are several, and not too many."""
+    tutors = {label for it in series.values() for label in it["labels"]}
+    title = f"Accuracy in {phase} against what it cost"
+    title += ", by tutor" if len(tutors) > 1 else ""
+    if len(tutors) < 2 or sum(len(it["x"]) for it in series.values()) > _LABELLED:
+        series = {name: {**it, "labels": []} for name, it in series.items()}
+    return Figure("points", title, {"series": series, **_LABELS}, _NOTE)
 
 
 def _by_phase(theories: Theories, phases: Sequence[str]) -> Figure:
@@ -72,9 +87,8 @@ def _by_phase(theories: Theories, phases: Sequence[str]) -> Figure:
             "x": [estimated(said_before(phase), them).value for phase in known],
             **as_drawn(right, "mean"),
         }
-    title = "Accuracy against what it cost, phase by phase"
-    note = f"In {', '.join(phases)}. {_NOTE}"
-    return Figure("curves", title, {"series": series, **_LABELS}, note)
+    title = f"Accuracy against what it cost: {called(phases)}"
+    return Figure("curves", title, {"series": series, **_LABELS}, _NOTE)
 
 
 def _by_tutor(dialogues: Sequence[Dialogue], phase: str) -> dict[str, list[Any]]:
@@ -82,12 +96,13 @@ def _by_tutor(dialogues: Sequence[Dialogue], phase: str) -> dict[str, list[Any]]
         name: [] for name in ("x", "y", "x_low", "x_high", "y_low", "y_high", "labels")
     }
     asked = parted(dialogues, lambda it: it.phase if it.is_word else "").get(phase, [])
-    for tutor in dict.fromkeys(it.run.tutor for it in asked):
+    tutors = short(it.run.tutor for it in asked)
+    for tutor, label in tutors.items():
         them = [it for it in asked if it.run.tutor == tutor]
         spent, right = estimated(said_before(phase), them), estimated(ACCURACY, them)
         for axis, it in (("x", spent), ("y", right)):
             found[axis].append(it.value)
             found[f"{axis}_low"].append(it.low)
             found[f"{axis}_high"].append(it.high)
-        found["labels"].append(tutor)
+        found["labels"].append(label)
     return found

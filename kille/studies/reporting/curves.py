@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 
 from kille.experiments.metrics import confusion
-from kille.experiments.results import Estimate, Figure
+from kille.experiments.results import Figure
 from kille.studies.measuring.measures import ACCURACY, DEGREE
 from kille.studies.measuring.scored import Dialogue, Scored, parted
-from kille.studies.reporting.findings import Theories, as_drawn, estimated
+from kille.studies.reporting.asked import Tests, called, phases_of
+from kille.studies.reporting.findings import Theories, estimated
+from kille.studies.reporting.rows import BANDS, as_drawn, in_rows
 
 __all__ = ["confusions", "learning", "near", "reliable", "step", "words"]
 
@@ -26,16 +28,31 @@ _DRAWN = 40
 """At most so many words are drawn one by one."""
 _NOTHING = "(nothing)"
 _MANY = {"reply": "replies"}
+_ACCURACY = {"xlabel": "accuracy"}
 
 
-def learning(theories: Theories) -> Iterator[Figure]:
-    """The accuracy by how many lessons there were; nothing where it was asked once."""
-    answers = [it for them in theories.values() for one in them for it in one.answers]
-    most = max((it.lessons for it in answers if it.is_word), default=0)
-    wide = step(most)
+def learning(theories: Theories, tests: Tests) -> Iterator[Figure]:
+    """The accuracy in each test by how many lessons there were before the question."""
+    phases = phases_of(theories, ACCURACY)
+    asked = [[phase for phase in test if phase in phases] for test in tests]
+    several = sum(map(bool, asked)) > 1
+    for test in filter(None, asked):
+        told = f": {called(test)}" if several else ""
+        yield from _learning(f"Learning curve{told}", theories, test)
+
+
+def _learning(title: str, theories: Theories, test: Sequence[str]) -> Iterator[Figure]:
+    """Nothing where there were always as many."""
+
+    def counts(answer: Scored) -> bool:
+        return answer.is_word and answer.phase in test
+
+    answers = (it for them in theories.values() for one in them for it in one.answers)
+    lessons = {it.lessons for it in answers if counts(it)}
+    wide = step(max(lessons)) if len(lessons) > _PLACES else 1
 
     def place(answer: Scored) -> int:
-        return near(answer.lessons, wide) if answer.is_word else -1
+        return near(answer.lessons, wide) if counts(answer) else -1
 
     series: dict[str, Any] = {}
     for name, them in theories.items():
@@ -50,7 +67,7 @@ def learning(theories: Theories) -> Iterator[Figure]:
             "xlabel": "lessons",
             "ylabel": "accuracy",
         }
-        yield Figure("curves", "Learning curve", data, _note(wide))
+        yield Figure("curves", title, data, _note(wide))
 
 
 def near(lessons: int, wide: int) -> int:
@@ -68,7 +85,7 @@ def _count(dialogues: Sequence[Dialogue]) -> int:
 
 def _note(wide: int) -> str:
     near = f"Answers are put to the nearest {wide} lessons. " if wide > 1 else ""
-    return f"{near}Not every dialogue comes to all of these. Bands of 95 %."
+    return f"{near}Not every dialogue comes to all of these. {BANDS}"
 
 
 def step(most: int) -> int:
@@ -105,7 +122,7 @@ def reliable(theories: Theories) -> Iterator[Figure]:
         "xlabel": "degree of the word that was said",
         "ylabel": "share that is right",
     }
-    note = "On the dashed line degrees are what they say. Bands of 95 %."
+    note = f"On the dashed line degrees are what they say. {BANDS}"
     yield Figure("reliability", "Reliability", data, note)
 
 
@@ -116,27 +133,24 @@ def _bin(answer: Scored) -> int:
 
 
 def words(theories: Theories) -> Iterator[Figure]:
-    """The accuracy word by word, for not too many words."""
+    """The accuracy word by word, for each kind of word that has not too many."""
     parts = {
         name: parted(them, lambda it: (it.kind, it.right) if it.is_word else None)
         for name, them in theories.items()
     }
-    ordered = sorted({key for them in parts.values() for key in them if key})
-    if not 1 < len(ordered) <= _DRAWN:
-        return
-    nothing = Estimate(float("nan"), float("nan"), float("nan"))
-    series = {}
-    for name, of in parts.items():
-        estimates = [
-            estimated(ACCURACY, of[key]) if key in of else nothing for key in ordered
-        ]
-        series[name] = as_drawn(estimates)
-    data = {
-        "labels": [word for _, word in ordered],
-        "series": series,
-        "xlabel": "accuracy",
-    }
-    yield Figure("intervals", "Word by word", data, "Bands of 95 %.")
+    keys = sorted({key for them in parts.values() for key in them if key})
+    kinds = dict.fromkeys(kind for kind, _ in keys)
+    for kind in kinds:
+        ordered = [key for key in keys if key[0] == kind]
+        if not 1 < len(ordered) <= _DRAWN:
+            continue
+        series = {
+            name: [estimated(ACCURACY, of.get(key, ())) for key in ordered]
+            for name, of in parts.items()
+        }
+        which = f": {_plural(kind)}" if len(kinds) > 1 else ""
+        labels = [word for _, word in ordered]
+        yield from in_rows(f"Word by word{which}", labels, series, _ACCURACY)
 
 
 def confusions(theories: Theories) -> Iterator[Figure]:
@@ -145,7 +159,11 @@ def confusions(theories: Theories) -> Iterator[Figure]:
         for kind, of in parted(them, lambda it: it.kind if it.is_word else "").items():
             labels = sorted({it.right for one in of for it in one.answers})
             if kind and 1 < len(labels) <= _MOST:
-                yield _confusion(f"{name}: {_MANY.get(kind, f'{kind}s')}", labels, of)
+                yield _confusion(f"{name}: {_plural(kind)}", labels, of)
+
+
+def _plural(kind: str) -> str:
+    return _MANY.get(kind, f"{kind}s")
 
 
 def _confusion(title: str, labels: list[str], of: Sequence[Dialogue]) -> Figure:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import chain
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -34,12 +34,13 @@ from kille.studies.measuring.measures import (
     tallies,
 )
 from kille.studies.measuring.scored import Dialogue, Scored, of_theory, parted
+from kille.studies.reporting.names import short
 from kille.studies.reporting.places import Places
 
 __all__ = [
     "Theories",
-    "as_drawn",
     "estimated",
+    "for_figures",
     "grouped",
     "in_detail",
     "meanings",
@@ -63,6 +64,12 @@ def grouped(names: Sequence[str], dialogues: Sequence[Dialogue]) -> Theories:
     """The dialogues of each of the named theories that has any."""
     found = {name: of_theory(dialogues, name) for name in names}
     return {name: them for name, them in found.items() if them}
+
+
+def for_figures(theories: Theories) -> Theories:
+    """The theories by names for which there is room in a figure."""
+    called = short(theories)
+    return {called[name]: them for name, them in theories.items()}
 
 
 def measures_of(theories: Theories) -> list[Measure]:
@@ -109,19 +116,6 @@ def estimated(measure: Measure, dialogues: Sequence[Dialogue]) -> Estimate:
         return Estimate(float("nan"), float("nan"), float("nan"))
     draws = _draws(len(dialogues))
     return measured(measure, tallies(measure, dialogues), draws)
-
-
-def as_drawn(estimates: Sequence[Estimate], name: str = "values") -> dict[str, Any]:
-    """Estimates as figures draw them: numbers, by this name, with their bands.
-
-    >>> as_drawn([Estimate(0.5, 0.25, 0.75)], "mean")
-    {'mean': [0.5], 'low': [0.25], 'high': [0.75]}
-    """
-    return {
-        name: [it.value for it in estimates],
-        "low": [it.low for it in estimates],
-        "high": [it.high for it in estimates],
-    }
 
 
 @lru_cache(maxsize=4)
@@ -180,10 +174,10 @@ def in_detail(theories: Theories, places: Places) -> Iterator[Table]:
     def to_word(name: str, key: Sequence[str]) -> str:
         return places.word(name, key[0], key[1])
 
-    yield _by("By kind of word", ("kind",), words, lambda it: (it.kind,), to_kind)
-    yield _by("By phase", ("phase",), words, lambda it: (it.phase,), to_phase)
-    yield _by("By how it was put", ("way",), words, lambda it: (it.way,), to_way)
-    yield _by(
+    yield from _by("By kind of word", ("kind",), words, lambda it: (it.kind,), to_kind)
+    yield from _by("By phase", ("phase",), words, lambda it: (it.phase,), to_phase)
+    yield from _by("By how it was put", ("way",), words, lambda it: (it.way,), to_way)
+    yield from _by(
         "By word", ("kind", "word"), words, lambda it: (it.kind, it.right), to_word
     )
 
@@ -205,9 +199,9 @@ def _by(
     theories: Theories,
     key: Callable[[Scored], _Key],
     to: Callable[[str, _Key], str],
-) -> Table:
+) -> Iterator[Table]:
     parts = {name: parted(them, key) for name, them in theories.items()}
-    return _shares(title, heads, parts, to)
+    yield from _shares(title, heads, parts, to)
 
 
 def _shares(
@@ -215,26 +209,29 @@ def _shares(
     heads: _Key,
     parts: Mapping[str, Mapping[_Key, Sequence[Dialogue]]],
     to: Callable[[str, _Key], str],
-) -> Table:
-    """The accuracy of each theory in each part, and how many answers there are."""
+) -> Iterator[Table]:
+    """The accuracy of each theory in each part, and how many answers there are.
+
+    In a table of their own, where theories gave not as many.
+    """
     keys = dict.fromkeys(key for them in parts.values() for key in them)
     ordered = sorted(keys) if len(heads) > 1 else list(keys)
+    counts = [[_count(of.get(key, ())) for of in parts.values()] for key in ordered]
+    alike = all(len({*row}) == 1 for row in counts)
     rows: list[tuple[Cell, ...]] = []
     links = {}
-    for row, key in enumerate(ordered):
+    for row, (key, count) in enumerate(zip(ordered, counts, strict=True)):
         cells: list[Cell] = [*key]
         for name, of in parts.items():
             links[row, len(cells)] = to(name, key)
             cells.append(estimated(ACCURACY, of[key]) if key in of else None)
-        rows.append((*cells, _counted([of.get(key, ()) for of in parts.values()])))
-    columns = (*heads, *parts, "answers")
-    return Table(title, columns, tuple(rows), "", links)
-
-
-def _counted(theories: Sequence[Sequence[Dialogue]]) -> Cell:
-    """How many answers each theory gave, once if all gave as many."""
-    counts = [_count(them) for them in theories]
-    return counts[0] if len({*counts}) == 1 else ", ".join(map(str, counts))
+        rows.append((*cells, *count[:1]) if alike else tuple(cells))
+    columns = (*heads, *parts, "answers") if alike else (*heads, *parts)
+    yield Table(title, columns, tuple(rows), "", links)
+    if not alike:
+        many: list[tuple[Cell, ...]] = []
+        many += [(*key, *it) for key, it in zip(ordered, counts, strict=True)]
+        yield Table(f"{title}: answers", columns, tuple(many), "", links)
 
 
 def _count(dialogues: Sequence[Dialogue]) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from shlex import quote
@@ -12,7 +12,8 @@ from kille.experiments.results import ExperimentError, Result
 from kille.studies import log
 from kille.studies.errors import StudyError, TheoryError
 from kille.studies.measuring.scored import Dialogue, scored
-from kille.studies.reporting.findings import Theories, grouped
+from kille.studies.reporting.asked import tests_of
+from kille.studies.reporting.findings import grouped
 from kille.studies.reporting.layouts import Described
 from kille.studies.reporting.places import places_of
 from kille.studies.reporting.writing import Subject, every_two, results_of, write
@@ -65,30 +66,51 @@ def _subject(folder: Path, command: str) -> Subject:
     return Subject(
         study.title,
         theories,
-        _described(study, theories),
+        _described(study, theories or study.theories),
         every_two(theories),
+        tests_of(study.phases),
         _about(folder, study, command, len(dialogues)),
         lead=study.about,
+        numbers=_numbers(study, len(dialogues), log.about(folder).planned),
         source=study.source,
         broken=[(str(it.run), it.reason) for it in log.broken(folder)],
-        warnings=list(_cut_short(theories, study.turns)),
+        warnings=_cut_short(theories, study.turns),
         files=sorted(
             it.name for it in folder.iterdir() if it.suffix in (".csv", ".parquet")
         ),
     )
 
 
-def _cut_short(theories: Theories, most: int) -> Iterator[str]:
+def _cut_short(theories: Mapping[str, Sequence[Dialogue]], most: int) -> list[str]:
     """Of which theories dialogues came to the last turn that the study allows.
 
     A theory that talks more is then asked less.
     """
-    for name, them in theories.items():
-        if count := sum(len(it.turns) >= most for it in them):
-            yield (
-                f"{name}: {count:,} of {len(them):,} dialogues came to the most turns "
-                f"that the study allows, {most:,}: not all may have been asked in them."
-            )
+    counts = {
+        name: sum(len(it.turns) >= most for it in them)
+        for name, them in theories.items()
+    }
+    return [
+        f"{name}: {count:,} of {len(theories[name]):,} dialogues came to turn "
+        f"{most:,}, the last that the study allows: what was still to be asked was not "
+        f"asked in them. Give the study more turns."
+        for name, count in counts.items()
+        if count
+    ]
+
+
+def _numbers(study: Study, played: int, planned: int) -> str:
+    """How many dialogues there are, and of what."""
+    of = (
+        (study.theories, "theory", "theories"),
+        (study.tutors, "tutor", "tutors"),
+        (study.scenes, "scene", "scenes"),
+        (study.seeds, "seed", "seeds"),
+    )
+    parts = (f"{len(it):,} {one if len(it) == 1 else many}" for it, one, many in of)
+    some = f"{played:,} of " if played < planned else ""
+    many = f"{planned:,} dialogue{'s' if planned != 1 else ''}"
+    return f"{some}{many}: {' × '.join(parts)}"
 
 
 def _described(study: Study, names: Iterable[str]) -> dict[str, Described]:
@@ -149,7 +171,7 @@ def _both(one: Path, other: Path, command: str) -> Subject:
         for label, subject in subjects.items()
         for name, them in subject.theories.items()
     }
-    _check_shared(first, second, one, other)
+    shared = _shared(first, second, one, other)
     return Subject(
         f"{names[1]} against {names[0]}",
         theories,
@@ -159,6 +181,7 @@ def _both(one: Path, other: Path, command: str) -> Subject:
             for name, it in subject.described.items()
         },
         [(f"{names[0]}: {a}", f"{names[1]}: {b}") for a, b in which],
+        tuple(dict.fromkeys([*first.tests, *second.tests])),
         {
             "command": command,
             **{
@@ -168,15 +191,19 @@ def _both(one: Path, other: Path, command: str) -> Subject:
                 if head != "command"
             },
         },
+        numbers="; ".join(f"{label}: {it.numbers}" for label, it in subjects.items()),
         broken=[
             (f"{label}: {name}", reason)
             for label, subject in subjects.items()
             for name, reason in subject.broken
         ],
         warnings=[
-            f"{label}: {text}"
-            for label, subject in subjects.items()
-            for text in subject.warnings
+            *shared,
+            *(
+                f"{label}: {text}"
+                for label, subject in subjects.items()
+                for text in subject.warnings
+            ),
         ],
     )
 
@@ -193,12 +220,14 @@ def _renamed(dialogue: Dialogue, theory: str) -> Dialogue:
     return replace(dialogue, run=replace(dialogue.run, theory=theory))
 
 
-def _check_shared(first: Subject, second: Subject, one: Path, other: Path) -> None:
+def _shared(first: Subject, second: Subject, one: Path, other: Path) -> list[str]:
+    """What has to be known of two that were not played on the same occasions."""
     mine, theirs = (
         {it.pair for them in subject.theories.values() for it in them}
         for subject in (first, second)
     )
-    if not mine & theirs:
+    both = len(mine & theirs)
+    if not both:
         raise StudyError(
             [
                 f"{one} and {other} have no dialogues with the same tutor, scene and "
@@ -206,3 +235,9 @@ def _check_shared(first: Subject, second: Subject, one: Path, other: Path) -> No
                 f"seeds"
             ]
         )
+    if mine == theirs:
+        return []
+    return [
+        f"Of {len(mine):,} and {len(theirs):,} occasions (tutor, scene and seed) "
+        f"{both:,} are the same: differences are of these alone, all else is of all."
+    ]

@@ -6,13 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from html import escape
 from itertools import cycle
+from typing import NamedTuple
 
 from kille.experiments.strokes import HUES
 from ttr import Record, TypeNode
 from ttr.display.layout import Layout, Matrix, Row, Word, laid_out
 from ttr.display.markup import part_of_page
 
-__all__ = ["STYLE", "apart", "shortened", "side_by_side"]
+__all__ = ["Described", "apart", "shortened", "side_by_side"]
 
 Described = Mapping[str, object]
 """A theory by the names of its parts: types and records, texts, and texts by name."""
@@ -20,38 +21,71 @@ Described = Mapping[str, object]
 _FEW = 3
 """So many fields that are the same are shown, not counted."""
 
-STYLE = """
-.theories { display: grid; gap: 1.2rem 1.4rem; align-items: start; margin: .8rem 0;
-  grid-template-columns: repeat(auto-fit, minmax(min(100%, 17rem), 1fr)); }
-.theories > div { min-width: 0; overflow-x: auto; border-top: 3px solid var(--hue);
-  padding-top: .4rem; font-size: .75rem; }
-.theories h4 { margin: 0 0 .3rem; font-size: .95rem; }
-details { margin: .4rem 0; } summary { cursor: pointer; color: var(--quiet); }
-.apart { background: rgba(229, 160, 13, .2); }
-pre { font: .85em/1.45 ui-monospace, "DejaVu Sans Mono", monospace; overflow-x: auto;
-  background: var(--soft); padding: .6rem .8rem; border-radius: .3rem; margin: .4rem 0;
-  white-space: pre-wrap; overflow-wrap: anywhere; }
-"""
-
 
 def side_by_side(theories: Mapping[str, Described]) -> Iterator[str]:
-    """The theories as a piece of a page, part by part; last what is the same in all."""
+    """The theories as a piece of a page, part by part; last what is the same in all.
+
+    Theories that are alike in a part stand there together.
+    """
     parts = dict.fromkeys(part for it in theories.values() for part in it)
-    same: list[str] = []
+    hues = dict(zip(theories, cycle(HUES), strict=False))
+    same: dict[str, object] = {}
     for part in parts:
-        values = {name: it.get(part) for name, it in theories.items()}
-        (first, *others) = values.values()
-        if all(_same(it, first) for it in others):
-            same += _folded(part, _value(first)) if first else []
+        groups = _groups({name: it.get(part) for name, it in theories.items()})
+        if len(groups) == 1:
+            same[part] = groups[0].value
             continue
         yield f"<h3>{escape(part)}</h3>"
-        if all(map(_is_listed, values.values())):
-            yield from _listed(values)
+        yield from _apart(groups, hues)
+    yield from _the_same({part: it for part, it in same.items() if it}, len(theories))
+
+
+class _Group(NamedTuple):
+    """What some theories have in common."""
+
+    names: Sequence[str]
+    value: object
+
+
+def _groups(values: Mapping[str, object]) -> list[_Group]:
+    """The values that differ, each with the names of those that have it."""
+    groups: list[_Group] = []
+    for name, value in values.items():
+        place = next((i for i, it in enumerate(groups) if _same(value, it.value)), None)
+        if place is None:
+            groups.append(_Group([name], value))
         else:
-            yield from _drawn(values)
-    if same:
-        yield "<h3>The same in all</h3>" if len(theories) > 1 else ""
-        yield from same
+            groups[place] = _Group([*groups[place].names, name], value)
+    return groups
+
+
+def _apart(groups: Sequence[_Group], hues: Mapping[str, str]) -> Iterator[str]:
+    values = [it.value for it in groups]
+    if all(map(_is_listed, values)):
+        yield from _listed(groups, hues)
+    elif all(isinstance(it, str) for it in values):
+        lines = (
+            f"<dt>{_called(it.names, hues)}</dt><dd>{_value(it.value)}</dd>"
+            for it in groups
+            if it.value
+        )
+        yield f"<dl>{''.join(lines)}</dl>"
+    else:
+        yield from _drawn(groups, hues)
+
+
+def _the_same(parts: Mapping[str, object], count: int) -> Iterator[str]:
+    """What all have in common, folded; what it is about is said."""
+    about = parts.get("about")
+    if about:
+        yield f"<p>{escape(str(about))}</p>"
+    folded = {part: it for part, it in parts.items() if part != "about"}
+    if folded:
+        head = "the same in all: " if count > 1 else ""
+        inside = "".join(
+            line for part, it in folded.items() for line in _folded(part, _value(it))
+        )
+        yield from _folded(f"{head}{', '.join(folded)}", inside)
 
 
 # --- matrices ------------------------------------------------------------------------
@@ -128,20 +162,22 @@ def _differs_inside(row: Row) -> bool:
     return isinstance(row.has, Matrix) and any(map(_differs, row.has.rows))
 
 
-def _drawn(values: Mapping[str, object]) -> Iterator[str]:
-    short, whole = {}, {}
-    layouts = {name: _layout(it) for name, it in values.items()}
-    for name, layout in layouts.items():
-        short[name] = whole[name] = _value(values[name])
+def _drawn(groups: Sequence[_Group], hues: Mapping[str, str]) -> Iterator[str]:
+    layouts = [_layout(it.value) for it in groups]
+    short, whole = [], []
+    for place, (group, layout) in enumerate(zip(groups, layouts, strict=True)):
         if layout is None:
+            short.append(_value(group.value))
+            whole.append(short[-1])
             continue
-        others = [it for other, it in layouts.items() if other != name and it]
+        others = [it for i, it in enumerate(layouts) if i != place and it]
         marked = apart(layout, others)
-        short[name] = part_of_page(shortened(marked))
-        whole[name] = part_of_page(marked)
-    yield _columns(short)
+        short.append(part_of_page(shortened(marked)))
+        whole.append(part_of_page(marked))
+    names = [it.names for it in groups]
+    yield _columns(names, short, hues)
     if short != whole:
-        yield from _folded("with all fields", _columns(whole))
+        yield from _folded("with all fields", _columns(names, whole, hues))
 
 
 def _same(one: object, other: object) -> bool:
@@ -161,12 +197,24 @@ def _value(value: object) -> str:
     return f"<div>{_text(str(value))}</div>" if value else "<p>–</p>"
 
 
-def _columns(inside: Mapping[str, str]) -> str:
+def _columns(
+    names: Sequence[Sequence[str]], inside: Sequence[str], hues: Mapping[str, str]
+) -> str:
     cards = (
-        f'<div style="--hue: {hue}"><h4>{escape(name)}</h4>{it}</div>'
-        for (name, it), hue in zip(inside.items(), cycle(HUES), strict=False)
+        f'<div style="--hue: {hues[some[0]]}"><h4>{_called(some, hues)}</h4>{it}</div>'
+        for some, it in zip(names, inside, strict=True)
     )
     return f'<div class="theories">{"".join(cards)}</div>'
+
+
+def _called(names: Sequence[str], hues: Mapping[str, str]) -> str:
+    """The names of theories, each with its hue where there are several."""
+    if len(names) == 1:
+        return escape(names[0])
+    return "".join(
+        f'<span class="of" style="--hue: {hues[name]}">{escape(name)}</span>'
+        for name in names
+    )
 
 
 def _folded(summary: str, inside: str) -> Iterator[str]:
@@ -182,25 +230,35 @@ def _is_listed(value: object) -> bool:
     )
 
 
-def _listed(values: Mapping[str, object]) -> Iterator[str]:
+def _listed(groups: Sequence[_Group], hues: Mapping[str, str]) -> Iterator[str]:
     """First the entries that differ, one a row; then the names of all others."""
-    lists = {
-        name: dict(it) if isinstance(it, Mapping) else {} for name, it in values.items()
-    }
-    names = list(dict.fromkeys(entry for it in lists.values() for entry in it))
-    texts = {entry: [it.get(entry) for it in lists.values()] for entry in names}
-    differing = [entry for entry in names if len(set(map(str, texts[entry]))) > 1]
+    lists = [dict(it.value) if isinstance(it.value, Mapping) else {} for it in groups]
+    entries = {name: [it.get(name) for it in lists] for it in lists for name in it}
+    differing = {name: of for name, of in entries.items() if len(set(map(str, of))) > 1}
     if differing:
-        heads = "".join(f"<th>{escape(name)}</th>" for name in lists)
+        heads = "".join(f"<th>{_called(it.names, hues)}</th>" for it in groups)
         yield '<div class="scroll"><table><thead><tr><th></th>'
         yield f"{heads}</tr></thead><tbody>"
-        for entry in differing:
-            cells = "".join(_entry(text) for text in texts[entry])
-            yield f"<tr><td><code>{escape(entry)}</code></td>{cells}</tr>"
+        for name, of in differing.items():
+            yield f"<tr><td><code>{escape(name)}</code></td>{_row_of(of)}</tr>"
         yield "</tbody></table></div>"
-    same = {it: of[0] for it, of in texts.items() if it not in differing}
+    same = {name: of[0] for name, of in entries.items() if name not in differing}
     if same:
         yield from _folded(f"{len(same)} the same in all", _names(same))
+
+
+def _row_of(entries: Sequence[object]) -> str:
+    """An entry of each, types as matrices in which what differs is marked."""
+    layouts = [_layout(it) for it in entries]
+    cells = []
+    for place, (entry, layout) in enumerate(zip(entries, layouts, strict=True)):
+        if layout is None:
+            cells.append(_entry(entry))
+            continue
+        others = [it for i, it in enumerate(layouts) if i != place and it]
+        marked = part_of_page(apart(layout, others))
+        cells.append(f'<td class="type">{marked}</td>')
+    return "".join(cells)
 
 
 def _names(texts: Mapping[str, object]) -> str:

@@ -17,8 +17,8 @@ from kille.studies.measuring.scored import Dialogue, Scored
 from kille.studies.played import Turn
 from kille.studies.reporting.findings import Theories
 from kille.studies.reporting.happenings import happening
-from kille.studies.reporting.layouts import STYLE
 from kille.studies.reporting.places import Places
+from kille.studies.reporting.styles import DIALOGUES, THEORIES
 
 __all__ = ["pages"]
 
@@ -26,24 +26,6 @@ Page = tuple[str, str]
 """The name of a file, and what is in it."""
 
 _Piece = tuple[str, str, Iterable[str]]
-
-_STYLE = (
-    STYLE
-    + """
-.turn { display: grid; grid-template-columns: 2.2rem 1fr; gap: 0 .4rem;
-  padding: .25rem 0; border-bottom: 1px solid var(--line); }
-.turn:target, tr:target, h3:target { background: rgba(229, 160, 13, .2); }
-.turn > :first-child { color: var(--quiet); font-size: .82em; text-align: right;
-  font-variant-numeric: tabular-nums; }
-.turn p { margin: 0; grid-column: 2; } .robot { font-weight: 600; }
-.happens { color: var(--quiet); font-size: .85em; overflow-wrap: anywhere; }
-.yes { color: var(--accent); } .no { color: var(--wrong); }
-.phase { font-size: .8rem; letter-spacing: .04em; color: var(--quiet);
-  margin: 1rem 0 .2rem; } h3 { scroll-margin-top: 1rem; }
-.links a { display: inline-block; margin-right: .5em;
-  font-variant-numeric: tabular-nums; }
-"""
-)
 
 
 def pages(theories: Theories, places: Places, report: str) -> Iterator[Page]:
@@ -53,7 +35,7 @@ def pages(theories: Theories, places: Places, report: str) -> Iterator[Page]:
     """
     for name, title, body in _pages(theories, places):
         back = f'<p><a href="../{escape(report, quote=True)}">report</a></p>'
-        parts = (*beginning(title, _STYLE), back, *body, "</body></html>")
+        parts = (*beginning(title, THEORIES + DIALOGUES), back, *body, "</body></html>")
         yield _file(name), "\n".join(parts) + "\n"
 
 
@@ -64,8 +46,8 @@ def _pages(theories: Theories, places: Places) -> Iterator[_Piece]:
         for it in them:
             occasions.setdefault(it.pair, []).append(it)
     for them in occasions.values():
-        place, title = places.dialogue(them[0].run), _title(them[0])
-        yield place, title, _said(them, places)
+        title = f"Dialogue {places.pairs[them[0].pair]}: {_title(them[0])}"
+        yield places.dialogue(them[0].run), title, _said(them, places)
     for name, them in theories.items():
         yield places.theory(name), name, _dialogues(name, them, places)
         title = f"{name}: all answers"
@@ -99,17 +81,29 @@ def _link(place: str, text: str) -> str:
 
 
 def _said(dialogues: Sequence[Dialogue], places: Places) -> Iterator[str]:
-    yield '<div class="theories">'
+    """What each theory was told and said: phase by phase, each from the same height."""
     hues = dict(zip(places.theories, cycle(HUES), strict=False))
+    yield '<div class="theories">'
     for it in dialogues:
         name = it.run.theory
-        number = places.theories[name]
-        yield f'<div id="theory-{number}" style="--hue: {hues[name]}">'
+        yield f'<div id="{_anchor(it, places)}" style="--hue: {hues[name]}">'
         yield f"<h4>{_link(places.theory(name), name)}</h4>"
-        yield f'<p class="note">{escape(_summary(it))}</p>'
-        yield from _turns(it, f"theory-{number}-turn")
-        yield "</div>"
+        yield f'<p class="note">{escape(_summary(it))}</p></div>'
     yield "</div>"
+    for phase in dict.fromkeys(turn.phase for it in dialogues for turn in it.turns):
+        yield f'<h3>{escape(phase)}</h3><div class="theories">'
+        for it in dialogues:
+            name = it.run.theory
+            yield f'<div style="--hue: {hues[name]}">'
+            if len(dialogues) > 1:
+                yield f'<p class="called">{escape(name)}</p>'
+            yield from _turns(it, phase, f"{_anchor(it, places)}-turn")
+            yield "</div>"
+        yield "</div>"
+
+
+def _anchor(dialogue: Dialogue, places: Places) -> str:
+    return f"theory-{places.theories[dialogue.run.theory]}"
 
 
 def _summary(dialogue: Dialogue) -> str:
@@ -122,20 +116,21 @@ def _summary(dialogue: Dialogue) -> str:
     )
 
 
-def _turns(dialogue: Dialogue, anchor: str) -> Iterator[str]:
+def _turns(dialogue: Dialogue, phase: str, anchor: str) -> Iterator[str]:
     answers: dict[int, list[Scored]] = {}
     for answer in dialogue.answers:
         answers.setdefault(answer.turn, []).append(answer)
-    phase = ""
+    several = len({turn.tutor for turn in dialogue.turns}) > 1
     for turn in dialogue.turns:
-        if turn.phase != phase:
-            phase = turn.phase
-            yield f'<p class="phase">{escape(phase)}</p>'
-        yield _turn(turn, answers.get(turn.number, ()), f"{anchor}-{turn.number}")
+        if turn.phase == phase:
+            who = turn.tutor if several else ""
+            told = answers.get(turn.number, ())
+            yield _turn(turn, who, told, f"{anchor}-{turn.number}")
 
 
-def _turn(turn: Turn, answers: Sequence[Scored], anchor: str) -> str:
-    lines = [_given(turn)] if turn.given else []
+def _turn(turn: Turn, who: str, answers: Sequence[Scored], anchor: str) -> str:
+    """A turn; who of several tutors speaks in it is said."""
+    lines = [_given(turn, who)] if turn.given else []
     if turn.answer:
         lines.append(f'<p class="robot">{escape(turn.answer)}</p>')
     lines += [f"<p>{_mark(it)} {escape(_told(it))}</p>" for it in answers]
@@ -143,10 +138,11 @@ def _turn(turn: Turn, answers: Sequence[Scored], anchor: str) -> str:
     return f'<div class="turn" id="{anchor}">{told}{"".join(lines)}</div>'
 
 
-def _given(turn: Turn) -> str:
-    if turn.words:
-        return f"<p>{escape(turn.given)}</p>"
-    return f'<p class="happens">{escape(happening(turn.given))}</p>'
+def _given(turn: Turn, who: str) -> str:
+    if not turn.words:
+        return f'<p class="happens">{escape(happening(turn.given))}</p>'
+    named = f'<span class="who">{escape(who)}:</span> ' if who else ""
+    return f"<p>{named}{escape(turn.given)}</p>"
 
 
 def _mark(answer: Scored) -> str:
@@ -209,12 +205,17 @@ def _cells(tag: str, cells: Sequence[str]) -> str:
     )
 
 
+_LINKS = (
+    "Each answer by its dialogue and its turn there: 3:80 is turn 80 of dialogue 3."
+)
+
 _Given = tuple[Dialogue, Scored]
 
 
 def _answers(name: str, dialogues: Sequence[Dialogue], places: Places) -> Iterator[str]:
     """The answers by kind of word and by word, then by phase."""
     yield f"<p>{_link(places.theory(name), 'all dialogues')}</p>"
+    yield f'<p class="note">{_LINKS}</p>'
     given = [(it, answer) for it in dialogues for answer in it.answers]
     for kind, number in places.kinds.items():
         of_kind = [it for it in given if it[1].kind == kind]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from itertools import chain, combinations
 from pathlib import Path
@@ -17,19 +17,23 @@ from kille.experiments.figures import MISSING, can_draw, pdf
 from kille.experiments.report import beginning, ending, file_of, section
 from kille.experiments.results import Result
 from kille.studies.reporting import curves
+from kille.studies.reporting.asked import Tests
 from kille.studies.reporting.conditions import by_conditions
 from kille.studies.reporting.contrasts import contrasted
 from kille.studies.reporting.costs import costs
 from kille.studies.reporting.findings import (
     Theories,
+    for_figures,
     in_detail,
     meanings,
     measures_of,
     overall,
 )
-from kille.studies.reporting.layouts import STYLE, Described, side_by_side
+from kille.studies.reporting.gist import in_short
+from kille.studies.reporting.layouts import Described, side_by_side
 from kille.studies.reporting.pages import pages
 from kille.studies.reporting.places import Places, places_of
+from kille.studies.reporting.styles import PAGE, THEORIES
 from ttr import TTRError
 from ttr.display import markup
 from ttr.files import why_unwritten, write_whole
@@ -37,24 +41,28 @@ from ttr.files import why_unwritten, write_whole
 __all__ = ["Subject", "every_two", "results_of", "write"]
 
 _FEW = 5
-"""So many dialogues that broke are named one by one."""
+"""So many reasons why dialogues broke are told, and so many dialogues named of each."""
 
 
 @dataclass(frozen=True)
 class Subject:
     """What is reported on: the dialogues of each theory, and all that is told of them.
 
-    `which` are the theories that are compared, two by two; `broken` are dialogues that
-    were not played to their end, each with the reason; `warnings` are what a reader has
-    to know of the others; `files` are those beside the report that hold the numbers.
+    `which` are the theories that are compared, two by two; `tests` the phases, those
+    together that ask alike; `numbers` says how many dialogues there are, of what;
+    `broken` are dialogues that were not played to their end, each with the reason;
+    `warnings` are what a reader has to know of the others; `files` are those beside the
+    report that hold the numbers.
     """
 
     title: str
     theories: Theories
     described: Mapping[str, Described]
     which: Sequence[tuple[str, str]]
+    tests: Tests
     about: Mapping[str, str]
     lead: str = ""
+    numbers: str = ""
     source: str = ""
     broken: Sequence[tuple[str, str]] = ()
     warnings: Sequence[str] = ()
@@ -67,22 +75,24 @@ def every_two(theories: Iterable[str]) -> list[tuple[str, str]]:
 
 
 def results_of(subject: Subject, places: Places) -> list[Result]:
-    """What was found, in tables and figures."""
+    """What was found, in tables and figures; first, what has to be known of it."""
     theories = subject.theories
     if not theories:
         return []
     measures = measures_of(theories)
+    drawn = for_figures(theories)
     first = Result(
         "What they do",
         (overall(theories, measures, places),),
-        (*curves.learning(theories), *costs(theories)),
+        (*curves.learning(drawn, subject.tests), *costs(drawn, subject.tests)),
+        text="\n".join(subject.warnings),
     )
     details = Result(
         "In detail",
         tuple(it for it in in_detail(theories, places) if len(it.rows) > 1),
-        (*curves.words(theories), *curves.confusions(theories)),
+        (*curves.words(drawn), *curves.confusions(drawn)),
     )
-    certainty = Result("How sure they are", (), tuple(curves.reliable(theories)))
+    certainty = Result("How sure they are", (), tuple(curves.reliable(drawn)))
     found = [
         first,
         *contrasted(theories, subject.which, measures, places),
@@ -113,13 +123,28 @@ def _write(subject: Subject, page: Path) -> list[Result]:
     found = results_of(subject, places)
     for name, text in pages(subject.theories, places, page.name):
         (dialogues / name).write_text(text, "utf-8")
+    parts = {_GIST: _gist(subject, found, places)}
+    parts |= dict(enumerate(_untold(found), start=_FIRST))
     figures = _emptied(page.with_name(f"{page.stem}-figures"), _FIGURES)
-    for part, result in enumerate(found, start=_FIRST):
+    for part, result in parts.items():
         for place, figure in enumerate(result.figures if can_draw() else ()):
             file = figures / file_of(part, place, figure)
             file.write_bytes(pdf(figure))
-    write_whole(page, "\n".join(_page(subject, found, figures.name)) + "\n")
+    write_whole(page, "\n".join(_page(subject, parts, figures.name)) + "\n")
     return found
+
+
+def _gist(subject: Subject, found: Sequence[Result], places: Places) -> Result:
+    if not found:
+        return Result("In short", text="No dialogue was played to its end.")
+    measures = measures_of(subject.theories)
+    return in_short(subject.theories, measures, found[1:], places)
+
+
+def _untold(found: Sequence[Result]) -> Iterator[Result]:
+    """What was found, without the warnings: on a page they stand before all else."""
+    yield from (replace(it, text="") for it in found[:1])
+    yield from found[1:]
 
 
 _PAGES = "dialogue-[0-9]*.html", "theory-[0-9]*.html", "theories-[0-9]*.html"
@@ -134,24 +159,27 @@ def _emptied(folder: Path, *of: str) -> Path:
     return folder
 
 
-_FIRST = 2  # the first part of the page are the theories
+_GIST, _THEORIES, _FIRST = 1, 2, 3
+"""The numbers of the parts of the page: in short, the theories, all that was found."""
 
 
-def _page(subject: Subject, found: Sequence[Result], figures: str) -> Iterator[str]:
-    yield from beginning(subject.title, STYLE + markup.STYLE)
-    if "command" in subject.about:
-        yield f'<p class="quiet"><code>{escape(subject.about["command"])}</code></p>'
-    for paragraph in re.split(r"\n\s*\n", subject.lead.strip()):
+def _page(subject: Subject, parts: Mapping[int, Result], figures: str) -> Iterator[str]:
+    yield from beginning(subject.title, PAGE + THEORIES + markup.STYLE)
+    for paragraph in filter(None, re.split(r"\n\s*\n", subject.lead.strip())):
         yield f"<p>{escape(paragraph)}</p>"
+    if subject.numbers:
+        yield f'<p class="quiet">{escape(subject.numbers)}</p>'
     yield from _wrong(subject)
     if not can_draw():
         yield f'<p class="note">{escape(MISSING)}</p>'
-    yield from _contents(["The theories", *(it.title for it in found)])
-    yield '<section><h2 id="part-1">The theories</h2>'
+    yield from _contents(parts)
+    yield from section(_GIST, parts[_GIST], figures)
+    yield f'<section><h2 id="part-{_THEORIES}">The theories</h2>'
     yield from side_by_side(subject.described)
     yield "</section>"
-    for number, result in enumerate(found, start=_FIRST):
-        yield from section(number, result, figures)
+    for number, result in parts.items():
+        if number >= _FIRST:
+            yield from section(number, result, figures)
     if subject.source:
         yield "<h2>The study</h2><details><summary>its file</summary>"
         yield f"<pre>{escape(subject.source)}</pre></details>"
@@ -164,17 +192,35 @@ def _page(subject: Subject, found: Sequence[Result], figures: str) -> Iterator[s
     yield from ending(subject.about)
 
 
-def _contents(titles: Sequence[str]) -> Iterator[str]:
+def _contents(parts: Mapping[int, Result]) -> Iterator[str]:
+    titles = {_THEORIES: "The theories"} | {
+        number: it.title for number, it in parts.items()
+    }
     yield "<nav><ul>"
-    for number, title in enumerate(titles, start=1):
+    for number, title in sorted(titles.items()):
         yield f'<li><a href="#part-{number}">{escape(title)}</a></li>'
     yield "</ul></nav>"
 
 
 def _wrong(subject: Subject) -> Iterator[str]:
-    """What a reader has to know; the dialogues that broke, of many the first ones."""
-    told = [f"{name} broke: {reason}" for name, reason in subject.broken[:_FEW]]
-    if len(subject.broken) > _FEW:
-        told.append(f"{len(subject.broken) - _FEW} more dialogues broke.")
-    for text in (*subject.warnings, *told):
+    """What a reader has to know of the numbers, and what broke."""
+    for text in (*subject.warnings, *_broken(subject.broken)):
         yield f'<p class="wrong">{escape(text)}</p>'
+
+
+def _broken(broken: Sequence[tuple[str, str]]) -> Iterator[str]:
+    """The reasons for which dialogues broke, each with the first of these."""
+    reasons: dict[str, list[str]] = {}
+    for name, reason in broken:
+        reasons.setdefault(reason, []).append(name)
+    for reason, names in list(reasons.items())[:_FEW]:
+        named = ", ".join(names[:_FEW])
+        more = f" and {len(names) - _FEW:,} more" if len(names) > _FEW else ""
+        yield f"{_dialogues(len(names))} broke: {reason}: {named}{more}"
+    others = sum(map(len, list(reasons.values())[_FEW:]))
+    if others:
+        yield f"{_dialogues(others)} more broke, for other reasons."
+
+
+def _dialogues(count: int) -> str:
+    return f"{count:,} dialogue{'s' if count != 1 else ''}"

@@ -23,7 +23,7 @@ from ttr.updates import rules_of
 
 __all__ = ["Shown", "described", "rules_apart"]
 
-Shown = TypeNode | Record | str | Mapping[str, str]
+Shown = TypeNode | Record | str | Mapping[str, str] | Mapping[str, TypeNode]
 
 _EXAMPLES = {"noun": ("nouns", "cup"), "adjective": ("adjectives", "red")}
 _PLACE = ("relations", "left")
@@ -81,10 +81,10 @@ def _meaning(language: str, kind: str) -> TypeNode:
     return meaning
 
 
-def _meanings() -> Mapping[str, str]:
+def _meanings() -> Mapping[str, TypeNode]:
     """All types by which words, phrases and moves have their meanings."""
     named = theory_of_process().definitions
-    return {name: str(T) for name, T in named.items() if T is not STATE}
+    return {name: T for name, T in named.items() if T is not STATE}
 
 
 def _language(theory: Theory) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from random import Random
@@ -208,6 +209,35 @@ def test_every_number_of_a_theory_leads_to_its_dialogues(written: Path) -> None:
         "report-dialogues/theory-1.html",
         "report-dialogues/theory-2.html",
     ]
+
+
+def test_a_dialogue_is_told_phase_by_phase_of_all_theories(written: Path) -> None:
+    text = (written / "report-dialogues" / "dialogue-2.html").read_text("utf-8")
+    assert "<h1>Dialogue 2: Ann, table &amp; chairs, seed 2</h1>" in text
+    teach, test = text.index("<h3>teach</h3>"), text.index("<h3>test</h3>")
+    for number in (1, 2):
+        assert teach < text.index(f'id="theory-{number}-turn-1"') < test
+        assert test < text.index(f'id="theory-{number}-turn-2"')
+    assert 'class="who"' not in text
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_who_of_several_tutors_speaks_is_told(tmp_path: Path) -> None:
+    talk = dialogue(SURE, 1)
+    first, *others = talk.turns
+    turns = (first._replace(tutor="<Bo>"), *others)
+    about = replace(subject(SURE), theories={SURE: [replace(talk, turns=turns)]})
+    write(about, tmp_path / "report.html")
+    page = tmp_path / "report-dialogues" / "dialogue-1.html"
+    text = page.read_text("utf-8")
+    assert '<span class="who">&lt;Bo&gt;:</span> A ' in text
+    assert text.count('<span class="who">Ann:</span>') == len(others)
+
+
+def test_what_differs_is_marked_in_print_too(written: Path) -> None:
+    """Marks and brackets are backgrounds, which browsers do not print by themselves."""
+    text = (written / "report.html").read_text("utf-8")
+    assert re.search(r"@media print {[^@]*print-color-adjust: exact", text)
 
 
 def test_figures_lie_beside_the_page_for_a_paper(written: Path) -> None:

@@ -1,0 +1,103 @@
+"""What a study found, in short: what a reader sees first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from kille.experiments.results import Cell, Estimate, Figure, Result, Table
+from kille.studies.measuring.measures import Measure
+from kille.studies.reporting.asked import in_phase, main_of, phases_of
+from kille.studies.reporting.conditions import in_last_phase
+from kille.studies.reporting.findings import Theories, estimated
+from kille.studies.reporting.names import short
+from kille.studies.reporting.places import Places
+from kille.studies.reporting.rows import in_rows
+
+__all__ = ["in_short"]
+
+_BESIDE = ("κ robot–tutor", "words", "corrections", "questions")
+"""What is told beside the main measure, if there is any of it."""
+_LINES = 4
+"""Of more lines of findings only the first is told."""
+_DRAWN = 2
+"""So many figures there is room for."""
+
+
+def in_short(
+    theories: Theories,
+    measures: Sequence[Measure],
+    found: Iterable[Result],
+    places: Places,
+) -> Result:
+    """The main measure of each theory and what it cost, and what was found of it."""
+    main = main_of(measures)
+    tables = (_each(theories, measures, main, places),)
+    if main is None:
+        text = "Nothing was asked to which the tutor knew an answer: nothing is right."
+        return Result("In short", tables, text=text)
+    figures = [
+        *in_last_phase(theories, main, places),
+        *_by_phase(theories, main),
+    ] or list(_by_theory(theories, main))
+    return Result("In short", tables, tuple(figures[:_DRAWN]), text=_lines(found))
+
+
+def _lines(found: Iterable[Result]) -> str:
+    lines = [line for it in found for line in it.text.splitlines()]
+    return "\n".join(lines if len(lines) <= _LINES else lines[:1])
+
+
+def _each(
+    theories: Theories,
+    measures: Sequence[Measure],
+    main: Measure | None,
+    places: Places,
+) -> Table:
+    """A row for each theory; the main measure also in the last phase of several."""
+    columns = dict(_columns(theories, measures, main))
+    rows = tuple(zip(theories, *columns.values(), strict=True))
+    links = {
+        (row, column): places.theory(name)
+        for row, name in enumerate(theories)
+        for column in range(1, 1 + len(columns))
+    }
+    return Table("How well, and at what cost", ("theory", *columns), rows, "", links)
+
+
+def _columns(
+    theories: Theories, measures: Sequence[Measure], main: Measure | None
+) -> Iterator[tuple[str, Sequence[Cell]]]:
+    yield "dialogues", [len(them) for them in theories.values()]
+    if main is not None:
+        yield main.name, _estimates(main, theories)
+        phases = phases_of(theories, main)
+        if len(phases) > 1:
+            last = in_phase(theories, main, phases[-1])
+            yield f"{main.name} in {phases[-1]}", _estimates(main, last)
+    for measure in measures:
+        told = _estimates(measure, theories)
+        if measure.name in _BESIDE and any(it.value for it in told):
+            yield measure.name, told
+
+
+def _estimates(measure: Measure, theories: Theories) -> list[Estimate]:
+    return [estimated(measure, them) for them in theories.values()]
+
+
+def _by_phase(theories: Theories, main: Measure) -> Iterator[Figure]:
+    """How much is right in each phase, where something is asked in several."""
+    phases = phases_of(theories, main)
+    if len(phases) < 2:
+        return
+    parts = [in_phase(theories, main, phase) for phase in phases]
+    series = {name: [estimated(main, it[name]) for it in parts] for name in theories}
+    title = f"{main.name}, phase by phase".capitalize()
+    yield from in_rows(title, phases, series, {"xlabel": main.name})
+
+
+def _by_theory(theories: Theories, main: Measure) -> Iterator[Figure]:
+    if len(theories) < 2:
+        return
+    series = {main.name: [estimated(main, them) for them in theories.values()]}
+    labels = list(short(theories).values())
+    yield from in_rows(main.name.capitalize(), labels, series, {"xlabel": main.name})
