@@ -97,9 +97,10 @@ def _unfit(phase: Phase, scene: Named) -> Iterator[str]:
     for what in (phase.do, phase.settings.get("what", "")):
         if what in lacking:
             yield f"{what} cannot be done with {scene.name}, which is {scene.kind}"
-    if phase.settings.get("what") == "relations" and _is_single(scene):
-        told = f"there is one kind of thing in {scene.name}, and nothing is told to be"
-        yield f"{told} beside its like: name two kinds"
+    asks = phase.do in ("ask", "practise")
+    if asks and phase.settings.get("what") == "relations" and _is_single(scene):
+        told = f"there is one kind of thing in {scene.name}, and the robot does not say"
+        yield f"{told} how it stands to its like: name two kinds"
     if phase.do == "find" and _shows_one(phase, scene):
         yield (
             f"one thing at a time is in view in {scene.name}, and is found "

@@ -62,7 +62,8 @@ def _troubles(study: Study) -> Iterator[Trouble]:
         elif scene.kind != UNKNOWN:
             opened[name] = scenes.opened(study, Run("", "", name, 0))
     yield from unreached(study, opened)
-    if len(opened) == len(study.scenes):
+    modes = [theory.mode for theory in study.theories.values()]
+    if len(opened) == len(study.scenes) and UNKNOWN not in modes:
         names = names_in(study, opened)
         yield from unsaid(study, names)
         yield from misheard(study, names) if not of_theories else ()
@@ -72,7 +73,7 @@ def _of_theories(
     theories: Mapping[str, Theory], eyes: Collection[str]
 ) -> Iterator[Trouble]:
     for name, theory in theories.items():
-        for it in troubles(theory, eyes):
+        for it in troubles(theory, eyes) if theory.mode != UNKNOWN else ():
             yield it._replace(key=("theories", name, *it.key))
 
 

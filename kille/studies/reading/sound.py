@@ -6,18 +6,28 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from kille.studies.reading.lines import Key
+from kille.studies.reading.shape import STUDY
 
 __all__ = ["UNKNOWN", "sound"]
 
 UNKNOWN = "unknown"
-"""The kind of what is written wrongly, of which nothing else is told."""
+"""The kind, or mode, of what is written wrongly, of which nothing else is told."""
 
 STAND_INS: Mapping[str, Mapping[str, str]] = {
+    "theories": {"mode": UNKNOWN},
     "tutors": {"kind": UNKNOWN},
     "scenes": {"kind": UNKNOWN},
     "phases": {"do": "rest"},
 }
 """What takes the place of what is written wrongly, but named or counted by others."""
+
+PLAIN: Mapping[str, Any] = {
+    "title": "",
+    "about": "",
+    "turns": STUDY["turns"].most,
+    "seeds": 1,
+}
+"""What takes the place of wrong values; so many turns that all phases are reached."""
 
 
 def sound(data: Mapping[str, Any], wrong: Collection[Key]) -> Mapping[str, Any]:
@@ -31,9 +41,9 @@ def sound(data: Mapping[str, Any], wrong: Collection[Key]) -> Mapping[str, Any]:
         for number, one in enumerate(phases if isinstance(phases, list) else ())
     ]
     plain = {
-        key: data[key]
-        for key in ("title", "about", "turns", "seeds")
-        if key in data and (key,) not in wrong
+        key: stand_in if (key,) in wrong else data[key]
+        for key, stand_in in PLAIN.items()
+        if key in data
     }
     return {"title": "", "seeds": 1, **plain, **left, "phases": named}
 
@@ -45,10 +55,8 @@ def _sound(
     given = data.get(table)
     found: dict[str, Any] = {}
     for name, one in given.items() if isinstance(given, dict) else ():
-        if not _is_wrong((table, name), wrong):
-            found[name] = one
-        elif table in STAND_INS:
-            found[name] = STAND_INS[table]
+        is_wrong = _is_wrong((table, name), wrong)
+        found[name] = STAND_INS[table] if is_wrong else one
     return found
 
 

@@ -11,6 +11,7 @@ from kille.experiments.results import ExperimentError
 from kille.simulation.worlds import COLOURS, KINDS
 from kille.studies.reading.troubles import Trouble
 from kille.studies.scenes import Scene
+from kille.studies.scenes.captured import Captured
 from kille.studies.scenes.occasions import KINDS as WORDS
 from kille.studies.scenes.statements import Statements
 from kille.studies.settings import Wrong, unknown
@@ -41,8 +42,15 @@ def names_in(study: Study, opened: Mapping[str, Scene]) -> Names:
     places = [*_said_in(opened)]
     for tutor in study.tutors.values():
         places += _places(tutor, study) if tutor.kind in SPEAKING else ()
-    nouns = (kind for scene in opened.values() for kind in scene.kinds)
+    nouns = (kind for scene in opened.values() for kind in _kinds_in(scene))
     return Names(_once(nouns), tuple(COLOURS), _once(places))
+
+
+def _kinds_in(scene: Scene) -> Iterator[str]:
+    """The kinds of things in a scene, whatever seed it is drawn by."""
+    yield from scene.kinds
+    if isinstance(scene, Captured):
+        yield from scene.labelled
 
 
 def _said_in(opened: Mapping[str, Scene]) -> Iterator[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 from random import Random
@@ -24,12 +24,16 @@ __all__ = ["Captured", "captures", "pictures"]
 
 @dataclass(frozen=True)
 class Captured:
-    """Pictures, or frames, of things: some are taught, and others kept for later."""
+    """Pictures, or frames, of things: some are taught, and others kept for later.
+
+    What is `labelled` in them may be in frames that another seed draws.
+    """
 
     start: World
     taught: tuple[Occasion, ...]
     kept: tuple[Occasion, ...]
     theatre: Theatre = field(compare=False)
+    labelled: tuple[str, ...] = ()
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -118,4 +122,6 @@ def captures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Captured:
                 for name in _outlined(shots[number]):
                     yield name, Capture(folder / scene, number, name)
 
-    return _captured(list(shown(teach)), list(shown(new)), folder.name)
+    captured = _captured(list(shown(teach)), list(shown(new)), folder.name)
+    labelled = {thing for it in (*teach, *new) for thing in scenes.things(it)}
+    return replace(captured, labelled=tuple(sorted(labelled)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from inspect import signature
 from typing import Any
 
@@ -105,8 +106,9 @@ def _of_made(make: str, given: Mapping[str, Any], study: Study) -> Iterator[str]
         yield from error.faults
         return
     try:
-        signature(maker).bind(**given)
-    except (TypeError, ValueError) as error:
+        with suppress(ValueError):  # some, made in C, do not tell how they are called
+            signature(maker).bind(**given)
+    except TypeError as error:
         yield f"{make} cannot be called with name, words and its settings: {error}"
         return
     try:

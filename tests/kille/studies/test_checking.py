@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from importlib.resources import files
 from pathlib import Path
+from shutil import copytree
 
 import cv2
 import numpy as np
 import pytest
 
+from kille.sensors.captures import read_sequence
 from kille.studies.errors import StudyError
 from kille.studies.reading import check, checked, parsed
 
@@ -451,6 +453,34 @@ def test_what_is_written_wrongly_is_no_mistake_of_others(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize(
+    "lines", ['language = "sv"\nlerners = 1', 'language = "svenska"']
+)
+def test_words_of_a_theory_with_a_slip_in_it_are_words(
+    tmp_path: Path, lines: str
+) -> None:
+    """What is Swedish for a cup is no mistake because the theory has one."""
+    told = wrong(
+        tmp_path,
+        ("[theories.one]", f"[theories.one]\n{lines}"),
+        (ANN, f'{ANN}\nvocabulary = ["kopp"]'),
+        ('do = "ask"\nof = "new"', 'do = "forget"\nwords = ["kopp"]'),
+    )
+    assert len(told) == 1
+    assert "one" in told[0]
+
+
+def test_where_the_number_of_turns_has_a_slip_all_phases_are_reached(
+    tmp_path: Path,
+) -> None:
+    [fault] = wrong(
+        tmp_path,
+        ("seeds = 1", 'seeds = 1\nturns = "9000"'),
+        ('do = "teach"', 'do = "teach"\nrounds = 800'),
+    )
+    assert fault.startswith("study.toml:3: turns of a study: expected a whole number")
+
+
+@pytest.mark.parametrize(
     ("line", "told"),
     [
         ('calls = { mugg = "cup" }', "that others call mugg: did you mean mug?"),
@@ -505,6 +535,28 @@ def test_words_of_a_grammar_of_ones_own_are_heard_by_it(tmp_path: Path) -> None:
         tmp_path, ("[theories.two]", "[theories.two]\ngrammar = 'mine'"), near
     )
     assert fault.partition(": ")[2].startswith('to one Ann says "beside"')
+
+
+@pytest.mark.parametrize("at", [0, -1])
+def test_what_is_in_one_frame_only_has_a_name(
+    data: Path, tmp_path: Path, at: int
+) -> None:
+    """Which frames are seen is drawn by the seed, and this one may be in another."""
+    for scene in ("0001", "0002"):
+        copytree(data / "ycbv_scenes" / scene, tmp_path / "data" / scene)
+    first = read_sequence(tmp_path / "data/0002/scene.json")[0]
+    [block] = [it for it, name in first.things.items() if name == "wood block"]
+    files = sorted((tmp_path / "data/0002").glob("*_label.png"))
+    for file in {*files} - {files[at]}:
+        labels = cv2.imread(str(file), cv2.IMREAD_UNCHANGED)
+        labels[labels == block] = 0
+        cv2.imwrite(str(file), labels)
+    captured = '"captures"\nfolder = "data"\neach = 1'
+    assert not wrong(
+        tmp_path,
+        ('"drawn"\nkinds = ["cup", "mug", "book"]\neach = 2', captured),
+        (ANN, f'{ANN}\ncalls = {{ "wood block" = "block" }}'),
+    )
 
 
 def test_categories_that_are_heard_otherwise_are_told(tmp_path: Path) -> None:

@@ -258,6 +258,18 @@ def test_a_phase_that_aligns_with_nothing_is_told(tmp_path: Path) -> None:
     ]
 
 
+def test_who_asks_for_both_sorts_knows_which_was_taught(tmp_path: Path) -> None:
+    both = """do = "teach"
+[[phases]]
+do = "ask"
+[[phases]]
+name = "more"
+do = "teach"
+of = "new"
+"""
+    assert found(tmp_path, ('do = "teach"\n', both)) == []
+
+
 def test_what_is_called_new_and_was_taught_is_told(tmp_path: Path) -> None:
     assert found(tmp_path, ('do = "teach"', 'do = "teach"\nof = "new"')) == [
         "study.toml:17: what is new in ask has been taught in teach"
@@ -270,3 +282,40 @@ def test_dialogues_that_end_before_all_is_done_are_told(tmp_path: Path) -> None:
         "study.toml:3: a dialogue takes 18 turns at least, and ends after 17: write "
         "turns = 18 or more"
     ]
+
+
+def test_words_of_a_vocabulary_may_be_those_of_any_theory(tmp_path: Path) -> None:
+    """Who has Swedish words says nothing to a theory in English, but to the other."""
+    swedish = ("[theories.two]", '[theories.two]\nlanguage = "sv"')
+    assert not found(tmp_path, swedish, (ANN, f'{ANN}\nvocabulary = ["kopp"]'))
+
+
+def test_only_where_things_are_shown_alone_are_there_too_few(tmp_path: Path) -> None:
+    """Of two things beside each other no others are shown, and in a rest none."""
+    crowded = ("each = 2", "each = 2\nin_view = 7")
+    rest = ('do = "ask"\nof = "new"', 'do = "rest"\n[[phases]]\ndo = "ask"')
+    places = (
+        'do = "teach"',
+        'do = "teach"\n[[phases]]\ndo = "teach"\nwhat = "relations"',
+    )
+    told = found(tmp_path, crowded, rest, places)
+    assert [it.partition(":")[0] for it in told] == ["study.toml"] * 2
+    assert "in the phase teach:" in told[0]
+    assert "in the phase ask:" in told[1]
+
+
+def test_a_person_in_the_place_of_the_robot_may_know_the_words(tmp_path: Path) -> None:
+    person = ("[theories.one]\n[theories.two]", '[theories.one]\nmode = "person"')
+    alone = ('without = ["hedge_name"]\n', "")
+    asked = ('[[phases]]\ndo = "teach"\n', "")
+    assert not found(tmp_path, person, alone, asked)
+    assert found(tmp_path, asked)
+
+
+def test_things_are_found_by_their_colours_too(tmp_path: Path) -> None:
+    prototype = ("[theories.two]", '[theories.two]\nlearners.adjective = "prototype"')
+    finding = ('do = "ask"\nof = "new"', 'do = "find"')
+    assert not found(
+        tmp_path, prototype, finding, ("each = 2", "each = 2\nin_view = 3")
+    )
+    assert found(tmp_path, prototype)

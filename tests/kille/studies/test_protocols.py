@@ -81,10 +81,11 @@ def test_who_goes_on_must_be_there():
 
 def test_what_a_scene_lacks_is_told(tmp_path):
     one = Named("s", "drawn", {"kinds": ["cup"], "each": 3})
-    study = made(("teach", {"what": "relations"}), scene=one)
-    ((key, told),) = protocols.faults(study.phases[0], study)
+    study = made(*((do, {"what": "relations"}) for do in ("teach", "ask")), scene=one)
+    assert not list(protocols.faults(study.phases[0], study))
+    ((key, told),) = protocols.faults(study.phases[1], study)
     assert key == ("what",)
-    assert told.startswith("there is one kind of thing in s, and nothing is told to ")
+    assert told.startswith("there is one kind of thing in s, and the robot does not ")
     seen = Named("s", "pictures", {"folder": str(tmp_path)})
     study = made(("find", {}), scene=seen)
     ((key, told),) = protocols.faults(study.phases[0], study)

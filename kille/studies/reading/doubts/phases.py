@@ -10,7 +10,7 @@ from kille.studies.reading.doubts.tutors import lines_of
 from kille.studies.reading.reaching import begins
 from kille.studies.reading.troubles import Trouble
 from kille.studies.scenes import Scene
-from kille.studies.study import Study
+from kille.studies.study import PERSON, Study
 
 __all__ = ["doubts"]
 
@@ -41,8 +41,10 @@ def _unmeasured(study: Study) -> Iterator[Trouble]:
 
 
 def _untaught(study: Study) -> Iterator[Trouble]:
-    """Phases that ask for words of a kind of which none is ever taught."""
+    """Phases that ask a robot for words of a kind of which none is ever taught."""
     taught = {kind_of(it) for it in study.phases if it.do in TEACHING}
+    if all(theory.mode == PERSON for theory in study.theories.values()):
+        return
     if any(it.settings.get("colours") != "taught" for it in study.scenes.values()):
         taught.add("adjective")
     for number, phase in enumerate(study.phases if is_plain(study) else ()):
@@ -80,15 +82,20 @@ def _faceless(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
 
 
 def _known_before(study: Study) -> Iterator[Trouble]:
-    """Phases of what is new in which that has been taught before."""
+    """Phases of what is new in which that has been taught before.
+
+    Who asks for what is not new as well knows that there are two sorts of things.
+    """
     before: dict[str, str] = {}
     if all(scene.kind == "around" for scene in study.scenes.values()):
         return
+    asked = [it for it in study.phases if it.do == "ask"]
+    both = {kind_of(it) for it in asked if it.settings.get("of") != "new"}
     for number, phase in enumerate(study.phases):
         if phase.settings.get("of") != "new":
             continue
         kind = kind_of(phase)
-        if phase.do == "ask" and kind in before:
+        if phase.do == "ask" and kind in before.keys() - both:
             told = f"what is new in {phase.name} has been taught in {before[kind]}"
             yield Trouble(("phases", number, "of"), told)
         if phase.do in TEACHING:

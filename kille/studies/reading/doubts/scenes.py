@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
-from kille.studies.reading.doubts.talked import kind_of
+from kille.studies.reading.doubts.talked import TEACHING, kind_of
 from kille.studies.reading.troubles import Trouble
 from kille.studies.scenes import SETTINGS, Scene
 from kille.studies.scenes.captured import Captured
@@ -64,6 +64,8 @@ def _less_in_view(scene: Named, study: Study) -> Iterator[tuple[str, str]]:
         return
     set_ = filled(scene.settings, SETTINGS["drawn"])
     for phase in study.phases:
+        if phase.do not in ("ask", "find", *TEACHING) or kind_of(phase) == "relation":
+            continue
         of = {"same": "each", "new": "new"}.get(phase.settings.get("of", "same"), "")
         things = len(set_["kinds"]) * set_[of]
         if "in_view" in scene.settings and things < set_["in_view"]:

@@ -31,4 +31,8 @@ def kinds_in(study: Study) -> Collection[str]:
         return KINDS.values()
     about = [it for it in study.phases if it.do in ("ask", *TEACHING)]
     found = {kind_of(phase) for phase in about}
-    return found | {"noun"} if any(it.do == "find" for it in study.phases) else found
+    return (
+        found | {"noun", "adjective"}
+        if any(it.do == "find" for it in study.phases)
+        else found
+    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import zip_longest
 
 from kille.dialogue.tutoring import hear
@@ -14,6 +14,7 @@ from kille.studies.reading.words import SPEAKING, names_in, words_of
 from kille.studies.scenes import Scene
 from kille.studies.study import PERSON, Named, Study
 from kille.studies.theories import language_of
+from kille.studies.tutors.words import Words
 from ttr.stories import Line, read_stories
 
 __all__ = ["doubts", "lines_of"]
@@ -38,11 +39,11 @@ def _unused(
     if "feedback" in tutor.settings and not does & {"practise", "talk"}:
         told = "feedback makes no difference: no phase is practise or talk"
         yield "feedback", told
-    there = {kind for scene in opened.values() for kind in scene.kinds}
+    there = names_in(study, opened).noun
     for name in tutor.settings.get("calls", ()):
         if name in KINDS and name not in there:
             yield "calls", f"there is no {name} in any scene that he could call so"
-    if tutor.settings.get("frame", "viewer") == "viewer":
+    if tutor.settings.get("frame", "viewer") in ("viewer", 0):
         return
     for scene in study.scenes.values():
         if _is_frontless(scene):
@@ -62,16 +63,22 @@ def _speechless(
     vocabulary = tutor.settings.get("vocabulary", ())
     if not vocabulary:
         return
-    words = words_of(next(iter(study.theories.values())).language, tutor)
-    own = {words.called(it) for it in vocabulary}
+    languages = {theory.language for theory in study.theories.values()}
+    spoken = [words_of(language, tutor) for language in sorted(languages)]
     for name, scene in opened.items():
         names = names_in(study, {name: scene})
         for phase in study.phases:
             if phase.do not in (*TEACHING, "ask"):
                 continue
-            if not own & {words.called(it) for it in getattr(names, kind_of(phase))}:
+            there = getattr(names, kind_of(phase))
+            if not any(_has_one(words, vocabulary, there) for words in spoken):
                 told = f"he has no word for the {kind_of(phase)}s of {name}"
                 yield "vocabulary", f"{told}, and says nothing in {phase.name}"
+
+
+def _has_one(words: Words, own: Iterable[str], there: Iterable[str]) -> bool:
+    """Whether one of his own words is for something that is there."""
+    return bool({words.called(it) for it in own} & {words.called(it) for it in there})
 
 
 # --- scripts --------------------------------------------------------------------------
