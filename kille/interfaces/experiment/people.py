@@ -2,8 +2,9 @@
 
 People are asked dialogue by dialogue, before all that is played without them. They are
 not told which theory they talk to, and meet theories in an order that does not tell it:
-drawn by chance, but so that each is as often the first as any other. The log has the
-dialogues in the order of the study, and which one each was as `order`.
+drawn by chance, but so that each is as often the first as any other, as far as the
+numbers allow. The log has the dialogues in the order of the study, and which one each
+was as `order`.
 """
 
 from __future__ import annotations
@@ -116,10 +117,14 @@ def in_person(study: Study, play: Play) -> Iterator[PlayAll]:
                     _end(outcome, number)
             others = [it for it in runs if not people_in(study, it)]
             if others:
-                console().print(f"{len(others):,} more are played without you.")
+                console().print(f"{_more(len(others))} played without you.")
             yield from play_each(others)
 
         yield play_all
+
+
+def _more(count: int) -> str:
+    return f"{count:,} more {'is' if count == 1 else 'are'}"
 
 
 def _begin(study: Study, run: Run, number: int, count: int) -> None:

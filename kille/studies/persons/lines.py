@@ -26,7 +26,7 @@ class Gone(KeyboardInterrupt):
 def typed(text: str) -> str:
     """The line that a person types, without blanks around it.
 
-    Raises `Gone` where the input has ended, or the terminal was closed.
+    Raises `Gone` where the input has ended, cannot be read, or the terminal was closed.
     """
     told, _, prompt = text.rpartition("\n")
     try:
@@ -34,6 +34,9 @@ def typed(text: str) -> str:
     except KeyboardInterrupt:
         _end_line()
         raise
+    except UnicodeDecodeError as error:
+        _end_line("What was typed is not UTF-8: save it so, or set the terminal to it.")
+        raise Gone from error
     except (EOFError, OSError, ValueError, RuntimeError) as error:
         _end_line("The input has ended.")
         raise Gone from error

@@ -128,6 +128,12 @@ class Terminal:
         self.shown += self._new.decode()
         return self.program.wait(PATIENCE)
 
+    def hang_up(self) -> None:
+        """Close the terminal, if that was not done yet."""
+        if self.screen >= 0:
+            os.close(self.screen)
+            self.screen = -1
+
     def _read(self, end: float) -> bool:
         """Whether more was shown until then."""
         ready = select.select([self.screen], [], [], max(0.0, end - time.monotonic()))
@@ -154,8 +160,7 @@ def terminal() -> Iterator[Callable[..., Terminal]]:
     for it in opened:
         it.program.kill()
         it.program.wait()
-        with suppress(OSError):
-            os.close(it.screen)
+        it.hang_up()
 
 
 # --- at a terminal -------------------------------------------------------------------
@@ -219,7 +224,7 @@ def test_a_closed_terminal_loses_nothing_that_was_over(
     it.type(*DIALOGUE)
     it.begin()
     it.until("me (you): ")
-    os.close(it.screen)
+    it.hang_up()
     assert it.program.wait(PATIENCE) != 0
     assert log.over(FOLDER) == 1
     done = kille("experiment", "resume", str(FOLDER), typed=lines(DIALOGUE))

@@ -81,6 +81,14 @@ def test_nobody_who_is_gone_types(monkeypatch):
             typed("> ")
 
 
+def test_what_is_not_utf_8_is_told(monkeypatch, capsys):
+    raw = io.BytesIO("Det här är en kopp.\n".encode("latin-1"))
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(raw, encoding="utf-8"))
+    with pytest.raises(Gone):
+        typed("> ")
+    assert "What was typed is not UTF-8: save it so" in capsys.readouterr().out
+
+
 def closed():
     file = io.StringIO()
     file.close()
