@@ -267,10 +267,26 @@ def kille_here() -> str:
 # --- connecting ----------------------------------------------------------------------
 
 
+class _Connecting(Client):  # type: ignore[misc]
+    """A client that is closed at once where it finds nobody.
+
+    Dask would close it when it is collected as garbage, and could wait for itself then.
+    """
+
+    def start(self, **settings: Any) -> None:
+        """Connects to the scheduler."""
+        try:
+            super().start(**settings)
+        except BaseException:
+            with suppress(Exception):
+                self.close(timeout=CLOSING)
+            raise
+
+
 @contextmanager
 def _connected(address: Any, place: str, seconds: float) -> Iterator[Client]:
     try:
-        client = Client(address, timeout=seconds, set_as_default=False)
+        client = _Connecting(address, timeout=seconds, set_as_default=False)
     except (OSError, ValueError, RuntimeError) as error:
         raise RunError(
             f"no scheduler can be reached at {place}: is it running, and its address "

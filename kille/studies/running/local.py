@@ -38,7 +38,7 @@ class Workers:
     def __init__(self, count: int) -> None:
         self.count = count
         single = dict.fromkeys((*READ_WHEN_LOADED, "OPENCV_FOR_THREADS_NUM"), "1")
-        modules = {"PYTHONPATH": os.pathsep.join(sys.path)}
+        modules = {"PYTHONPATH": os.pathsep.join(map(str, sys.path))}
         self._process = Popen(
             [sys.executable, "-P", "-m", "kille.studies.running.workers"],
             env=os.environ | single | modules,

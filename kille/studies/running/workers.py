@@ -17,7 +17,7 @@ import select
 import signal
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from tempfile import TemporaryDirectory
 
@@ -27,6 +27,11 @@ GLANCE = 0.2
 """After so many seconds it is seen which worker died, and whether all is over."""
 APART = 1.0
 """Seconds between two workers in one place: some may never be able to work."""
+FAILED = 1
+SOON = 5.0
+"""Who fails within so many seconds never worked."""
+MOST = 5
+"""After so many in a row that never worked no other is begun."""
 
 
 def begin() -> None:
@@ -35,13 +40,14 @@ def begin() -> None:
     The line has its `address`, how many `workers` there shall be, and the `settings` of
     Dask.
     """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # meant for who sends the runs
+    for it in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(it, signal.SIG_IGN)  # meant for who sends the runs
     load()
     line = sys.stdin.readline()
     if not line:
         return
     asked = json.loads(line)
-    with TemporaryDirectory(prefix="kille-workers-") as folder:
+    with suppress(OSError), TemporaryDirectory(prefix="kille-workers-") as folder:
 
         def work(number: int) -> None:
             asyncio.run(working(asked["address"], number, folder, asked["settings"]))
@@ -59,13 +65,15 @@ def load() -> None:
 
 
 def keep(workers: int, work: Callable[[int], None]) -> None:
-    """Keeps so many at work until the input ends, and ends them then."""
+    """Keeps so many at work until the input ends, or they fail; ends them then."""
     at_work = dict[int, int]()
     begun = dict[int, float]()
+    failed = 0
     try:
-        while not select.select([sys.stdin], [], [], GLANCE * bool(begun))[0]:
-            gone = ended()
-            at_work = {it: n for it, n in at_work.items() if it not in gone}
+        while failed < MOST and not over(GLANCE * bool(begun)):
+            for process, code in ended():
+                lasted = time.monotonic() - begun[at_work.pop(process)]
+                failed = failed + 1 if code == FAILED and lasted < SOON else 0
             for number in set(range(workers)) - set(at_work.values()):
                 if time.monotonic() - begun.get(number, -APART) >= APART:
                     begun[number] = time.monotonic()
@@ -77,25 +85,31 @@ def keep(workers: int, work: Callable[[int], None]) -> None:
                 os.waitpid(process, 0)
 
 
+def over(seconds: float) -> bool:
+    """Whether the input has ended, after so many seconds at most."""
+    return bool(select.select([sys.stdin], [], [], seconds)[0])
+
+
 def forked(work: Callable[[int], None], number: int) -> int:
     """The process that does this work, and nothing after it."""
     process = os.fork()
     if process:
         return process
+    code = FAILED
     try:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
         os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
         work(number)
+        code = 0
     finally:
-        os._exit(0)
+        os._exit(code)
 
 
-def ended() -> set[int]:
-    """The processes that have ended since it was asked last."""
-    found = set[int]()
+def ended() -> Iterator[tuple[int, int]]:
+    """The processes that have ended since it was asked last, and their exit codes."""
     with suppress(ChildProcessError):
-        while process := os.waitpid(-1, os.WNOHANG)[0]:
-            found.add(process)
-    return found
+        while (found := os.waitpid(-1, os.WNOHANG))[0]:
+            yield found[0], os.waitstatus_to_exitcode(found[1])
 
 
 async def working(

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TypeAlias
@@ -184,6 +185,20 @@ def test_an_address_where_nobody_is_is_one_line(
         played_by("nowhere")
 
 
+def test_no_connection_that_failed_is_left_to_the_garbage_collector(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("kille.studies.running.clusters.CONNECTING", 0.5)
+    gc.disable()
+    try:
+        with pytest.raises(RunError):
+            played_by("nowhere")
+        clients = [it for it in gc.get_objects() if isinstance(it, Client)]
+        assert {it.status for it in clients} <= {"closed"}
+    finally:
+        gc.enable()
+
+
 def played_by(address: str) -> list[Outcome]:
     study = little_study.study()
     with playing(study, list(study.runs()), play, crew(None, address)) as outcomes:
@@ -262,6 +277,7 @@ def test_a_script_plays_with_many_whatever_else_it_does(tmp_path: Path) -> None:
         capture_output=True,
         text=True,
         check=False,
+        timeout=SETTLED,
     )
     assert (found.stdout, found.stderr, found.returncode) == ("6\n", "", 0)
 
@@ -272,6 +288,43 @@ def test_workers_end_with_who_began_them_whatever_ends_it(tmp_path: Path) -> Non
         program.kill()
         program.communicate()
         settle(lambda: not list(tmp_path.glob("kille-workers-*")))
+
+
+def test_a_stop_of_all_processes_leaves_no_folder_behind(tmp_path: Path) -> None:
+    with started(tmp_path / "results", "2", 50, seeds=2_000) as program:
+        (forking,) = children(program.pid)
+        for process in (program.pid, forking, *children(forking)):
+            os.kill(process, signal.SIGTERM)
+        _, told = program.communicate(timeout=SETTLED)
+        assert (program.returncode, told) == (128 + signal.SIGTERM, b"")
+        settle(lambda: not list(tmp_path.glob("kille-workers-*")))
+
+
+def children(process: int) -> list[int]:
+    """The processes that this one has begun, and that have not ended."""
+    found = list[int]()
+    for it in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            state, parent = it.read_text().rpartition(")")[2].split()[:2]
+            found += [int(it.parent.name)] * (int(parent) == process and state != "Z")
+    return found
+
+
+FAILING = """
+from kille.studies.running import workers
+
+def fail(number):
+    raise OSError(number)
+
+workers.APART = 0.0
+workers.keep(2, fail)
+"""
+
+
+def test_workers_that_always_fail_are_given_up() -> None:
+    program = [sys.executable, "-c", FAILING]
+    with subprocess.Popen(program, stdin=subprocess.PIPE) as failing:
+        assert failing.wait(SETTLED) == 0
 
 
 def test_one_thread_is_there_when_workers_are_forked() -> None:
