@@ -271,6 +271,7 @@ class _Connecting(Client):  # type: ignore[misc]
     """A client that is closed at once where it finds nobody.
 
     Dask would close it when it is collected as garbage, and could wait for itself then.
+    What its loop was still waiting for when it was closed is nobody's error.
     """
 
     def start(self, **settings: Any) -> None:
@@ -281,6 +282,8 @@ class _Connecting(Client):  # type: ignore[misc]
             with suppress(Exception):
                 self.close(timeout=CLOSING)
             raise
+        finally:
+            self.loop.asyncio_loop.set_exception_handler(lambda *_: None)
 
 
 @contextmanager

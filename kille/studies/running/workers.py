@@ -27,7 +27,8 @@ GLANCE = 0.2
 """After so many seconds it is seen which worker died, and whether all is over."""
 APART = 1.0
 """Seconds between two workers in one place: some may never be able to work."""
-FAILED = 1
+FAILED = 87
+"""A code of its own: with 1 a library may end a process that does work."""
 SOON = 5.0
 """Who fails within so many seconds never worked."""
 MOST = 5

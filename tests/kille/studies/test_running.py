@@ -24,16 +24,17 @@ from kille.studies import log
 from kille.studies.errors import StudyError
 from kille.studies.log import Log, write_tables
 from kille.studies.log.outcomes import Outcome, RunError
-from kille.studies.running.clusters import _Cluster
+from kille.studies.running.clusters import _Cluster, _connected
 from kille.studies.running.crews import alone, crew, playing
 from kille.studies.running.runner import Progress, forget_broken, run
 from kille.studies.running.threads import READ_WHEN_LOADED, one_thread
+from kille.studies.running.workers import MOST
 from kille.studies.study import Run, Study
 from little_study import BAD, DEADLY, GOOD, folder_of, play
 
 HELPERS = str(Path(little_study.__file__).parent)
 SETTLED = 120
-"""So many seconds a busy machine may take to start a cluster."""
+"""So many seconds a busy machine may take to start a cluster, or to end programs."""
 
 
 def names(folder: Path) -> list[str]:
@@ -199,6 +200,17 @@ def test_no_connection_that_failed_is_left_to_the_garbage_collector(
         gc.enable()
 
 
+def test_what_dask_leaves_unheard_is_not_told(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    with cluster(workers=1) as (address, _, _):
+        with _connected(address, address, SETTLED) as client:
+            future = client.loop.asyncio_loop.create_future()
+            future.set_exception(TimeoutError())
+        del future
+        assert caplog.messages == []
+
+
 def played_by(address: str) -> list[Outcome]:
     study = little_study.study()
     with playing(study, list(study.runs()), play, crew(None, address)) as outcomes:
@@ -233,7 +245,7 @@ def ended() -> Iterator[list[Program]]:
     finally:
         for it in programs:
             it.kill()
-            it.communicate()
+            it.communicate(timeout=SETTLED)
 
 
 def dask(*words: str) -> Program:
@@ -286,7 +298,7 @@ def test_workers_end_with_who_began_them_whatever_ends_it(tmp_path: Path) -> Non
     with started(tmp_path / "results", "2", 50, seeds=300) as program:
         assert list(tmp_path.glob("kille-workers-*"))
         program.kill()
-        program.communicate()
+        program.communicate(timeout=SETTLED)
         settle(lambda: not list(tmp_path.glob("kille-workers-*")))
 
 
@@ -294,7 +306,8 @@ def test_a_stop_of_all_processes_leaves_no_folder_behind(tmp_path: Path) -> None
     with started(tmp_path / "results", "2", 50, seeds=2_000) as program:
         (forking,) = children(program.pid)
         for process in (program.pid, forking, *children(forking)):
-            os.kill(process, signal.SIGTERM)
+            with suppress(ProcessLookupError):  # the first may have ended the others
+                os.kill(process, signal.SIGTERM)
         _, told = program.communicate(timeout=SETTLED)
         assert (program.returncode, told) == (128 + signal.SIGTERM, b"")
         settle(lambda: not list(tmp_path.glob("kille-workers-*")))
@@ -325,6 +338,32 @@ def test_workers_that_always_fail_are_given_up() -> None:
     program = [sys.executable, "-c", FAILING]
     with subprocess.Popen(program, stdin=subprocess.PIPE) as failing:
         assert failing.wait(SETTLED) == 0
+
+
+LEAVING = """
+import os
+from kille.studies.running import workers
+
+def leave(number):
+    os.write(1, b".")
+    os._exit(1)
+
+workers.APART = workers.GLANCE = 0.0
+workers.keep(1, leave)
+"""
+
+
+def test_workers_that_a_dialogue_has_ended_are_not_given_up() -> None:
+    program = [sys.executable, "-c", LEAVING]
+    with subprocess.Popen(
+        program, stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as leaving:
+        assert leaving.stdout
+        assert leaving.stdin
+        begun = 2 * MOST
+        assert leaving.stdout.read(begun) == b"." * begun
+        leaving.stdin.close()
+        assert leaving.wait(SETTLED) == 0
 
 
 def test_one_thread_is_there_when_workers_are_forked() -> None:
@@ -470,7 +509,7 @@ def test_what_was_killed_goes_on_to_the_same_bytes(tmp_path: Path) -> None:
     for over in (50, 200):
         with started(killed, "2", over, seeds=300) as program:
             program.kill()
-            program.communicate()
+            program.communicate(timeout=SETTLED)
         assert over <= log.over(killed) < 600
     run(study, killed, play)
     run(study, whole, play)
