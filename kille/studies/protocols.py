@@ -23,7 +23,7 @@ from kille.studies.settings import Setting, Settings, Wrong, filled, unknown
 from kille.studies.study import Named, Phase, Run, Study
 from kille.studies.tutors.tutor import Task
 
-__all__ = ["CHANGING", "RESTING", "SETTINGS", "faults", "length", "tasks"]
+__all__ = ["CHANGING", "RESTING", "SETTINGS", "faults", "length", "successor", "tasks"]
 
 MOST = 1000
 """Rounds: a dialogue that has more of them is nobody's study, but a slip."""
@@ -142,6 +142,13 @@ def _count(scene: Named, of: str) -> int:
     return len(set_["kinds"]) * int(set_[of])
 
 
+def successor(study: Study, phase: Phase, now: str) -> str:
+    """Who goes on: the tutor who is named, or the one who comes after this one."""
+    to = str(phase.settings.get("to", ""))
+    names = list(study.tutors)
+    return to or names[(names.index(now) + 1) % len(names)]
+
+
 def length(phase: Phase, scene: Scene) -> int:
     """How many tasks there are in a phase, in front of a scene."""
     set_ = filled(phase.settings, SETTINGS[phase.do])
@@ -159,7 +166,7 @@ def length(phase: Phase, scene: Scene) -> int:
 def tasks(study: Study, run: Run, scene: Scene) -> Iterator[tuple[Phase, Task]]:
     """What is to be done in a run, phase by phase.
 
-    A phase in which there is nothing to talk of has one task without an occasion.
+    Rest, a change of tutors, and a word to be forgotten are tasks without an occasion.
     """
     number = count(1)
     for phase in study.phases:

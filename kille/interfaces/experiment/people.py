@@ -19,7 +19,7 @@ from kille.interfaces.terminal import console
 from kille.studies.log import Broken, Finished, Outcome, RunError
 from kille.studies.log.outcomes import Play
 from kille.studies.persons.lines import ready
-from kille.studies.protocols import CHANGING, tasks
+from kille.studies.protocols import CHANGING, successor, tasks
 from kille.studies.running import Crew, alone, crew
 from kille.studies.running.crews import PlayAll
 from kille.studies.scenes import opened
@@ -60,7 +60,8 @@ def told_people(study: Study) -> str:
 
 def people_in(study: Study, run: Run) -> tuple[str, ...]:
     """Who types in a dialogue, and as what, as it is told them."""
-    typing = [f"{it} is the tutor" for it in _tutors(study, run) if _types(study, it)]
+    tutors = dict.fromkeys(_tutors(study, run))
+    typing = [f"{it} is the tutor" for it in tutors if _types(study, it)]
     plays = study.theories[run.theory].mode == PERSON
     return (*typing, *[f"{run.theory} plays the robot"] * plays)
 
@@ -70,10 +71,13 @@ def _types(study: Study, tutor: str) -> bool:
 
 
 def _tutors(study: Study, run: Run) -> Iterator[str]:
-    """All who may be the tutor in a dialogue, before or after a change of tutors."""
-    changes = any(phase.do in CHANGING for phase in study.phases)
-    for name in study.tutors if changes else (run.tutor,):
-        yield from study.tutors[name].settings.get("of", (name,))
+    """All who are the tutor in a dialogue, one after the other."""
+    name = run.tutor
+    yield from study.tutors[name].settings.get("of", (name,))
+    for phase in study.phases:
+        if phase.do in CHANGING:
+            name = successor(study, phase, name)
+            yield from study.tutors[name].settings.get("of", (name,))
 
 
 def in_turn(study: Study) -> list[Run]:
@@ -82,24 +86,31 @@ def in_turn(study: Study) -> list[Run]:
     A tutor goes on to the end; each scene of each seed is met with all theories.
     """
     scenes = [*product(study.seeds, study.scenes)]
-    found = [
+    return [
         Run(theory, tutor, scene, seed)
         for tutor in study.tutors
+        for met in [_met(study, tutor)]
         for place, (seed, scene) in enumerate(scenes)
-        for theory in _mixed(study, tutor, place)
+        for theory in _mixed(met, tutor, place)
     ]
-    return [it for it in found if people_in(study, it)]
 
 
-def _mixed(study: Study, tutor: str, place: int) -> list[str]:
-    """The theories in the order in which they are met at a place in the study.
+def _met(study: Study, tutor: str) -> list[str]:
+    """The theories that people meet, or play, in the dialogues of a tutor."""
+    scene, seed = next(iter(study.scenes)), study.seeds[0]
+    runs = (Run(theory, tutor, scene, seed) for theory in study.theories)
+    return [it.theory for it in runs if people_in(study, it)]
+
+
+def _mixed(names: Sequence[str], tutor: str, place: int) -> list[str]:
+    """Theories in the order in which they are met at a place in the study.
 
     They are drawn by chance, and then each is the first once, the second once …
     """
-    names = [*study.theories]
-    block, first = divmod(place, len(names))
-    Random(f"the order of theories for {tutor}, {block}").shuffle(names)
-    return [*names[first:], *names[:first]]
+    block, first = divmod(place, max(1, len(names)))
+    drawn = [*names]
+    Random(f"the order of theories for {tutor}, {block}").shuffle(drawn)
+    return [*drawn[first:], *drawn[:first]]
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import sys
 import textwrap
@@ -16,11 +17,19 @@ Ask: TypeAlias = Callable[[str], str]
 """Shows a text, of which the last line is the prompt, and gives the line typed."""
 
 
+_NO_CHARACTER = re.compile("[\N{REPLACEMENT CHARACTER}\ud800-\udfff]")
+"""What stands for bytes that are no characters, where reading them is no error."""
+
+
 class Gone(KeyboardInterrupt):
     """The input has ended: nobody is there any more who could type.
 
     It stops a study as Ctrl-C does, so that nothing is kept of what nobody has said.
     """
+
+
+class _Garbled(ValueError):
+    """A line with bytes that are no characters."""
 
 
 def typed(text: str) -> str:
@@ -34,7 +43,7 @@ def typed(text: str) -> str:
     except KeyboardInterrupt:
         _end_line()
         raise
-    except UnicodeDecodeError as error:
+    except (UnicodeDecodeError, _Garbled) as error:
         _end_line("What was typed is not UTF-8: save it so, or set the terminal to it.")
         raise Gone from error
     except (EOFError, OSError, ValueError, RuntimeError) as error:
@@ -56,6 +65,8 @@ def _line(told: str, prompt: str) -> str:
     if told:
         _show(told)
     line = input(prompt)
+    if _NO_CHARACTER.search(line):
+        raise _Garbled
     if not sys.stdin.isatty():  # what comes through a pipe is not on the screen yet
         _show(line)
     return line.strip()

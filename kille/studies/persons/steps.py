@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from kille.simulation.worlds import Thing
 from kille.studies.scenes.occasions import Occasion
+from kille.studies.tutors.simulated import BY
 from kille.studies.tutors.tutor import Task
 from kille.studies.tutors.words import Words
 
@@ -18,6 +19,11 @@ _QUESTIONS = {
     "noun": "ask what #{x} is",
     "adjective": "ask what colour #{x} is",
     "relation": "ask where #{x} is",
+}
+_ALONE = {
+    "both": "",
+    "noun": " by its noun alone",
+    "colour": " by its colour alone",
 }
 
 
@@ -35,6 +41,10 @@ def wanted(task: Task) -> str:
             return "say which way things face, and whose left you speak of"
         case "align":
             return "say which way things face"
+        case "find":
+            by = _ALONE[task.settings["by"]]
+            name = task.occasion.name(task.occasion.x)
+            return f"ask for the {name}{by}, at which nobody points"
     return _about(task.do, task.occasion)
 
 
@@ -48,8 +58,6 @@ def _about(do: str, it: Occasion) -> str:
         case "practise":
             asks = _QUESTIONS[it.kind].format(x=it.x)
             return f"{asks}, and then say what is right"
-        case "find":
-            return f"ask for the {it.name(it.x)}, at which nobody points"
     return f"talk of #{it.x}, or type nothing and let the robot talk"
 
 
@@ -64,8 +72,7 @@ def question(task: Task, language: str) -> str:
     """A question to which the answer would be kept."""
     words, it = Words(language), task.occasion
     if task.do == "find":
-        by = ("adjective", "noun") if it.thing.colour else ("noun",)
-        return words.finding(words.described(it.thing, *by))
+        return words.finding(words.described(it.thing, *BY[task.settings["by"]]))
     return words.question(it.kind)
 
 

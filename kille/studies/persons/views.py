@@ -34,4 +34,4 @@ def _thing(world: World, number: int, view: object) -> str:
 
 
 def _steps(far: float) -> str:
-    return f"{round(far, 1):g}"
+    return f"{round(far, 1):zg}"

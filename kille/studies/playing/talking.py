@@ -17,11 +17,11 @@ from kille.studies import scenes
 from kille.studies.errors import StudyError
 from kille.studies.played import Answer, Played, Turn
 from kille.studies.playing.opening import robot_of, tutor_of
-from kille.studies.protocols import CHANGING, RESTING, tasks
+from kille.studies.protocols import CHANGING, RESTING, successor, tasks
 from kille.studies.robots import Robot
 from kille.studies.robots.replies import Reply, degrees
 from kille.studies.scenes.occasions import Occasion
-from kille.studies.study import Phase, Run, Study
+from kille.studies.study import Run, Study
 from kille.studies.tutors.tutor import (
     Asked,
     Happens,
@@ -51,20 +51,13 @@ def play(study: Study, run: Run) -> Played:
             if talk.is_over:
                 break
             if phase.do in CHANGING:
-                name = _next(study, phase, name)
+                name = successor(study, phase, name)
                 tutor = tutor_of(study, run, name, scene)
             elif phase.do in RESTING:
                 talk.rest(task)
             else:
                 talk.play(task, tutor)
     return talk.played()
-
-
-def _next(study: Study, phase: Phase, now: str) -> str:
-    """Who goes on: the tutor who is named, or the one who comes after this one."""
-    to = str(phase.settings.get("to", ""))
-    names = list(study.tutors)
-    return to or names[(names.index(now) + 1) % len(names)]
 
 
 class _Talk:
@@ -103,7 +96,7 @@ class _Talk:
                     continue
                 if isinstance(move, Says) and move.asks is not None:
                     asked = move.asks
-                if asked is not None and _answers(reply, asked):
+                if asked is not None and _answers(move, reply, asked):
                     self._answered(task, tutor, asked, reply)
                     asked = None
                 if self.is_over:
@@ -206,8 +199,13 @@ def _told(moves: Turns, error: StudyError | SensorError) -> Move | None:
         return None
 
 
-def _answers(reply: Reply, asked: Asked) -> bool:
-    """Whether it is the answer; what a script expects is whatever is said next."""
+def _answers(move: Move, reply: Reply, asked: Asked) -> bool:
+    """Whether it is the answer; what a script expects is whatever is said next.
+
+    Nothing is answered while things are laid, or pointed at: the tutor has the floor.
+    """
+    if isinstance(move, Shows):
+        return False
     return asked.kind == "reply" or not reply.is_open
 
 

@@ -102,7 +102,7 @@ class TypedReply(Reply):
         return next((word for _, word in self.claimed), "")
 
     def said(self, kind: str) -> str:
-        """The word of a kind that is claimed."""
+        """The word of a kind that is claimed, the last of several: it sets right."""
         return dict(self.claimed).get(kind, "")
 
 
@@ -140,11 +140,11 @@ class Typed:
         now = self._occasion
         if command == "restart":
             return self.rest()
+        if now is not None and command == "look":
+            return self.wait(now.looked())
         if now is None or now.view is not None:
             self._before += f"\nWhat happens: {command}"
             return self._reply("")
-        if command == "look":
-            return self.wait(now.looked())
         return self.see(after(now, command))
 
     def rest(self) -> Reply:

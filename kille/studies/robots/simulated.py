@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
 
 from kille.dialogue.wording import did_not_understand, lexicon
 from kille.simulation.perceiving import glanced, number_of, seen, thing
 from kille.simulation.playing import world_of
 from kille.simulation.schooling import rested
 from kille.simulation.worlds import World
-from kille.studies.errors import StudyError
 from kille.studies.robots.replies import Reply
+from kille.studies.scenes.happening import changed
 from kille.studies.scenes.occasions import Occasion
 from ttr.updates import Game, Run, Turn
 
@@ -44,13 +43,12 @@ class Simulated:
 
     def happen(self, command: str) -> Reply:
         """`look`, `point 2`, `place 2 3.5 4`, `remove 2` or `restart`."""
-        verb, *rest = command.split()
         world = self._world
-        if verb == "restart":
+        if command == "restart":
             return self.rest()
-        if verb == "look":
+        if command == "look":
             return self._taken(seen(world.looked(), world))
-        return self._taken(glanced(_changed(world, verb, rest), world))
+        return self._taken(glanced(changed(world, command), world))
 
     def rest(self) -> Reply:
         """Another day: see `kille.simulation.schooling.rested`."""
@@ -83,23 +81,3 @@ class Simulated:
     ) -> Reply:
         moves = () if turn is None else turn.said
         return Reply(text, moves, self._now.state, self._now.model, rules, number_of)
-
-
-def _changed(world: World, verb: str, rest: Sequence[str]) -> World:
-    """The world after a command. Raises `StudyError` for one that is not known."""
-    try:
-        match verb, [float(it.lstrip("#")) for it in rest]:
-            case "point", [number]:
-                return world.pointed(int(number))
-            case "remove", [number]:
-                return world.moved(int(number), None)
-            case "place", [number, right, away]:
-                return world.moved(int(number), (right, away))
-    except (ValueError, IndexError):
-        pass
-    raise StudyError(
-        [
-            f"@ {' '.join((verb, *rest))}: in front of a simulated scene write `look`, "
-            "`point 2`, `place 2 3.5 4`, `remove 2` or `restart`"
-        ]
-    )

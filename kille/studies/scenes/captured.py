@@ -102,6 +102,9 @@ def pictures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Captured:
 def captures(folder: Path, set_: Mapping[str, Any], chance: Random) -> Captured:
     """The things in labelled frames: of some scenes to teach, of others for later."""
     scenes = _scenes(folder)
+    if not scenes.shots:
+        told = f"{folder} has no folders of labelled captures, one for each scene"
+        raise StudyError([told])
     new = set_["new"] or [it for it in scenes.shots if it not in set_["teach"]][-1:]
     teach = set_["teach"] or [it for it in scenes.shots if it not in new]
     if not teach:

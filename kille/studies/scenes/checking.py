@@ -64,7 +64,17 @@ def _empty(scene: Scene, named: Named, study: Study) -> Iterator[Wrong]:
         kind = WORDS[phase.settings.get("what", "nouns")]
         if not scene.round(kind, True, Random(0)):
             told = f"nothing is kept in {named.name} for the phase {phase.name}, which"
-            yield ("new",), f"{told} is of what is new: write new = 1"
+            yield ("new",), f"{told} is of what is new: {_keeping(named)}"
+
+
+def _keeping(named: Named) -> str:
+    """What has something kept for later."""
+    set_ = filled(named.settings, SETTINGS[named.kind])
+    if named.kind == "captures":
+        return "name the scenes that are, new = […]"
+    if named.kind in ("pictures", "statements") and set_["new"]:
+        return "write a smaller each"
+    return f"write new = {set_['new'] + 1}"
 
 
 def _unrendered(named: Named) -> Iterator[Wrong]:

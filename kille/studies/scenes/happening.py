@@ -10,7 +10,7 @@ from kille.studies.errors import StudyError
 from kille.studies.scenes.occasions import Occasion
 from kille.studies.scenes.places import TABLE, rounded
 
-__all__ = ["after", "changed"]
+__all__ = ["PLACED", "after", "changed", "is_step"]
 
 
 def changed(world: World, command: str) -> World:
@@ -54,6 +54,18 @@ def after(occasion: Occasion, command: str) -> Occasion:
     return replace(occasion, world=changed(occasion.world, command), seen=seen)
 
 
+PLACED = f"a place is two numbers from 0 to {TABLE:g}, steps of 10 cm"
+"""What those are told who put a thing beside the table."""
+
+
+def is_step(number: str) -> bool:
+    """Whether a text is a number of steps that is on the table."""
+    try:
+        return 0 <= float(number) <= TABLE
+    except ValueError:
+        return False
+
+
 class _Unfit(Exception):
     """A number that a command cannot have."""
 
@@ -66,10 +78,6 @@ def _among(number: str, known: Collection[int], where: str) -> int:
 
 
 def _step(number: str) -> float:
-    try:
-        step = float(number)
-    except ValueError:
-        step = -1.0
-    if 0 <= step <= TABLE:
-        return step
-    raise _Unfit(f"a place is two numbers from 0 to {TABLE:g}, steps of 10 cm")
+    if is_step(number):
+        return float(number)
+    raise _Unfit(PLACED)

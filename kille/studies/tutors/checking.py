@@ -113,13 +113,13 @@ def _of_made(make: str, given: Mapping[str, Any], study: Study) -> Iterator[str]
         return
     try:
         tutor = maker(**given)
+        lacking = [it for it in ("name", "turns") if not hasattr(tutor, it)]
     except (Exception, SystemExit) as error:
         told = located(make.rpartition(":")[0], study.folder, error)
         yield f"{make} makes no tutor: {told}"
         return
-    for needed in ("name", "turns"):
-        if not hasattr(tutor, needed):
-            yield f"a tutor needs {needed}, and what {make} makes has none"
+    for needed in lacking:
+        yield f"a tutor needs {needed}, and what {make} makes has none"
 
 
 def _words(study: Study) -> Words:

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from kille.studies.scenes import WHOLE
+from kille.studies.scenes.happening import PLACED, is_step
 from kille.studies.study import Study
 from kille.studies.tutors.tutor import Asked, Happens, Move, Says, Shows, Task, Turns
 from ttr.stories import Line, read_stories
@@ -57,6 +58,8 @@ def unplayable(lines: Sequence[Line], study: Study) -> Iterator[str]:
         elif line.mark == "@" and not re.fullmatch("|".join(known.values()), text):
             told = f"@ {text} is no command in these scenes"
             yield f"{line.place}: {told}: write {', '.join(known)}"
+        elif line.mark == "@" and not all(map(is_step, text.split()[2:])):
+            yield f"{line.place}: @ {text}: {PLACED}"
 
 
 _THING = r"#?[1-9]\d{0,5}"

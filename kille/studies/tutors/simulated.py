@@ -16,7 +16,7 @@ from kille.studies.tutors.answering import answer
 from kille.studies.tutors.holding import Holding, Manner
 from kille.studies.tutors.tutor import Asked, Move, Says, Shows, Task, Turns, Waits
 
-__all__ = ["FEEDBACK", "Simulated"]
+__all__ = ["BY", "FEEDBACK", "Simulated"]
 
 FEEDBACK = ("none", "confirm", "correct", "both")
 """What he says of answers: whether they are right, what is right instead, or both."""
@@ -27,8 +27,10 @@ CERTAIN = ("assert", "think", "doubt", "yes", "probably", "rather")
 LOOKS = 2
 """How often the tutor lets the robot look before it is his turn again."""
 
+BY = {"both": ("adjective", "noun"), "noun": ("noun",), "colour": ("adjective",)}
+"""The kinds of the words by which he asks for a thing, by what a phase says of it."""
+
 _QUESTIONS = {"noun": "ask_name", "adjective": "ask_quality", "relation": "ask_place"}
-_BY = {"both": ("adjective", "noun"), "noun": ("noun",), "colour": ("adjective",)}
 
 
 @dataclass(frozen=True)
@@ -139,7 +141,7 @@ class _Doing:
     def find(self) -> Turns:
         """He asks for a thing by its words."""
         occasion = self._task.occasion
-        phrase = self._words.described(occasion.thing, *_BY[self._task.settings["by"]])
+        phrase = self._words.described(occasion.thing, *BY[self._task.settings["by"]])
         yield Shows(occasion.unpointed())
         asked = Asked("reference", occasion.name(occasion.x), occasion.x)
         text = self._words.finding(phrase)

@@ -23,6 +23,7 @@ import pytest
 from kille.interfaces.experiment.people import in_turn, people_in
 from kille.studies import log
 from kille.studies.reading.file import parsed
+from kille.studies.study import Run
 
 COMMAND = [sys.executable, "-m", "kille.interfaces.cli"]
 COLUMNS = 80
@@ -55,7 +56,7 @@ do = "ask"
 DIALOGUE = ["This is a cup.", ".", "What is this?", "."]
 """What is typed in one dialogue of it."""
 
-Run = Callable[..., Any]
+Kille = Callable[..., Any]
 FOLDER = Path("wizards.results")
 
 
@@ -115,7 +116,9 @@ class Terminal:
 
     def interrupt(self) -> None:
         """Press Ctrl-C, and once more if it comes before readline listens."""
+        end = time.monotonic() + PATIENCE
         while self.program.poll() is None and b"kille: " not in self._new:
+            assert time.monotonic() < end, f"nothing is stopped: {self.shown}"
             self.press("\x03")
             again = time.monotonic() + 5
             while b"kille: " not in self._new and self._read(again):
@@ -190,7 +193,7 @@ def test_a_person_is_led_through_a_study(study: Path, terminal: Any) -> None:
 
 
 def test_what_was_over_is_kept_when_a_person_leaves(
-    kille: Run, study: Path, terminal: Any
+    kille: Kille, study: Path, terminal: Any
 ) -> None:
     it = terminal("run", str(study))
     it.begin()
@@ -217,7 +220,7 @@ def test_ctrl_c_stops_a_person(study: Path, terminal: Any) -> None:
 
 
 def test_a_closed_terminal_loses_nothing_that_was_over(
-    kille: Run, study: Path, terminal: Any
+    kille: Kille, study: Path, terminal: Any
 ) -> None:
     it = terminal("run", str(study))
     it.begin()
@@ -234,7 +237,7 @@ def test_a_closed_terminal_loses_nothing_that_was_over(
 # --- through a pipe ------------------------------------------------------------------
 
 
-def test_lines_may_come_from_a_file(kille: Run, study: Path) -> None:
+def test_lines_may_come_from_a_file(kille: Kille, study: Path) -> None:
     done = kille("experiment", "run", str(study), typed=lines(DIALOGUE, DIALOGUE))
     assert (done.code, done.err) == (0, "")
     assert "me (you): This is a cup.\nRobot: OK, I learned a cup.\n" in done.out
@@ -242,12 +245,23 @@ def test_lines_may_come_from_a_file(kille: Run, study: Path) -> None:
 
 @pytest.mark.parametrize("typed", ["", "This is a cup.\n.\n"])
 def test_a_file_that_ends_too_early_makes_up_no_dialogue(
-    kille: Run, study: Path, typed: str
+    kille: Kille, study: Path, typed: str
 ) -> None:
     done = kille("experiment", "run", str(study), typed=typed)
     assert done.code == 130
     assert done.out.endswith("\nThe input has ended.\n")
     assert done.complaint.startswith("kille: stopped with 0 of 2 dialogues over")
+    assert log.over(FOLDER) == 0
+
+
+def test_a_file_in_another_code_is_told_and_not_played(
+    program: Kille, study: Path
+) -> None:
+    study.write_text(STUDY.replace('mode = "driven"', 'language = "sv"'))
+    swedish = lines(["Det här är en kopp.", "."] * 2).encode("latin-1")
+    done = program("experiment", "run", str(study), typed=swedish)
+    assert done.code == 130
+    assert "\nWhat was typed is not UTF-8: save it so" in done.out
     assert log.over(FOLDER) == 0
 
 
@@ -270,7 +284,7 @@ def test_theories_are_met_in_an_order_that_does_not_tell_them(study: Path) -> No
     assert in_turn(it) == runs
 
 
-def test_in_which_order_theories_were_met_is_kept(kille: Run, study: Path) -> None:
+def test_in_which_order_theories_were_met_is_kept(kille: Kille, study: Path) -> None:
     study.write_text(STUDY.replace("seeds = 1", "seeds = 2"))
     kille("experiment", "run", str(study), typed=lines(*[DIALOGUE] * 4))
     with open(FOLDER / "runs.csv", encoding="utf-8") as file:
@@ -284,7 +298,7 @@ def test_in_which_order_theories_were_met_is_kept(kille: Run, study: Path) -> No
 MIXED = STUDY.replace("[tutors.me]", '[tutors.Ann]\nkind = "simulated"\n\n[tutors.me]')
 
 
-def test_people_come_first(kille: Run, study: Path) -> None:
+def test_people_come_first(kille: Kille, study: Path) -> None:
     study.write_text(MIXED)
     done = kille("experiment", "check", str(study))
     assert done.out.endswith("× 1 seed, a person takes part in 2\n")
@@ -295,7 +309,7 @@ def test_people_come_first(kille: Run, study: Path) -> None:
 
 
 def test_only_what_a_person_has_typed_cannot_be_replayed(
-    kille: Run, study: Path
+    kille: Kille, study: Path
 ) -> None:
     study.write_text(MIXED)
     kille("experiment", "run", str(study), typed=lines(DIALOGUE, DIALOGUE))
@@ -311,7 +325,7 @@ def test_only_what_a_person_has_typed_cannot_be_replayed(
 
 @pytest.mark.parametrize("others", [("--workers", "2"), ("--scheduler", "tcp://a:1")])
 def test_only_one_process_can_ask_a_person(
-    kille: Run, study: Path, others: tuple[str, ...]
+    kille: Kille, study: Path, others: tuple[str, ...]
 ) -> None:
     done = kille("experiment", "run", str(study), *others)
     assert done.code == 2
@@ -319,7 +333,7 @@ def test_only_one_process_can_ask_a_person(
     assert not FOLDER.exists()
 
 
-def test_nobody_types_to_a_theory_with_meanings(kille: Run, study: Path) -> None:
+def test_nobody_types_to_a_theory_with_meanings(kille: Kille, study: Path) -> None:
     own = (
         'mode = "assisted"\nmeanings.It = "[x : Ind, look : Look, d : shown(x, look)]"'
     )
@@ -349,7 +363,34 @@ def test_who_takes_part_is_told(study: Path) -> None:
         "careful/me/table/1": ("me is the tutor",),
     }
     swap = parsed(f'{text}\n[[phases]]\ndo = "change_tutor"\nto = "me"\n', study)
-    assert all(people_in(swap, run) for run in swap.runs())
+    both = ("me is the tutor", "daring plays the robot")
+    told = {run.theory: people_in(swap, run) for run in swap.runs()}
+    assert told == {"daring": both, "careful": both[:1]}
+    swap = parsed(f'{text}\n[[phases]]\ndo = "change_tutor"\nto = "Ann"\n', study)
+    assert people_in(swap, Run("careful", "Ann", "table", 1)) == ()
+    assert people_in(swap, Run("careful", "me", "table", 1)) == both[:1]
+    swap = parsed(f'{text}\n[[phases]]\ndo = "swap"\n', study)
+    assert people_in(swap, Run("careful", "Ann", "table", 1)) == both[:1]
+
+
+def test_who_has_two_turns_is_told_once(study: Path) -> None:
+    tutors = (
+        '[tutors.both]\nkind = "several"\nof = ["me", "Ann", "me"]\n'
+        '[tutors.Ann]\nkind = "simulated"\n[tutors.me]'
+    )
+    it = parsed(STUDY.replace("[tutors.me]", tutors), study)
+    run = Run("careful", "both", "table", 1)
+    assert people_in(it, run) == ("me is the tutor",)
+
+
+def test_theories_without_people_do_not_count_for_who_is_first(study: Path) -> None:
+    robots = '[theories.own]\n\n[theories.second]\nmode = "person"\n\n[tutors.me]'
+    text = STUDY.replace('"driven"', '"person"').replace("[tutors.me]", robots)
+    text = text.replace('"keyboard"', '"simulated"').replace("seeds = 1", "seeds = 8")
+    runs = in_turn(parsed(text, study))
+    assert [run.seed for run in runs] == [seed for seed in range(1, 9) for _ in "ab"]
+    firsts = Counter(run.theory for run in runs[::2])
+    assert firsts == {"daring": 4, "second": 4}
 
 
 FORGETFUL = """
@@ -366,7 +407,7 @@ class Forgetful:
 """
 
 
-def test_a_person_is_told_of_a_dialogue_that_broke(kille: Run, study: Path) -> None:
+def test_a_person_is_told_of_a_dialogue_that_broke(kille: Kille, study: Path) -> None:
     Path("own.py").write_text(FORGETFUL)
     own = '[theories.daring]\nlearners.noun = "own.py:Forgetful"\n'
     two = STUDY.replace("seeds = 1", "seeds = 2").replace("[theories.careful]\n", "")

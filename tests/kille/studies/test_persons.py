@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Iterator
+from dataclasses import replace
 from unittest.mock import patch
 
 import pytest
@@ -12,6 +13,7 @@ from kille.simulation.worlds import Thing, World
 from kille.studies.errors import StudyError
 from kille.studies.persons.lines import Gone, typed
 from kille.studies.persons.sayings import claimed
+from kille.studies.persons.views import viewed
 from kille.studies.playing import play
 from kille.studies.robots.persons import Typed
 from kille.studies.robots.replies import Reply
@@ -28,10 +30,10 @@ ROBOT, WIZARD = Theory("robot"), Theory("wizard", mode="person")
 TEACH, ASK = (Phase(do, do, {"turns": 1}) for do in ("teach", "ask"))
 
 
-def played(*phases, tutor=ME, theory=ROBOT, scene=TABLE, lines=(), others=()):
+def played(*phases, tutor=ME, theory=ROBOT, scene=TABLE, lines=()):
     """The dialogue in which a person types these lines."""
-    tutors = {it.name: it for it in (tutor, *others)}
-    study = Study("t", {theory.name: theory}, tutors, {scene.name: scene}, phases, (1,))
+    theories, tutors = {theory.name: theory}, {tutor.name: tutor}
+    study = Study("t", theories, tutors, {scene.name: scene}, phases, (1,))
     with patch("sys.stdin", io.StringIO("".join(f"{line}\n" for line in lines))):
         return play(study, Run(theory.name, tutor.name, scene.name, 1))
 
@@ -81,9 +83,11 @@ def test_nobody_who_is_gone_types(monkeypatch):
             typed("> ")
 
 
-def test_what_is_not_utf_8_is_told(monkeypatch, capsys):
+@pytest.mark.parametrize("errors", ["strict", "replace", "surrogateescape"])
+def test_what_is_not_utf_8_is_told(monkeypatch, capsys, errors):
     raw = io.BytesIO("Det här är en kopp.\n".encode("latin-1"))
-    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(raw, encoding="utf-8"))
+    stdin = io.TextIOWrapper(raw, encoding="utf-8", errors=errors)
+    monkeypatch.setattr("sys.stdin", stdin)
     with pytest.raises(Gone):
         typed("> ")
     assert "What was typed is not UTF-8: save it so" in capsys.readouterr().out
@@ -152,6 +156,12 @@ def test_what_has_changed_is_seen_by_both(capsys):
     )
 
 
+def test_what_is_seen_a_little_off_the_table_is_at_its_edge():
+    world = World((Thing("cup", "red", place=(-0.04, 9.04)),))
+    shown = viewed(Occasion("noun", world, 1), world)
+    assert shown == "On the table:\n  #1 red cup, 0 right 9 away"
+
+
 def test_every_look_is_another_one():
     it = played(TEACH, lines=["", "", "@ look", "."])
     looks = [turn.given for turn in it.turns]
@@ -216,6 +226,21 @@ def test_who_asks_for_a_thing_does_not_point_at_it(capsys):
     it = played(TEACH, find, lines=lines)
     assert capsys.readouterr().out.count("pointed at") == 1
     assert answers(it) == [("brown cup", "brown cup")]
+
+
+@pytest.mark.parametrize(
+    ("by", "told", "such"),
+    [
+        ("both", "", "the brown cup"),
+        ("noun", " by its noun alone", "the cup"),
+        ("colour", " by its colour alone", "the brown one"),
+    ],
+)
+def test_by_which_words_a_thing_is_to_be_asked_for_is_said(capsys, by, told, such):
+    played(Phase("find", "find", {"by": by}), lines=["."] * 4)
+    shown = capsys.readouterr().out
+    assert f"Step 1, find: ask for the brown cup{told}, at which nobody " in shown
+    assert f'ask, such as "Show me {such}."' in shown
 
 
 def test_who_asks_for_a_place_says_what_is_right(capsys):
@@ -289,7 +314,7 @@ def test_things_are_put_where_they_are_seen():
 
 LINES = st.lists(
     st.sampled_from(["", "?", "@", "@ look", "@ restart", "This is a cup.", "No."])
-    | st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\r\n"))
+    | st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\r\n\ufffd"))
     | st.builds(
         "@ {} {} {} {}".format,
         st.sampled_from(["point", "place"]),
@@ -378,6 +403,11 @@ def test_the_player_points_by_number():
     assert robot("this", "one").hear("Show me the mug.").pointed is None
 
 
+def test_who_says_two_words_means_the_last():
+    reply = robot("It is a cup. No, it is a mug.").hear("What is this?")
+    assert way(reply) == ("mug", "assert")
+
+
 def test_the_player_may_read_what_to_type():
     prompts: list[str] = []
     lines = iter(["?", "Hello."])
@@ -436,6 +466,13 @@ def test_the_player_sees_what_a_script_has_happen():
         it.happen("fly")
 
 
+def test_the_player_has_the_floor_at_a_look_through_a_camera():
+    it = robot("What is this?")
+    it.see(replace(occasion(), view="a picture"))
+    assert it.happen("point 2").text == ""
+    assert it.happen("look").text == "What is this?"
+
+
 # --- both ----------------------------------------------------------------------------
 
 
@@ -450,5 +487,11 @@ def test_both_may_be_people(capsys):
 
 def test_who_asks_back_has_not_answered_a_person():
     lines = ["What is this?", "The green one?", "Yes.", "It is a cup.", "."]
+    it = played(ASK, theory=WIZARD, lines=lines)
+    assert answers(it) == [("cup", "cup")]
+
+
+def test_who_points_when_asked_back_has_not_been_answered_yet():
+    lines = ["What is this?", "This one?", "@ point 1", "Yes.", "It is a cup.", "."]
     it = played(ASK, theory=WIZARD, lines=lines)
     assert answers(it) == [("cup", "cup")]

@@ -124,6 +124,24 @@ def test_things_happen_by_commands():
         it.happen("point to it")
 
 
+@pytest.mark.parametrize(
+    ("command", "told"),
+    [
+        ("point 9", "there is no #9 in view"),
+        ("point 2.7", "there is no #2.7 in view"),
+        ("remove 0", "there is no #0 in view"),
+        ("place 2 20 4", "a place is two numbers from 0 to 9"),
+        ("place 2 nan 4", "a place is two numbers from 0 to 9"),
+        ("", "in front of a simulated scene write"),
+    ],
+)
+def test_what_cannot_happen_does_not_happen(command, told):
+    it, _ = robot()
+    it.see(shown(1))
+    with pytest.raises(StudyError, match=f"@ .*{told}"):
+        it.happen(command)
+
+
 def test_a_person_claims_what_they_type():
     lines = iter(["This is a cup.", "It is to the left of the car.", "Hm.", "What?"])
     it = Typed(ask=lambda prompt: next(lines))

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from kille.experiments.labelled import open_scenes
 from kille.simulation.worlds import STEP
 from kille.studies import scenes
 from kille.studies.scenes.occasions import ORDERS, Occasion, ordered
@@ -233,6 +234,7 @@ def test_of_pictures_that_are_all_taught_none_is_kept(data):
     assert not opened("pictures", **set_, each=1000).round("noun", True, Random(1))
     (told,) = faulty("pictures", NEW, **set_, each=1000)
     assert told.startswith("nothing is kept in s for the phase ask")
+    assert told.endswith("of what is new: write a smaller each")
     assert not faulty("pictures", NEW, **set_)
 
 
@@ -242,6 +244,18 @@ def test_no_capture_is_both_taught_and_kept(data):
     assert faulty("captures", NEW, **set_) == [
         "0001 is taught, so it is none that is kept for later"
     ]
+
+
+def test_where_no_captures_are_labelled_nothing_is_kept_for_later(tmp_path):
+    (told,) = faulty("captures", at=tmp_path, folder=".")
+    assert told == f"{tmp_path} has no folders of labelled captures, one for each scene"
+
+
+def test_of_captures_that_are_all_taught_none_is_kept(data):
+    folder = data / "ycbv_scenes"
+    every = [*open_scenes(folder, "s").shots]
+    (told,) = faulty("captures", NEW, folder=str(folder), teach=every)
+    assert told.endswith("of what is new: name the scenes that are, new = […]")
 
 
 def test_of_one_scene_of_captures_all_may_be_taught(data, tmp_path):
@@ -259,7 +273,10 @@ def test_a_thing_by_itself_stands_beside_nothing():
     set_ = {"kinds": ["cup"], "each": 2, "new": 1}
     asked = ("ask", {"what": "relations", "of": "new"})
     (told,) = faulty("drawn", asked, **set_)
-    assert told.startswith("nothing is kept in s for the phase ask")
+    assert told == (
+        "nothing is kept in s for the phase ask, which is of what is new: write new = 2"
+    )
+    assert not faulty("drawn", asked, **set_ | {"new": 2})
 
 
 @pytest.mark.parametrize(

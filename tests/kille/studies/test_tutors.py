@@ -271,7 +271,7 @@ def test_a_tutor_speaks_as_people_rate(data):
 def test_a_script_is_said_line_by_line(tmp_path):
     (tmp_path / "a.dlg").write_text(
         "U> This is a cup.\nS> OK, I learned a cup.\n"
-        "U> What is this?\nS> This is a mug.\n@ point 2\nU> What is this?\n"
+        "U> What is this?\nS> This is a mug.\n@ point 1\nU> What is this?\n"
     )
     ring = Named("table", "around")
     phases = (Phase("talk", "talk", {}),)
@@ -370,6 +370,14 @@ class Mute:
 class Broken:
     def __init__(self, name, words):
         raise ValueError("no voice")
+
+class Shy:
+    def __init__(self, name, words):
+        pass
+
+    @property
+    def name(self):
+        raise ValueError("no name")
 """
 
 
@@ -395,6 +403,7 @@ def test_a_tutor_of_ones_own_is_made_anew_for_each_dialogue(tmp_path):
         ("own.py:nobody", "nobody of own.py makes no tutor: name a class"),
         ("own.py:Mute", "a tutor needs turns, and what own.py:Mute makes has none"),
         ("own.py:Broken", "own.py:Broken makes no tutor: ValueError: no voice (line "),
+        ("own.py:Shy", "own.py:Shy makes no tutor: ValueError: no name (line "),
         ("gone.py:A", "gone.py cannot be used: SystemExit: 3 (line 2)"),
         ("no_such:A", "no_such cannot be used: ModuleNotFoundError: "),
     ],
@@ -477,6 +486,8 @@ def test_what_is_not_there_is_told(tmp_path):
         ("@ pont 2", "@ pont 2 is no command in these scenes: write look, restart, po"),
         ("@ point 0", "@ point 0 is no command in these scenes"),
         ("@ place 2", "@ place 2 is no command in these scenes"),
+        ("@ place 2 20 4", "@ place 2 20 4: a place is two numbers from 0 to 9"),
+        ("@ place 2 3 -1", "@ place 2 3 -1: a place is two numbers from 0 to 9"),
         ("@ sensor synthetic", "@ sensor synthetic is no command in these scenes"),
         ("U~ This is a cup. 1", "nobody mishears in a study: write U> and one text"),
     ],
