@@ -101,11 +101,9 @@ def _unfit(phase: Phase, scene: Named) -> Iterator[str]:
     if asks and phase.settings.get("what") == "relations" and _is_single(scene):
         told = f"there is one kind of thing in {scene.name}, and the robot does not say"
         yield f"{told} how it stands to its like: name two kinds"
-    if phase.do == "find" and _shows_one(phase, scene):
-        yield (
-            f"one thing at a time is in view in {scene.name}, and is found "
-            'whatever is asked for: write kind = "drawn" and in_view = 4'
-        )
+    if phase.do == "find" and (more := _more_to_see(phase, scene)):
+        told = f"one thing at a time is in view in {scene.name}, and is found"
+        yield f"{told} whatever is asked for: write {more}"
 
 
 def _of_change(phase: Phase, study: Study) -> Iterator[str]:
@@ -128,12 +126,15 @@ def _is_single(scene: Named) -> bool:
     return scene.kind == "drawn" and kinds is not None and len(kinds) < 2
 
 
-def _shows_one(phase: Phase, scene: Named) -> bool:
-    """Whether things that are not beside each other are shown one by one."""
+def _more_to_see(phase: Phase, scene: Named) -> str:
+    """What to write where things are shown one by one; nothing where they are not."""
     if scene.kind != "drawn":
-        return scene.kind in ("around", "statements")
+        is_one = scene.kind in ("around", "statements")
+        return 'kind = "drawn" and in_view = 4' if is_one else ""
     of = "new" if phase.settings.get("of") == "new" else "each"
-    return min(int(scene.settings.get("in_view", 1)), _count(scene, of)) == 1
+    if _count(scene, of) == 1:
+        return f"{of} = 4 and in_view = 4"
+    return "in_view = 4" if scene.settings.get("in_view", 1) == 1 else ""
 
 
 def _count(scene: Named, of: str) -> int:

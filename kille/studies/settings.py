@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -79,8 +80,10 @@ class Setting:
                 return self._expected(one)
         if self.needed and not value:
             return "expected one at least, found an empty list"
-        again = [] if self.twice else [it for it in value if value.count(it) > 1]
-        return f"{shown(again[0])} is there twice" if again else ""
+        if self.twice:
+            return ""
+        again = (it for it, count in Counter(value).items() if count > 1)
+        return next((f"{shown(it)} is there twice" for it in again), "")
 
     def _fits(self, value: object) -> bool:
         types = self.types if isinstance(self.types, tuple) else (self.types,)

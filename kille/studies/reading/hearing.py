@@ -52,7 +52,7 @@ def _named(names: Names) -> Iterator[tuple[str, str]]:
 
 def _told(word: str, name: str, heard: str) -> str:
     found = f"which is heard as {shown(heard)}" if heard else "which is not understood"
-    other = heard if heard.casefold() == word.casefold() else "…"
+    other = heard if heard and heard.casefold() == word.casefold() else "…"
     hint = f"write calls = {{ {shown(name)} = {shown(other)} }}"
     return f"{shown(word)}, {found}: {hint}"
 

@@ -27,7 +27,7 @@ def why_not_toml(text: str, error: Exception) -> tuple[int, str]:
     what, _, place = str(error).partition(" (at ")
     lines = text.split("\n")
     found = re.search(r"line (\d+)", place)
-    number = int(found[1]) if found else max(1, len(text.splitlines()))
+    number = int(found[1]) if found else text.removesuffix("\n").count("\n") + 1
     line = lines[number - 1] if number <= len(lines) else ""
     return number, f"this is no TOML: {_plain(what, line, text)}"
 

@@ -178,11 +178,13 @@ _THINGS = Thing("cup", "red", 0.9, (2, 3)), Thing("car", "blue", 0.1, (7, 3))
 _SAID = {
     "en": (
         (1, "This is a cup.", "This is big.", "What is this?"),
+        (1, "This is red.", "What colour is this?"),
         (2, "This is a car.", "This is to the right of the cup.", "Where is this?"),
         (2, "What is this?", "No, it is a mug.", "Forget that.", "What is this?"),
     ),
     "sv": (
         (1, "Det här är en kopp.", "Det här är stort.", "Vad är det här?"),
+        (1, "Det här är rött.", "Vilken färg har det här?"),
         (2, "Det här är en bil.", "Det här är till höger om koppen."),
         (2, "Var är det här?", "Vad är det här?", "Nej, det är en mugg."),
         (2, "Glöm det.", "Vad är det här?"),
@@ -196,7 +198,7 @@ def _tried(theory: Theory) -> Iterator[Trouble]:
     world = World(_THINGS)
     text = ""
     try:
-        game = game_of(theory, world)
+        game = game_of(theory, world, colours=())  # else no colour is ever judged
         now = game.begin()
         for number, *texts in _SAID[theory.language]:
             event, world = glanced(world.pointed(number), world), world.pointed(number)

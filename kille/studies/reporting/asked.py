@@ -7,9 +7,12 @@ named more readily than others of their kinds.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 
 from kille.studies.measuring.measures import ACCURACY, REFERENCES, Measure
 from kille.studies.measuring.scored import Dialogue, Scored, parted
+from kille.studies.protocols import SETTINGS
+from kille.studies.settings import filled
 from kille.studies.study import Phase
 
 __all__ = ["Tests", "called", "counts", "in_phase", "main_of", "phases_of", "tests_of"]
@@ -19,7 +22,6 @@ Tests = Sequence[Sequence[str]]
 
 _Theories = Mapping[str, Sequence[Dialogue]]
 
-_USUAL = {"what": "nouns", "of": "same"}
 _ANY = ("order", "rounds", "turns")
 """In what order, and how often, does not make it another test."""
 _NAMED = 3
@@ -36,7 +38,7 @@ def tests_of(phases: Iterable[Phase]) -> tuple[tuple[str, ...], ...]:
     """
     found: dict[object, list[str]] = {}
     for phase in phases:
-        set_ = {**_USUAL, **phase.settings}
+        set_ = filled(phase.settings, SETTINGS[phase.do])
         told = sorted((key, str(it)) for key, it in set_.items() if key not in _ANY)
         found.setdefault((phase.do, *told), []).append(phase.name)
     return tuple(map(tuple, found.values()))
@@ -66,13 +68,19 @@ def counts(measure: Measure, answer: Scored) -> bool:
 
 
 def phases_of(theories: _Theories, measure: Measure) -> list[str]:
-    """The phases in which something is asked that counts, in their order."""
-    found: dict[str, None] = {}
-    for them in theories.values():
-        for dialogue in them:
-            asked = (it.phase for it in dialogue.answers if counts(measure, it))
-            found |= dict.fromkeys(asked)
-    return list(found)
+    """The phases in which something is asked that counts, in their order.
+
+    One that the first dialogues lack has its place after that which comes before it.
+    """
+    found: list[str] = []
+    for dialogue in chain.from_iterable(theories.values()):
+        asked = (it.phase for it in dialogue.answers if counts(measure, it))
+        place = 0
+        for phase in dict.fromkeys(asked):
+            if phase not in found:
+                found.insert(place, phase)
+            place = found.index(phase) + 1
+    return found
 
 
 def in_phase(theories: _Theories, measure: Measure, phase: str) -> _Theories:

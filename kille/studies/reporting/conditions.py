@@ -65,7 +65,7 @@ def by_conditions(
         figures += _agreement(_by(head), parts, measures)
     against = list(against_the_first(theories, measures, places))
     tables += [it.table for it in against]
-    text = "\n".join(it.text for it in against if it.text)
+    text = "\n\n".join(it.text for it in against if it.text)
     yield Result(
         "Tutors and scenes",
         tuple(tables),
@@ -156,8 +156,10 @@ def _by_phase(
         return
     heads = {name: of for it in varied for name, of in it.items()}
     keys = _keys(_parts(theories, heads))
+    title = f"{main.name.capitalize()}, phase by phase"
     if len(phases) * len(keys) > _ROWS:
         phases = phases[-1:]
+        title = f"{main.name.capitalize()} in {phases[-1]}"
     rows: list[tuple[Cell, ...]] = []
     links = {}
     for phase in phases:
@@ -167,7 +169,6 @@ def _by_phase(
                 links[len(rows), column] = _place(places, name, heads, key)
             told = (estimated(main, of.get(key, ())) for of in parts.values())
             rows.append((phase, *key, *told))
-    title = f"{main.name}, phase by phase".capitalize()
     yield Table(title, ("phase", *heads, *theories), tuple(rows), "", links)
 
 
@@ -185,7 +186,7 @@ def in_last_phase(
     last = in_phase(theories, main, phases[-1])
     where = f" in {phases[-1]}" if len(phases) > 1 else ""
     for heads in _varied(places):
-        title = f"{main.name}{where}, {_by(heads)}".capitalize()
+        title = f"{main.name.capitalize()}{where}, {_by(heads)}"
         yield from _drawn(title, _estimates(_parts(last, heads), main), main.name)
 
 

@@ -17,7 +17,10 @@ from kille.studies.reporting.places import Places
 from kille.studies.reporting.rows import in_rows
 
 __all__ = [
+    "CHANCE",
     "CORRECTED",
+    "FEW",
+    "TESTED",
     "contrast_names",
     "contrasted",
     "corrected",
@@ -27,20 +30,22 @@ __all__ = [
 
 _SEED = 2  # of the chance by which pairs are drawn anew and exchanged
 _MAIN = ACCURACY.name
-_CHANCE = 0.05
-_FEW = 3
-"""Of more pairs of theories only those are told that differ."""
+CHANCE = 0.05
+FEW = 3
+"""Of more differences only those are told that are hardly by chance."""
 CORRECTED = "Each p is after Holm's correction."
 _LEAST = 0.001
 _SOUGHT = (0.05, 0.02)
 """Differences for which it is told how many dialogues they take."""
 
-_TESTED = (
+TESTED = (
+    "p: permutation test, in which the two of a pair are exchanged; then with Holm's "
+    "correction, for accuracy, the main measure, over its own tests, and for the "
+    "others over all of theirs. What is the same in each pair is left out."
+)
+_NOTE = (
     "Each is that of the later theory less that of the earlier one, over dialogues "
-    "with the same tutor, scene and seed. p: permutation test, in which the two of a "
-    "pair are exchanged; then with Holm's correction, for accuracy, the main measure, "
-    "over its own tests, and for the others over all of theirs. What is the same in "
-    "each pair is left out."
+    f"with the same tutor, scene and seed. {TESTED}"
 )
 _ANSWERED = (
     "Questions for words that both were asked. McNemar's exact test holds answers for "
@@ -83,14 +88,14 @@ def _in_words(found: Sequence[Contrast]) -> str:
     """
     mains = [it.differences.get(_MAIN) for it in found]
     ps = holm([float("nan") if it is None else it.p for it in mains])
-    if len(found) <= _FEW:
+    if len(found) <= FEW:
         told = [_sentence(it, p) for it, p in zip(found, ps, strict=True)]
         several = np.isfinite(ps).sum() > 1
         return "\n".join([*told, CORRECTED] if several else told)
-    seen = [_sentence(it, p) for it, p in zip(found, ps, strict=True) if p < _CHANCE]
+    seen = [_sentence(it, p) for it, p in zip(found, ps, strict=True) if p < CHANCE]
     first = (
         f"Of {len(found)} pairs of theories {len(seen)} differ in {_MAIN} "
-        f"(p < {_CHANCE} after Holm's correction)."
+        f"(p < {CHANCE} after Holm's correction)."
     )
     return "\n".join([first, *seen])
 
@@ -148,7 +153,7 @@ def _differences(
         (row, 2): places.against(it.one, it.other)
         for row, (it, _, _) in enumerate(told)
     }
-    return Table("Paired differences", columns, rows, _TESTED, links)
+    return Table("Paired differences", columns, rows, _NOTE, links)
 
 
 def corrected(ps: Sequence[tuple[str, float]]) -> list[float]:

@@ -12,7 +12,15 @@ from kille.experiments.results import Cell, Table
 from kille.studies.measuring.comparing import Difference, differences, in_pairs
 from kille.studies.measuring.measures import Measure
 from kille.studies.measuring.scored import Dialogue
-from kille.studies.reporting.contrasts import CORRECTED, corrected, told_by, told_p
+from kille.studies.reporting.contrasts import (
+    CHANCE,
+    CORRECTED,
+    FEW,
+    TESTED,
+    corrected,
+    told_by,
+    told_p,
+)
 from kille.studies.reporting.findings import Theories
 from kille.studies.reporting.places import Places
 from kille.studies.study import Run
@@ -25,7 +33,7 @@ _TESTED = (_MAIN, "κ robot–tutor", "words")
 _NOTE = (
     "Each less the first, theory by theory, over dialogues that are alike in all else. "
     "Other tutors and scenes have other luck, so that these differences spread more "
-    "than those of theories. p as above."
+    f"than those of theories. {TESTED}"
 )
 
 
@@ -85,11 +93,28 @@ def _against(
     columns = ("theory", "measure", what, "difference", "p", "p (Holm)", "pairs")
     links = {(row, 3): it.place for row, it in enumerate(told)}
     table = Table(f"Against the {what} {first}", columns, rows, _NOTE, links)
-    mains = [pair for pair in zip(told, ps, strict=True) if pair[0].measure == _MAIN]
-    lines = [_sentence(what, first, it, p) for it, p in mains]
-    if len(lines) > 1:
-        lines.append(CORRECTED)
-    yield Against(table, "\n".join(lines))
+    mains = [
+        (it, p)
+        for it, p in zip(told, ps, strict=True)
+        if it.measure == _MAIN and it.difference.pairs
+    ]
+    yield Against(table, "\n".join(_in_words(what, names, mains)))
+
+
+def _in_words(
+    what: str, names: Sequence[str], mains: Sequence[tuple[_Told, float]]
+) -> Iterator[str]:
+    """What became of the main measure, a line for each; of many, how many differ."""
+    (first, *others), seen = names, mains
+    if len(mains) > FEW:
+        seen = [(it, p) for it, p in mains if p < CHANCE]
+        yield (
+            f"Of {len(others)} {what}s {len(seen)} differ from {first} in {_MAIN} "
+            f"(p < {CHANCE} after Holm's correction)."
+        )
+    yield from (_sentence(what, first, it, p) for it, p in seen)
+    if 1 < len(mains) <= FEW:
+        yield CORRECTED
 
 
 def _sentence(what: str, first: str, it: _Told, p: float) -> str:

@@ -92,8 +92,8 @@ def _cut_short(theories: Mapping[str, Sequence[Dialogue]], most: int) -> list[st
     }
     return [
         f"{name}: {count:,} of {len(theories[name]):,} dialogues came to turn "
-        f"{most:,}, the last that the study allows: what was still to be asked was not "
-        f"asked in them. Give the study more turns."
+        f"{most:,}, the last that the study allows: if there was anything still to be "
+        f"asked, it was not asked in them. Give the study more turns."
         for name, count in counts.items()
         if count
     ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
 
 from kille.experiments.results import Cell, Estimate, Figure, Result, Table
 from kille.studies.measuring.measures import Measure
@@ -18,7 +19,7 @@ __all__ = ["in_short"]
 _BESIDE = ("κ robot–tutor", "words", "corrections", "questions")
 """What is told beside the main measure, if there is any of it."""
 _LINES = 4
-"""Of more lines of findings only the first is told."""
+"""Of a paragraph of more lines only the first is told."""
 _DRAWN = 2
 """So many figures there is room for."""
 
@@ -43,8 +44,9 @@ def in_short(
 
 
 def _lines(found: Iterable[Result]) -> str:
-    lines = [line for it in found for line in it.text.splitlines()]
-    return "\n".join(lines if len(lines) <= _LINES else lines[:1])
+    parts = (part.splitlines() for it in found for part in it.text.split("\n\n"))
+    told = (part if len(part) <= _LINES else part[:1] for part in parts)
+    return "\n".join(chain.from_iterable(told))
 
 
 def _each(
@@ -91,7 +93,7 @@ def _by_phase(theories: Theories, main: Measure) -> Iterator[Figure]:
         return
     parts = [in_phase(theories, main, phase) for phase in phases]
     series = {name: [estimated(main, it[name]) for it in parts] for name in theories}
-    title = f"{main.name}, phase by phase".capitalize()
+    title = f"{main.name.capitalize()}, phase by phase"
     yield from in_rows(title, phases, series, {"xlabel": main.name})
 
 

@@ -211,6 +211,8 @@ def test_a_learner_for_the_robots_own_eyes_is_given_a_lesson(
         ("rules = 'own.py:assert_name'", "KeyError: 'no idea' (own.py, line 19)"),
         ("rules = 'own.py:assert_name'\nlanguage = 'sv'", "Vad är det här?”: KeyError"),
         ("learners.noun = 'own.py:Odd'", "gave 'cup' the degree 7"),
+        ("learners.adjective = 'own.py:Odd'", "gave 'cup' the degree 7"),
+        ("learners.adjective = 'own.py:Shy'\nlanguage = 'sv'", "ValueError: no"),
         ("without = ['say']", "no rule takes the move"),
     ],
 )
@@ -484,7 +486,10 @@ def test_where_the_number_of_turns_has_a_slip_all_phases_are_reached(
     ("line", "told"),
     [
         ('calls = { mugg = "cup" }', "that others call mugg: did you mean mug?"),
-        ('calls = { mug = "" }', 'Ann says "", which is not understood'),
+        (
+            'calls = { mug = "" }',
+            'says "", which is not understood: write calls = { "mug" = "…" }',
+        ),
         ('calls = { mug = "Cup" }', 'heard as "cup": write calls = { "mug" = "cup" }'),
         ('calls = { mug = "this" }', 'says "this", which is not understood'),
         ('calls = { "near" = "beside" }', 'says "beside", which is heard as "next to"'),

@@ -86,6 +86,11 @@ def test_of_the_studies_that_are_shipped_there_is_none(
         ('learners.noun = "default"', 'wording = "paper"', True),
         ("strategy.bands.might = 0.05", "", True),
         ("", 'mode = "driven"', False),
+        (
+            'without = ["hedge_name", "guess_name"]',
+            'without = ["guess_name", "hedge_name"]',
+            True,
+        ),
         ('learners.noun = "prototype"', "", False),
         ('mode = "person"', 'mode = "person"', False),
     ],
@@ -220,11 +225,15 @@ def test_a_study_in_which_nothing_is_asked_is_told(tmp_path: Path) -> None:
     script = (ANN, '[tutors.Ann]\nkind = "scripted"\nfile = "a.dlg"')
     talk = ('do = "ask"\nof = "new"', 'do = "talk"')
     (tmp_path / "a.dlg").write_text("U> Hello.\n")
-    assert [it.partition(":")[2][3:] for it in found(tmp_path, script, talk)] == [
-        told.partition(":")[2][3:]
-    ]
+    for changes in ((script, talk), (script,)):  # a script asks nothing of its own
+        assert [it.partition(":")[2][3:] for it in found(tmp_path, *changes)] == [
+            told.partition(":")[2][3:]
+        ]
     (tmp_path / "a.dlg").write_text("U> Hello.\nS> Hello.\n")
     assert found(tmp_path, script, talk) == []
+    bo = (ANN, f'{script[1]}\n[tutors.Bo]\nkind = "simulated"')
+    (tmp_path / "a.dlg").write_text("U> Hello.\n")
+    assert found(tmp_path, bo) == []
 
 
 def test_words_that_are_asked_for_and_never_taught_are_told(tmp_path: Path) -> None:
@@ -238,6 +247,19 @@ def test_words_that_are_asked_for_and_never_taught_are_told(tmp_path: Path) -> N
     assert len(found(tmp_path, colours, taught)) == 1
     own = (ANN, '[tutors.Ann]\nkind = "keyboard"')
     assert found(tmp_path, places, own) == []
+
+
+def test_words_by_which_things_are_to_be_found_are_taught(tmp_path: Path) -> None:
+    seen = ("each = 2", "each = 2\nin_view = 3")
+    finds = ('do = "ask"\nof = "new"', 'do = "find"')
+    assert found(tmp_path, seen, finds) == []
+    untaught = ('[[phases]]\ndo = "teach"\n', "")
+    told = "study.toml:13: find asks for nouns, which no phase teaches"
+    assert found(tmp_path, seen, finds, untaught) == [told]
+    colour = ('do = "find"', 'do = "find"\nby = "colour"')
+    assert found(tmp_path, seen, finds, untaught, colour) == []
+    taught = ('kind = "drawn"', 'kind = "drawn"\ncolours = "taught"')
+    assert len(found(tmp_path, seen, finds, colour, taught)) == 1
 
 
 def test_places_of_which_nobody_can_say_beside_what_are_told(tmp_path: Path) -> None:
@@ -310,6 +332,9 @@ def test_a_person_in_the_place_of_the_robot_may_know_the_words(tmp_path: Path) -
     asked = ('[[phases]]\ndo = "teach"\n', "")
     assert not found(tmp_path, person, alone, asked)
     assert found(tmp_path, asked)
+    places = ('do = "ask"\nof = "new"', 'do = "ask"\nwhat = "relations"')
+    assert not found(tmp_path, person, alone, asked, places)
+    assert found(tmp_path, asked, places)
 
 
 def test_things_are_found_by_their_colours_too(tmp_path: Path) -> None:

@@ -260,6 +260,8 @@ def test_what_is_no_toml_is_told_with_its_line() -> None:
     assert fault.startswith(f"{PATH}:1: this is no TOML: ")
     [fault] = faults(f"seeds = {'9' * 5000}")
     assert fault.startswith(f"{PATH}:1: this is no TOML: ")
+    [fault] = faults('about = "one\u2028line"\nseeds = [1,')
+    assert fault.startswith(f"{PATH}:2: this is no TOML: ")
     [fault] = faults(f"seeds = {'[' * 5000}")
     assert fault.startswith(f"{PATH}:1: this is no TOML: ")
 

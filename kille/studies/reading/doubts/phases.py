@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from random import Random
 
-from kille.studies.reading.doubts.talked import TEACHING, is_plain, kind_of
+from kille.studies.reading.doubts.talked import TEACHING, is_plain, kind_of, kinds_of
 from kille.studies.reading.doubts.tutors import lines_of
 from kille.studies.reading.reaching import begins
 from kille.studies.reading.troubles import Trouble
+from kille.studies.reading.words import SPEAKING
 from kille.studies.scenes import Scene
 from kille.studies.study import PERSON, Study
 
@@ -20,8 +21,9 @@ _ASKING = ("ask", "practise", "find")
 def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
     """What is probably not meant in the phases of a study."""
     yield from _unmeasured(study)
-    yield from _untaught(study)
-    yield from _nameless(study)
+    if any(theory.mode != PERSON for theory in study.theories.values()):
+        yield from _untaught(study)
+        yield from _nameless(study)
     yield from _faceless(study, opened)
     yield from _known_before(study)
     yield from _cut_short(study, opened)
@@ -31,7 +33,7 @@ def _unmeasured(study: Study) -> Iterator[Trouble]:
     """That nothing is asked to which an answer is right or wrong."""
     asked = any(phase.do in _ASKING for phase in study.phases)
     kinds = {tutor.kind for tutor in study.tutors.values()}
-    if asked or kinds & {"own", "keyboard"}:
+    if kinds & {"own", "keyboard"} or (asked and kinds & {*SPEAKING}):
         return
     scripts = [it for it in study.tutors.values() if it.kind == "scripted"]
     marks = {line.mark for it in scripts for line in lines_of(it, study)}
@@ -41,16 +43,15 @@ def _unmeasured(study: Study) -> Iterator[Trouble]:
 
 
 def _untaught(study: Study) -> Iterator[Trouble]:
-    """Phases that ask a robot for words of a kind of which none is ever taught."""
+    """Phases in which a robot needs words of a kind of which none is ever taught."""
     taught = {kind_of(it) for it in study.phases if it.do in TEACHING}
-    if all(theory.mode == PERSON for theory in study.theories.values()):
-        return
     if any(it.settings.get("colours") != "taught" for it in study.scenes.values()):
         taught.add("adjective")
     for number, phase in enumerate(study.phases if is_plain(study) else ()):
-        if phase.do == "ask" and kind_of(phase) not in taught:
-            told = f"{phase.name} asks for {kind_of(phase)}s, which no phase teaches"
-            yield Trouble(("phases", number), told)
+        for kind in kinds_of(phase) if phase.do in ("ask", "find") else ():
+            if kind not in taught:
+                told = f"{phase.name} asks for {kind}s, which no phase teaches"
+                yield Trouble(("phases", number), told)
 
 
 def _nameless(study: Study) -> Iterator[Trouble]:

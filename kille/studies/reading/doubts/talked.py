@@ -7,8 +7,9 @@ from collections.abc import Collection
 from kille.studies.reading.words import SPEAKING
 from kille.studies.scenes.occasions import KINDS
 from kille.studies.study import Phase, Study
+from kille.studies.tutors.simulated import BY
 
-__all__ = ["TEACHING", "is_plain", "kind_of", "kinds_in"]
+__all__ = ["TEACHING", "is_plain", "kind_of", "kinds_in", "kinds_of"]
 
 TEACHING = ("teach", "practise", "talk")
 """The phases in which words are taught."""
@@ -25,14 +26,16 @@ def kind_of(phase: Phase) -> str:
     return KINDS[phase.settings.get("what", "nouns")]
 
 
+def kinds_of(phase: Phase) -> Collection[str]:
+    """The kinds of words that are said in a phase, of which it may be about several."""
+    if phase.do == "find":
+        return BY[phase.settings.get("by", "both")]
+    return (kind_of(phase),)
+
+
 def kinds_in(study: Study) -> Collection[str]:
     """The kinds of words that are talked about; where the robot has the floor, all."""
     if any(phase.do == "talk" for phase in study.phases):
         return KINDS.values()
-    about = [it for it in study.phases if it.do in ("ask", *TEACHING)]
-    found = {kind_of(phase) for phase in about}
-    return (
-        found | {"noun", "adjective"}
-        if any(it.do == "find" for it in study.phases)
-        else found
-    )
+    about = [it for it in study.phases if it.do in ("ask", "find", *TEACHING)]
+    return {kind for phase in about for kind in kinds_of(phase)}

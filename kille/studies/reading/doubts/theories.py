@@ -39,9 +39,15 @@ def _alike(study: Study) -> Iterator[Trouble]:
 
 def _bare(theory: Theory) -> tuple[object, ...]:
     """A theory without what it is called, and what is set to what it is anyhow."""
-    learners = {k: it for k, it in theory.learners.items() if it != "default"}
     bare = replace(
-        theory, name="", about="", mode="", wording="", strategy={}, learners=learners
+        theory,
+        name="",
+        about="",
+        mode="",
+        wording="",
+        strategy={},
+        without=tuple(sorted(theory.without)),
+        learners={k: it for k, it in theory.learners.items() if it != "default"},
     )
     return bare, strategy_of(theory) if theory.mode != PERSON else PERSON
 

@@ -109,6 +109,7 @@ def test_dialogues_that_were_cut_short_are_told(tmp_path: Path) -> None:
         told = "good: 3 of 3 dialogues came to turn 4, the last that the study allows: "
         assert (told in page.read_text("utf-8")) == is_told
         assert results[0].text.startswith(told) == is_told
+        assert ("if there was anything still to be asked" in results[0].text) == is_told
 
 
 def test_two_folders_are_compared_by_what_they_share(tmp_path: Path) -> None:

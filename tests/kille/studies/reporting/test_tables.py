@@ -12,9 +12,12 @@ import pytest
 
 from kille.experiments.figures import drawing
 from kille.experiments.results import Estimate, Result, Table
+from kille.studies.measuring.measures import ACCURACY
 from kille.studies.measuring.scored import Dialogue, scored
 from kille.studies.played import Answer, Played, Turn
 from kille.studies.reporting import curves
+from kille.studies.reporting.asked import phases_of
+from kille.studies.reporting.asked import tests_of as asked_alike
 from kille.studies.reporting.conditions import by_conditions
 from kille.studies.reporting.contrasts import contrasted, corrected
 from kille.studies.reporting.costs import costs
@@ -27,7 +30,7 @@ from kille.studies.reporting.findings import (
 )
 from kille.studies.reporting.gist import in_short
 from kille.studies.reporting.places import places_of
-from kille.studies.study import Run
+from kille.studies.study import Phase, Run
 
 SHARES: Mapping[str, Mapping[str, float]] = {
     "driven": {"silent": 0.5, "corrects": 0.5},
@@ -245,6 +248,101 @@ def test_of_one_theory_it_is_said_what_tutors_change() -> None:
     )
 
 
+def of_tutors(*rights: int) -> Theories:
+    """A theory whose tutors A, B, … are told so many right words of eight.
+
+    All but A and G are told one less with the first seed.
+    """
+    talks = []
+    for seed in range(12):
+        for tutor, right in zip("ABCDEFG", rights, strict=False):
+            it = asked("bold", ["assert"] * 8)
+            count = right - (seed == 0 and tutor not in "AG")
+            answers = tuple(
+                one._replace(said=one.right if n < count else "car")
+                for n, one in enumerate(it.answers)
+            )
+            run = replace(it.run, tutor=tutor, seed=seed)
+            talks.append(replace(it, run=run, answers=answers))
+    return {"bold": talks}
+
+
+def test_of_tutors_who_ask_nothing_nothing_is_said() -> None:
+    theories = of_tutors(2, 4, 4)
+    mute = [
+        replace(it, answers=()) if it.run.tutor == "B" else it
+        for it in theories["bold"]
+    ]
+    places = places_of(["bold"], mute, "")
+    (result,) = by_conditions({"bold": mute}, measures_of({"bold": mute}), places)
+    assert "–" not in result.text
+    assert "tutor C differs" in result.text
+    assert "tutor B" not in result.text
+
+
+def test_how_p_is_found_is_said_where_no_theories_are_compared() -> None:
+    theories = of_tutors(2, 4)
+    places = places_of(["bold"], theories["bold"], "")
+    (result,) = by_conditions(theories, measures_of(theories), places)
+    (against,) = (it for it in result.tables if it.title.startswith("Against"))
+    assert "above" not in against.note
+    assert "p: permutation test" in against.note
+    assert "Holm" in against.note
+
+
+def test_of_many_tutors_those_are_told_that_differ() -> None:
+    """Two of six are told as much as the first is but for one word, and one as much."""
+    theories = of_tutors(2, 2, 8, 8, 2, 6, 2)
+    places = places_of(["bold"], theories["bold"], "")
+    (result,) = by_conditions(theories, measures_of(theories), places)
+    first, *others = result.text.splitlines()
+    assert first == (
+        "Of 6 tutors 3 differ from A in accuracy (p < 0.05 after Holm's correction)."
+    )
+    assert [it.split(" with the tutor ")[1][0] for it in others] == ["C", "D", "F"]
+
+
+def test_in_short_tutors_and_scenes_are_both_told() -> None:
+    talks = [
+        replace(it, run=replace(it.run, scene=scene), answers=it.answers[: 8 - less])
+        for it in of_tutors(2, 4, 4)["bold"]
+        for less, scene in enumerate(("table", "floor", "shelf"))
+    ]
+    places, theories = places_of(["bold"], talks, ""), {"bold": talks}
+    found = list(by_conditions(theories, measures_of(theories), places))
+    short = in_short(theories, measures_of(theories), found, places)
+    told = [it.split(" differs ")[0] for it in short.text.splitlines()]
+    assert told == [
+        "The accuracy of bold with the tutor B",
+        "The accuracy of bold with the tutor C",
+        "Each p is after Holm's correction.",
+        "The accuracy of bold with the scene floor",
+        "The accuracy of bold with the scene shelf",
+        "Each p is after Holm's correction.",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("tutors", "rows", "title"),
+    [(2, 4, "Accuracy, phase by phase"), (30, 30, "Accuracy in Test B")],
+)
+def test_titles_say_which_phases_are_told(tutors: int, rows: int, title: str) -> None:
+    """Of many rows those of the last phase; its name is as it was written."""
+    it = asked("bold", ["assert"] * 2)
+    first, last = it.answers
+    answers = (first._replace(phase="Test A"), last._replace(phase="Test B", said=""))
+    talks = [
+        replace(it, run=replace(it.run, tutor=f"T{n}"), answers=answers)
+        for n in range(tutors)
+    ]
+    theories, places = {"bold": talks}, places_of(["bold"], talks, "")
+    (result,) = by_conditions(theories, measures_of(theories), places)
+    assert result.tables[0].title == title
+    assert len(result.tables[0].rows) == rows
+    figure, *_ = in_short(theories, measures_of(theories), [], places).figures
+    assert figure.title.startswith("Accuracy in Test B, by tutor")
+
+
 def test_what_was_learned_is_drawn_against_what_it_cost(theories: Theories) -> None:
     by_phase, by_tutor = costs(theories, TESTS)
     assert by_phase.title == "Accuracy against what it cost: test 1, test 2"
@@ -289,6 +387,12 @@ def test_other_tests_are_no_points_of_the_same_curve() -> None:
         "high": [],
     }
     assert colours.data["series"]["a"]["mean"] == [0, 0]
+
+
+def test_phases_that_ask_alike_are_one_test_however_they_say_so() -> None:
+    settings = ({"by": "both"}, {"by": "noun"}, {"of": "same", "rounds": 2})
+    phases = [Phase(f"find {n}", "find", it) for n, it in enumerate(settings)]
+    assert asked_alike(phases) == (("find 0", "find 2"), ("find 1",))
 
 
 def test_of_a_test_that_is_not_repeated_no_cost_is_drawn(theories: Theories) -> None:
@@ -447,6 +551,21 @@ def test_what_is_told_in_short(theories: Theories) -> None:
         "Accuracy, phase by phase",
     ]
     assert short.figures[0].data["series"]["autonomous"]["values"] == [0.25, 1.0]
+
+
+def test_the_last_phase_is_that_of_the_study() -> None:
+    """In front of the first scene there is nothing for the second phase."""
+    phases = {"bare": ("before", "after"), "rich": ("before", "between", "after")}
+    talks = []
+    for scene, names in phases.items():
+        it = asked("bold", ["assert"] * len(names))
+        answers = tuple(
+            one._replace(phase=name)
+            for one, name in zip(it.answers, names, strict=True)
+        )
+        talks.append(replace(it, run=replace(it.run, scene=scene), answers=answers))
+    assert phases_of({"bold": talks}, ACCURACY) == ["before", "between", "after"]
+    assert phases_of({"bold": talks[::-1]}, ACCURACY) == ["before", "between", "after"]
 
 
 def test_in_short_things_are_told_where_no_words_were_asked_for() -> None:
