@@ -43,15 +43,27 @@ def _fitting(table: Table, width: int) -> Sequence[Table]:
 
 
 def _parts(table: Table, width: int) -> list[Table]:
-    """The columns parted so that each part fits, the first column in all of them."""
-    count = len(table.columns)
-    parts = [[*range(min(2, count))]]
-    for column in range(2, count):
+    """The columns parted so that each part fits, with those that name the rows."""
+    count, names = len(table.columns), [*range(_naming(table))]
+    parts = [[*range(min(len(names) + 1, count))]]
+    for column in range(len(names) + 1, count):
         if _width(_some(table, [*parts[-1], column])) <= width:
             parts[-1].append(column)
         else:
-            parts.append([0, column])
+            parts.append([*names, column])
     return [_some(table, part) for part in parts]
+
+
+def _naming(table: Table) -> int:
+    """How many columns say what a row is of: those before the first of numbers."""
+    columns = range(len(table.columns))
+    return max(next((it for it in columns if _is_of_numbers(table, it)), 1), 1)
+
+
+def _is_of_numbers(table: Table, place: int) -> bool:
+    return all(
+        row[place] is None or isinstance(row[place], _NUMBERS) for row in table.rows
+    )
 
 
 def _some(table: Table, places: Sequence[int]) -> Table:
@@ -114,11 +126,9 @@ def _grid(table: Table, width: int) -> Grid:
     )
     widths = _widths(table, _flattest(table, width))
     for place, (head, room) in enumerate(zip(table.columns, widths, strict=True)):
-        cells = [row[place] for row in table.rows]
-        numbers = all(it is None or isinstance(it, _NUMBERS) for it in cells)
         grid.add_column(
             Text("\n".join(_broken(head, room))),
-            justify="right" if numbers else "left",
+            justify="right" if _is_of_numbers(table, place) else "left",
             vertical="top",
             overflow="fold",
         )

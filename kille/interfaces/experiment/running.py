@@ -105,8 +105,9 @@ def _stopped(folder: Path, code: int) -> int:
 def _tell(folder: Path, page: Path, summary: Summary) -> None:
     out = console()
     before = summary.planned - summary.played
-    told = f"{summary.played:,} dialogues played"
-    told += f", {before:,} were over before" if before else ""
+    told = f"{summary.played:,} dialogue{'s' if summary.played != 1 else ''} played"
+    if before:
+        told += f", {before:,} {'were' if before != 1 else 'was'} over before"
     out.print(f"{told}: {folder}", markup=False)
     out.print(f"report: {page}", markup=False)
     if not summary.broken:

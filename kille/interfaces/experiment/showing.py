@@ -136,10 +136,12 @@ def _lines(turn: Turn, answers: Sequence[Answer]) -> Iterator[str]:
 
 
 def _given(turn: Turn) -> str:
-    """What he said; of a look at a simulated world, only what is in view."""
+    """What he said or did; of a look at a simulated world, only what is in view."""
     world = World.named(turn.given)
+    if world is None and turn.given:
+        return turn.given if turn.words else f"({turn.act}: {turn.given})"
     if world is None:
-        return turn.given or f"({turn.act})"
+        return f"({turn.act})"
     things = (
         f"{'*' * (number == world.focus)}{world.thing(number)}"
         for number in world.in_view

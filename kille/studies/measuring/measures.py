@@ -191,7 +191,7 @@ REFERENCES = Measure(
 )
 TURNS = Measure(
     "turns",
-    "turns of the tutor in a dialogue",
+    "turns of a dialogue in which the tutor said something",
     _per_dialogue(lambda it: sum(one.turns for one in it.efforts)),
     ratio,
     better=-1,

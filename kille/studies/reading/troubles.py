@@ -10,8 +10,8 @@ from kille.studies.reading.lines import Key, line_of, lines_of
 
 __all__ = ["Trouble", "told"]
 
-_LONGEST = 300
-"""Characters; many a type is longer than anybody reads on one line."""
+_FIRST, _LAST = 200, 100
+"""Characters of a long line; many a type is longer than anybody reads on one."""
 
 
 class Trouble(NamedTuple):
@@ -38,5 +38,8 @@ def told(found: Iterable[Trouble], text: str, path: Path) -> tuple[str, ...]:
 
 
 def _on_one_line(text: str) -> str:
+    """The text, if long without its middle: what is wrong is often told at its end."""
     plain = " ".join(text.split())
-    return plain if len(plain) <= _LONGEST else f"{plain[:_LONGEST]}…"
+    if len(plain) <= _FIRST + _LAST:
+        return plain
+    return f"{plain[:_FIRST].rstrip()} … {plain[-_LAST:].lstrip()}"

@@ -13,7 +13,7 @@ from kille.studies.measuring.scored import Dialogue, parted
 from kille.studies.reporting.asked import Tests, called, phases_of
 from kille.studies.reporting.findings import Theories, estimated
 from kille.studies.reporting.names import short
-from kille.studies.reporting.rows import BANDS, as_drawn
+from kille.studies.reporting.rows import as_drawn, bands
 
 __all__ = ["costs", "said_before"]
 
@@ -39,7 +39,7 @@ _Series: TypeAlias = Mapping[str, Mapping[str, Sequence[Any]]]
 _LABELS = {"xlabel": "words of the tutor until then", "ylabel": "accuracy"}
 _LABELLED = 16
 """At most so many points are called by the tutor."""
-_NOTE = f"Words are those of one dialogue. {BANDS}"
+_NOTE = "Words are those of one dialogue."
 
 
 def said_before(phase: str) -> Measure:
@@ -74,7 +74,8 @@ def _by_tutors(series: _Series, phase: str) -> Figure:
     title += ", by tutor" if len(tutors) > 1 else ""
     if len(tutors) < 2 or sum(len(it["x"]) for it in series.values()) > _LABELLED:
         series = {name: {**it, "labels": []} for name, it in series.items()}
-    return Figure("points", title, {"series": series, **_LABELS}, _NOTE)
+    told = bands(low for it in series.values() for low in (*it["x_low"], *it["y_low"]))
+    return Figure("points", title, {"series": series, **_LABELS}, f"{_NOTE} {told}")
 
 
 def _by_phase(theories: Theories, phases: Sequence[str]) -> Figure:
@@ -88,7 +89,8 @@ def _by_phase(theories: Theories, phases: Sequence[str]) -> Figure:
             **as_drawn(right, "mean"),
         }
     title = f"Accuracy against what it cost: {called(phases)}"
-    return Figure("curves", title, {"series": series, **_LABELS}, _NOTE)
+    told = bands(low for it in series.values() for low in it["low"])
+    return Figure("curves", title, {"series": series, **_LABELS}, f"{_NOTE} {told}")
 
 
 def _by_tutor(dialogues: Sequence[Dialogue], phase: str) -> dict[str, list[Any]]:

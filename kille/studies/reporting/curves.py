@@ -13,7 +13,7 @@ from kille.studies.measuring.measures import ACCURACY, DEGREE
 from kille.studies.measuring.scored import Dialogue, Scored, parted
 from kille.studies.reporting.asked import Tests, called, phases_of
 from kille.studies.reporting.findings import Theories, estimated
-from kille.studies.reporting.rows import BANDS, as_drawn, in_rows
+from kille.studies.reporting.rows import as_drawn, bands, in_rows
 
 __all__ = ["confusions", "learning", "near", "reliable", "step", "words"]
 
@@ -67,7 +67,8 @@ def _learning(title: str, theories: Theories, test: Sequence[str]) -> Iterator[F
             "xlabel": "lessons",
             "ylabel": "accuracy",
         }
-        yield Figure("curves", title, data, _note(wide))
+        told = bands(low for it in series.values() for low in it["low"])
+        yield Figure("curves", title, data, f"{_note(wide)} {told}")
 
 
 def near(lessons: int, wide: int) -> int:
@@ -85,7 +86,7 @@ def _count(dialogues: Sequence[Dialogue]) -> int:
 
 def _note(wide: int) -> str:
     near = f"Answers are put to the nearest {wide} lessons. " if wide > 1 else ""
-    return f"{near}Not every dialogue comes to all of these. {BANDS}"
+    return f"{near}Not every dialogue comes to all of these."
 
 
 def step(most: int) -> int:
@@ -122,7 +123,8 @@ def reliable(theories: Theories) -> Iterator[Figure]:
         "xlabel": "degree of the word that was said",
         "ylabel": "share that is right",
     }
-    note = f"On the dashed line degrees are what they say. {BANDS}"
+    told = bands(low for it in series.values() for low in it["low"])
+    note = f"On the dashed line degrees are what they say. {told}"
     yield Figure("reliability", "Reliability", data, note)
 
 

@@ -54,9 +54,9 @@ Theories: TypeAlias = Mapping[str, Sequence[Dialogue]]
 _SEED = 1  # of the chance by which dialogues are drawn anew
 _BANDS = (
     f"In brackets: the band of 95 %, of dialogues drawn anew with these tutors and "
-    f"scenes (bootstrap over whole dialogues, not over single answers); fewer than "
-    f"{FEWEST} dialogues have none. A measure that is the same as one above in every "
-    f"dialogue is left out."
+    f"scenes (bootstrap over whole dialogues, not over single answers); none where "
+    f"fewer than {FEWEST} dialogues have the measure. A measure that is the same as "
+    f"one above in every dialogue is left out."
 )
 
 

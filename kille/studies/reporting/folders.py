@@ -14,8 +14,10 @@ from kille.studies.errors import StudyError, TheoryError
 from kille.studies.measuring.scored import Dialogue, scored
 from kille.studies.reporting.asked import tests_of
 from kille.studies.reporting.findings import grouped
+from kille.studies.reporting.idle import idle
 from kille.studies.reporting.layouts import Described
 from kille.studies.reporting.places import places_of
+from kille.studies.reporting.unlike import unlike
 from kille.studies.reporting.writing import Subject, every_two, results_of, write
 from kille.studies.study import Study, Theory
 from kille.studies.theories.describing import described
@@ -63,10 +65,11 @@ def _subject(folder: Path, command: str) -> Subject:
     study = log.study(folder)
     dialogues = [scored(*it) for it in log.read(folder)]
     theories = grouped(list(study.theories), dialogues)
+    shown = _described(study, theories or study.theories)
     return Subject(
         study.title,
         theories,
-        _described(study, theories or study.theories),
+        shown,
         every_two(theories),
         tests_of(study.phases),
         _about(folder, study, command, len(dialogues)),
@@ -74,7 +77,7 @@ def _subject(folder: Path, command: str) -> Subject:
         numbers=_numbers(study, len(dialogues), log.about(folder).planned),
         source=study.source,
         broken=[(str(it.run), it.reason) for it in log.broken(folder)],
-        warnings=_cut_short(theories, study.turns),
+        warnings=[*_cut_short(theories, study.turns), *idle(shown, theories)],
         files=sorted(
             it.name for it in folder.iterdir() if it.suffix in (".csv", ".parquet")
         ),
@@ -199,6 +202,7 @@ def _both(one: Path, other: Path, command: str) -> Subject:
         ],
         warnings=[
             *shared,
+            *unlike(log.study(one), log.study(other)),
             *(
                 f"{label}: {text}"
                 for label, subject in subjects.items()

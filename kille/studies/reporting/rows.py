@@ -6,15 +6,15 @@ What does not fit on a page of a paper goes on in the next figure.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from kille.experiments.results import Estimate, Figure
 from kille.studies.reporting.names import short
 
-__all__ = ["BANDS", "as_drawn", "in_rows"]
+__all__ = ["as_drawn", "bands", "in_rows"]
 
-BANDS = "Bands of 95 %."
+_BANDS = "Bands of 95 %."
 _NO_BANDS = "Too few dialogues for bands."
 
 _HIGHEST = 9.5
@@ -34,6 +34,15 @@ def as_drawn(estimates: Sequence[Estimate], name: str = "values") -> dict[str, A
         "low": [it.low for it in estimates],
         "high": [it.high for it in estimates],
     }
+
+
+def bands(lows: Iterable[float]) -> str:
+    """What is told of bands by their lower ends, which are no numbers without a band.
+
+    >>> bands([math.nan, 0.25]), bands([math.nan])
+    ('Bands of 95 %.', 'Too few dialogues for bands.')
+    """
+    return _BANDS if any(map(math.isfinite, lows)) else _NO_BANDS
 
 
 def in_rows(
@@ -58,9 +67,8 @@ def in_rows(
             "series": {name: as_drawn(them) for name, them in some.items()},
             **told,
         }
-        banded = any(math.isfinite(it.low) for them in some.values() for it in them)
         which = f" ({number} of {len(parts)})" if len(parts) > 1 else ""
-        note = BANDS if banded else _NO_BANDS
+        note = bands(it.low for them in some.values() for it in them)
         yield Figure("intervals", f"{title}{which}", data, note)
 
 

@@ -404,3 +404,21 @@ def test_a_table_of_one_column_is_printed_however_wide() -> None:
     print_table(out, Table("words", ("word",), (("a word that is long",), ("cup",))))
     assert isinstance(out.file, io.StringIO)
     assert "cup" in out.file.getvalue()
+
+
+def test_each_part_of_a_table_says_what_its_rows_are_of() -> None:
+    """What comes before the first number names a row, in all parts."""
+    heads = ("measure", "tutor", *(f"theory {n}" for n in range(6)))
+    rows = tuple(
+        (measure, tutor, *[0.5] * 6)
+        for measure in ("accuracy", "accepted", "words")
+        for tutor in ("Ann", "Bo", "Cleo")
+    )
+    out = Console(file=io.StringIO(), width=40)
+    print_table(out, Table("by tutor", heads, rows))
+    assert isinstance(out.file, io.StringIO)
+    lines = out.file.getvalue().splitlines()
+    heading = [line for line in lines if "measure" in line]
+    assert len(heading) > 1
+    assert all("tutor" in line for line in heading)
+    assert sum("Cleo" in line for line in lines) == 3 * len(heading)

@@ -231,6 +231,18 @@ def test_another_study_does_not_go_into_the_same_folder(
     assert log.over(Path("ways.results")) == 4
 
 
+def test_what_happens_is_not_shown_as_if_it_were_said(kille: Run, study: Path) -> None:
+    Path("one.dlg").write_text("--- one\n@ place 2 7 3\n@ point 2\nU> This is a cup.\n")
+    scripted = STUDY.replace('"simulated"', '"scripted"\nfile = "one.dlg"')
+    study.write_text(scripted.replace("seeds = 2", "seeds = 1"))
+    done = kille("experiment", "run", str(study), "--workers", "1")
+    assert "2 dialogues played: ways.results" in done.out
+    done = kille("experiment", "show", "ways.results", "driven/Ann/table/1")
+    assert "    2  Ann      (happens: place 2 7 3)\n" in done.out
+    assert "    3  Ann      (happens: point 2)\n" in done.out
+    assert "    4  Ann      This is a cup.\n" in done.out
+
+
 def test_what_breaks_is_listed_at_the_end(kille: Run, study: Path) -> None:
     Path("own.py").write_text(BROKEN)
     learner = '[theories.assisted.learners]\nnoun = "own.py:noun"\n\n[tutors.Ann]'

@@ -206,7 +206,7 @@ def test_what_was_over_is_kept_when_a_person_leaves(
     assert last.startswith("kille: stopped with 1 of 2 dialogues over; go on with: ")
     done = kille("experiment", "resume", str(FOLDER), typed=lines(DIALOGUE))
     assert "Dialogue 2 of 2" in done.out
-    assert "1 dialogues played, 1 were over before" in done.out
+    assert "1 dialogue played, 1 was over before" in done.out
 
 
 def test_ctrl_c_stops_a_person(study: Path, terminal: Any) -> None:

@@ -309,6 +309,20 @@ def test_what_a_theory_file_claims_is_checked_with_its_line(tmp_path: Path) -> N
     ]
 
 
+def test_a_long_mistake_is_told_from_its_beginning_to_its_end(tmp_path: Path) -> None:
+    """What is left out is in the middle: the end says what is wrong with the type."""
+    (tmp_path / "tutor.ttr").write_text(packaged("tutor.ttr"), encoding="utf-8")
+    rule = (
+        "rule silent(s : State) of admit_name\n"
+        "    := [private : [agenda = [Said /\\ Acknowledge] : Agenda]]\n"
+    )
+    (tmp_path / "own.ttr").write_text(f'import "tutor.ttr"\n{rule}')
+    [fault] = found(tmp_path, "[theories.one]\nrules = 'own.ttr'\n")
+    assert fault.startswith("own.ttr:3: the rule silent sets private.agenda to [[addr")
+    assert " … " in fault
+    assert fault.endswith("which is no list(RecType^1)")
+
+
 def test_two_rules_in_place_of_one_are_told(tmp_path: Path) -> None:
     (tmp_path / "tutor.ttr").write_text(packaged("tutor.ttr"), encoding="utf-8")
     rule = 'rule {}(s : State) "" of admit_name := [private : [x : Ind]]\n'

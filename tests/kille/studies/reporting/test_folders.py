@@ -45,9 +45,11 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib", None)
 
 
-def ran(folder: Path, seeds: str = "4", other: str = "other") -> Path:
+def ran(
+    folder: Path, seeds: str = "4", other: str = "other", text: str = STUDY
+) -> Path:
     """A folder of results; of a theory called bad one dialogue breaks."""
-    study = parsed(STUDY.format(seeds=seeds, other=other), Path("numbers.toml"))
+    study = parsed(text.format(seeds=seeds, other=other), Path("numbers.toml"))
     with Log.opened(study, folder) as log:
         for run in study.runs():
             log.write(outcome(study, run, little_study.play))
@@ -130,6 +132,35 @@ def test_two_folders_are_compared_by_what_they_share(tmp_path: Path) -> None:
     page, _ = reporting.compare(one, other, tmp_path / "both.html", command="compare")
     assert "two against one" in page.read_text("utf-8")
     assert (tmp_path / "both-dialogues" / "dialogue-1.html").is_file()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        (
+            '"simulated"',
+            '"simulated"\nerrors = 0.1',
+            "The tutor Ann is not the same in",
+        ),
+        (
+            '"drawn"',
+            '"drawn"\nnoise = 0.2\neach = 3',
+            "The scene table is not the same",
+        ),
+        ('"drawn"', '"around"', "both (kind): "),
+        ('"drawn"', '"drawn"\nnoise = 0.2\neach = 3', "both (noise, each): "),
+        ('do = "teach"', 'do = "teach"\nrounds = 2', "The phases are not the same in"),
+    ],
+)
+def test_what_is_called_the_same_and_is_not_is_told(
+    tmp_path: Path, old: str, new: str, told: str
+) -> None:
+    """Else a difference would be held for one of the theories."""
+    one = ran(tmp_path / "one")
+    other = ran(tmp_path / "two", text=STUDY.replace(old, new))
+    [warning] = reporting.compared(one, other)[0].text.splitlines()
+    assert told in warning
+    assert warning.endswith("differences may come of that as well.")
 
 
 def test_other_theories_are_all_compared(tmp_path: Path) -> None:

@@ -362,6 +362,16 @@ def test_learning_is_drawn_by_lessons(theories: Theories) -> None:
     assert figure.data["series"]["autonomous"]["mean"] == [0.625, 0.625]
 
 
+@pytest.mark.parametrize(
+    ("seeds", "told"), [(2, "Too few dialogues for bands."), (6, "Bands of 95 %.")]
+)
+def test_bands_are_spoken_of_where_some_are_drawn(seeds: int, told: str) -> None:
+    few = study(seeds)
+    figures = [*costs(few, TESTS), *curves.learning(few, TESTS), *curves.reliable(few)]
+    assert len(figures) == 4
+    assert all(figure.note.endswith(told) for figure in figures)
+
+
 def test_other_tests_are_no_points_of_the_same_curve() -> None:
     """Before and after two lessons nouns are all named right, and adjectives never."""
 
