@@ -31,11 +31,13 @@ from ttr import (
     Type,
     TypeNode,
     Universe,
+    amerge,
     concat,
     fst,
     fun,
     join,
     meet,
+    merge,
     outer,
     record,
     rectype,
@@ -251,6 +253,17 @@ def test_the_order_and_the_spaces_do_not_matter(T):
 @given(types())
 def test_a_printed_type_reads_back_as_itself(T):
     assert Theory.of(T).parse(str(T)) is T
+
+
+@given(types(), types())
+def test_a_merge_that_is_written_is_the_merge(S, T):
+    for operation in (merge, amerge):
+        try:
+            wanted = operation(S, T)
+        except IllFormed:
+            reject()
+        text = f"{operation.__name__}({S}, {T})"
+        assert Theory.of(S, T).parse(text) is wanted
 
 
 @given(records())

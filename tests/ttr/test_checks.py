@@ -366,6 +366,28 @@ def test_impossible_bindings():
     assert sorts(never) == ["dead"]
 
 
+@pytest.mark.parametrize(
+    ("value", "hint"),
+    [
+        ("[Said /\\ Hello]", "a meet of record types is none itself, merge(S, T) is"),
+        ("[merge(Said, Hello)]", None),
+        ("[Said /\\ Ind]", ""),
+        ("Said /\\ Hello", ""),
+    ],
+)
+def test_a_meet_is_no_record_type_but_a_merge_is(value, hint):
+    game = Theory.parse(f"""
+        basic Ind
+        Said := [x : Ind]
+        Hello := [y : Ind]
+        Board := [agenda : list(RecType)]
+        rule greet(s : Board) := [agenda = {value} : list(RecType)]
+        game g({{agenda = []}} : Board) := greet
+    """).games["g"]
+    found = [fault.hint for fault in faults_of(game) if fault.sort == "misfit"]
+    assert found == ([] if hint is None else [hint])
+
+
 def test_an_element_of_a_wrong_type():
     one = Theory.parse("""
         basic Ind, Dish

@@ -155,6 +155,12 @@ def test_reads(text: str, value: Object) -> None:
         ("str(A, dog(fido))", Str(A, dog("fido"))),
         ("str()", Str()),
         ("plus(str(A, B))", Plus(Str(A, B))),
+        ("merge([x : A], [y : B])", rectype(x=A, y=B)),
+        ("amerge([x : A, y : A], [x : B])", rectype(x=B, y=A)),
+        (
+            "[x : Ind, r : merge([a : Ind], [a = x : Ind])]",
+            rectype(x=Ind, r=rectype(a=Ind @ outer.x)),
+        ),
         ("(Ind -> Type)", Prop),
         ("Ind → Type", Prop),
         ("A -> B -> Ind", A >> (B >> Ind)),
@@ -287,6 +293,11 @@ def test_types_read_are_the_types_built() -> None:
     )
 
 
+def test_what_a_theory_calls_merge_is_meant() -> None:
+    put = Pred("merge", Ind, Ind)
+    assert parse("merge('a', 'b')", using=[put]) is put("a", "b")
+
+
 def test_parse_alone_knows_the_logical_types_only() -> None:
     assert parse("[t : Type, r : Rec, l : list(RecType)]")["r"] is Rec
     with pytest.raises(NotationError, match="nothing is called Ind here"):
@@ -368,6 +379,9 @@ def test_theory_of_refuses_two_predicates_of_one_name() -> None:
         ("fido + sam", 1, "only lists and strings can be concatenated", ""),
         ("fst([])", 1, "there is no first element: it is an empty list", ""),
         ("fst(fido, sam)", 1, "fst takes one list, but has 2", ""),
+        ("merge(A)", 1, "merge takes two types, but has 1", ""),
+        ("merge(A, fido)", 10, "expected a type, found the object fido", ""),
+        ("merg(A, B)", 1, "there is no predicate merg", "did you mean merge?"),
         ("set(A, B)", 1, "set takes one type, but has 2", ""),
         ("str(fido)", 5, "expected a type, found the object fido", ""),
         ("set {}", 5, "expected the end, found {", "the empty one set{}"),

@@ -22,6 +22,7 @@ from typing import Any, NoReturn, TypeVar
 
 from ttr.constructors import Pi, fun, function_type, rectype, star
 from ttr.errors import IllFormed, NotationError, TTRError, suggestion
+from ttr.merging import amerge, merge
 from ttr.notation.culprits import culprit, misfit, refused
 from ttr.notation.drafts import Names, is_declared, meaning
 from ttr.notation.misreadings import shown
@@ -83,7 +84,7 @@ from ttr.syntax import (
     kind_of,
     meet,
 )
-from ttr.theories import Interval, Theory
+from ttr.theories import Interval, Signature, Theory
 
 __all__ = ["LOGICAL", "Reader", "parse", "read"]
 
@@ -99,13 +100,19 @@ _OF_A_TYPE: Mapping[str, Callable[[TypeNode], TypeNode]] = {
 }
 """Words before a type in brackets."""
 
-_GIVING_WAY = frozenset(("star",))
+_OF_TWO_TYPES: Mapping[str, Callable[[TypeNode, TypeNode, Signature], TypeNode]] = {
+    "merge": merge,
+    "amerge": amerge,
+}
+"""Words before two types in brackets."""
+
+_GIVING_WAY = frozenset(("star", *_OF_TWO_TYPES))
 """Words that are not reserved: what a theory calls so is meant instead."""
 
 _OF_AN_OBJECT: Mapping[str, Callable[[Object], Object]] = {"fst": fst, "rst": rst}
 """Words before an object in brackets."""
 
-_WORDS = ("str", *_OF_A_TYPE, *_OF_AN_OBJECT)
+_WORDS = ("str", *_OF_A_TYPE, *_OF_TWO_TYPES, *_OF_AN_OBJECT)
 
 _B = TypeVar("_B", Function, FunType)
 
@@ -313,6 +320,8 @@ class Reader:
     def _word(self, term: Call, word: str, scope: Scope) -> Object:
         if word == "str":
             return Str(*[self.type(arg, scope) for arg in term.args])
+        if word in _OF_TWO_TYPES:
+            return self._merged(term, word, scope)
         if len(term.args) != 1:
             kind = "type" if word in _OF_A_TYPE else "list"
             self.refuse(term, f"{word} takes one {kind}, but has {len(term.args)}")
@@ -321,6 +330,16 @@ class Reader:
         return self._computed(
             term, _OF_AN_OBJECT[word], self._objects(term.args, scope)
         )
+
+    def _merged(self, term: Call, word: str, scope: Scope) -> TypeNode:
+        """Two types as the one that they are together."""
+        if len(term.args) != 2:
+            self.refuse(term, f"{word} takes two types, but has {len(term.args)}")
+        S, T = [self.type(arg, scope) for arg in term.args]
+        try:
+            return _OF_TWO_TYPES[word](S, T, self.theory.signature)
+        except TTRError as error:
+            raise error.at(self.source.span(term)) from None
 
     # --- where a type must stand ---
 

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from functools import reduce
 
 from ttr.errors import Span
+from ttr.merging import merge
 from ttr.paths import escaping
 from ttr.printing import notation
 from ttr.probability import REFUTED
 from ttr.syntax import (
     Basic,
     ListOf,
+    Meet,
     NonEmpty,
     Object,
     Record,
@@ -59,7 +63,8 @@ def _written(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
             continue
         if all(misfit(rules, view, wanted) for view in brought):
             found = _told(write.term, brought[0])
-            yield _misfit(rule, "sets", write.path, found, wanted, write.span)
+            fault = _misfit(rule, "sets", write.path, found, wanted, write.span)
+            yield replace(fault, hint=_way_out(rules, brought[0], wanted))
         elif all(_is_odd(rules, view, wanted) for view in brought):
             yield _odd(rule, write, brought[0], wanted)
 
@@ -118,6 +123,24 @@ def _told(term: Term | None, view: View) -> str:
     if isinstance(view, Term):
         return notation(view.value)
     return f"something of {view}"
+
+
+def _way_out(rules: RuleSet, found: View, wanted: TypeNode) -> str:
+    """What to do about a value that would fit if its meets were merged."""
+    merged = Term(_merged(found.value)) if isinstance(found, Term) else found
+    if merged == found or misfit(rules, merged, wanted):
+        return ""
+    return "a meet of record types is none itself, merge(S, T) is"
+
+
+def _merged(value: Object) -> Object:
+    """The value with the merge of record types in place of their meet."""
+    match value:
+        case tuple():
+            return tuple(map(_merged, value))
+        case Meet(parts) if all(isinstance(part, RecordType) for part in parts):
+            return reduce(merge, parts)
+    return value
 
 
 def _left_out(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
