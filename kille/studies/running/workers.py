@@ -17,7 +17,7 @@ import select
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import suppress
 from tempfile import TemporaryDirectory
 
@@ -51,7 +51,7 @@ def begin() -> None:
     with suppress(OSError), TemporaryDirectory(prefix="kille-workers-") as folder:
 
         def work(number: int) -> None:
-            asyncio.run(working(asked["address"], number, folder, asked["settings"]))
+            silent(working(asked["address"], number, folder, asked["settings"]))
 
         keep(asked["workers"], work)
 
@@ -113,6 +113,14 @@ def ended() -> Iterator[tuple[int, int]]:
             yield found[0], os.waitstatus_to_exitcode(found[1])
 
 
+def silent(work: Coroutine[None, None, None]) -> None:
+    """Does it, and says nothing, nor of what is left when its loop is closed."""
+    from kille.studies.running.clusters import quietly
+
+    with quietly():
+        asyncio.run(work)
+
+
 async def working(
     address: str, number: int, folder: str, settings: dict[str, object]
 ) -> None:
@@ -120,9 +128,7 @@ async def working(
     import dask
     from distributed import Worker
 
-    from kille.studies.running.clusters import quietly
-
-    with quietly(), dask.config.set(settings):
+    with dask.config.set(settings):
         worker = Worker(
             address,
             nthreads=1,

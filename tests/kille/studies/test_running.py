@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import gc
 import os
 import signal
@@ -28,7 +29,7 @@ from kille.studies.running.clusters import _Cluster, _connected
 from kille.studies.running.crews import alone, crew, playing
 from kille.studies.running.runner import Progress, forget_broken, run
 from kille.studies.running.threads import READ_WHEN_LOADED, one_thread
-from kille.studies.running.workers import MOST
+from kille.studies.running.workers import MOST, silent
 from kille.studies.study import Run, Study
 from little_study import BAD, DEADLY, GOOD, folder_of, play
 
@@ -364,6 +365,16 @@ def test_workers_that_a_dialogue_has_ended_are_not_given_up() -> None:
         assert leaving.stdout.read(begun) == b"." * begun
         leaving.stdin.close()
         assert leaving.wait(SETTLED) == 0
+
+
+def test_what_workers_leave_unheard_is_not_told(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    async def work() -> None:
+        asyncio.get_running_loop().create_future().set_exception(TimeoutError())
+
+    silent(work())
+    assert caplog.messages == []
 
 
 def test_one_thread_is_there_when_workers_are_forked() -> None:
