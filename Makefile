@@ -5,6 +5,9 @@ BIN := .venv/bin
 INSTALLED := .venv/.installed
 SENSES := .venv/.senses
 
+# Who runs on each core waits for nobody's threads on another.
+SINGLE := OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
+
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
@@ -25,11 +28,11 @@ test: $(SENSES) ## format, lint, types, import directions, then all tests and ex
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/pytest -n auto --dist worksteal
+	$(SINGLE) $(BIN)/pytest -n auto --dist worksteal
 
 bench: $(SENSES) ## measure how fast things are, on one thread
 	@for script in benchmarks/[!_]*.py; do \
-	    echo "== $$script"; OPENBLAS_NUM_THREADS=1 $(BIN)/python "$$script" || exit 1; \
+	    echo "== $$script"; $(SINGLE) $(BIN)/python "$$script" || exit 1; \
 	done
 
 # Some tests compare with other people's programs: libfreenect's tools with the Kinect

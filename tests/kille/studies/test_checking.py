@@ -320,7 +320,7 @@ def test_a_long_mistake_is_told_from_its_beginning_to_its_end(tmp_path: Path) ->
     [fault] = found(tmp_path, "[theories.one]\nrules = 'own.ttr'\n")
     assert fault.startswith("own.ttr:3: the rule silent sets private.agenda to [[addr")
     assert " … " in fault
-    assert fault.endswith("which is no list(RecType^1)")
+    assert "which is no list(RecType^1): a meet of record types" in fault
 
 
 def test_two_rules_in_place_of_one_are_told(tmp_path: Path) -> None:

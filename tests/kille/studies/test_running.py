@@ -17,7 +17,7 @@ from typing import TypeAlias
 
 import pytest
 from distributed import Client
-from threadpoolctl import threadpool_info
+from threadpoolctl import threadpool_info, threadpool_limits
 
 import little_study
 from kille.interfaces.experiment.stopping import stoppable
@@ -421,9 +421,12 @@ def test_without_dask_one_worker_plays_and_more_are_refused(
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_what_is_added_up_is_added_up_in_one_thread(
-    tmp_path: Path, workers: int
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, workers: int
 ) -> None:
-    run(little_study.study(), tmp_path, little_study.count_threads, crew(workers))
+    for name in READ_WHEN_LOADED:
+        monkeypatch.delenv(name, raising=False)
+    with threadpool_limits(2):
+        run(little_study.study(), tmp_path, little_study.count_threads, crew(workers))
     found = [it.played.facts for it in log.read(tmp_path)]
     assert found == [{"threads": 1.0, "asked for": 1.0}] * 6
 
