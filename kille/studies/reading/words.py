@@ -97,10 +97,8 @@ def _of_tutor(tutor: Named, study: Study, names: Names) -> Iterator[Wrong]:
         if name not in known:
             told = f"there is nothing that others call {name}: {unknown(name, known)}"
             yield ("calls", name), told
-    vocabulary, forms = (
-        tutor.settings.get("vocabulary", ()),
-        _forms(things, [tutor], study),
-    )
+    vocabulary = tutor.settings.get("vocabulary", ())
+    forms = _forms(things, [tutor], study)
     wrong = [it for it in vocabulary if it not in known and it not in forms]
     for word in wrong:
         told = f"there is nothing of which {tutor.name} could say {word}"
