@@ -44,14 +44,15 @@ class Camera:
         self.sensor: dict[int, int] = dict(_START)
         self._fixed_size = fixed_size
         self._waiting: deque[bytes] = deque()
+        self._ready = 0
 
     def written(self) -> list[tuple[int, int]]:
         """The registers written so far with their values, in order."""
         writes = (it.words for it in self.heard if it.command == WRITE)
         return [(register, value) for register, value in writes]
 
-    def take(self, message: bytes, reply: Reply | None = None) -> None:
-        """Carry out one command; its answer waits to be asked for."""
+    def take(self, message: bytes, reply: Reply | None = None, ready: int = 0) -> None:
+        """Carry out one command; its answer can be asked for from that time on."""
         if len(message) < 8 or message[:2] != b"GM":
             raise CommandError(f"not a command: {message[:8].hex()}")
         words, command, tag = struct.unpack_from("<3H", message, 2)
@@ -62,11 +63,18 @@ class Camera:
         self.heard.append(Heard(command, arguments))
         answer = self._answer(command, arguments)
         header = struct.pack("<2s3H", b"RB", len(answer) // 2, command, tag)
+        if self._waiting and ready > self._ready:
+            # It is still at work on the command before, whose answer comes first.
+            self._waiting.extend(spoiled(header + answer, reply))
+            return
         self._waiting = deque(spoiled(header + answer, reply))
+        self._ready = ready
 
-    def reply(self) -> bytes:
+    def reply(self, now: int = 0) -> bytes:
         """What the camera answers when asked: nothing if it has nothing to say."""
-        return self._waiting.popleft() if self._waiting else b""
+        if not self._waiting or now < self._ready:
+            return b""
+        return self._waiting.popleft()
 
     def modes(self) -> tuple[Mode, ...]:
         """The streams that are switched on."""

@@ -62,7 +62,10 @@ class Faults:
     control transfers fail; `broken` isochronous transfers end in an error; `reply`
     spoils what the camera answers; `forbidden` lets nobody open the device; `busy`
     says that something else has claimed the interface, `driven` that a kernel driver
-    has.
+    has. Isochronous transfers that are `endless` never end, not even when they are
+    cancelled. `lost_replies` are the commands, counted from 0 since the Kinect was
+    made, whose replies are lost; others come after `slow` microframes. Isochronous
+    transfers that are `failing` end as a whole in an error, at their time.
     """
 
     packets: tuple[PacketFault, ...] = ()
@@ -73,6 +76,10 @@ class Faults:
     forbidden: bool = False
     busy: bool = False
     driven: bool = False
+    endless: bool = False
+    failing: bool = False
+    lost_replies: frozenset[int] = frozenset()
+    slow: int = 0
 
 
 NONE = Faults()

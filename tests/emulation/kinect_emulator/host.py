@@ -139,7 +139,29 @@ class Host:
 
     def unplug(self, kinect: Kinect) -> None:
         """Pull it out: all that waits for it ends, whatever is asked of it fails."""
-        gone = [it for it in self.devices.values() if it.kinect is kinect]
+        self._remove([it for it in self.devices.values() if it.kinect is kinect])
+
+    def drop(self, kinect: Kinect, role: Role) -> None:
+        """One device inside it leaves the bus, while the others stay."""
+        self._remove([self._device_of(kinect, role)])
+
+    def bring_back(self, kinect: Kinect, role: Role) -> None:
+        """That device is on the bus again, at its place but with a new address."""
+        hub = self._device_of(kinect, Role.HUB)
+        port = next(
+            port for port, it in enumerate(kinect.model.parts) if it.role is role
+        )
+        part, ports = kinect.model.parts[port], (*hub.ports, port)
+        device = Device(next(self._addresses), ports, hub.address, kinect, part)
+        self.devices[device.address] = device
+
+    def _device_of(self, kinect: Kinect, role: Role) -> Device:
+        devices = self.devices.values()
+        return next(
+            it for it in devices if it.kinect is kinect and it.part.role is role
+        )
+
+    def _remove(self, gone: list[Device]) -> None:
         for device in gone:
             del self.devices[device.address]
         for (handle, endpoint), pipe in list(self._pipes.items()):
@@ -262,6 +284,8 @@ class Host:
         pipe = self._pipes.get((transfer.handle, transfer.endpoint))
         if pipe is None or transfer not in pipe.waiting:
             raise UsbError(Code.NOT_FOUND)
+        if self._handles[transfer.handle].kinect.faults.endless:
+            return
         if transfer is pipe.waiting[0]:
             pipe.begins += transfer.packets
         pipe.waiting.remove(transfer)
@@ -307,6 +331,8 @@ class Host:
     def _run(self, pipe: _Pipe) -> None:
         """End the transfers whose microframes have passed."""
         while pipe.waiting and pipe.begins + pipe.waiting[0].packets <= self.now:
+            if self._handles[pipe.waiting[0].handle].kinect.faults.endless:
+                return
             transfer = pipe.waiting.popleft()
             self._ended.append(self._filled(transfer, pipe.begins))
             pipe.begins += transfer.packets
@@ -314,6 +340,8 @@ class Host:
     def _filled(self, transfer: Transfer, begins: int) -> Completion:
         device = self._handles[transfer.handle]
         window = device.kinect.window(transfer.endpoint, begins, transfer.packets)
+        if device.kinect.faults.failing:
+            return _empty(transfer, Status.ERROR)
         if window is None:
             return _empty(transfer, Status.COMPLETED)
         if device.kinect.faults.broken:

@@ -22,7 +22,7 @@ from kille.sensors.kinect.transport import (
     Stalled,
     TransportError,
 )
-from kinect_emulator.descriptors import MICROSOFT
+from kinect_emulator.descriptors import MICROSOFT, Role
 from kinect_emulator.host import (
     Code,
     Completion,
@@ -36,6 +36,7 @@ from kinect_emulator.kinect import Kinect
 from kinect_emulator.modes import MICROFRAMES_PER_SECOND
 
 _TRANSFERS, _PACKETS = 8, 64
+_FAILURES = 64
 _STEP = 0.002
 _ERRORS: dict[Code, type[TransportError]] = {
     Code.ACCESS: Denied,
@@ -93,6 +94,17 @@ class InsideBus:
         with self.lock:
             self.host.unplug(kinect)
         self.deliver()
+
+    def drop(self, kinect: Kinect, role: Role) -> None:
+        """One device inside it leaves the bus while time passes."""
+        with self.lock:
+            self.host.drop(kinect, role)
+        self.deliver()
+
+    def bring_back(self, kinect: Kinect, role: Role) -> None:
+        """That device is on the bus again."""
+        with self.lock:
+            self.host.bring_back(kinect, role)
 
     def pass_time(self, microframes: int) -> None:
         """Let time pass, and hand every batch to its receiver."""
@@ -186,6 +198,7 @@ class InsideStream:
         self._receive = receive
         self._taking = threading.RLock()
         self._stopped = False
+        self._failures = 0
         self._waiting: list[Transfer] = []
         for _ in range(_TRANSFERS):
             self._submit()
@@ -196,8 +209,13 @@ class InsideStream:
             if self._stopped:
                 return
             self._waiting.remove(completion.transfer)
-            if completion.status is not Status.COMPLETED:
+            if completion.status is Status.NO_DEVICE:
                 self.ended = Gone("the emulated device was unplugged")
+                return
+            failed = completion.status is Status.ERROR
+            self._failures = self._failures + 1 if failed else 0
+            if self._failures > _FAILURES:
+                self.ended = TransportError("emulated transfers end in errors")
                 return
             self._receive(_batch(completion))
             self._submit_again()

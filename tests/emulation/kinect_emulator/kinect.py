@@ -5,8 +5,8 @@ from __future__ import annotations
 from kinect_emulator.calibration import LIKELY, Making
 from kinect_emulator.camera import Camera, CommandError
 from kinect_emulator.descriptors import MODEL_1414, NO_SERIAL, Model, Part, Role
-from kinect_emulator.faults import NONE
-from kinect_emulator.modes import MICROFRAMES_PER_SECOND, TICKS_PER_SECOND
+from kinect_emulator.faults import NONE, Reply
+from kinect_emulator.modes import DEPTH, MICROFRAMES_PER_SECOND, TICKS_PER_SECOND
 from kinect_emulator.motor import Motor
 from kinect_emulator.pictures import Show, patterns
 from kinect_emulator.stream import Stream, Window
@@ -21,7 +21,8 @@ class Stalled(Exception):
 class Kinect:
     """A Kinect to plug into a host. `faults` and `show.views` may be changed at will.
 
-    `ticks` is what the camera's clock, which all its streams share, says at first.
+    `ticks` is what the camera's clock, which all its streams share, says at first; if
+    `apart` is not 0, depth has a clock that is ahead by so many ticks.
     """
 
     def __init__(
@@ -31,6 +32,7 @@ class Kinect:
         serial: str = "B00361705021046B",
         making: Making = LIKELY,
         ticks: int = 4_000_000_000,
+        apart: int = 0,
     ) -> None:
         self.show = show or patterns()
         self.model = model
@@ -40,6 +42,7 @@ class Kinect:
         self.faults = NONE
         self.streams: dict[int, Stream] = {}
         self._ticks = ticks
+        self._apart = apart
 
     def serial_of(self, part: Part) -> str:
         """The serial number that part of it tells."""
@@ -72,7 +75,7 @@ class Kinect:
         self._refuse_if_stalled()
         match part.role, request:
             case Role.CAMERA, 0:
-                return self.camera.reply()
+                return self.camera.reply(microframe)
             case Role.MOTOR, 0x32:
                 return self.motor.state(microframe / MICROFRAMES_PER_SECOND)
             case Role.MOTOR, 0x10:
@@ -93,7 +96,9 @@ class Kinect:
 
     def _command(self, message: bytes, microframe: int) -> None:
         try:
-            self.camera.take(message, self.faults.reply)
+            lost = len(self.camera.heard) in self.faults.lost_replies
+            reply = Reply.NEVER if lost else self.faults.reply
+            self.camera.take(message, reply, microframe + self.faults.slow)
         except CommandError as error:
             raise Stalled from error
         modes = {mode.endpoint: mode for mode in self.camera.modes()}
@@ -103,6 +108,7 @@ class Kinect:
                 self.streams.pop(endpoint, None)
             elif running is None or running.mode is not wanted:
                 ticks = self._ticks + microframe * _TICKS_PER_MICROFRAME
+                ticks += self._apart if endpoint == DEPTH else 0
                 stream = Stream(wanted, self.show, microframe, ticks)
                 self.streams[endpoint] = stream
 

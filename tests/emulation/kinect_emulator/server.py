@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 from pathlib import Path
 
+from kinect_emulator.descriptors import Role
 from kinect_emulator.host import Code, Completion, Device, Host, Transfer, UsbError
 from kinect_emulator.kinect import Kinect
 from kinect_emulator.modes import MICROFRAMES_PER_SECOND
@@ -94,6 +95,16 @@ class Server:
         """Pull it out while clients run."""
         with self.lock:
             self.host.unplug(kinect)
+
+    def drop(self, kinect: Kinect, role: Role) -> None:
+        """One device inside it leaves the bus while clients run."""
+        with self.lock:
+            self.host.drop(kinect, role)
+
+    def bring_back(self, kinect: Kinect, role: Role) -> None:
+        """That device is on the bus again."""
+        with self.lock:
+            self.host.bring_back(kinect, role)
 
     @contextmanager
     def running(self) -> Iterator[Server]:
