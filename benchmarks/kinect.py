@@ -3,7 +3,8 @@
 The device is emulated; between it and the driver are pyusb and a fake libusb, and the
 driver runs in a process of its own, as a program would. `--minutes 10` streams so long;
 shares are of one core. On a busy machine they are larger: a quiet second is one of the
-best tenth.
+best tenth. Two threads that compute in Python are run beside the driver, too: once it
+reads USB in a thread of their process, once in another process, as the robot does.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +27,8 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "emulation"))
 
 import kille.sensors.kinect.capture as capturing  # noqa: E402
-import kille.sensors.kinect.sensor as sensing  # noqa: E402
+import kille.sensors.kinect.developing as developing  # noqa: E402
+from kille.sensors.kinect import open_kinect  # noqa: E402
 from kille.sensors.kinect.bayer import colour_of  # noqa: E402
 from kille.sensors.kinect.calibration import Calibration  # noqa: E402
 from kille.sensors.kinect.capture import Capture, frame_of  # noqa: E402
@@ -38,11 +40,13 @@ from kille.sensors.kinect.streams import COLOUR, DEPTH_11, HEADER, Mode  # noqa:
 from kille.sensors.kinect.transport import Batch  # noqa: E402
 from kille.sensors.kinect.unpacking import unpack_11  # noqa: E402
 from kille.sensors.kinect.usb import UsbBus  # noqa: E402
+from kille.sensors.sensor import SensorError  # noqa: E402
 
 PACKETS = 1_000_000
 PATIENCE = 16_000
 """Microframes that the emulated bus waits for a driver that a busy machine holds up."""
 
+BUSY_THREADS = 2
 SMALL = Mode("small", 0x82, 20, 0x70, 5 * 8 + 3, (), ())
 Row = tuple[str, float, float]
 """What a limit is of, the limit, and what was found."""
@@ -163,11 +167,11 @@ def fuzzed(packets: int) -> Iterator[Row]:
 def client(seconds: float) -> None:
     """Look for so long and print what it took: run as a program of its own."""
     spent, asked = [0.0], [0.0]
-    completed, submit = IsoStream._completed, IsoStream._submitted
+    completed, submit = IsoStream.complete, IsoStream._submitted
 
-    def timed(self: IsoStream, transfer: object) -> None:
+    def timed(self: IsoStream, slot: object, status: int) -> None:
         began = time.thread_time()
-        completed(self, transfer)
+        completed(self, slot, status)
         spent[0] += time.thread_time() - began
 
     def submitted(self: IsoStream, slot: object) -> bool:
@@ -186,8 +190,8 @@ def client(seconds: float) -> None:
 
         return counting
 
-    IsoStream._completed, IsoStream._submitted = timed, submitted
-    sensing.unpack_11 = counted(sensing.unpack_11)
+    IsoStream.complete, IsoStream._submitted = timed, submitted
+    developing.unpack_11 = counted(developing.unpack_11)
     capturing.registered = counted(capturing.registered)
     sensor = KinectSensor("kinect", UsbBus())
     sensor.frame()
@@ -226,6 +230,51 @@ def client(seconds: float) -> None:
             }
         )
     )
+
+
+def busy_client(seconds: float, apart: bool) -> None:
+    """Look for so long while two threads compute: run as a program of its own."""
+
+    def compute() -> None:
+        while True:
+            sum(it * it for it in range(1_000))
+
+    sensor = open_kinect("kinect") if apart else KinectSensor("kinect", UsbBus())
+    sensor.frame()
+    for _ in range(BUSY_THREADS):
+        threading.Thread(target=compute, daemon=True).start()
+    before, first, last = sensor.counts, sensor.capture(), None
+    seen, problem, begun = 0, "", time.monotonic()
+    while time.monotonic() < begun + seconds and not problem:
+        try:
+            last, seen = sensor.capture(), seen + 1
+        except SensorError as error:
+            problem = str(error)
+    after = sensor.counts
+    # By the device's own clock, that no busy machine holds up.
+    passed = ((last or first).ticks_depth - first.ticks_depth) % 2**32 / 60e6
+    came = min(it.frames - before[mode].frames for mode, it in after.items())
+    print(json.dumps({"sent": 30 * passed, "came": came, "seen": seen, "no": problem}))
+    sensor.close()
+
+
+def beside_busy_threads(seconds: float) -> Iterator[Row]:
+    """How many frames are lost on a bus that does not wait."""
+    from kinect_emulator.kinect import Kinect
+
+    nothing = lambda server, kinect: None  # noqa: E731
+    for how, most in (("process", 1.0), ("thread", 100.0)):
+        asked = ["--busy", how, "--client", str(seconds)]
+        found = looked(Kinect(), seconds, nothing, asked, patience=0)
+        sent = max(found["sent"], 1.0)
+        lost = 100 * max(0.0, 1 - found["came"] / sent)
+        beside = f"beside {BUSY_THREADS} busy threads, in a {how}"
+        yield f"% of {sent:.0f} frames lost {beside}", most, lost
+        yield (
+            f"% of them not seen by the program {beside}",
+            100.0,
+            (100 * max(0.0, 1 - found["seen"] / sent)),
+        )
 
 
 def streamed(seconds: float) -> Iterator[Row]:
@@ -277,8 +326,14 @@ def recovered() -> Iterator[Row]:
     )
 
 
-def looked(kinect: object, seconds: float, meanwhile: object) -> dict:
-    """What `client` tells; `meanwhile` is done to the server and the Kinect."""
+def looked(
+    kinect: object,
+    seconds: float,
+    meanwhile: object,
+    asked: Sequence[str] = (),
+    patience: int = PATIENCE,
+) -> dict:
+    """What a client tells; `meanwhile` is done to the server and the Kinect."""
     from kinect_emulator.building import library
     from kinect_emulator.host import Host
     from kinect_emulator.running import environment
@@ -288,9 +343,9 @@ def looked(kinect: object, seconds: float, meanwhile: object) -> dict:
         path = Path(folder) / "socket"
         variables = environment(library(Path(folder)), path)
         threads = {"OMP_NUM_THREADS": "1", "OPENCV_FOR_THREADS_NUM": "1"}
-        with Server(Host(kinect, patience=PATIENCE), path).running() as server:
+        with Server(Host(kinect, patience=patience), path).running() as server:
             program = subprocess.Popen(
-                [sys.executable, __file__, "--client", str(seconds)],
+                [sys.executable, __file__, *(asked or ("--client", str(seconds)))],
                 env={**os.environ, **variables, **threads},
                 stdout=subprocess.PIPE,
                 text=True,
@@ -304,6 +359,7 @@ def rows(options: argparse.Namespace) -> Iterator[Row]:
     yield from fuzzed(options.packets)
     yield from streamed(60 * options.minutes)
     yield from recovered()
+    yield from beside_busy_threads(20.0)
 
 
 def main() -> None:
@@ -311,7 +367,11 @@ def main() -> None:
     parser.add_argument("--packets", type=int, default=PACKETS, help="bad ones, fed")
     parser.add_argument("--minutes", type=float, default=0.5, help="of streaming")
     parser.add_argument("--client", type=float, help=argparse.SUPPRESS)
+    parser.add_argument("--busy", choices=("process", "thread"), help=argparse.SUPPRESS)
     options = parser.parse_args()
+    if options.busy:
+        busy_client(options.client, options.busy == "process")
+        return
     if options.client is not None:
         client(options.client)
         return

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gc
 import struct
 import threading
 import time
+import weakref
 from collections.abc import Callable
 
 import numpy as np
@@ -159,6 +161,28 @@ def test_after_stop_nothing_is_received(wired: Callable) -> None:
     calls = again.calls
     time.sleep(0.05)
     assert again.calls == calls
+
+
+def test_what_is_closed_is_freed_without_a_search_for_cycles(wired: Callable) -> None:
+    wire = wired(Kinect())
+    gc.collect()
+    gc.disable()
+    try:
+        connection = wire.bus.open(camera(wire.bus.devices()), 0)
+        packets = Packets()
+        held = weakref.ref(connection.stream(DEPTH, PACKET_SIZE, packets))
+        start_depth(connection)
+        packets.wait(10)
+        connection.close()
+        held_packets = weakref.ref(packets)
+        del connection, packets
+        deadline = time.monotonic() + TOO_LONG
+        # The thread that took the last packets may have them in its hands.
+        while held() or held_packets():
+            assert time.monotonic() < deadline
+            time.sleep(0.01)
+    finally:
+        gc.enable()
 
 
 def test_pulling_it_out_ends_the_stream_and_plugging_in_begins_anew(

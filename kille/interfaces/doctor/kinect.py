@@ -1,4 +1,4 @@
-"""Whether a Kinect is there and may be opened."""
+"""Whether a Kinect is there and gives pictures."""
 
 from __future__ import annotations
 
@@ -9,50 +9,84 @@ from kille.interfaces.doctor.finding import Finding, failed
 
 if TYPE_CHECKING:
     from kille.sensors.kinect.devices import Kinect
+    from kille.sensors.kinect.driver import Driver, Streams
     from kille.sensors.kinect.transport import Bus
 
 __all__ = ["kinect", "plugged_in"]
 
+_PATIENCE = 5.0
+"""Seconds in which the first picture has come."""
+
 
 def kinect() -> Iterator[Finding]:
-    """What is plugged into this computer's USB, and whether it can be had."""
+    """What is plugged into this computer's USB, and whether pictures come from it."""
+    from kille.sensors.kinect import usb_driver
     from kille.sensors.kinect.transport import TransportError
-    from kille.sensors.kinect.usb import UsbBus
 
     try:
-        yield from plugged_in(UsbBus())
+        yield from plugged_in(usb_driver())
     except TransportError as error:
         yield _refused("Kinect", error)
 
 
-def plugged_in(bus: Bus) -> Iterator[Finding]:
+def plugged_in(bus: Bus | Driver) -> Iterator[Finding]:
     """One finding for each Kinect on the bus, or why there is none."""
     from kille.sensors.kinect.devices import chosen, kinects
+    from kille.sensors.kinect.driver import driver_of
     from kille.sensors.sensor import SensorError
 
-    devices = bus.devices()
+    driver = driver_of(bus)
     try:
+        devices = driver.devices()
         chosen(devices, None)
+        for each in kinects(devices):
+            yield _tried(driver, each)
     except SensorError as error:
         yield failed("Kinect", False, error)
-        return
-    for each in kinects(devices):
-        yield _opened(bus, each)
+    finally:
+        driver.close()
 
 
-def _opened(bus: Bus, found: Kinect) -> Finding:
-    """Whether this one can be opened: found out by doing it."""
+def _tried(driver: Driver, found: Kinect) -> Finding:
+    """Whether this one gives pictures: found out as the robot would, by looking."""
+    from kille.sensors.kinect.commands import BadReply
+    from kille.sensors.kinect.devices import again
+    from kille.sensors.kinect.streams import COLOUR
     from kille.sensors.kinect.transport import TransportError
+    from kille.sensors.sensor import SensorError
 
     part = f"Kinect {found.model.value}"
     try:
-        bus.open(found.camera, found.model.alternate).close()
-    except TransportError as error:
+        streams = driver.start(again(driver.devices(), found), COLOUR)
+        try:
+            streams.frame(_PATIENCE)
+            head = _head(streams)
+        finally:
+            streams.close()
+    except (TransportError, BadReply, SensorError) as error:
         return _refused(part, error)
     named = f":{found.serial}" if found.serial else ""
-    tilts = "" if found.motor else " (its head is turned by hand)"
-    state = f"try kille talk --sensor kinect{named}{tilts}"
-    return Finding(part, True, False, state)
+    return Finding(part, True, False, f"try kille talk --sensor kinect{named}{head}")
+
+
+def _head(streams: Streams) -> str:
+    """What is to be said of its motor: nothing if it answers."""
+    from kille.sensors.kinect.commands import BadReply
+    from kille.sensors.kinect.devices import Model
+    from kille.sensors.kinect.motor import Tilt
+    from kille.sensors.kinect.transport import TransportError
+    from kille.sensors.kinect.troubles import trouble
+    from kille.sensors.sensor import SensorError
+
+    if streams.kinect.model is not Model.XBOX_1414:
+        return " (its head is turned by hand)"
+    try:
+        Tilt.from_reply(streams.motor_state())
+    except (TransportError, BadReply, SensorError) as error:
+        return (
+            f" (its head cannot be turned: {'; '.join(filter(None, trouble(error)))})"
+        )
+    return ""
 
 
 def _refused(part: str, error: Exception) -> Finding:

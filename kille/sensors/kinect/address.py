@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kille.sensors.kinect.motor import STEEPEST, Light
+from kille.sensors.kinect.motor import Light, tilt_value
 from kille.sensors.sensor import SensorError
 
 PICTURES = ("colour", "infrared")
@@ -37,7 +37,11 @@ def parsed(name: str) -> Address:
     """
     source, _, query = name.strip().partition("?")
     _, _, serial = source.partition(":")
-    options = dict(_option(text) for text in query.split("&") if text)
+    given = [_option(text) for text in query.split("&") if text]
+    options = dict(given)
+    for option in options:
+        if [name for name, _ in given].count(option) > 1:
+            raise SensorError(f"option '{option}' is given twice: give it once")
     tilt, light = options.get("tilt"), options.get("light")
     return Address(
         serial or None,
@@ -66,10 +70,9 @@ def _known(what: str, word: str, known: tuple[str, ...]) -> str:
 def _degrees(text: str) -> float:
     try:
         degrees = float(text)
-    except ValueError:
-        degrees = float("nan")
-    if not -STEEPEST <= degrees <= STEEPEST:
+        tilt_value(degrees)
+    except (ValueError, SensorError):
         raise SensorError(
             f"tilt={text}: a tilt is degrees from -31 (down) to 31, such as tilt=-10"
-        )
+        ) from None
     return degrees

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from kille.sensors.kinect import commands
 from kille.sensors.kinect.calibration import Calibration
-from kille.sensors.kinect.clock import Clock
+from kille.sensors.kinect.clock import Clock, Misses
 from kille.sensors.kinect.commands import BadReply
 from kille.sensors.kinect.packets import Assembler, Counts, RawFrame
 from kille.sensors.kinect.streams import COLOUR, DEPTH_11, Mode, Script
@@ -19,18 +20,21 @@ from kille.sensors.kinect.transport import (
     TransportError,
 )
 
-_PATIENCE = 1.0
-"""Seconds within which the camera has answered a command."""
+_PATIENCE = (0.3, 0.6, 1.2)
+"""Seconds to wait for the answer to a command, each time that it is sent.
+
+A reply may be lost, so that a command is sent again; and a camera may be slow, so that
+it is given more time then.
+"""
 
 _PAUSE = 0.001
-_ATTEMPTS = 3
 
 
 class Camera:
     """The camera behind a connection.
 
     Every method but `close` may raise a TransportError, or BadReply if the camera
-    answers nonsense three times in a row.
+    answers nonsense three times in a row. Stalled if it answered none of three times.
     """
 
     def __init__(self, connection: Connection) -> None:
@@ -65,7 +69,11 @@ class Camera:
         feed.stream = self._connection.stream(
             mode.endpoint, mode.packet_size, feed.receive
         )
-        self._set(mode.start)
+        try:
+            self._set(mode.start)
+        except BaseException:
+            feed.end()
+            raise
         return feed
 
     def stop(self, feed: Feed) -> None:
@@ -75,32 +83,48 @@ class Camera:
         finally:
             feed.end()
 
+    def switch_off(self, mode: Mode) -> None:
+        """Tell the camera to send no more of this stream. It is told once only."""
+        self._set(mode.stop, _PATIENCE[:1])
+
     def close(self) -> None:
         """Stop all and let go; a second call does nothing."""
         self._connection.close()
 
-    def _set(self, script: Script) -> None:
+    def _set(self, script: Script, patience: Sequence[float] = ()) -> None:
         for register, value in script:
-            self._ask(commands.WRITE_REGISTER, (register, value))
+            self._ask(commands.WRITE_REGISTER, (register, value), patience)
 
-    def _ask(self, number: int, words: Sequence[int]) -> bytes:
+    def _ask(
+        self,
+        number: int,
+        words: Sequence[int],
+        patience: Sequence[float] = (),
+    ) -> bytes:
         """The payload of the answer; what is no answer is asked for again."""
-        for _ in range(_ATTEMPTS - 1):
+        first, (*early, last) = self._tag, patience or _PATIENCE
+        for seconds in early:
             try:
-                return self._ask_once(number, words)
-            except BadReply:
+                return self._ask_once(number, words, seconds, first)
+            except (BadReply, Stalled):
                 continue
-        return self._ask_once(number, words)
+        return self._ask_once(number, words, last, first)
 
-    def _ask_once(self, number: int, words: Sequence[int]) -> bytes:
+    def _ask_once(
+        self, number: int, words: Sequence[int], seconds: float, first: int
+    ) -> bytes:
+        """Send a command and wait for its answer, or for one to the tags since `first`.
+
+        An answer to the same command that was sent earlier has only come late.
+        """
         tag, self._tag = self._tag, (self._tag + 1) & 0xFFFF
         self._connection.write(0, 0, 0, commands.command(number, tag, words))
-        deadline = time.monotonic() + _PATIENCE
+        deadline = time.monotonic() + seconds
         while True:
             reply = self._connection.read(0, 0, 0, commands.LONGEST_REPLY)
             # While it has nothing to say it sends nothing, or a buffer full of it.
             if len(reply) not in (0, commands.LONGEST_REPLY):
-                return commands.payload(reply, number, tag)
+                return commands.payload(reply, number, tag, first)
             if time.monotonic() > deadline:
                 raise Stalled(f"the camera does not answer command {number:#04x}")
             time.sleep(_PAUSE)
@@ -117,20 +141,25 @@ class Feed:
         self._take = take
         self._assembler = Assembler(mode)
         self._clock = Clock()
+        self._misses = Misses()
+        self._ended: TransportError | None = None
 
     @property
     def counts(self) -> Counts:
         """What came so far."""
-        return self._assembler.counts
+        return replace(self._assembler.counts, missed=self._misses.count)
 
     @property
     def ended(self) -> TransportError | None:
         """Why the stream ended by itself, if it did."""
-        return None if self.stream is None else self.stream.ended
+        return self._ended if self.stream is None else self.stream.ended
 
     def receive(self, batch: Batch) -> None:
         """Take packets. Whatever fails in taking frames is counted and kept."""
-        for frame in self._assembler.feed(batch):
+        frames = self._assembler.feed(batch)
+        self._misses.read(len(batch.lengths))
+        self._misses.reached(self._assembler.began)
+        for frame in frames:
             taken = self._clock.at(frame.ticks, frame.time)
             try:
                 self._take(frame._replace(time=taken))
@@ -139,6 +168,16 @@ class Feed:
                 self.failure = error
 
     def end(self) -> None:
-        """No more packets after this."""
-        if self.stream is not None:
-            self.stream.stop()
+        """Take no more packets after this, and let go of the stream and of the taker.
+
+        They have us, too: without this, all would be kept until a search for cycles.
+        """
+        stream, self.stream = self.stream, None
+        self._take = _drop
+        if stream is not None:
+            stream.stop()
+            self._ended = stream.ended
+
+
+def _drop(frame: RawFrame) -> None:
+    """Where frames go when nobody takes them any more."""

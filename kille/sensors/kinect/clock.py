@@ -9,6 +9,10 @@ from kille.sensors.kinect.packets import TICKS_A_SECOND
 _WINDOW = 60
 """Frames, of which one at least is taken to have arrived at once."""
 
+_TICKS_A_MICROFRAME = TICKS_A_SECOND // 8_000
+_AT_ONCE = 512
+"""Microframes: those of two batches."""
+
 LATEST = 0.5
 """Seconds that no frame is under way; a clock that says so is not believed."""
 
@@ -39,3 +43,42 @@ class Clock:
         seconds = self._ticks / TICKS_A_SECOND
         self._offsets.append(arrived - seconds)
         return max(seconds + min(self._offsets), arrived - LATEST)
+
+
+class Misses:
+    """Counts the microframes that passed by the device's clock, but were not read.
+
+    USB asks the device 8000 times a second, as long as somebody reads what comes; what
+    is sent while nobody does is lost. Reading may be ahead or behind by what is read at
+    once, which is no miss.
+
+    >>> misses = Misses()
+    >>> for second in range(4):
+    ...     misses.read(8_000 if second < 3 else 4_000)
+    ...     misses.reached(second * TICKS_A_SECOND)
+    >>> misses.count
+    3488
+    """
+
+    def __init__(self) -> None:
+        self.count = 0
+        self._read = 0
+        self._behind = 0
+        self._reached: int | None = None
+
+    def read(self, microframes: int) -> None:
+        """So many were read, with packets in them or not."""
+        self._read += microframes
+
+    def reached(self, ticks: int | None) -> None:
+        """The device's clock at the latest frame that was read, if there is any."""
+        last, self._reached = self._reached, ticks
+        if ticks is None or ticks == last:
+            return
+        step = 0 if last is None else (ticks - last) & 0xFFFFFFFF
+        # A jump backwards is no time that passed, but another clock.
+        if 0 < step < 1 << 31:
+            passed = step // _TICKS_A_MICROFRAME
+            self._behind = max(self._behind + passed - self._read, -_AT_ONCE)
+            self.count = max(self.count, self._behind - _AT_ONCE)
+        self._read = 0

@@ -37,8 +37,10 @@ def command(number: int, tag: int, words: Sequence[int]) -> bytes:
     return header + struct.pack(f"<{len(words)}H", *words)
 
 
-def payload(reply: bytes, number: int, tag: int) -> bytes:
+def payload(reply: bytes, number: int, tag: int, first: int | None = None) -> bytes:
     """What a reply carries; BadReply if it does not belong to this command.
+
+    The command may have been sent several times, with the tags from `first` to `tag`.
 
     >>> payload(bytes.fromhex("52 42 01 00 03 00 07 00 00 00"), WRITE_REGISTER, 7)
     b'\\x00\\x00'
@@ -48,7 +50,8 @@ def payload(reply: bytes, number: int, tag: int) -> bytes:
     magic, words, answered, its_tag = _HEADER.unpack_from(reply)
     if magic != b"RB":
         raise BadReply(f"command {number:#04x}: a reply that begins with {magic.hex()}")
-    if (answered, its_tag) != (number, tag):
+    earlier = 0 if first is None else (tag - first) & 0xFFFF
+    if answered != number or (tag - its_tag) & 0xFFFF > earlier:
         raise BadReply(
             f"command {number:#04x}, tag {tag}: "
             f"a reply to command {answered:#04x}, tag {its_tag}"

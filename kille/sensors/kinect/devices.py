@@ -53,7 +53,7 @@ def kinects(devices: Iterable[Plugged]) -> tuple[Kinect, ...]:
     parts = [it for it in devices if it.vendor == MICROSOFT]
     cameras = [it for it in parts if it.product in (CAMERA, WINDOWS_CAMERA)]
     return tuple(
-        _around(camera, [it for it in parts if _nearest(it, cameras) is camera])
+        _around(camera, [it for it in parts if _only_nearest(it, cameras) is camera])
         for camera in cameras
     )
 
@@ -73,18 +73,80 @@ def chosen(devices: Sequence[Plugged], serial: str | None) -> Kinect:
     raise SensorError(f"no Kinect has the serial number {serial}; plugged in: {known}")
 
 
+def again(devices: Sequence[Plugged], before: Kinect) -> Kinect:
+    """The Kinect that was opened before; SensorError if it is not plugged in now.
+
+    It is known by its serial number. If that could not be read, then or now, the one
+    in its place is taken for it: compare their calibrations.
+    """
+    found = kinects(devices)
+    if not found:
+        raise SensorError(_why_none(devices))
+    if before.serial:
+        for kinect in found:
+            if kinect.serial == before.serial:
+                return kinect
+    for kinect in found:
+        unknown = not (kinect.serial and before.serial)
+        if unknown and kinect.camera.place == before.camera.place:
+            return kinect
+    others = " and ".join(named(kinect) for kinect in found)
+    raise SensorError(
+        f"the {named(before)} that was looked through is gone, and another is plugged "
+        f"in: {others}; plug it in again where it was, or start again to use another"
+    )
+
+
+def named(kinect: Kinect) -> str:
+    """A Kinect by its serial number, or by its place on the bus if it tells none.
+
+    >>> named(Kinect(Model.XBOX_1414, "", Plugged(0, 0, 0, "", (1, 2, 3)), None))
+    'Kinect without a serial number at USB 1-2.3'
+    """
+    if kinect.serial:
+        return f"Kinect {kinect.serial}"
+    bus, *ports = kinect.camera.place
+    at = f"{bus}-{'.'.join(map(str, ports))}"
+    return f"Kinect without a serial number at USB {at}"
+
+
 def _around(camera: Plugged, parts: Sequence[Plugged]) -> Kinect:
-    """The camera with what is nearer to it than to any other."""
-    audio = _nearest(camera, [it for it in parts if it.product in AUDIO])
-    motor = _nearest(camera, [it for it in parts if it.product == MOTOR])
+    """The camera with the parts that belong to it and to no other camera.
+
+    Parts of a Kinect hang on one hub, and the camera may hang on a hub below it. So a
+    part of a Kinect whose camera is not there is not taken for that of another.
+    """
+    around = [it for it in parts if _same_hub(it, camera)]
+    audio = _nearest(camera, [it for it in around if it.product in AUDIO])
+    motor = _nearest(camera, [it for it in around if it.product == MOTOR])
+    model = _model(camera)
     # Later models send zeros; their audio device tells the number.
     own = camera.serial if camera.serial.strip("0") else ""
-    return Kinect(_model(camera), own or (audio.serial if audio else ""), camera, motor)
+    return Kinect(
+        model,
+        own or (audio.serial if audio else ""),
+        camera,
+        motor if model is Model.XBOX_1414 else None,
+    )
+
+
+def _same_hub(part: Plugged, camera: Plugged) -> bool:
+    """Whether the hub on which a part hangs is on the way to the camera."""
+    hub = part.place[:-1]
+    return camera.place[: len(hub)] == hub
 
 
 def _nearest(device: Plugged, others: Sequence[Plugged]) -> Plugged | None:
     """The one with which the way from the computer is shared the longest."""
     return max(others, key=lambda it: _shared(it.place, device.place), default=None)
+
+
+def _only_nearest(device: Plugged, others: Sequence[Plugged]) -> Plugged | None:
+    """The nearest one, unless another is as near."""
+    if device in others:
+        return device
+    ways = sorted(_shared(it.place, device.place) for it in others)
+    return None if ways[-1:] == ways[-2:-1] else _nearest(device, others)
 
 
 def _shared(one: tuple[int, ...], other: tuple[int, ...]) -> int:

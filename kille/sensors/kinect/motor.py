@@ -5,8 +5,10 @@ from __future__ import annotations
 import struct
 from dataclasses import dataclass
 from enum import IntEnum
+from numbers import Real
 
 from kille.sensors.kinect.commands import BadReply
+from kille.sensors.sensor import SensorError
 
 SET_TILT, SET_LIGHT, GET_STATE = 0x31, 0x06, 0x32
 STATE_LENGTH = 10
@@ -72,10 +74,31 @@ class Tilt:
         return self.status == _MOVING
 
 
-def tilt_value(degrees: float) -> int:
-    """The wValue that sets the angle: int16 of twice the degrees, kept within 31.
+def tilt_value(degrees: object) -> int:
+    """The wValue that sets the angle: int16 of twice the degrees.
 
-    >>> hex(tilt_value(-10)), tilt_value(90)
+    SensorError for what is not a number from -31 to 31.
+
+    >>> hex(tilt_value(-10)), tilt_value(31)
     ('0xffec', 62)
     """
-    return round(2 * min(max(degrees, -STEEPEST), STEEPEST)) & 0xFFFF
+    if not isinstance(degrees, bool) and isinstance(degrees, Real):
+        number = float(degrees)
+        if -STEEPEST <= number <= STEEPEST:
+            return round(2 * number) & 0xFFFF
+    raise SensorError(
+        "a tilt is a number of degrees from -31 (down) to 31 (up), such as -10, "
+        f"and not {degrees!r}"
+    )
+
+
+def light_value(light: object) -> int:
+    """The wValue that sets the light; SensorError for what is no `Light`.
+
+    >>> light_value(Light.GREEN)
+    1
+    """
+    if isinstance(light, Light):
+        return int(light)
+    known = ", ".join(f"Light.{it.name}" for it in Light)
+    raise SensorError(f"a light is one of {known}, and not {light!r}")

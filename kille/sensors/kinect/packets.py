@@ -48,7 +48,9 @@ class Counts:
 
     `packets` that were not empty; `lost` those that the numbers tell to be missing;
     `strange` those that could not be read or did not belong where they came; whole
-    `frames`, and `broken` ones that were begun and not given.
+    `frames`, and `broken` ones that were begun and not given; `missed` microframes, of
+    which there are 8000 a second, that passed by the device's clock while the computer
+    was too busy to read.
     """
 
     packets: int = 0
@@ -56,6 +58,16 @@ class Counts:
     strange: int = 0
     frames: int = 0
     broken: int = 0
+    missed: int = 0
+
+    def __sub__(self, earlier: Counts) -> Counts:
+        """What came since then.
+
+        >>> Counts(packets=9, lost=1) - Counts(packets=4)
+        Counts(packets=5, lost=1, strange=0, frames=0, broken=0, missed=0)
+        """
+        names = self.__dataclass_fields__
+        return Counts(*(getattr(self, it) - getattr(earlier, it) for it in names))
 
 
 class Assembler:
@@ -74,13 +86,18 @@ class Assembler:
         self._rows = self._fresh()
         self._had = 0
         self._next_number: int | None = None
-        self._began = 0
+        self._began: int | None = None
         self._tally = dict.fromkeys(Counts.__dataclass_fields__, 0)
 
     @property
     def counts(self) -> Counts:
         """What came so far."""
         return Counts(**self._tally)
+
+    @property
+    def began(self) -> int | None:
+        """The device's clock in the first packet of the latest frame that was begun."""
+        return self._began
 
     def feed(self, batch: Batch) -> list[RawFrame]:
         """The frames that these packets complete."""
@@ -105,7 +122,7 @@ class Assembler:
             return False
         heads = self._heads[first:end] | _NUMBERS[number : number + count]
         began = self._began if first else int(packets.ticks[0])
-        since = packets.ticks - np.uint32(began)
+        since = packets.ticks - np.uint32(began or 0)
         # Bytes are compared in less time than NumPy takes to begin.
         return (
             packets.heads.tobytes() == heads.tobytes()
@@ -170,7 +187,7 @@ class Assembler:
         if (
             head.flag != int(self._heads[self._had]) >> 24
             or length != self._lengths[self._had]
-            or (head.ticks - self._began) & 0xFFFFFFFF > _LONGEST
+            or (head.ticks - (self._began or 0)) & 0xFFFFFFFF > _LONGEST
         ):
             self._tally["strange"] += 1
             self._end()

@@ -7,6 +7,7 @@ Python may be slow for some milliseconds.
 from __future__ import annotations
 
 import ctypes
+import logging
 import threading
 import time
 from contextlib import ExitStack
@@ -24,6 +25,8 @@ from kille.sensors.kinect.transport import (
     TransportError,
 )
 
+_log = logging.getLogger(__name__)
+
 TRANSFERS, PACKETS = 6, 256
 """How many are under way, and the microframes of each: together 192 ms.
 
@@ -31,8 +34,8 @@ Most of what a transfer costs does not depend on its size.
 """
 
 _TICK = 0.1
-_PATIENCE = 2.0
-"""Seconds in which libusb has to give all transfers back."""
+PATIENCE = 1.0
+"""Seconds in which libusb has to give back all transfers that are stopped together."""
 
 _FAILURES = 64
 """Transfers that fail one after another before the stream is given up."""
@@ -81,9 +84,9 @@ class _Serving(threading.Thread):
                 time.sleep(_TICK)
 
     def end(self) -> None:
-        """Let it end, and wait until it has."""
+        """Let it end, and wait until it has, but not for ever."""
         self._over.set()
-        self.join()
+        self.join(PATIENCE)
 
 
 class Slot:
@@ -111,6 +114,10 @@ class Slot:
             lengths = lengths * (statuses == libusb.COMPLETED)
         return Batch(self.packets, lengths, time.monotonic())
 
+    def nothing(self) -> Batch:
+        """What came with a transfer that failed: as many packets without any length."""
+        return Batch(self.packets, np.zeros(PACKETS, np.int32), time.monotonic())
+
 
 class IsoStream:
     """A running stream of one endpoint. If the receiver raises, it ends."""
@@ -127,19 +134,16 @@ class IsoStream:
         self.ended: TransportError | None = None
         self._backend = backend
         self._events = events
+        self._endpoint = endpoint
         self._receive = receive
         self._stopping = False
+        self._stopped = False
         self._failures = 0
         self._idle = threading.Condition()
-        # libusb keeps no reference to the function: it has to live as long as we do.
-        self._function = libusb.completed_type(self._completed)
-        self._slots = {
-            slot.address: slot
-            for slot in (
-                Slot(backend, handle, endpoint, packet_size, self._function)
-                for _ in range(TRANSFERS)
-            )
-        }
+        self._slots = [
+            Slot(backend, handle, endpoint, packet_size, _completed)
+            for _ in range(TRANSFERS)
+        ]
         self._events.enter()
         try:
             self._begin()
@@ -147,40 +151,66 @@ class IsoStream:
             self.stop()
             raise
 
-    def stop(self) -> None:
-        """Cancel all transfers and wait until libusb has given them back."""
-        if self._stopping:
-            return
+    def cancel(self) -> None:
+        """Ask libusb to give all transfers back, without waiting for it."""
         self._stopping = True
+        for slot in self._slots:
+            if slot.under_way:
+                self._backend.lib.libusb_cancel_transfer(slot.transfer)
+
+    def stop(self, until: float | None = None) -> None:
+        """Cancel all transfers and wait for them, until that time of `time.monotonic`.
+
+        Those that libusb does not give back are left to it: a line in the log says so.
+        """
+        if self._stopped:
+            return
+        self._stopped = True
+        deadline = time.monotonic() + PATIENCE if until is None else until
         # Also a Ctrl-C that comes while it waits leaves all in order.
         with ExitStack() as stack:
             stack.callback(self._let_go)
             stack.callback(self._events.leave)
-            for slot in self._slots.values():
-                if slot.under_way:
-                    self._backend.lib.libusb_cancel_transfer(slot.transfer)
+            self.cancel()
             with self._idle:
-                self._idle.wait_for(self._all_back, _PATIENCE)
+                left = max(0.0, deadline - time.monotonic())
+                self._idle.wait_for(self._all_back, left)
 
     def _let_go(self) -> None:
-        if self._all_back():
-            for slot in self._slots.values():
+        kept = [slot for slot in self._slots if slot.under_way]
+        for slot in self._slots:
+            if not slot.under_way:
                 self._backend.lib.libusb_free_transfer(slot.transfer)
-        else:
-            # libusb may still write there: better never freed than freed too early.
-            _KEPT.append(self)
+        # libusb may still write to the others: they stay in `_UNDER_WAY` for ever.
+        self._slots = []
+        if kept:
+            _log.warning(
+                "kinect: %d of %d USB transfers of endpoint %#04x never ended; the "
+                "Kinect was closed without them: unplug it if it does not start again",
+                len(kept),
+                TRANSFERS,
+                self._endpoint,
+            )
 
     def _begin(self) -> None:
-        for slot in self._slots.values():
+        for slot in self._slots:
             # Said before it is so: libusb may call back at once.
             slot.under_way = True
+            _UNDER_WAY[slot.address] = (self, slot)
             if not self._submitted(slot):
-                slot.under_way = False
+                self._give_back(slot)
         if self.ended is not None:
             raise self.ended
 
     def _all_back(self) -> bool:
-        return not any(slot.under_way for slot in self._slots.values())
+        return not any(slot.under_way for slot in self._slots)
+
+    def _give_back(self, slot: Slot) -> None:
+        """The slot is not under way any more: whoever waits for that is told."""
+        _UNDER_WAY.pop(slot.address, None)
+        slot.under_way = False
+        with self._idle:
+            self._idle.notify_all()
 
     def _submitted(self, slot: Slot) -> bool:
         """Let libusb fill the slot; if it does not want to, the stream has ended."""
@@ -189,24 +219,21 @@ class IsoStream:
             self.ended = self.ended or libusb.error_of(code)
         return bool(code >= 0)
 
-    def _completed(self, transfer: Any) -> None:
-        """Called by libusb, where an exception would be lost: it ends the stream.
+    def complete(self, slot: Slot, status: int) -> None:
+        """A transfer has ended: called by libusb, where an exception would be lost.
 
         libusb calls from any thread that waits for it: also from the main one, to
-        which Ctrl-C goes.
+        which Ctrl-C goes. An exception ends the stream.
         """
-        slot = self._slots[ctypes.addressof(transfer.contents)]
         again = False
         try:
-            again = self._take(slot, transfer.contents.status)
+            again = self._take(slot, status)
         except BaseException as error:
             kind = TransportError if isinstance(error, Exception) else Interrupted
             self.ended = kind(f"the stream's receiver failed: {error!r}")
         # Until here it counts as under way, so that nobody frees it.
         if not (again and self._submitted(slot)):
-            slot.under_way = False
-            with self._idle:
-                self._idle.notify_all()
+            self._give_back(slot)
 
     def _take(self, slot: Slot, status: int) -> bool:
         """Hand on what came; whether there is more to come."""
@@ -223,8 +250,26 @@ class IsoStream:
         self._failures += 1
         if self._failures > _FAILURES:
             self.ended = TransportError(f"USB transfers end with status {status}")
-        return self._failures <= _FAILURES
+            return False
+        self._receive(slot.nothing())
+        return True
 
 
-_KEPT: list[IsoStream] = []
-"""Streams of which libusb kept a transfer: they live as long as the program."""
+_UNDER_WAY: dict[int, tuple[IsoStream, Slot]] = {}
+"""The transfers that libusb has, by their addresses.
+
+A stream and its buffers live as long as libusb may write to them, and no longer.
+"""
+
+
+def _complete(transfer: Any) -> None:
+    """Hand a transfer that has ended to its stream."""
+    stream, slot = _UNDER_WAY[ctypes.addressof(transfer.contents)]
+    stream.complete(slot, transfer.contents.status)
+
+
+_completed = libusb.completed_type(_complete)
+"""What libusb calls for every transfer of every stream. It is never freed.
+
+A function of each stream's own would keep the stream, which keeps the function.
+"""

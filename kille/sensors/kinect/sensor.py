@@ -4,37 +4,39 @@ from __future__ import annotations
 
 import atexit
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
+from typing import TypeVar
 
-import cv2
-import numpy as np
-
-from kille.scene import Colour, Frame
+from kille.scene import Frame
 from kille.sensors.kinect.address import parsed
-from kille.sensors.kinect.bayer import colour_of
-from kille.sensors.kinect.calibration import IDENTITY, Calibration
-from kille.sensors.kinect.capture import Capture, frame_of
+from kille.sensors.kinect.calibration import Calibration
+from kille.sensors.kinect.capture import Capture
 from kille.sensors.kinect.commands import BadReply
-from kille.sensors.kinect.devices import chosen
+from kille.sensors.kinect.developing import calibration_for
+from kille.sensors.kinect.devices import Kinect, again, chosen, named
+from kille.sensors.kinect.driver import Driver, Streams, driver_of
 from kille.sensors.kinect.motor import (
-    GET_STATE,
     SET_LIGHT,
     SET_TILT,
-    STATE_LENGTH,
     Light,
     Tilt,
+    light_value,
     tilt_value,
 )
-from kille.sensors.kinect.packets import Counts, RawFrame
-from kille.sensors.kinect.pairing import Pair
-from kille.sensors.kinect.session import Session
+from kille.sensors.kinect.packets import Counts
 from kille.sensors.kinect.streams import COLOUR, INFRARED
-from kille.sensors.kinect.transport import Bus, Connection, Interrupted, TransportError
-from kille.sensors.kinect.troubles import no_motor, told
-from kille.sensors.kinect.unpacking import unpack_10, unpack_11
+from kille.sensors.kinect.transport import (
+    Bus,
+    Gone,
+    Interrupted,
+    TransportError,
+)
+from kille.sensors.kinect.troubles import told
 from kille.sensors.sensor import SensorError
+
+Seen = TypeVar("Seen")
 
 PATIENCE = 6.0
 """Seconds in which a Kinect that fails may come back, before a frame fails.
@@ -47,24 +49,37 @@ _SILENCE = 2.0
 """Seconds without a frame after which the Kinect is opened again."""
 
 _AGAIN = 0.1
+_RETURNS = 2
+"""How often a Kinect may vanish while it is opened for the first time."""
 
 
 class KinectSensor:
-    """A Kinect on a bus, streaming from the moment it is made.
+    """A Kinect that streams from the moment it is made.
 
+    It is found on a bus and read by this process, or by what a driver chooses.
     SensorError if there is none, or it cannot be had: one line says what to do.
     """
 
-    def __init__(self, name: str, bus: Bus) -> None:
+    def __init__(self, name: str, bus: Bus | Driver) -> None:
         self._name = name
-        self._bus = bus
-        self._address = parsed(name)
-        self._infrared = self._address.picture == "infrared"
-        self._serial = self._address.serial
+        self._driver = driver_of(bus)
         self._began = time.monotonic()
-        self._session: Session | None = None
-        with self._telling():
-            self._calibration = self._settled().calibration
+        self._kinect: Kinect | None = None
+        self._streams: Streams | None = None
+        self._asked: dict[int, int] = {}
+        try:
+            with self._telling():
+                self._address = parsed(name)
+                infrared = self._address.picture == "infrared"
+                self._colour = INFRARED if infrared else COLOUR
+                if self._address.tilt is not None:
+                    self._asked[SET_TILT] = tilt_value(self._address.tilt)
+                if self._address.light is not None:
+                    self._asked[SET_LIGHT] = light_value(self._address.light)
+                self._calibration = self._first_streams().calibration
+        except BaseException:
+            self.close()
+            raise
 
     @property
     def name(self) -> str:
@@ -74,16 +89,15 @@ class KinectSensor:
     @property
     def calibration(self) -> Calibration:
         """What turns raw depth into metres on the picture."""
-        if not self._infrared:
-            return self._calibration
-        # Depth is measured by the infrared camera: there is nothing to move.
-        plane = self._calibration.zero_plane._replace(dcmos_rcmos_distance=0.0)
-        return replace(IDENTITY, zero_plane=plane)
+        return calibration_for(self._calibration, self._colour)
 
     @property
     def counts(self) -> Mapping[str, Counts]:
         """What came through each stream since it was last started."""
-        return {} if self._session is None else self._session.counts
+        try:
+            return {} if self._streams is None else self._streams.counts
+        except TransportError:
+            return {}
 
     def frame(self) -> Frame:
         """The next frame: not an earlier one than a tenth of a second ago or so.
@@ -91,96 +105,131 @@ class KinectSensor:
         A Kinect that is gone is waited for, and the frames go on when it is plugged in
         again; SensorError if that takes longer than `PATIENCE`.
         """
-        return frame_of(self._captured(), self.calibration)
+        frame = self._looked(lambda streams: streams.frame(_SILENCE))
+        return replace(frame, time=frame.time - self._began)
 
     def capture(self) -> Capture:
         """As `frame`, but the depth as it came; and how the Kinect stands."""
-        captured = self._captured()
-        try:
-            return replace(captured, tilt=self.posture())
-        except SensorError:
-            return captured
+        capture = self._looked(lambda streams: streams.capture(_SILENCE))
+        return replace(capture, time=capture.time - self._began)
 
     def tilt(self, degrees: float) -> None:
-        """Turn the head up or, if negative, down. SensorError if it cannot be."""
+        """Turn the head up or, if negative, down: from -31 to 31 degrees.
+
+        SensorError if it cannot be. A motor that has left the bus is told when it is
+        back; what was asked last counts.
+        """
         with self._telling():
-            _motor_of(self._settled()).write(SET_TILT, tilt_value(degrees), 0, b"")
+            self._ask_motor(SET_TILT, tilt_value(degrees))
 
     def light(self, light: Light) -> None:
-        """Set the light at the front. SensorError if it cannot be."""
+        """Set the light at the front. SensorError as for `tilt`."""
         with self._telling():
-            _motor_of(self._settled()).write(SET_LIGHT, light, 0, b"")
+            self._ask_motor(SET_LIGHT, light_value(light))
 
     def posture(self) -> Tilt:
         """How the Kinect stands now. SensorError if it has no motor to ask."""
         with self._telling():
-            motor = _motor_of(self._settled())
-            return Tilt.from_reply(motor.read(GET_STATE, 0, 0, STATE_LENGTH))
+            return Tilt.from_reply(self._streaming().motor_state())
 
     def close(self) -> None:
-        """Stop the streams and let go of the device; a second call does nothing."""
+        """Stop the streams and let go of the device; a second call does nothing.
+
+        It takes some seconds at most, also if the device does not answer; what did not
+        end by then is a line in the log.
+        """
         atexit.unregister(self.close)
-        session, self._session = self._session, None
-        if session is not None:
-            session.close()
+        try:
+            self._end_streams()
+        finally:
+            self._driver.close()
 
-    def _captured(self) -> Capture:
-        pair = self._pair()
-        return Capture(
-            pair.depth.time - self._began,
-            self._picture(pair.colour),
-            unpack_11(pair.depth.data),
-            pair.colour.ticks,
-            pair.depth.ticks,
-        )
+    def _ask_motor(self, request: int, value: int) -> None:
+        streams = self._streaming()
+        self._asked[request] = value
+        streams.set_motor(request, value)
 
-    def _picture(self, frame: RawFrame) -> Colour:
-        if not self._infrared:
-            return colour_of(frame.data.reshape(480, 640))
-        grey = (unpack_10(frame.data)[:480] >> 2).astype(np.uint8)
-        return np.asarray(cv2.cvtColor(grey, cv2.COLOR_GRAY2RGB), np.uint8)
-
-    def _pair(self) -> Pair:
-        """The next pair, of a Kinect that is opened again if need be."""
+    def _looked(self, look: Callable[[Streams], Seen]) -> Seen:
+        """What is seen by a Kinect that is opened again if need be."""
         deadline = None
         while True:
             try:
                 with self._telling():
-                    return self._settled().pair(_SILENCE)
+                    return look(self._streaming())
             except SensorError:
-                self.close()
+                self._end_streams()
                 now = time.monotonic()
                 deadline = now + PATIENCE if deadline is None else deadline
                 if now + _AGAIN > deadline:
                     raise
             time.sleep(_AGAIN)
 
-    def _settled(self) -> Session:
-        """The session, begun if there is none."""
-        if self._session is None:
-            kinect = chosen(self._bus.devices(), self._serial)
-            mode = INFRARED if self._infrared else COLOUR
-            session = Session(self._bus, kinect, mode)
+    def _first_streams(self) -> Streams:
+        """The streams of a Kinect that may leave the bus and return as it is opened."""
+        for _ in range(_RETURNS):
             try:
-                self._set_up(session)
-            except BaseException:
-                session.close()
-                raise
-            # From now on it has to be this one, also if others are plugged in.
-            self._serial = kinect.serial or None
-            self._calibration = session.calibration
-            self._session = session
-            # A program may end without having closed it, on Ctrl-C for one.
-            atexit.register(self.close)
-        return self._session
+                return self._streaming()
+            except Gone:
+                continue
+        return self._streaming()
 
-    def _set_up(self, session: Session) -> None:
-        """Tilt and light as the name asks for them."""
-        if self._address.tilt is not None:
-            value = tilt_value(self._address.tilt)
-            _motor_of(session).write(SET_TILT, value, 0, b"")
-        if self._address.light is not None:
-            _motor_of(session).write(SET_LIGHT, self._address.light, 0, b"")
+    def _streaming(self) -> Streams:
+        """The streams, started if there are none."""
+        if self._streams is None:
+            devices, before = self._driver.devices(), self._kinect
+            # It has to be this one for ever, also if others are plugged in.
+            kinect = (
+                again(devices, before)
+                if before
+                else chosen(devices, self._address.serial)
+            )
+            streams = self._driver.start(kinect, self._colour)
+            try:
+                if before:
+                    self._compare(streams, before)
+                self._ask_again(streams, first=before is None)
+            except BaseException:
+                streams.close()
+                raise
+            if not (before and before.serial):
+                self._kinect = kinect
+            self._calibration = streams.calibration
+            self._streams = streams
+            # A program may end without having closed it, on Ctrl-C for one.
+            atexit.unregister(self.close)
+            atexit.register(self.close)
+        return self._streams
+
+    def _compare(self, streams: Streams, before: Kinect) -> None:
+        """SensorError if this is another Kinect than the one before.
+
+        No two have the same calibration; it tells where serial numbers do not.
+        """
+        if before.serial and before.serial == streams.kinect.serial:
+            return
+        if streams.calibration != self._calibration:
+            raise SensorError(
+                f"another Kinect was plugged in where the {named(before)} was; plug in "
+                "that one again, or start again to use the other"
+            )
+
+    def _ask_again(self, streams: Streams, first: bool) -> None:
+        """Tilt and light, as they were asked for last.
+
+        When it is opened first they must be had. Later, pictures do not fail for it:
+        the streams ask the motor when it is back.
+        """
+        for request, value in self._asked.items():
+            try:
+                streams.set_motor(request, value)
+            except (TransportError, SensorError):
+                if first:
+                    raise
+
+    def _end_streams(self) -> None:
+        streams, self._streams = self._streams, None
+        if streams is not None:
+            streams.close()
 
     @contextmanager
     def _telling(self) -> Iterator[None]:
@@ -193,11 +242,3 @@ class KinectSensor:
             raise KeyboardInterrupt from error
         except (TransportError, BadReply, SensorError) as error:
             raise SensorError(told(self._name, error)) from error
-
-
-def _motor_of(session: Session) -> Connection:
-    """The motor; SensorError if there is none that could be driven."""
-    motor = session.motor()
-    if motor is None:
-        raise SensorError(no_motor(session.kinect))
-    return motor

@@ -7,15 +7,22 @@ import time
 from collections import deque
 from collections.abc import Mapping
 from contextlib import ExitStack, suppress
+from dataclasses import replace
 
+from kille.scene import Frame
 from kille.sensors.kinect.camera import Camera, Feed
+from kille.sensors.kinect.capture import Capture, frame_of
 from kille.sensors.kinect.commands import BadReply
+from kille.sensors.kinect.developing import calibration_for, capture_of
 from kille.sensors.kinect.devices import Kinect
+from kille.sensors.kinect.head import Head
+from kille.sensors.kinect.motor import Tilt
 from kille.sensors.kinect.packets import Counts, RawFrame
 from kille.sensors.kinect.pairing import Pair, first_pair
 from kille.sensors.kinect.streams import DEPTH_11, Mode
-from kille.sensors.kinect.transport import Bus, Connection, TransportError
+from kille.sensors.kinect.transport import Bus, TransportError
 from kille.sensors.kinect.troubles import no_pictures
+from kille.sensors.sensor import SensorError
 
 _KEPT = 4
 """Frames of each kind that wait, for who is slow now and then."""
@@ -32,12 +39,13 @@ class Session:
 
     def __init__(self, bus: Bus, kinect: Kinect, colour: Mode) -> None:
         self.kinect = kinect
-        self._bus = bus
+        self.colour = colour
         self._came = threading.Condition()
         self._colours: deque[RawFrame] = deque(maxlen=_KEPT)
         self._depths: deque[RawFrame] = deque(maxlen=_KEPT)
         self._feeds: list[Feed] = []
-        self._motor: Connection | None = None
+        self._counts_at_last_pair: Mapping[str, Counts] = {}
+        self._head = Head(bus, kinect)
         self._camera = Camera(bus.open(kinect.camera, kinect.model.alternate))
         try:
             self._camera.rest()
@@ -53,11 +61,36 @@ class Session:
         """What came through each stream."""
         return {feed.mode.name: feed.counts for feed in self._feeds}
 
+    def frame(self, seconds: float) -> Frame:
+        """The next frame; TransportError if none comes in that time."""
+        calibration = calibration_for(self.calibration, self.colour)
+        return frame_of(capture_of(self.pair(seconds), self.colour), calibration)
+
+    def capture(self, seconds: float) -> Capture:
+        """The next capture, with the tilt if the motor tells it; else as `frame`."""
+        capture = capture_of(self.pair(seconds), self.colour)
+        return replace(capture, tilt=self.tilt_if_known())
+
+    def tilt_if_known(self) -> Tilt | None:
+        """How the Kinect stands; a lost motor is looked for once a second only."""
+        try:
+            return Tilt.from_reply(self._head.state(at_once=False))
+        except (TransportError, BadReply, SensorError):
+            return None
+
     def pair(self, seconds: float) -> Pair:
         """The next pair; TransportError if none comes in that time.
 
         Who asks late misses pairs: it is one of the latest few.
         """
+        found = self.wait_for_pair(seconds)
+        if found is None:
+            raise self.why_no_pair()
+        return found
+
+    def wait_for_pair(self, seconds: float) -> Pair | None:
+        """The next pair, or None if none comes in that time."""
+        self._head.catch_up()
         deadline = time.monotonic() + seconds
         with self._came:
             while True:
@@ -67,32 +100,43 @@ class Session:
                 if found is not None:
                     _leave_out(self._colours, found.colour)
                     _leave_out(self._depths, found.depth)
+                    self._counts_at_last_pair = self.counts
                     return found
                 if time.monotonic() > deadline:
-                    break
+                    return None
                 self._came.wait(_LOOK_UP)
-        failures = (feed.failure for feed in self._feeds)
-        raise TransportError(
-            no_pictures(list(self.counts.values()), filter(None, failures))
-        )
 
-    def motor(self) -> Connection | None:
-        """The motor, opened when it is asked for; None if there is none to drive."""
-        if self._motor is None and self.kinect.motor is not None:
-            self._motor = self._bus.open(self.kinect.motor, 0)
-        return self._motor
+    def why_no_pair(self) -> TransportError:
+        """Why no pair came since the last one, as far as the packets tell."""
+        before = self._counts_at_last_pair
+        since = [it - before.get(name, Counts()) for name, it in self.counts.items()]
+        failures = (feed.failure for feed in self._feeds)
+        return TransportError(no_pictures(since, filter(None, failures)))
+
+    def set_motor(self, request: int, value: int) -> None:
+        """Ask the motor for a tilt or a light, now and whenever it comes back.
+
+        SensorError if there is no motor, TransportError if it cannot be had.
+        """
+        self._head.set(request, value)
+
+    def motor_state(self) -> bytes:
+        """The bytes of the motor's state; the errors are those of `set_motor`."""
+        return self._head.state()
 
     def close(self) -> None:
         """Stop the streams and let go of all; a second call does nothing."""
         with ExitStack() as stack:
-            if self._motor is not None:
-                stack.callback(self._motor.close)
-            stack.callback(self._camera.close)
             stack.callback(self._feeds.clear)
+            for feed in self._feeds:
+                stack.callback(feed.end)
+            # All transfers are waited for at once, and so not longer than for one.
+            stack.callback(self._camera.close)
+            stack.callback(self._head.close)
             # It may be gone, or not listen: then closing has to be enough.
             stack.enter_context(suppress(TransportError, BadReply))
             for feed in self._feeds:
-                self._camera.stop(feed)
+                self._camera.switch_off(feed.mode)
 
     def _start(self, mode: Mode, frames: deque[RawFrame]) -> None:
         def take(frame: RawFrame) -> None:
@@ -104,8 +148,10 @@ class Session:
 
     def _check(self) -> None:
         for feed in self._feeds:
-            if feed.ended is not None:
-                raise feed.ended
+            ended = feed.ended
+            if ended is not None:
+                # A new one: the feed's own would hold on to whoever catches it.
+                raise type(ended)(*ended.args)
 
 
 def _leave_out(frames: deque[RawFrame], given: RawFrame) -> None:

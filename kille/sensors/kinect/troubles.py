@@ -30,6 +30,12 @@ ALLOW = (
 )
 """Lets every user of this computer open a Kinect."""
 
+_TOO_BUSY = 0.1
+"""The share of microframes that were missed from which that is what is the matter."""
+
+_LOSSY = 0.01
+"""The share of packets that were lost from which that is what is the matter."""
+
 GET_LIBRARY = "pip install 'kille[usb]'"
 UNLOAD = f"sudo modprobe -r {KERNEL_DRIVER}"
 
@@ -73,7 +79,7 @@ def trouble(error: Exception) -> Trouble:
 
 
 def no_pictures(counts: Sequence[Counts], failures: Iterable[Exception]) -> str:
-    """Why no pair of pictures comes, by what came instead.
+    """Why no pair of pictures came in some time, by what came in it.
 
     >>> no_pictures([Counts(packets=900), Counts()], ())
     'one of its two cameras sends nothing; unplug it and plug it in again'
@@ -88,14 +94,25 @@ def no_pictures(counts: Sequence[Counts], failures: Iterable[Exception]) -> str:
         )
     if any(it.packets == 0 for it in counts):
         return "one of its two cameras sends nothing; unplug it and plug it in again"
-    if all(it.frames for it in counts):
+    missed = max(it.missed / (it.missed + it.packets) for it in counts)
+    if missed > _TOO_BUSY:
         return (
-            "pictures and depth come, but not of the same moment; unplug it and plug "
-            "it in again"
+            f"this computer was too busy to read {missed:.0%} of what it sent; "
+            "close other programs, or let them do less"
         )
     lost = sum(it.lost for it in counts)
+    if all(it.frames for it in counts) and lost <= _LOSSY * (packets + lost):
+        return (
+            "pictures and depth come, but their clocks differ, so that none belong "
+            "together; unplug it and plug it in again"
+        )
+    whole = (
+        "pictures are seldom whole"
+        if any(it.frames for it in counts)
+        else ("no picture is whole")
+    )
     return (
-        f"no picture is whole, {lost} of {packets + lost} packets were lost; plug it "
+        f"{whole}, {lost} of {packets + lost} packets were lost; plug it "
         "into a USB port that it shares with no other camera or disk"
     )
 

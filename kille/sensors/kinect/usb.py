@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import time
 from array import array
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
@@ -10,7 +11,7 @@ from typing import Any
 
 from usb.core import USBError
 
-from kille.sensors.kinect import libusb
+from kille.sensors.kinect import libusb, pump
 from kille.sensors.kinect.pump import Events, IsoStream
 from kille.sensors.kinect.transport import (
     Driven,
@@ -27,6 +28,8 @@ _TIMEOUT = 1000
 """Milliseconds for a control transfer."""
 
 _LONGEST_STRING = 256
+_ATTEMPTS = 3
+"""How often a serial number is asked for, as one reply may be lost."""
 
 
 class UsbBus:
@@ -80,9 +83,13 @@ class UsbBus:
         except (USBError, NotImplementedError):
             return ""
         try:
-            length = self._backend.lib.libusb_get_string_descriptor_ascii(
-                handle.handle, index, text, _LONGEST_STRING
-            )
+            length = -1
+            for _ in range(_ATTEMPTS):
+                length = self._backend.lib.libusb_get_string_descriptor_ascii(
+                    handle.handle, index, text, _LONGEST_STRING
+                )
+                if length >= 0:
+                    break
         finally:
             self._backend.close_device(handle)
         return bytes(text[: max(length, 0)]).decode("ascii", "replace")
@@ -140,12 +147,17 @@ class UsbConnection:
         if self._closed:
             return
         self._closed = True
+        streams, self._streams = self._streams, []
+        # All are asked to end before any is waited for.
+        for stream in streams:
+            stream.cancel()
+        until = time.monotonic() + pump.PATIENCE
         # Whatever interrupts a step, those behind it are taken: the last one first.
         with ExitStack() as stack:
             stack.callback(self._backend.close_device, self._handle)
             stack.callback(self._give_back)
-            for stream in self._streams:
-                stack.callback(stream.stop)
+            for stream in streams:
+                stack.callback(stream.stop, until)
 
     def _move_driver_aside(self) -> None:
         try:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import importlib
 import operator
+import os
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -25,12 +26,36 @@ LONG = 120.0
 """Seconds that a program may take on a busy machine, where it needs two or so."""
 
 USING = """
+from kille.sensors.kinect import process
+process._FAREWELL = 60.0  # a busy machine has no part in what is tested
 from kille.sensors.sources import open_sensor
 sensor = open_sensor("kinect")
 for _ in range(3):
     sensor.frame()
 print("seen", flush=True)
 """
+
+
+PID = """
+print(sensor._driver._process.pid, flush=True)
+"""
+
+
+def alive(process: int) -> bool:
+    """Whether there is such a process, and it has not ended."""
+    try:
+        state = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+    except FileNotFoundError:
+        return False
+    return state != "Z"
+
+
+def until(happened: Callable[[], object]) -> None:
+    """Wait for it."""
+    deadline = time.monotonic() + LONG
+    while not happened():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
 
 
 class Plugged(NamedTuple):
@@ -60,6 +85,7 @@ def started(code: str, plugged: Plugged) -> subprocess.Popen[str]:
     return subprocess.Popen(
         [sys.executable, "-c", code],
         env=dict(plugged.variables),
+        stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -85,31 +111,27 @@ def test_a_program_that_fails_ends_cleanly(plugged: Plugged) -> None:
 
 
 def test_ctrl_c_while_it_looks_ends_cleanly(plugged: Plugged) -> None:
-    code = """
-import atexit
-from kille.sensors.kinect import pump
-pump._PATIENCE = 60.0
-atexit.register(lambda: print(len(pump._KEPT)))
-"""
-    process = started(code + USING + "while True: sensor.frame()", plugged)
+    process = started(USING + PID + "while True: sensor.frame()", plugged)
     assert process.stdout is not None
     assert process.stdout.readline() == "seen\n"
+    reader = int(process.stdout.readline())
     process.send_signal(signal.SIGINT)
     ran = finished(process, LONG)
+    # Nothing is said of anything that did not stop.
     assert ran.err.splitlines()[-1] == "KeyboardInterrupt"
     assert ran.err.count("Traceback") == 1
-    # It had to wait for nothing that did not come.
-    assert ran.out == "0\n"
     assert at_rest(plugged.kinect)
+    assert not alive(reader)
 
 
 SERVED = """
 import time
 from kille.sensors.kinect import pump
-pump._PATIENCE = 60.0
+pump.PATIENCE = 60.0
 from kille.sensors.kinect.packets import Assembler
-from kille.sensors.kinect import open_kinect
-sensor = open_kinect("kinect")
+from kille.sensors.kinect.sensor import KinectSensor
+from kille.sensors.kinect.usb import UsbBus
+sensor = KinectSensor("kinect", UsbBus())
 sensor.frame()
 feed = Assembler.feed
 def interrupted(self, batch):
@@ -124,7 +146,7 @@ except KeyboardInterrupt:
     print("interrupted")
 sensor.frame()
 sensor.close()
-print(len(pump._KEPT))
+print(len(pump._UNDER_WAY))
 """
 
 
@@ -134,14 +156,19 @@ def test_ctrl_c_while_libusb_is_served_is_not_lost(plugged: Plugged) -> None:
     assert at_rest(plugged.kinect)
 
 
-def test_ctrl_c_while_it_closes_leaves_it_to_the_next(plugged: Plugged) -> None:
-    code = """
-import threading
-join = threading.Thread.join
-def interrupted(self, timeout=None):
-    threading.Thread.join = join
+@pytest.mark.parametrize("moment", ["Popen.wait", "ProcessDriver._end"])
+def test_ctrl_c_while_it_closes_leaves_it_to_the_next(
+    plugged: Plugged, moment: str
+) -> None:
+    code = f"""
+from subprocess import Popen
+from kille.sensors.kinect.process import ProcessDriver
+owner, name = {moment.split(".")[0]}, {moment.split(".")[1]!r}
+done = getattr(owner, name)
+def interrupted(self, *given, **named):
+    setattr(owner, name, done)
     raise KeyboardInterrupt
-threading.Thread.join = interrupted
+setattr(owner, name, interrupted)
 try:
     sensor.close()
 except KeyboardInterrupt:
@@ -151,6 +178,144 @@ sensor.frame()
     ran = finished(started(USING + code, plugged), LONG)
     assert (ran.status, ran.out, ran.err) == (0, "seen\ninterrupted\n", "")
     assert at_rest(plugged.kinect)
+
+
+@pytest.mark.parametrize("sign", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP])
+def test_a_program_that_is_killed_leaves_no_process_and_a_camera_at_rest(
+    plugged: Plugged, sign: signal.Signals
+) -> None:
+    process = started(USING + PID + "while True: sensor.frame()", plugged)
+    assert process.stdout is not None
+    process.stdout.readline()
+    reader = int(process.stdout.readline())
+    process.send_signal(sign)
+    finished(process, LONG)
+    until(lambda: not alive(reader))
+    assert at_rest(plugged.kinect)
+
+
+def test_a_copy_of_the_program_does_not_keep_the_other_process(
+    plugged: Plugged,
+) -> None:
+    """It has the socket, too, by which the end of the program would be seen."""
+    code = """
+import os, time
+copy = os.fork()
+if not copy:
+    os.close(1)
+    os.close(2)
+    time.sleep(600)
+print(copy, flush=True)
+while True: sensor.frame()
+"""
+    process = started(USING + PID + code, plugged)
+    assert process.stdout is not None
+    process.stdout.readline()
+    reader, copy = (int(process.stdout.readline()) for _ in range(2))
+    process.kill()
+    finished(process, LONG)
+    try:
+        until(lambda: not alive(reader))
+        assert alive(copy)
+        assert at_rest(plugged.kinect)
+    finally:
+        os.kill(copy, signal.SIGKILL)
+
+
+def test_a_copy_of_the_program_that_ends_takes_nothing_from_it(
+    plugged: Plugged,
+) -> None:
+    code = """
+import os, sys
+reader = sensor._driver._process.pid
+copy = os.fork()
+if not copy:
+    sys.exit()
+os.waitpid(copy, 0)
+sensor.frame()
+print(sensor._driver._process.pid == reader)
+"""
+    ran = finished(started(USING + code, plugged), LONG)
+    assert (ran.status, ran.out, ran.err) == (0, "seen\nTrue\n", "")
+    assert at_rest(plugged.kinect)
+
+
+def test_what_came_is_not_told_when_the_other_process_has_ended(
+    plugged: Plugged,
+) -> None:
+    code = """
+import os, signal
+os.kill(sensor._driver._process.pid, signal.SIGKILL)
+print(len(sensor.counts))
+sensor.frame()
+print(len(sensor.counts))
+"""
+    ran = finished(started(USING + code, plugged), LONG)
+    assert (ran.status, ran.out, ran.err) == (0, "seen\n0\n2\n", "")
+
+
+def test_frames_go_on_if_the_other_process_is_killed(plugged: Plugged) -> None:
+    code = """
+import os, signal
+before = sensor._driver._process.pid
+os.kill(before, signal.SIGKILL)
+for _ in range(3):
+    sensor.frame()
+print(sensor._driver._process.pid != before)
+"""
+    ran = finished(started(USING + code, plugged), LONG)
+    assert (ran.status, ran.out, ran.err) == (0, "seen\nTrue\n", "")
+    assert at_rest(plugged.kinect)
+
+
+def test_another_process_that_hangs_is_killed_and_said_so(plugged: Plugged) -> None:
+    code = """
+import os, signal
+from kille.sensors.kinect import process
+process._FAREWELL = 0.2
+reader = sensor._driver._process.pid
+os.kill(reader, signal.SIGSTOP)
+sensor.close()
+"""
+    ran = finished(started(USING + code, plugged), LONG)
+    assert (ran.status, ran.out) == (0, "seen\n")
+    assert ran.err == (
+        "kinect: the process that reads it did not stop in time and was killed\n"
+    )
+
+
+def test_transfers_that_never_end_are_said_and_left(plugged: Plugged) -> None:
+    process = started(USING + "input()\nsensor.close(); print('closed')", plugged)
+    assert process.stdout is not None
+    process.stdout.readline()
+    plugged.kinect.faults = Faults(endless=True)
+    out, err = process.communicate("\n", LONG)
+    assert out == "closed\n"
+    assert [line.split(";")[0] for line in err.splitlines()] == [
+        f"kinect: 6 of 6 USB transfers of endpoint {endpoint} never ended"
+        for endpoint in ("0x81", "0x82")
+    ]
+    assert at_rest(plugged.kinect)
+
+
+def test_nothing_of_the_folder_it_is_run_in_is_imported(
+    plugged: Plugged, tmp_path: Path
+) -> None:
+    (tmp_path / "numpy.py").write_text("raise SystemExit('numpy of the folder')")
+    (tmp_path / "seen.py").write_text(USING)
+    program = tmp_path / "elsewhere"
+    program.mkdir()
+    (program / "seen.py").write_text(USING)
+    ran = subprocess.run(
+        [sys.executable, str(program / "seen.py")],
+        cwd=tmp_path,
+        env=dict(plugged.variables),
+        capture_output=True,
+        text=True,
+        timeout=LONG,
+        check=False,
+    )
+    assert (ran.returncode, ran.stdout, ran.stderr) == (0, "seen\n", "")
 
 
 def test_one_that_is_opened_again_by_a_frame_is_closed_too(plugged: Plugged) -> None:
@@ -235,13 +400,20 @@ def test_libusb_that_does_not_start_is_told_of(plugged: Plugged) -> None:
     assert "kinect: libusb is there but does not start" in ran.err.splitlines()[-1]
 
 
-def test_without_libusb_one_is_told_how_to_get_it(plugged: Plugged) -> None:
-    # As on a system where libusb is not found under any name.
-    code = (
-        "import sys; sys.platform = 'plan9'\n"
-        "import ctypes.util; ctypes.util.find_library = lambda name: None\n" + USING
+def test_without_libusb_one_is_told_how_to_get_it(
+    plugged: Plugged, tmp_path: Path
+) -> None:
+    # As on a system where libusb is not found under any name, by any process.
+    (tmp_path / "sitecustomize.py").write_text(
+        "import ctypes, ctypes.util; ctypes.util.find_library = lambda name: None\n"
+        "load = ctypes.CDLL.__init__\n"
+        "def init(self, name, *given, **named):\n"
+        "    if 'usb' in str(name): raise OSError(name)\n"
+        "    load(self, name, *given, **named)\n"
+        "ctypes.CDLL.__init__ = init\n"
     )
-    ran = finished(started(code, plugged), LONG)
+    lost = {**plugged.variables, "PYTHONPATH": str(tmp_path)}
+    ran = finished(started(USING, plugged._replace(variables=lost)), LONG)
     assert "there is no libusb to talk to it; pip install 'kille[usb]'" in ran.err
 
 

@@ -1,0 +1,213 @@
+"""The process that reads a Kinect for another one; see `.process`."""
+
+from __future__ import annotations
+
+import logging
+import mmap
+import os
+import signal
+import socket
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from types import FrameType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kille.sensors.kinect.calibration import Calibration
+from kille.sensors.kinect.capture import Capture, frame_of
+from kille.sensors.kinect.channel import Channel
+from kille.sensors.kinect.commands import BadReply
+from kille.sensors.kinect.developing import calibration_for, capture_of
+from kille.sensors.kinect.devices import Kinect
+from kille.sensors.kinect.packets import Counts
+from kille.sensors.kinect.process import PICTURE, ROOM, Answer, InMemory
+from kille.sensors.kinect.session import Session
+from kille.sensors.kinect.streams import COLOUR, INFRARED
+from kille.sensors.kinect.transport import Bus, Gone, Plugged, TransportError
+from kille.sensors.sensor import SensorError
+
+_LOOK_UP = 1.0
+"""Seconds between two looks whether the process that began this one lives.
+
+When it ends its sockets are closed, and that is seen at once; unless a copy of it, made
+by `fork`, has them too.
+"""
+
+_MODES = {mode.name: mode for mode in (COLOUR, INFRARED)}
+
+
+def serve(connection: int, memory: int) -> None:
+    """Answer all that is asked, until nobody is there to ask; then end this process."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever asks ends this process
+    signal.signal(signal.SIGTERM, _leave)
+    try:
+        _serve(Channel(socket.socket(fileno=connection)), mmap.mmap(memory, ROOM))
+    finally:
+        sys.stderr.flush()
+        # libusb may wait for ever for a transfer that it does not give back.
+        os._exit(0)
+
+
+def _serve(channel: Channel, memory: mmap.mmap) -> None:
+    remarks = _Remarks()
+    logging.getLogger("kille").addHandler(remarks)
+    parent = os.getppid()
+    kinects: _Kinects | None = None
+    try:
+        kinects, error = _begun(memory)
+        channel.send(Answer(None, error, ()))
+        while kinects is not None:
+            try:
+                what, given = channel.receive(_LOOK_UP)
+            except TimeoutError:
+                if os.getppid() != parent:
+                    return
+                continue
+            value, error = _attempt(getattr(kinects, what), given)
+            channel.send(Answer(value, error, remarks.taken()))
+    except (EOFError, OSError):
+        return
+    finally:
+        if kinects is not None:
+            kinects.stop()
+        for remark in remarks.taken():
+            sys.stderr.write(f"{remark}\n")
+
+
+def _begun(memory: mmap.mmap) -> tuple[_Kinects | None, Exception | None]:
+    try:
+        from kille.sensors.kinect.usb import UsbBus
+
+        return _Kinects(UsbBus(), memory), None
+    except Exception as error:
+        return None, _sendable(error)
+
+
+def _attempt(
+    do: Callable[..., Any], given: tuple[Any, ...]
+) -> tuple[Any, Exception | None]:
+    """What it gives, or the error that it raises."""
+    try:
+        return do(*given), None
+    except Exception as error:
+        return None, _sendable(error)
+
+
+def _sendable(error: Exception) -> Exception:
+    """The error as the other process knows it, without what it comes from."""
+    if isinstance(error, TransportError | BadReply | SensorError | ImportError):
+        return type(error)(*error.args)
+    return TransportError(f"the process that reads it failed: {error!r}")
+
+
+def _leave(sign: int, frame: FrameType | None) -> None:
+    raise SystemExit
+
+
+class _Kinects:
+    """What may be asked: the methods are called by their names."""
+
+    def __init__(self, bus: Bus, memory: mmap.mmap) -> None:
+        self._bus = bus
+        self._memory = np.frombuffer(memory, np.uint8)
+        self._known: dict[object, Plugged] = {}
+        self._tokens = 0
+        self._session: Session | None = None
+
+    def devices(self) -> tuple[Plugged, ...]:
+        """What is plugged in; a number stands for what only this process has."""
+        found = self._bus.devices()
+        numbers = range(self._tokens, self._tokens + len(found))
+        self._tokens += len(found)
+        self._known = dict(zip(numbers, found, strict=True))
+        return tuple(
+            replace(device, key=number)
+            for number, device in zip(numbers, found, strict=True)
+        )
+
+    def start(self, kinect: Kinect, colour: str) -> Calibration:
+        """Open a Kinect and start its streams; those of before are stopped."""
+        self.stop()
+        motor = kinect.motor and self._known.get(kinect.motor.key)
+        camera = self._known.get(kinect.camera.key)
+        if camera is None:
+            raise Gone("the device is no longer plugged in")
+        ours = replace(kinect, camera=camera, motor=motor)
+        self._session = Session(self._bus, ours, _MODES[colour])
+        return self._session.calibration
+
+    def counts(self) -> Mapping[str, Counts]:
+        """What came through each stream."""
+        return self._streaming().counts
+
+    def frame(self, seconds: float) -> InMemory | None:
+        """Put the next frame into the memory, if one comes in that time."""
+        streams = self._streaming()
+        pair = streams.wait_for_pair(seconds)
+        if pair is None:
+            return None
+        capture = capture_of(pair, streams.colour)
+        calibration = calibration_for(streams.calibration, streams.colour)
+        return self._put(capture, frame_of(capture, calibration).depth)
+
+    def capture(self, seconds: float) -> InMemory | None:
+        """Put the next capture into the memory, if one comes in that time."""
+        streams = self._streaming()
+        pair = streams.wait_for_pair(seconds)
+        if pair is None:
+            return None
+        capture = capture_of(pair, streams.colour)
+        seen = self._put(capture, capture.depth)
+        return seen._replace(tilt=streams.tilt_if_known())
+
+    def why_no_pair(self) -> TransportError:
+        """Why no pair came."""
+        return self._streaming().why_no_pair()
+
+    def set_motor(self, request: int, value: int) -> None:
+        """Ask the motor for a tilt or a light."""
+        self._streaming().set_motor(request, value)
+
+    def motor_state(self) -> bytes:
+        """The bytes of the motor's state."""
+        return self._streaming().motor_state()
+
+    def stop(self) -> None:
+        """Stop the streams, if there are any."""
+        session, self._session = self._session, None
+        if session is not None:
+            session.close()
+
+    def _put(self, capture: Capture, depth: NDArray[Any] | None) -> InMemory:
+        assert depth is not None
+        data = depth.reshape(-1).view(np.uint8)
+        self._memory[:PICTURE] = capture.colour.reshape(-1)
+        self._memory[PICTURE : PICTURE + data.size] = data
+        return InMemory(
+            capture.time, capture.ticks_colour, capture.ticks_depth, capture.tilt
+        )
+
+    def _streaming(self) -> Session:
+        if self._session is None:
+            raise Gone("its streams have ended")
+        return self._session
+
+
+class _Remarks(logging.Handler):
+    """Keeps what this process has to say for the log of the one that asks."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.WARNING)
+        self._kept: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep it."""
+        self._kept.append(record.getMessage())
+
+    def taken(self) -> tuple[str, ...]:
+        """All that was kept since this was called last."""
+        kept, self._kept = tuple(self._kept), []
+        return kept
