@@ -293,6 +293,10 @@ class Host:
             del self._pipes[transfer.handle, transfer.endpoint]
         self._ended.append(_empty(transfer, Status.CANCELLED))
 
+    def waiting(self) -> list[int]:
+        """How many transfers wait at each endpoint that has any."""
+        return [len(pipe.waiting) for pipe in list(self._pipes.values())]
+
     def pass_time(self, microframes: int) -> None:
         """Let so many microframes pass, fewer while the clock waits for a client."""
         wanted = self.now + microframes

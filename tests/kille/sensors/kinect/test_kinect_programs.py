@@ -289,6 +289,8 @@ def test_transfers_that_never_end_are_said_and_left(plugged: Plugged) -> None:
     assert process.stdout is not None
     process.stdout.readline()
     plugged.kinect.faults = Faults(endless=True)
+    # Until all are where they never end, and none is on its way back.
+    until(lambda: plugged.server.host.waiting() == [6, 6])
     out, err = process.communicate("\n", LONG)
     assert out == "closed\n"
     assert [line.split(";")[0] for line in err.splitlines()] == [
