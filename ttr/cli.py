@@ -10,7 +10,7 @@ from errno import ENOSPC
 from io import TextIOWrapper
 
 from ttr.commands import COMMANDS
-from ttr.commands.output import FAILED, INTERRUPTED, PIPE_CLOSED, complain, say
+from ttr.commands.output import FAILED, INTERRUPTED, PIPE_CLOSED, Parser, complain, say
 
 __all__ = ["main"]
 
@@ -52,12 +52,14 @@ def _run(argv: Sequence[str] | None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="ttr",
         description="Type Theory with Records: check files, show them, try things.",
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
-    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(
+        metavar="COMMAND", required=True, parser_class=Parser
+    )
     for command in COMMANDS:
         command.add(commands)
     return parser

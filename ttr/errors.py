@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from functools import wraps
 from typing import ParamSpec, TypeVar
 
+from ttr.escapes import columns, terminal_line, terminal_text
+
 __all__ = [
     "Endless",
     "IllFormed",
@@ -67,14 +69,15 @@ class Span:
         first = self.column - 1
         start = max(0, first - _SHOWN // 2) if len(self.text) > _SHOWN else 0
         end = start + _SHOWN
-        before = "…" * (start > 0)
-        after = "…" * (end < len(self.text))
-        caret = " " * (first - start + len(before)) + "^" * min(
-            self.length, end - first
-        )
+        last = min(first + self.length, end)
+        before = "…" * (start > 0) + terminal_line(self.text[start:first])
+        marked = terminal_line(self.text[first:last])
+        after = terminal_line(self.text[last:end]) + "…" * (end < len(self.text))
+        beyond = max(0, last - max(first, len(self.text)))
+        caret = " " * columns(before) + "^" * max(1, columns(marked) + beyond)
         return (
-            f"{gutter} ┌─ {self.source}:{self.line}:{self.column}\n"
-            f"{self.line} │ {before}{self.text[start:end]}{after}\n"
+            f"{gutter} ┌─ {terminal_line(self.source)}:{self.line}:{self.column}\n"
+            f"{self.line} │ {before}{marked}{after}\n"
             f"{gutter} │ {caret}"
         )
 
@@ -95,11 +98,12 @@ class TTRError(Exception):
         )
 
     def __str__(self) -> str:
-        lines = [self.message]
+        """The message, the place and the way out, as they may be printed."""
+        lines = [terminal_text(self.message)]
         if self.span:
             lines.append(str(self.span))
         if self.hint:
-            lines.append(f"help: {self.hint}")
+            lines.append(f"help: {terminal_text(self.hint)}")
         return "\n".join(lines)
 
     def __reduce__(self) -> tuple[object, ...]:

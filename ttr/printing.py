@@ -7,7 +7,6 @@ nearest enclosing record type with its first label is the one meant, else with a
 
 from __future__ import annotations
 
-import json
 import keyword
 import math
 from collections.abc import Iterable
@@ -20,6 +19,7 @@ from ttr.brackets import (
     is_loose,
     is_loose_beside,
 )
+from ttr.escapes import json_text
 from ttr.objects import Missing
 from ttr.paths import occurring, replace_paths
 from ttr.paths import parts as contents
@@ -213,7 +213,7 @@ def head(function: Object, scope: Scope) -> str:
         case Path(up, labels) if labels[0] != BOUND:
             return _dotted(up, labels, scope)
         case str():
-            return json.dumps(function, ensure_ascii=False)
+            return json_text(function)
     text = notation(function, scope)
     return text if holds_as_head(function) else f"({text})"
 
@@ -282,7 +282,7 @@ def _name(name: str, scope: Scope) -> str:
     bare = name.isidentifier() and name not in RESERVED
     if bare and not _hides(scope, name):
         return name
-    return json.dumps(name, ensure_ascii=False)
+    return json_text(name)
 
 
 RESERVED = frozenset((*WORDS.values(), "Type", "RecType", "Rec", "fst", "rst", "fun"))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol, overload
 from immutables import Map
 
 from ttr.errors import IllFormed, NotationError, Span, TTRError, suggestion
+from ttr.escapes import json_text
 from ttr.paths import occurring
 from ttr.syntax import (
     Basic,
@@ -93,7 +93,7 @@ def _schematic(arg: Object) -> str:
         case Path(_, labels):
             return labels[0]
         case str():
-            return json.dumps(arg, ensure_ascii=False)
+            return json_text(arg)
     return notation(arg)
 
 

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from html import escape
 
 from ttr.display.comparing import compared
 from ttr.display.folding import folding
 from ttr.display.markup import STYLE, page, part_of_page
 from ttr.errors import following_nesting
+from ttr.escapes import html_text
 from ttr.printing import notation
 from ttr.records import differences
 from ttr.stories import Moment, Setting
@@ -44,7 +44,7 @@ def transcript(title: str, dialogues: Iterable[Transcribed]) -> str:
     What the theory of the game defines is shown by its name.
     """
     shown = list(dialogues)
-    parts = [f"<h1>{escape(title)}</h1>"]
+    parts = [f"<h1>{html_text(title)}</h1>"]
     if len(shown) > 1:
         parts.append(_contents(shown))
     parts += [_dialogue(number, one) for number, one in enumerate(shown, start=1)]
@@ -53,7 +53,7 @@ def transcript(title: str, dialogues: Iterable[Transcribed]) -> str:
 
 def _contents(dialogues: list[Transcribed]) -> str:
     items = [
-        f'<li><a href="#d{number}">{escape(one.title)}</a>{_mark(one)}</li>'
+        f'<li><a href="#d{number}">{html_text(one.title)}</a>{_mark(one)}</li>'
         for number, one in enumerate(dialogues, start=1)
     ]
     return f"<nav><ol>{''.join(items)}</ol></nav>"
@@ -67,14 +67,14 @@ def _dialogue(number: int, one: Transcribed) -> str:
     fold = folding(one.setting.theory, 0)
     before: Object = fold(one.start.state)
     start = _turn(f"d{number}t0", "", "<p>the start</p>", before, before)
-    parts = [f'<h2 id="d{number}">{escape(one.title)}{_mark(one)}</h2>', start]
+    parts = [f'<h2 id="d{number}">{html_text(one.title)}{_mark(one)}</h2>', start]
     for turn, moment in enumerate(one.moments, start=1):
         after = fold(moment.turn.state)
         told = _talk(moment) + _rules(moment.turn.trace, fold)
         parts.append(_turn(f"d{number}t{turn}", str(turn), told, before, after))
         before = after
     if one.ending:
-        parts.append(f'<pre class="ending">{escape(one.ending)}</pre>')
+        parts.append(f'<pre class="ending">{html_text(one.ending)}</pre>')
     return f"<section>{''.join(parts)}</section>"
 
 
@@ -96,8 +96,8 @@ def _talk(moment: Moment) -> str:
 
 def _said(kind: str, mark: str, words: str) -> str:
     return (
-        f'<p class="{kind}"><span class="mark">{escape(mark)}</span> '
-        f"{escape(words)}</p>"
+        f'<p class="{kind}"><span class="mark">{html_text(mark)}</span> '
+        f"{html_text(words)}</p>"
     )
 
 
@@ -115,11 +115,11 @@ def _rule(step: Step, fold: Callable[[Object], Object]) -> str:
     if step.event is not None and step.p.lo < 1.0:
         lines.insert(0, f"on {notation(step.event)}   p = {step.p}")
     changes = differences(fold(step.before), fold(step.after))
-    doc, told = escape(step.rule.doc), "\n".join([*lines, *changes])
+    doc, told = html_text(step.rule.doc), "\n".join([*lines, *changes])
     return (
-        f'<b class="rule">{escape(step.rule.name)}</b>'
+        f'<b class="rule">{html_text(step.rule.name)}</b>'
         + f'<div class="doc">{doc}</div>' * bool(doc)
-        + f"<pre>{escape(told or 'nothing changed')}</pre>"
+        + f"<pre>{html_text(told or 'nothing changed')}</pre>"
     )
 
 

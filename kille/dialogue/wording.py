@@ -20,6 +20,7 @@ from kille.dialogue.meanings import word_of
 from kille.dialogue.mending import suggested
 from kille.dialogue.phrases import Words, claimed, noun_phrase, phrase
 from ttr import Join, Negation, Rec, Record, RecordType, Singleton
+from ttr.escapes import terminal_text
 
 __all__ = ["did_not_understand", "lexicon", "say", "tell"]
 
@@ -62,8 +63,7 @@ def did_not_understand(lexicon: Lexicon, text: str) -> str:
     Sorry, I did not understand "Where is teh book?". You could say
     "Where is the book?"; ...
     """
-    shown = re.sub(r"\s+", " ", text).strip()
-    shown = "".join(c if c.isprintable() else "�" for c in shown)
+    shown = terminal_text(re.sub(r"\s+", " ", text).strip())
     shown = shown if len(shown) <= _SHOWN else shown[: _SHOWN - 3] + "…"
     nearest = suggested(lexicon, shown)
     slots = {"text": shown} | ({} if nearest is None else {"nearest": nearest})

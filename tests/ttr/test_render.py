@@ -22,7 +22,7 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.display.layout import columns
+from ttr.escapes import columns
 
 KENNEL = ttr.Theory.parse(
     r"""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +14,7 @@ from ttr.commands.output import (
     complain,
     place,
     say,
+    say_json,
 )
 from ttr.errors import TTRError
 
@@ -61,7 +61,7 @@ def _check(options: argparse.Namespace) -> int:
         if not options.json:
             _tell(outcome)
     if options.json:
-        say(json.dumps([_facts(one) for one in outcomes], ensure_ascii=False, indent=2))
+        say_json([_facts(one) for one in outcomes])
     return max(one.code for one in outcomes)
 
 

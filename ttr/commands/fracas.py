@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
-from ttr.commands.output import FAILED, FINE, Commands, complain, say
+from ttr.commands.output import FAILED, FINE, Commands, complain, say, say_json
 from ttr.errors import TTRError
 
 if TYPE_CHECKING:
@@ -50,7 +49,7 @@ def _fracas(options: argparse.Namespace) -> int:
             say(_answer(one))
     totals = Counter[str](one.outcome for one in found)
     if options.json:
-        say(json.dumps(_answers(found, totals), ensure_ascii=False, indent=2))
+        say_json(_answers(found, totals))
     else:
         say(
             f"{len(found)} problems: {totals['right']} right, {totals['wrong']} wrong, "

@@ -1,10 +1,15 @@
-"""What all the commands share: exit codes, and one way to say a thing or complain."""
+"""What all the commands share: exit codes, and one way to say a thing or complain.
+
+Nothing else in `ttr` writes to a terminal; so no file can speak to it in escape codes.
+"""
 
 from __future__ import annotations
 
 import argparse
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from ttr.escapes import json_text, terminal_line, terminal_text
 
 if TYPE_CHECKING:
     from ttr.errors import Span
@@ -15,8 +20,12 @@ __all__ = [
     "WRONG_USE",
     "INTERRUPTED",
     "PIPE_CLOSED",
+    "LiveLine",
     "Commands",
+    "Parser",
+    "ask",
     "say",
+    "say_json",
     "complain",
     "place",
 ]
@@ -30,15 +39,54 @@ else:
     Commands = Any
 
 
+class Parser(argparse.ArgumentParser):
+    """A parser whose complaints are safe to print, whatever was typed."""
+
+    def exit(self, status: int = 0, message: str | None = None) -> NoReturn:
+        """Leave, after saying why if there is a reason."""
+        super().exit(status, terminal_text(message or ""))
+
+
 def say(text: str) -> None:
-    """Prints a line, or several."""
-    sys.stdout.write(f"{text}\n")
+    """Prints a line, or several; what cannot be seen is made visible."""
+    sys.stdout.write(f"{terminal_text(text)}\n")
+    sys.stdout.flush()
+
+
+def say_json(value: Any) -> None:
+    """Prints a value for machines."""
+    say(json_text(value, indent=2))
 
 
 def complain(text: str) -> int:
     """Says on the error stream what was wrong with the use; gives the exit code."""
-    sys.stderr.write(f"ttr: {text}\n")
+    sys.stderr.write(f"ttr: {terminal_text(text)}\n")
     return WRONG_USE
+
+
+def ask(prompt: str) -> str:
+    """A line that is typed after a prompt; raises `EOFError` where there is none."""
+    return input(terminal_text(prompt))
+
+
+class LiveLine:
+    """A line at a terminal that shows how far something has come."""
+
+    def __init__(self) -> None:
+        self._shows = False
+
+    def show(self, text: str) -> None:
+        """Shows it in the place of what was shown; elsewhere nothing is."""
+        if sys.stderr.isatty():
+            self._shows = True
+            sys.stderr.write(f"\r{terminal_line(text)}")
+            sys.stderr.flush()
+
+    def clear(self) -> None:
+        """Takes the line away."""
+        if self._shows:
+            sys.stderr.write("\r\x1b[K")
+            self._shows = False
 
 
 def place(span: Span | None) -> dict[str, Any]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass, field
@@ -18,6 +17,7 @@ from ttr.commands.output import (
     Commands,
     complain,
     say,
+    say_json,
 )
 from ttr.errors import TTRError
 from ttr.files import check_outputs, write_whole
@@ -165,7 +165,7 @@ def _sum_up(options: argparse.Namespace, results: list[_Result]) -> None:
 
     if options.json:
         about = [facts(one) for one, _ in results]
-        say(json.dumps(about, ensure_ascii=False, indent=2))
+        say_json(about)
         return
     files: dict[str, list[Outcome]] = {}
     for one, _ in results:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ttr.commands.output import FAILED, FINE, Commands, complain, say
+from ttr.commands.output import FAILED, FINE, Commands, ask, complain, say
 from ttr.errors import TTRError
 
 __all__ = ["add"]
@@ -36,5 +36,5 @@ def _repl(options: argparse.Namespace) -> int:
     except TTRError as error:
         say(f"error: {error}")
         return FAILED
-    talk(session)
+    talk(session, say, ask)
     return FINE

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import argparse
-import json
 import signal
-import sys
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from ttr.commands.output import FAILED, FINE, INTERRUPTED, Commands, complain, say
+from ttr.commands.output import (
+    FAILED,
+    FINE,
+    INTERRUPTED,
+    Commands,
+    LiveLine,
+    complain,
+    say,
+    say_json,
+)
 from ttr.errors import TTRError
 
 if TYPE_CHECKING:
@@ -87,7 +94,7 @@ def _test(options: argparse.Namespace) -> int:
             break
     if options.json:
         facts = [one.facts() for one in outcomes]
-        say(json.dumps(facts, ensure_ascii=False, indent=2))
+        say_json(facts)
     return max(one.code for one in outcomes)
 
 
@@ -249,7 +256,7 @@ class _Watch:
         self.coverage = Coverage(game)
         self._total = total
         self._began = self._told = monotonic()
-        self._shows = self._stops = False
+        self._stops, self._line = False, LiveLine()
 
     def __enter__(self) -> None:
         self._usual = signal.getsignal(signal.SIGINT)
@@ -259,7 +266,7 @@ class _Watch:
     def __exit__(self, *_: object) -> None:
         with suppress(ValueError):
             signal.signal(signal.SIGINT, self._usual)
-        self._clear()
+        self._line.clear()
 
     def _stop(self, *_: object) -> None:
         if self._stops:
@@ -280,15 +287,7 @@ class _Watch:
         if now - self._began < PATIENCE or now - self._told < REFRESH:
             return
         self._told = now
-        if sys.stderr.isatty():
-            self._shows = True
-            sys.stderr.write(f"\r{_bar(coverage.dialogues, self._total)}")
-            sys.stderr.flush()
-
-    def _clear(self) -> None:
-        if self._shows:
-            sys.stderr.write("\r\x1b[K")
-            self._shows = False
+        self._line.show(_bar(coverage.dialogues, self._total))
 
 
 def _bar(done: int, total: int) -> str:

@@ -17,9 +17,9 @@ from ttr.display.layout import (
     Sign,
     Step,
     Word,
-    columns,
     filled,
 )
+from ttr.escapes import columns
 
 __all__ = ["drawn", "drawn_derivation"]
 

@@ -6,7 +6,6 @@ draw these. Read in one line, a layout has the words and signs of the notation.
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,6 +19,7 @@ from ttr.brackets import (
     is_loose,
     is_loose_beside,
 )
+from ttr.escapes import columns, terminal_line
 from ttr.paths import parts as contents
 from ttr.printing import Scope, as_object, head, notation, variable
 from ttr.syntax import (
@@ -63,7 +63,6 @@ __all__ = [
     "Sign",
     "Step",
     "Word",
-    "columns",
     "filled",
     "laid_out",
 ]
@@ -85,6 +84,9 @@ class Word:
     text: str
     role: Role
     tall = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "text", terminal_line(self.text))
 
     @cached_property
     def width(self) -> int:
@@ -264,22 +266,9 @@ class Step:
     parts: tuple[Step, ...]
     fails: bool
 
-
-def columns(text: str) -> int:
-    """How many columns of a terminal a text takes.
-
-    >>> columns("犬"), columns("dog"), columns("e\\u0301")
-    (2, 3, 1)
-    """
-    if text.isascii():
-        return len(text)
-    return sum(map(_column, text))
-
-
-def _column(letter: str) -> int:
-    if unicodedata.combining(letter):
-        return 0
-    return 2 if unicodedata.east_asian_width(letter) in "WF" else 1
+    def __post_init__(self) -> None:
+        for text in ("where", "because"):
+            object.__setattr__(self, text, terminal_line(getattr(self, text)))
 
 
 def filled(
@@ -362,7 +351,7 @@ def _object(value: Object, scope: Scope) -> Layout:
             return _string(items, scope)
     if type(value) is tuple:
         return Listed("[", _objects(value, scope), "]", _COMMA)
-    return Word(_printable(notation(value, scope)), _role(value))
+    return Word(notation(value, scope), _role(value))
 
 
 def _role(value: Object) -> Role:
@@ -395,13 +384,6 @@ def _string(items: Sequence[Object], scope: Scope) -> Listed:
     events = [as_object(item, scope) for item in items]
     between = _COMMA if any(map(begins_with_bracket, events)) else Sign(" ")
     return Listed("<", tuple([_tight(it, scope) for it in events]), ">", between)
-
-
-def _printable(text: str) -> str:
-    """The text with what would break a line or turn its direction written out."""
-    if text.isprintable():
-        return text
-    return "".join([c if c.isprintable() else f"\\u{ord(c):04x}" for c in text])
 
 
 # --- brackets, functions and their variables -----------------------------------------
@@ -453,6 +435,6 @@ def _function_type(value: FunType, scope: Scope) -> Layout:
 def _head(function: Object, scope: Scope) -> Layout:
     """What is applied: as it is printed, in brackets unless it holds together."""
     if isinstance(function, Path | str):
-        return Word(_printable(head(function, scope)), _role(function))
+        return Word(head(function, scope), _role(function))
     layout = laid_out(function, scope)
     return layout if holds_as_head(function) else _bracketed(layout)

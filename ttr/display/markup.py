@@ -6,8 +6,6 @@ notation, unseen, so that what is copied or read aloud is notation too.
 
 from __future__ import annotations
 
-from html import escape
-
 from ttr.display.layout import (
     Chain,
     Layout,
@@ -21,6 +19,7 @@ from ttr.display.layout import (
     Step,
     Word,
 )
+from ttr.escapes import html_text
 
 __all__ = ["STYLE", "marked_up", "marked_up_derivation", "page", "part_of_page"]
 
@@ -47,7 +46,7 @@ def page(title: str, body: str, style: str = "") -> str:
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n'
-        f"<title>{escape(title)}</title>\n{styled}</head>\n<body>\n{body}\n</body>\n"
+        f"<title>{html_text(title)}</title>\n{styled}</head>\n<body>\n{body}\n</body>\n"
         "</html>"
     )
 
@@ -106,11 +105,11 @@ def _styled(body: str) -> str:
 def _markup(layout: Layout) -> str:
     match layout:
         case Word(text, role):
-            return f'<span class="ttr-{role}">{escape(text)}</span>'
+            return f'<span class="ttr-{role}">{html_text(text)}</span>'
         case Sign(text):
             return _sign(text)
         case Raised(base, exponent):
-            return f"{_markup(base)}{_unseen('^')}<sup>{escape(exponent.text)}</sup>"
+            return f"{_markup(base)}{_unseen('^')}<sup>{html_text(exponent.text)}</sup>"
         case Restricted(base, value):
             return f"{_markup(base)}{_unseen('@')}<sub>{_markup(value)}</sub>"
         case Line(parts):
@@ -128,17 +127,17 @@ def _sign(text: str) -> str:
 
 
 def _unseen(text: str) -> str:
-    return f'<span class="ttr-unseen">{escape(text)}</span>'
+    return f'<span class="ttr-unseen">{html_text(text)}</span>'
 
 
 def _listed(listed: Listed) -> str:
-    inside = escape(listed.between.text).join(map(_markup, listed.parts))
+    inside = html_text(listed.between.text).join(map(_markup, listed.parts))
     if not listed.tall:
-        return f"{escape(listed.opening)}{inside}{escape(listed.closing)}"
+        return f"{html_text(listed.opening)}{inside}{html_text(listed.closing)}"
     if listed.opening in _DRAWN:
         inside = f"{_unseen(listed.opening)}{inside}{_unseen(listed.closing)}"
         return f'<span class="ttr-tall {_DRAWN[listed.opening]}">{inside}</span>'
-    opening, closing = map(escape, (listed.opening, listed.closing))
+    opening, closing = map(html_text, (listed.opening, listed.closing))
     return (
         f'<span class="ttr-big">{opening}</span>{inside}'
         f'<span class="ttr-big">{closing}</span>'
@@ -193,7 +192,7 @@ def _failing(step: Step) -> str:
 
 def _claim(step: Step) -> str:
     kind = {"✓": " ttr-yes", "✗": " ttr-no"}.get(step.mark, "")
-    mark = f'<span class="ttr-mark{kind}">{escape(step.mark)}</span> '
-    where = f'<span class="ttr-label">{escape(step.where)}</span>: '
-    because = f' <span class="ttr-rule">({escape(step.because)})</span>'
+    mark = f'<span class="ttr-mark{kind}">{html_text(step.mark)}</span> '
+    where = f'<span class="ttr-label">{html_text(step.where)}</span>: '
+    because = f' <span class="ttr-rule">({html_text(step.because)})</span>'
     return mark + where * bool(step.where) + _markup(step.claim) + because

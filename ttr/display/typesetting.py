@@ -26,8 +26,9 @@ from ttr.display.layout import (
     Word,
     filled,
 )
+from ttr.escapes import terminal_line
 
-__all__ = ["typeset", "typeset_derivation"]
+__all__ = ["latex_text", "typeset", "typeset_derivation"]
 
 _ROOM = 90
 """So many letters go beside one another before a meet or a list is broken."""
@@ -56,7 +57,7 @@ def _guarded(text: str) -> str:
 def _typeset(layout: Layout) -> str:
     match layout:
         case Word(text, role):
-            return _word(text, role)
+            return latex_text(text, role)
         case Sign(text):
             return _sign(text)
         case Raised(base, exponent):
@@ -83,13 +84,13 @@ def typeset_derivation(step: Step) -> str:
 
 
 def _steps(step: Step, depth: int) -> Iterator[str]:
-    mark = _MARKS.get(step.mark) or _word(step.mark, "text")
-    where = f"{_word(step.where, 'label')}{{:}}\\text{{ }}" if step.where else ""
+    mark = _MARKS.get(step.mark) or latex_text(step.mark, "text")
+    where = f"{latex_text(step.where, 'label')}{{:}}\\text{{ }}" if step.where else ""
     claim = where + _spaced(step.claim)
     if step.fails and not any(part.fails for part in step.parts):
         claim = f"\\underline{{{claim}}}"
     indent = f"\\kern{depth}em " if depth else ""
-    yield f"{mark} & {indent}{claim}\\kern1em {_prose(f'({step.because})')}"
+    yield f"{mark} & {indent}{claim}\\kern1em {latex_text(f'({step.because})')}"
     for part in step.parts:
         yield from _steps(part, depth + 1)
 
@@ -194,8 +195,23 @@ def _sign(text: str) -> str:
     return _SIGNS[text]
 
 
-def _word(text: str, role: Role) -> str:
-    """A name in the letters of its role: types slanted, all others upright."""
+def latex_text(text: str, role: Role | None = None) -> str:
+    r"""A text from outside as LaTeX, in mathematics: it is set, and does nothing else.
+
+    A name is set in the letters of its role, types slanted and all others upright; a
+    remark, without a role, as text, with what LaTeX reads otherwise as signs. What
+    cannot be seen is written as in a terminal.
+
+    >>> print(latex_text(r"\input{a}", "label"))
+    \backslash \mathrm{input}\{\mathrm{a}\}
+    >>> print(latex_text(r"by $x^^5e"))
+    \text{by }\$\text{x}{}^{\wedge}{}^{\wedge}\text{5e}
+    """
+    text = terminal_line(text)
+    if role is None:
+        known = _ESCAPED | _MATHS
+        pieces = _PIECE.findall(text)
+        return "".join(known.get(it, f"\\text{{{it}}}") for it in pieces)
     font, in_text = ("mathit", "textit") if role == "type" else ("mathrm", "text")
     return "".join(_runs(text, font, in_text))
 
@@ -261,10 +277,3 @@ _SPECIAL = "_%&#${}~^\\`<>"
 """What LaTeX reads otherwise in a text."""
 
 _PIECE = re.compile(f"[^{re.escape(_SPECIAL)}{''.join(_MATHS)}]+|.", re.DOTALL)
-
-
-def _prose(text: str) -> str:
-    """A remark, with its words as text and what LaTeX reads otherwise as signs."""
-    known = _ESCAPED | _MATHS
-    pieces = _PIECE.findall(text)
-    return "".join(known.get(it, f"\\text{{{it}}}") for it in pieces)

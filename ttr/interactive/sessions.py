@@ -6,7 +6,6 @@ Unlike in a file, a name may be declared again: what rests on it then follows it
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -15,6 +14,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from ttr.errors import NotationError, TTRError, Unsupported, following_nesting
+from ttr.escapes import json_text
 from ttr.files import write_whole
 from ttr.judgements import Judgement, Why
 from ttr.models import Model
@@ -118,7 +118,7 @@ def _entry(tree: Statement, source: Source, folder: Path) -> Entry:
         except TTRError as error:
             raise error.at(source.span(tree)) from None
         kinds = _of_kinds(rule.kind for rule in theory.rules.values())
-        text = f"import {json.dumps(str(path))}"
+        text = f"import {json_text(str(path))}"
         return Entry(text, theory.names, frozenset(), kinds)
     text = _indented(_written(source, tree))
     rests_on = mentioned(tree) | _of_kinds(gathered(tree))
@@ -437,4 +437,4 @@ def _relative(text: str, folder: Path) -> str:
     tree, _ = _read(text)
     if not isinstance(tree, trees.Import):
         return text
-    return f"import {json.dumps(os.path.relpath(tree.path, folder))}"
+    return f"import {json_text(os.path.relpath(tree.path, folder))}"

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from io import TextIOWrapper
 from itertools import islice
 from pathlib import Path
+from typing import TypeAlias
 
 from ttr.interactive.completing import completions
 from ttr.interactive.repl import Pending, respond
 from ttr.interactive.sessions import Session
 
 __all__ = ["talk"]
+
+Say: TypeAlias = Callable[[str], None]
+Ask: TypeAlias = Callable[[str], str]
 
 PROMPT, FURTHER = "ttr> ", "...> "
 
@@ -25,18 +29,21 @@ _BREAKS = " \t\n()[]{}<>,;:=@&|+~\\/\"'.→∧∨¬⊑λ^"
 """What a word to be completed does not hold."""
 
 
-def talk(session: Session) -> None:
-    """Answers what is typed until it is enough: prompts only where someone types."""
+def talk(session: Session, say: Say, ask: Ask) -> None:
+    """Answers what is typed until it is enough: prompts only where someone types.
+
+    `say` prints a text, and `ask` a prompt, after which it gives the line typed.
+    """
     if sys.stdin.isatty() and sys.stdout.isatty():
-        _at_terminal(session)
+        _at_terminal(session, say, ask)
     else:
-        _through_pipe(session)
+        _through_pipe(session, say)
 
 
-def _through_pipe(session: Session) -> None:
+def _through_pipe(session: Session, say: Say) -> None:
     if isinstance(sys.stdin, TextIOWrapper):  # not where a program has replaced it
         sys.stdin.reconfigure(errors="backslashreplace")
-    desk = _Desk(session)
+    desk = _Desk(session, say)
     for line in sys.stdin:
         desk.take(line.rstrip("\n"))
         if desk.session.over:
@@ -47,8 +54,8 @@ def _through_pipe(session: Session) -> None:
 class _Desk:
     """What is on the desk: the session, and the lines of an input not yet whole."""
 
-    def __init__(self, session: Session) -> None:
-        self.session = session
+    def __init__(self, session: Session, say: Say) -> None:
+        self.session, self._say = session, say
         self.clear()
 
     def clear(self) -> None:
@@ -73,8 +80,7 @@ class _Desk:
         reply = respond(self.session, text)
         self.session = reply.session
         if reply.text:
-            sys.stdout.write(f"{reply.text}\n")
-            sys.stdout.flush()
+            self._say(reply.text)
 
     def completions(self, line: str) -> list[str]:
         """The ways to go on with the word at the end of the line."""
@@ -84,18 +90,18 @@ class _Desk:
 # --- at a terminal -------------------------------------------------------------------
 
 
-def _at_terminal(session: Session) -> None:
-    sys.stdout.write("Type Theory with Records; :help lists what can be typed\n")
-    desk = _Desk(session)
+def _at_terminal(session: Session, say: Say, ask: Ask) -> None:
+    say("Type Theory with Records; :help lists what can be typed")
+    desk = _Desk(session, say)
     with _line_editing(desk):
         while not desk.session.over:
             try:
-                desk.take(input(FURTHER if desk.waiting else PROMPT))
+                desk.take(ask(FURTHER if desk.waiting else PROMPT))
             except KeyboardInterrupt:
                 desk.clear()
-                sys.stdout.write("\n")
+                say("")
             except EOFError:
-                sys.stdout.write("\n")
+                say("")
                 return
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ttr.errors import TTRError
+from ttr.escapes import json_text
 
 __all__ = [
     "FORMAT",
@@ -80,7 +81,7 @@ class Entry:
 
 
 def _line(facts: Mapping[str, Any]) -> str:
-    return json.dumps(facts, ensure_ascii=False)
+    return json_text(facts)
 
 
 # --- reading -------------------------------------------------------------------------

@@ -9,6 +9,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from ttr.errors import TTRError
+from ttr.escapes import terminal_text
 from ttr.stories.mismatches import Mismatch
 
 __all__ = ["Outcome", "facts", "junit", "summary"]
@@ -92,7 +93,11 @@ def junit(outcomes: Iterable[Outcome]) -> str:
     every = [one for group in files.values() for one in group]
     root = ElementTree.Element("testsuites", _totals(every))
     for file, group in files.items():
-        about = {"name": _legal(file), "file": _legal(file), **_totals(group)}
+        about = {
+            "name": terminal_text(file),
+            "file": terminal_text(file),
+            **_totals(group),
+        }
         suite = ElementTree.SubElement(root, "testsuite", about)
         for one in group:
             _add_case(suite, one)
@@ -114,8 +119,8 @@ def _totals(outcomes: list[Outcome]) -> dict[str, str]:
 
 def _add_case(suite: ElementTree.Element, one: Outcome) -> None:
     about = {
-        "name": _legal(one.title),
-        "classname": _legal(PurePath(one.file).stem),
+        "name": terminal_text(one.title),
+        "classname": terminal_text(PurePath(one.file).stem),
         "time": f"{one.seconds:.3f}",
     }
     case = ElementTree.SubElement(suite, "testcase", about)
@@ -123,23 +128,9 @@ def _add_case(suite: ElementTree.Element, one: Outcome) -> None:
         return
     kind = "error" if one.error is not None else "failure"
     first = str(one.error or f"{one.file} differs in line {_number(one)}")
-    brief = {"message": _legal(first.splitlines()[0]), "type": kind}
-    ElementTree.SubElement(case, kind, brief).text = _legal(str(one))
+    brief = {"message": terminal_text(first.splitlines()[0]), "type": kind}
+    ElementTree.SubElement(case, kind, brief).text = terminal_text(str(one))
 
 
 def _number(one: Outcome) -> int:
     return one.mismatch.line.number if one.mismatch is not None else 0
-
-
-def _legal(text: str) -> str:
-    """The text without the characters that no XML may have."""
-    return "".join(c if _is_legal(c) else "\N{REPLACEMENT CHARACTER}" for c in text)
-
-
-def _is_legal(c: str) -> bool:
-    return (
-        c in "\t\n\r"
-        or " " <= c <= "\ud7ff"
-        or "\ue000" <= c <= "\ufffd"
-        or c > "\uffff"
-    )

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import wraps
 
 from ttr.errors import TTRError
+from ttr.escapes import terminal_text
 from ttr.strategies.dialogues import TURNS, dialogues
 from ttr.strategies.playing import Dialogue
 from ttr.strategies.tutors import Speaker, Tutor
@@ -75,7 +76,8 @@ def on_dialogues(
                 return
             title = test.__name__.removeprefix("test_").replace("_", " ")
             shown = story(broken.dialogue, title)
-            broken.why.add_note(f"The shortest dialogue found:\n\n{shown}")
+            told = f"The shortest dialogue found:\n\n{shown}"
+            broken.why.add_note(terminal_text(told))
             raise broken.why
 
         # pytest takes the parameters of a test for fixtures: this one has none.

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from ttr.errors import TTRError
+from ttr.escapes import terminal_text
 from ttr.strategies.playing import Dialogue
 from ttr.strategies.roles import Roles
 from ttr.strategies.states import event_of, heard_by
@@ -75,7 +76,7 @@ def machine(
             for one in asked:
                 if breach := one.breach(self.dialogue, who):
                     shown = story(self.dialogue, str(one))
-                    raise AssertionError(f"{breach}\n\n{shown}")
+                    raise AssertionError(terminal_text(f"{breach}\n\n{shown}"))
 
     for number, T in enumerate(heard_by(game), start=1):
         setattr(Machine, f"event_{number}", rule(data=st.data())(_happening(T)))

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from hypothesis import strategies as st
 
 from ttr.errors import TTRError
+from ttr.escapes import terminal_text
 from ttr.merging import merge
 from ttr.models import Model, as_model
 from ttr.stories import Setting
@@ -205,7 +206,7 @@ def check_rules(
         suite = Suite(game, tutor, found, roles, turns, examples, seed, starts)
     report = suite.run()
     if not report.holds:
-        raise AssertionError(report.told())
+        raise AssertionError(terminal_text(report.told()))
     return report
 
 

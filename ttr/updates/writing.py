@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
 from ttr.errors import Unsupported
+from ttr.escapes import json_text
 from ttr.printing import RESERVED, as_object, notation
 from ttr.probability import CERTAIN, Degree
 from ttr.syntax import Object
@@ -52,7 +52,7 @@ def _lines(rule: Rule) -> Iterator[str]:
             raise Unsupported(f"{name!r} is no name in the notation")
     names = rule.names[: 1 + (rule.on is not None)]
     kind = f" of {rule.kind}" if rule.kind else ""
-    doc = f" {json.dumps(rule.doc, ensure_ascii=False)}" if rule.doc else ""
+    doc = f" {json_text(rule.doc)}" if rule.doc else ""
     yield f"rule {rule.name}({', '.join(_parameters(rule, names))}){doc}{kind}"
     if rule.where:
         yield f"where {notation(rule.where, (frozenset(names),))}"
