@@ -30,6 +30,7 @@ from kille.experiments.strokes import (
     legend,
     named,
 )
+from ttr.escapes import terminal_line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,7 +40,6 @@ __all__ = ["MISSING", "can_draw", "drawing", "jpeg", "pdf", "svg"]
 
 MISSING = "no figures: they need matplotlib, pip install 'kille[plots]'"
 
-_CONTROLS = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 _TICKS = 13  # so many measured places each have a number on the axis
 _SETTINGS: Any = {
     "svg.fonttype": "none",
@@ -70,7 +70,19 @@ def drawing(figure: Figure) -> Drawing:
     from matplotlib import rc_context
 
     with rc_context(_SETTINGS):
-        return _DRAWN[figure.kind](figure.data)
+        return _DRAWN[figure.kind](_visible(figure.data))
+
+
+def _visible(data: Any) -> Any:
+    """The data with their words as they can be drawn."""
+    match data:
+        case str():
+            return terminal_line(data)
+        case list() | tuple():
+            return [_visible(it) for it in data]
+        case Mapping():
+            return {_visible(key): _visible(it) for key, it in data.items()}
+    return data
 
 
 def svg(figure: Figure, number: int = 0) -> str:
@@ -91,9 +103,7 @@ def svg(figure: Figure, number: int = 0) -> str:
     inner = text.getvalue()[text.getvalue().index("<svg") :]
     inner = re.sub(r"<metadata>.*?</metadata>\s*", "", inner, flags=re.DOTALL)
     inner = re.sub(r'(<(?:g|svg)\b[^>]*?) id="[^"]*"', r"\1", inner)
-    return _CONTROLS.sub("\N{REPLACEMENT CHARACTER}", inner).replace(
-        INK, "currentColor"
-    )
+    return inner.replace(INK, "currentColor")
 
 
 def pdf(figure: Figure) -> bytes:

@@ -10,10 +10,10 @@ import math
 import re
 from base64 import b64encode
 from collections.abc import Iterator, Mapping, Sequence
-from html import escape
 
 from kille.experiments.figures import MISSING, can_draw, jpeg, svg
 from kille.experiments.results import Cell, Estimate, Figure, Result, Table
+from ttr.escapes import html_text
 
 __all__ = ["beginning", "ending", "file_of", "page", "section", "shown"]
 
@@ -89,11 +89,11 @@ def _page(
 ) -> Iterator[str]:
     yield from beginning(title)
     if "command" in about:
-        yield f'<p class="quiet"><code>{escape(about["command"])}</code></p>'
+        yield f'<p class="quiet"><code>{html_text(about["command"])}</code></p>'
     for failure in failures:
-        yield f'<p class="wrong">{escape(failure)}</p>'
+        yield f'<p class="wrong">{html_text(failure)}</p>'
     if not can_draw():
-        yield f'<p class="note">{escape(MISSING)}</p>'
+        yield f'<p class="note">{html_text(MISSING)}</p>'
     yield from _contents(results)
     for number, result in enumerate(results, start=1):
         yield from section(number, result)
@@ -105,15 +105,16 @@ def beginning(title: str, style: str = "") -> Iterator[str]:
     yield "<!DOCTYPE html>"
     yield '<html lang="en"><head><meta charset="utf-8">'
     yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
-    yield f"<title>{escape(title)}</title><style>{_STYLE}{style}</style></head><body>"
-    yield f"<h1>{escape(title)}</h1>"
+    title = html_text(title)
+    yield f"<title>{title}</title><style>{_STYLE}{style}</style></head><body>"
+    yield f"<h1>{title}</h1>"
 
 
 def ending(about: Mapping[str, str]) -> Iterator[str]:
     """How all that was made, and the end of the page."""
     yield "<h2>How this was made</h2><dl>"
     for head, text in about.items():
-        yield f"<dt>{escape(head)}</dt><dd>{escape(text)}</dd>"
+        yield f"<dt>{html_text(head)}</dt><dd>{html_text(text)}</dd>"
     yield "</dl></body></html>"
 
 
@@ -122,7 +123,7 @@ def _contents(results: Sequence[Result]) -> Iterator[str]:
         return
     yield "<nav><ul>"
     for number, result in enumerate(results, start=1):
-        yield f'<li><a href="#part-{number}">{escape(result.title)}</a></li>'
+        yield f'<li><a href="#part-{number}">{html_text(result.title)}</a></li>'
     yield "</ul></nav>"
 
 
@@ -131,9 +132,9 @@ def section(number: int, result: Result, drawn: str = "") -> Iterator[str]:
 
     `drawn` is the folder in which the figures lie as PDF files, if they do.
     """
-    yield f'<section><h2 id="part-{number}">{escape(result.title)}</h2>'
+    yield f'<section><h2 id="part-{number}">{html_text(result.title)}</h2>'
     if result.text:
-        yield f"<p>{escape(result.text)}</p>"
+        yield f"<p>{html_text(result.text)}</p>"
     for table in result.tables:
         yield from _table(table)
     if result.figures and can_draw():
@@ -157,9 +158,9 @@ def file_of(number: int, place: int, figure: Figure) -> str:
 
 def _table(table: Table) -> Iterator[str]:
     kinds = [_kind([row[i] for row in table.rows]) for i in range(len(table.columns))]
-    yield f'<h3>{escape(table.title)}</h3><div class="scroll"><table><thead><tr>'
+    yield f'<h3>{html_text(table.title)}</h3><div class="scroll"><table><thead><tr>'
     yield "".join(
-        f"<th{kind}>{escape(head)}</th>"
+        f"<th{kind}>{html_text(head)}</th>"
         for head, kind in zip(table.columns, kinds, strict=True)
     )
     yield "</tr></thead><tbody>"
@@ -171,17 +172,17 @@ def _table(table: Table) -> Iterator[str]:
         yield f"<tr>{''.join(cells)}</tr>"
     yield "</tbody></table></div>"
     if table.note:
-        yield f'<p class="note">{escape(table.note)}</p>'
+        yield f'<p class="note">{html_text(table.note)}</p>'
 
 
 def _cell(cell: Cell, to: str) -> str:
     """The cell, its band in small; it leads to where it is said that it does."""
     told, _, band = shown(cell).partition(" [")
-    text = escape(told if isinstance(cell, Estimate) else shown(cell))
+    text = html_text(told if isinstance(cell, Estimate) else shown(cell))
     if to:
-        text = f'<a href="{escape(to, quote=True)}">{text}</a>'
+        text = f'<a href="{html_text(to)}">{text}</a>'
     if isinstance(cell, Estimate) and band:
-        text += f'<span class="band">[{escape(band)}</span>'
+        text += f'<span class="band">[{html_text(band)}</span>'
     return text
 
 
@@ -224,16 +225,16 @@ def _estimated(it: Estimate) -> str:
 def _figure(figure: Figure, number: int, file: str) -> str:
     broad = ' class="broad"' if figure.kind in _BROAD else ""
     body = _pictures(figure) if figure.kind == "pictures" else _drawn(figure, number)
-    note = escape(figure.note)
+    note = html_text(figure.note)
     if file and figure.kind != "pictures":
-        note += f' <a href="{escape(file, quote=True)}">PDF</a>'
+        note += f' <a href="{html_text(file)}">PDF</a>'
     told = f'<p class="note">{note.strip()}</p>' if note else ""
-    head = f"<figcaption>{escape(figure.title)}</figcaption>"
+    head = f"<figcaption>{html_text(figure.title)}</figcaption>"
     return f"<figure{broad}>{head}{body}{told}</figure>"
 
 
 def _drawn(figure: Figure, number: int) -> str:
-    label = escape(figure.title, quote=True)
+    label = html_text(figure.title)
     return svg(figure, number).replace(
         "<svg", f'<svg role="img" aria-label="{label}"', 1
     )
@@ -246,7 +247,7 @@ def _pictures(figure: Figure) -> str:
     cards = []
     for picture, caption, fine in zip(data["pictures"], captions, good, strict=True):
         source = b64encode(jpeg(picture)).decode()
-        told = escape(caption, quote=True)
+        told = html_text(caption)
         cards.append(
             f'<div class="{"good" if fine else "bad"}">'
             f'<img alt="{told}" src="data:image/jpeg;base64,{source}">{told}</div>'

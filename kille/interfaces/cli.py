@@ -12,7 +12,12 @@ from shlex import join
 from typing import Any, NoReturn
 
 from kille.interfaces.parsing import Parser, Version, counted, positive, seed
-from kille.interfaces.streams import drop_output, prepare_streams
+from kille.interfaces.streams import (
+    drop_output,
+    end_line,
+    prepare_streams,
+    write_error,
+)
 
 __all__ = ["command", "main"]
 
@@ -37,7 +42,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         code = _run(argv)
         sys.stdout.flush()
     except KeyboardInterrupt:
-        sys.stderr.write("\n")
+        end_line()
         return INTERRUPTED
     except BrokenPipeError:
         drop_output()
@@ -46,8 +51,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if error.errno != ENOSPC:
             raise
         drop_output()
-        told = "the output cannot be written: no space left on device"
-        sys.stderr.write(f"kille: {told}\n")
+        write_error("kille: the output cannot be written: no space left on device")
         return FAILED
     return code
 

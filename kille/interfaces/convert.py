@@ -6,10 +6,8 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
-from rich.progress import Progress
-
 from kille.interfaces.amounts import in_bytes, in_frames, why_unwritten
-from kille.interfaces.terminal import FAILED, FINE, complain, console
+from kille.interfaces.terminal import FAILED, FINE, complain, console, labelled_bar
 from kille.sensors.recordings.converting import Format, convert, estimate, format_of
 from kille.sensors.recordings.opening import open_recording
 from kille.sensors.recordings.playing import Recording
@@ -69,8 +67,7 @@ def _converted(
             FAILED,
         )
     screen = console()
-    bar = Progress(console=screen, transient=True, disable=not screen.is_terminal)
-    with bar, whole(out, may_write) as draft:
+    with labelled_bar(screen) as bar, whole(out, may_write) as draft:
         task = bar.add_task(str(out), total=needed.frames)
         convert(recording, draft, into, lambda: bar.advance(task))
     rest = recording.rest

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
 import platform
@@ -31,7 +30,7 @@ from kille.experiments.plans import (
 from kille.experiments.report import page
 from kille.experiments.results import ExperimentError, Result
 from kille.interfaces.grids import print_table
-from kille.interfaces.terminal import FAILED, FINE, complain, console
+from kille.interfaces.terminal import FAILED, FINE, complain, console, print_json
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
 from ttr.files import check_outputs, why_unread, write_whole
@@ -103,7 +102,7 @@ class _Json:
             "failed": list(failures),
             "results": [_facts(name, result) for name, result in found.items()],
         }
-        console().print_json(json.dumps(_plain(told), allow_nan=False))
+        print_json(_plain(told), allow_nan=False)
 
 
 as_tables, as_json = _Tables, _Json
@@ -184,7 +183,7 @@ def _measured(
     failed: Callable[[MethodFailed], None],
 ) -> tuple[Result | None, Methods]:
     """Runs a protocol; on a terminal a bar shows how far it has come."""
-    err = Console(stderr=True)
+    err = console(stderr=True)
     bar = Progress(
         BarColumn(bar_width=24),
         TextColumn("{task.percentage:>3.0f} %"),
@@ -215,8 +214,8 @@ def _write(
     write_whole(
         request.report, page(request.title, list(found.values()), lines, failures)
     )
-    Console(stderr=True, highlight=False, soft_wrap=True).print(
-        f"report: {request.report}" + f" ({MISSING})" * (not can_draw()), markup=False
+    console(stderr=True).print(
+        f"report: {request.report}" + f" ({MISSING})" * (not can_draw())
     )
 
 

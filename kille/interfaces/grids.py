@@ -12,7 +12,8 @@ from rich.table import Table as Grid
 from rich.text import Text
 
 from kille.experiments.report import shown
-from kille.experiments.results import Estimate, Table
+from kille.experiments.results import Cell, Estimate, Table
+from ttr.escapes import terminal_line
 
 __all__ = ["print_table"]
 
@@ -22,12 +23,17 @@ _NUMBERS = int | float | Estimate
 
 def print_table(out: Console, table: Table) -> None:
     """The table: as it is, or on its side, or in parts, or row by row, as it fits."""
+    table = replace(table, columns=tuple(map(terminal_line, table.columns)))
     out.print(Text(f"\n{table.title}", style="italic"), soft_wrap=False)
     for number, part in enumerate(_fitting(table, out.width)):
         out.print("\n" * bool(number), end="")
         out.print(_grid(part, out.width), soft_wrap=False)
     if table.note:
         out.print(Text(table.note, style="dim"), soft_wrap=False)
+
+
+def _shown(cell: Cell) -> str:
+    return terminal_line(shown(cell))
 
 
 def _fitting(table: Table, width: int) -> Sequence[Table]:
@@ -74,7 +80,7 @@ def _some(table: Table, places: Sequence[int]) -> Table:
 
 def _turned(table: Table) -> Table:
     """The table with its rows for columns."""
-    columns = zip(table.columns, *(map(shown, row) for row in table.rows), strict=True)
+    columns = zip(table.columns, *(map(_shown, row) for row in table.rows), strict=True)
     heads, *rows = columns
     return replace(table, columns=heads, rows=tuple(rows))
 
@@ -82,7 +88,9 @@ def _turned(table: Table) -> Table:
 def _widths(table: Table, lines: int) -> list[int]:
     """How wide each column is whose head may take so many lines."""
     return [
-        max([_narrowest(head, lines), *(cell_len(shown(row[i])) for row in table.rows)])
+        max(
+            [_narrowest(head, lines), *(cell_len(_shown(row[i])) for row in table.rows)]
+        )
         for i, head in enumerate(table.columns)
     ]
 
@@ -133,5 +141,5 @@ def _grid(table: Table, width: int) -> Grid:
             overflow="fold",
         )
     for row in table.rows:
-        grid.add_row(*(Text(shown(cell)) for cell in row))
+        grid.add_row(*(Text(_shown(cell)) for cell in row))
     return grid

@@ -6,10 +6,11 @@ import argparse
 import difflib
 import math
 import re
-import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from typing import Any, NoReturn
+
+from kille.interfaces.streams import write, write_error
 
 __all__ = ["Parser", "Version", "counted", "positive", "seed"]
 
@@ -26,7 +27,8 @@ class Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Say what is wrong in one line, and leave."""
         message = self._with_way_out(message)
-        self.exit(WRONG_USE, f"{self.prog}: {message} ({self.prog} --help says more)\n")
+        write_error(f"{self.prog}: {message} ({self.prog} --help says more)")
+        self.exit(WRONG_USE)
 
     def _with_way_out(self, message: str) -> str:
         if found := re.search(r"invalid choice: '(.*)' \(choose from (.*)\)", message):
@@ -72,5 +74,5 @@ class Version(argparse.Action):
         """Print it, and leave."""
         from importlib.metadata import version
 
-        sys.stdout.write(f"kille {version('kille')}\n")
+        write(f"kille {version('kille')}")
         parser.exit()

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
 
 from rich.console import Console
-from rich.progress import track
 
-from kille.interfaces.terminal import FAILED, FINE, complain, console
+from kille.interfaces.terminal import (
+    FAILED,
+    FINE,
+    complain,
+    console,
+    labelled_bar,
+    print_json,
+)
 from kille.memory import MemoryFileError
 from kille.replay import Echo, play
 from kille.sensors.sensor import SensorError
@@ -64,21 +69,16 @@ def in_brief(plan: Plan) -> Iterator[Outcome]:
     """Prints what differs, and a line for each file; a bar on a terminal meanwhile."""
     out = console()
     for file, stories in plan:
-        played = track(
-            stories,
-            description=str(file),
-            console=out,
-            transient=True,
-            disable=not out.is_terminal,
-        )
-        outcomes = [_outcome(file, story) for story in played]
+        with labelled_bar(out) as bar:
+            played = bar.track(stories, description=str(file))
+            outcomes = [_outcome(file, story) for story in played]
         yield from _summed_up(out, file, outcomes)
 
 
 def as_json(plan: Plan) -> Iterator[Outcome]:
     """Prints a list of objects, one for each story, for machines."""
     outcomes = [_outcome(file, story) for file, stories in plan for story in stories]
-    console().print_json(json.dumps([facts(outcome) for outcome in outcomes]))
+    print_json([facts(outcome) for outcome in outcomes])
     yield from outcomes
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
 from io import StringIO, TextIOWrapper
 
-__all__ = ["drop_output", "prepare_streams"]
+__all__ = ["drop_output", "end_line", "prepare_streams", "write", "write_error"]
 
 
 def prepare_streams() -> None:
@@ -20,6 +21,40 @@ def prepare_streams() -> None:
             setattr(sys, name, StringIO())
         elif isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")
+    if logging.lastResort is not None:
+        logging.lastResort.setFormatter(_Visible())
+
+
+class _Visible(logging.Formatter):
+    """What a part of the program logs, and nobody else takes, as it may be printed."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        return _as_shown(super().format(record))
+
+
+def write(text: str) -> None:
+    """Prints a line on the output; what cannot be seen is made visible."""
+    sys.stdout.write(f"{_as_shown(text)}\n")
+
+
+def write_error(text: str) -> None:
+    """Prints a line on the error stream, at once."""
+    sys.stderr.write(f"{_as_shown(text)}\n")
+    sys.stderr.flush()
+
+
+def end_line() -> None:
+    """Begins a new line on the error stream, as after a Ctrl-C that is echoed."""
+    write_error("")
+
+
+def _as_shown(text: str) -> str:
+    if text.isascii() and text.isprintable():
+        return text
+    # Imported here, so that --version and the like need not wait for `ttr`.
+    from ttr.escapes import terminal_text
+
+    return terminal_text(text)
 
 
 def drop_output() -> None:

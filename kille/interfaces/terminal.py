@@ -1,4 +1,8 @@
-"""What the commands have in common: saying something, complaining, choosing a file."""
+"""What the commands have in common: saying something, complaining, choosing a file.
+
+All that they print goes through here, where what cannot be seen is made visible: no
+word, file or device can speak to the terminal in escape codes, or in rich's markup.
+"""
 
 from __future__ import annotations
 
@@ -6,19 +10,32 @@ import re
 import shutil
 import sys
 import textwrap
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
-from rich.console import Console
+from rich.console import Console, ConsoleOptions, RenderableType
+from rich.highlighter import JSONHighlighter
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.segment import Segment
+from rich.text import Text
+
+from kille.interfaces.streams import end_line, write_error
+from ttr.escapes import json_text, terminal_line, terminal_text
 
 __all__ = [
     "FAILED",
     "FINE",
     "WRONG_USE",
+    "ask",
     "complain",
     "console",
+    "end_line",
     "hanging",
     "hanging_type",
+    "labelled_bar",
     "memory_path",
+    "print_json",
 ]
 
 FINE, FAILED, WRONG_USE = 0, 1, 2
@@ -28,24 +45,63 @@ _FIRM = "\N{NO-BREAK SPACE}"
 
 
 class _Console(Console):
-    """A console that leaves it to `main` what a closed pipe comes to."""
+    """A console that prints words as they are, and makes visible what cannot be seen.
+
+    It leaves it to `main` what a closed pipe comes to.
+    """
+
+    def render_str(self, text: str, **settings: Any) -> Text:
+        """A text with its style, of which the width is known."""
+        return super().render_str(terminal_text(text), **settings)
+
+    def render(
+        self, renderable: RenderableType, options: ConsoleOptions | None = None
+    ) -> Iterator[Segment]:
+        """The pieces to be printed; only a console's own may be escape codes."""
+        for piece in super().render(renderable, options):
+            safe = Segment(terminal_text(piece.text), piece.style)
+            yield piece if piece.control else safe
 
     def on_broken_pipe(self) -> None:
         self.quiet = True
         raise BrokenPipeError
 
 
-def console() -> Console:
+def console(*, stderr: bool = False) -> Console:
     """Where output goes: plain text in a pipe, colours in a terminal."""
-    return _Console(highlight=False, soft_wrap=True)
+    return _Console(
+        stderr=stderr, markup=False, emoji=False, highlight=False, soft_wrap=True
+    )
+
+
+def print_json(value: Any, **settings: Any) -> None:
+    """Prints a value for machines; the settings are those of `json.dumps`."""
+    text = Text(json_text(value, indent=2, **settings))
+    console().print(JSONHighlighter()(text))
+
+
+def labelled_bar(out: Console) -> Progress:
+    """A bar on a terminal, with its label in front and the time left behind."""
+    return Progress(
+        TextColumn("{task.description}", style="progress.description", markup=False),
+        BarColumn(),
+        TextColumn("{task.percentage:>3.0f}%", style="progress.percentage"),
+        TimeRemainingColumn(),
+        console=out,
+        transient=True,
+        disable=not out.is_terminal,
+    )
+
+
+def ask(prompt: str) -> str:
+    """A line that is typed after a prompt; raises `EOFError` where there is none."""
+    return input(terminal_line(prompt))
 
 
 def complain(problem: object, code: int = WRONG_USE) -> int:
     """Says in one line what is wrong, after all that was said before; the exit code."""
     sys.stdout.flush()
-    line = " ".join(str(problem).split())
-    sys.stderr.write(f"kille: {line}\n")
-    sys.stderr.flush()
+    write_error(f"kille: {' '.join(str(problem).split())}")
     return code
 
 
@@ -61,6 +117,16 @@ def hanging(mark: str, text: str) -> str:
 
     A pipe counts as 100 columns wide.
     """
+    return _filled(terminal_line(mark), terminal_text(text))
+
+
+def hanging_type(mark: str, text: str) -> str:
+    """The same for a type or a record: it is broken only between its parts."""
+    whole = re.sub(r"(?<!,) ", _FIRM, terminal_text(text))
+    return _filled(terminal_line(mark), whole).replace(_FIRM, " ")
+
+
+def _filled(mark: str, text: str) -> str:
     return textwrap.fill(
         text,
         max(_columns(), len(mark) + 20),
@@ -69,12 +135,6 @@ def hanging(mark: str, text: str) -> str:
         break_long_words=False,
         break_on_hyphens=False,
     )
-
-
-def hanging_type(mark: str, text: str) -> str:
-    """The same for a type or a record: it is broken only between its parts."""
-    whole = re.sub(r"(?<!,) ", _FIRM, text)
-    return hanging(mark, whole).replace(_FIRM, " ")
 
 
 def _columns() -> int:

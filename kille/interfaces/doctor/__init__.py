@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 
@@ -12,7 +11,7 @@ from kille.interfaces.doctor.kinect import kinect
 from kille.interfaces.doctor.packages import extras, packages
 from kille.interfaces.doctor.ros import ros
 from kille.interfaces.doctor.speech import speech
-from kille.interfaces.terminal import FAILED, FINE, console, hanging
+from kille.interfaces.terminal import FAILED, FINE, console, hanging, print_json
 
 __all__ = ["Finding", "as_json", "as_text", "doctor"]
 
@@ -47,7 +46,7 @@ def doctor(report: Report) -> int:
 
 def as_json(findings: Sequence[Finding]) -> None:
     """The findings as a list of objects, for machines."""
-    console().print_json(json.dumps([asdict(finding) for finding in findings]))
+    print_json([asdict(finding) for finding in findings])
 
 
 def as_text(findings: Sequence[Finding]) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from rich.console import Console
 from rich.progress import BarColumn, TaskID, TextColumn, TimeRemainingColumn
 from rich.progress import Progress as Bar
 
+from kille.interfaces.terminal import console
 from kille.studies.running import Progress
 
 __all__ = ["bar"]
@@ -20,7 +20,7 @@ PACE_SECONDS = 300
 @contextmanager
 def bar() -> Iterator[Callable[[Progress], None]]:
     """On a terminal a bar shows how far it has come, and how long it will take."""
-    err = Console(stderr=True)
+    err = console(stderr=True)
     shown = Bar(
         BarColumn(bar_width=24),
         TextColumn("{task.completed:,.0f} of {task.total:,.0f}{task.description}"),

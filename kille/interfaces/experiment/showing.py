@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import groupby
@@ -13,7 +12,7 @@ from typing import Any, TypeAlias
 from kille.experiments.results import Table
 from kille.interfaces.experiment.checking import MISTAKES, complain_all
 from kille.interfaces.grids import print_table
-from kille.interfaces.terminal import FAILED, FINE, console, hanging
+from kille.interfaces.terminal import FAILED, FINE, console, hanging, print_json
 from kille.simulation.worlds import World
 from kille.studies import log
 from kille.studies.log.outcomes import Broken, Finished, Outcome
@@ -98,7 +97,7 @@ def as_json(it: Outcome) -> None:
                 "turns": [turn._asdict() for turn in played.turns],
                 "answers": [_plain(answer) for answer in played.answers],
             }
-    console().print_json(json.dumps(told, allow_nan=False))
+    print_json(told, allow_nan=False)
 
 
 def _plain(answer: Answer) -> dict[str, Any]:

@@ -16,10 +16,10 @@ from kille.memory import (
     Turn,
 )
 from kille.scene import Direction, Point, Traits
+from ttr.escapes import terminal_word
 
 __all__ = [
     "colours",
-    "legible",
     "lengths",
     "looks",
     "said",
@@ -33,7 +33,6 @@ _KINDS = {
     "attribute": "how a thing is",
     "relation": "where a thing is",
 }
-_UNSHOWN = "\N{REPLACEMENT CHARACTER}"
 _NEARLY_NOTHING = 0.01  # metres: the cue of size is the logarithm of a length and this
 _HOLDS, _MOST_COLOURS = 0.5, 3
 _UNMOVED = 0.005  # metres that nobody would mention
@@ -46,23 +45,14 @@ def when(time: str) -> str:
 
 def said(turn: Turn) -> str:
     """Who said what when."""
-    return legible(f"{turn.speaker}, {when(turn.time)}: {turn.text}")
+    return terminal_word(f"{turn.speaker}, {when(turn.time)}: {turn.text}")
 
 
 def title(lesson: Lesson) -> str:
     """Which lesson it is, and in which word, or in what it does not hold of."""
     word = lesson.word
     what = word.surface if lesson.holds else f"not {word.surface}"
-    return legible(f"{what} ({_KINDS[word.kind]}), lesson {lesson.key}")
-
-
-def legible(text: str) -> str:
-    """The text without what would change how a terminal looks.
-
-    >>> legible("red: \x1b[31mcup")
-    'red: �[31mcup'
-    """
-    return "".join(it if it.isprintable() else _UNSHOWN for it in text)
+    return terminal_word(f"{what} ({_KINDS[word.kind]}), lesson {lesson.key}")
 
 
 def seen(lesson: ObjectLesson | RelationLesson) -> Iterator[str]:
@@ -72,7 +62,7 @@ def seen(lesson: ObjectLesson | RelationLesson) -> Iterator[str]:
         case Sighting() as sighting:
             yield from _sighted(sighting)
         case Arrangement() as stand:
-            yield f"seen through {legible(stand.sensor)}"
+            yield f"seen through {terminal_word(stand.sensor)}"
             things = f"{_words(stand.target)} from {_words(stand.landmark)}"
             yield f"{things}: {_where(stand.configuration.offset)}"
 
@@ -110,7 +100,7 @@ def colours(traits: Traits) -> tuple[str, ...]:
 
 def _sighted(sighting: Sighting) -> Iterator[str]:
     features = sum(len(scan.descriptors) for scan in sighting.scans)
-    yield f"seen through {legible(sighting.sensor)}, by {features} features"
+    yield f"seen through {terminal_word(sighting.sensor)}, by {features} features"
     if sighting.place is not None:
         yield f"{math.hypot(*sighting.place):.2f} m from the camera"
 
@@ -142,4 +132,4 @@ def _where(offset: Direction) -> str:
 
 
 def _words(name: str) -> str:
-    return legible(name.replace("_", " "))
+    return terminal_word(name.replace("_", " "))

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from kille.interfaces.memory.choosing import latest, lessons_named
-from kille.interfaces.memory.describing import legible, said, title
+from kille.interfaces.memory.describing import said, title
 from kille.interfaces.terminal import (
     FAILED,
     FINE,
+    ask,
     complain,
     console,
     hanging,
     memory_path,
+    print_json,
 )
 from kille.memory import (
     Lesson,
@@ -24,6 +25,7 @@ from kille.memory import (
     MemoryReader,
     NoSuchLessonError,
 )
+from ttr.escapes import terminal_word
 
 __all__ = ["as_json", "as_text", "asked", "forget", "last", "of", "sure"]
 
@@ -87,7 +89,7 @@ def asked(lessons: Sequence[Lesson]) -> bool:
         console().print(_line(lesson), markup=False)
     many = "this lesson" if len(lessons) == 1 else f"these {len(lessons)} lessons"
     try:
-        answer = input(f"Forget {many} for good? [y/N] ")
+        answer = ask(f"Forget {many} for good? [y/N] ")
     except EOFError:
         answer = ""
     if answer.strip().lower() in ("y", "yes"):
@@ -103,7 +105,7 @@ def as_json(lessons: Sequence[Lesson], gone: Sequence[str]) -> None:
         for it in lessons
     ]
     facts = {"forgotten": forgotten, "words_gone": list(gone)}
-    console().print_json(json.dumps(facts))
+    print_json(facts)
 
 
 def as_text(lessons: Sequence[Lesson], gone: Sequence[str]) -> None:
@@ -112,7 +114,7 @@ def as_text(lessons: Sequence[Lesson], gone: Sequence[str]) -> None:
     for lesson in lessons:
         out.print(hanging("  ", f"Forgotten: {_line(lesson)}").lstrip(), markup=False)
     for word in gone:
-        out.print(f"The word {legible(word)} is gone.", markup=False)
+        out.print(f"The word {terminal_word(word)} is gone.", markup=False)
 
 
 def _line(lesson: Lesson) -> str:

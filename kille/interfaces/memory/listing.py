@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from rich.table import Table
-from rich.text import Text
 
-from kille.interfaces.memory.describing import legible, when
-from kille.interfaces.terminal import FINE, complain, console, memory_path
+from kille.interfaces.memory.describing import when
+from kille.interfaces.terminal import FINE, complain, console, memory_path, print_json
 from kille.memory import Lesson, Memory, MemoryFileError
+from ttr.escapes import terminal_word
 
 __all__ = ["as_json", "as_table", "list_words"]
 
@@ -45,7 +44,7 @@ def list_words(given: Path | None, report: Report) -> int:
 
 def as_json(_: Path, entries: Sequence[_Entry]) -> None:
     """The words as a list of objects, for machines."""
-    console().print_json(json.dumps([asdict(entry) for entry in entries]))
+    print_json([asdict(entry) for entry in entries])
 
 
 def as_table(path: Path, entries: Sequence[_Entry]) -> None:
@@ -70,10 +69,11 @@ def _entries(lessons: Sequence[Lesson]) -> list[_Entry]:
 
 
 def _table(path: Path, entries: Sequence[_Entry]) -> Table:
-    table = Table(title=Text(str(path)), title_justify="left", box=None, pad_edge=False)
+    title = terminal_word(str(path))
+    table = Table(title=title, title_justify="left", box=None, pad_edge=False)
     for heading in ("word", "kind", "lessons", "last taught"):
         table.add_column(heading, justify="right" if heading == "lessons" else "left")
     for entry in entries:
-        word, last = Text(legible(entry.word)), Text(legible(when(entry.last_taught)))
+        word, last = terminal_word(entry.word), terminal_word(when(entry.last_taught))
         table.add_row(word, entry.kind, str(entry.lessons), last)
     return table

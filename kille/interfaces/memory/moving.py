@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 
-from kille.interfaces.terminal import FINE, complain, console, memory_path
+from kille.interfaces.terminal import FINE, complain, console, memory_path, print_json
 from kille.memory import Memory, MemoryFileError
 from kille.memory.exporting import export
 from kille.memory.importing import opened
@@ -47,7 +46,7 @@ def import_memory(given: Path | None, source: Path, report: Report) -> int:
 
 def as_json(_: str, amounts: Mapping[str, int]) -> None:
     """The amounts, for machines."""
-    console().print_json(json.dumps(dict(amounts)))
+    print_json(dict(amounts))
 
 
 def as_text(done: str, amounts: Mapping[str, int]) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
@@ -20,7 +19,14 @@ from kille.interfaces.memory.describing import (
     seen,
     title,
 )
-from kille.interfaces.terminal import FINE, complain, console, hanging, memory_path
+from kille.interfaces.terminal import (
+    FINE,
+    complain,
+    console,
+    hanging,
+    memory_path,
+    print_json,
+)
 from kille.memory import (
     Memory,
     MemoryFileError,
@@ -68,7 +74,7 @@ def show(given: Path | None, named: str, out: Path | None, report: Report) -> in
 
 def as_json(shown: Iterable[Shown]) -> None:
     """The lessons as a list of objects, for machines."""
-    console().print_json(json.dumps([_facts(it) for it in shown]))
+    print_json([_facts(it) for it in shown])
 
 
 def as_text(shown: Iterable[Shown]) -> None:

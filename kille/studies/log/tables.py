@@ -7,7 +7,6 @@ its own. Where pyarrow is installed, each table is written as Parquet, too.
 
 from __future__ import annotations
 
-import csv
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager
@@ -19,6 +18,7 @@ from kille.studies.log.cells import Cell, cells, columns
 from kille.studies.log.outcomes import Broken, Finished, Outcome, RunError
 from kille.studies.log.reading import facts, outcomes
 from kille.studies.played import Answer, Turn
+from ttr.escapes import csv_line
 from ttr.files import why_unwritten
 
 __all__ = ["TABLES", "write_tables"]
@@ -125,10 +125,9 @@ def _writers() -> Mapping[str, _Writing]:
 
 @contextmanager
 def _csv(kinds: Mapping[str, str], path: Path) -> Iterator[_Write]:
-    with path.open("w", encoding="utf-8", errors="replace", newline="") as file:
-        out = csv.writer(file, lineterminator="\n")
-        out.writerow(kinds)
-        yield out.writerows
+    with path.open("w", encoding="utf-8", newline="") as file:
+        file.write(csv_line(kinds))
+        yield lambda rows: file.writelines(map(csv_line, rows))
 
 
 @contextmanager

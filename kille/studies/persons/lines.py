@@ -11,6 +11,8 @@ from contextlib import suppress
 from importlib import import_module
 from typing import TypeAlias
 
+from ttr.escapes import terminal_line, terminal_text
+
 __all__ = ["Ask", "Gone", "ready", "typed"]
 
 Ask: TypeAlias = Callable[[str], str]
@@ -64,7 +66,7 @@ def ready(text: str) -> None:
 def _line(told: str, prompt: str) -> str:
     if told:
         _show(told)
-    line = input(prompt)
+    line = input(terminal_line(prompt))
     if _NO_CHARACTER.search(line):
         raise _Garbled
     if not sys.stdin.isatty():  # what comes through a pipe is not on the screen yet
@@ -73,7 +75,7 @@ def _line(told: str, prompt: str) -> str:
 
 
 def _show(text: str) -> None:
-    sys.stdout.write(f"{_fitted(text)}\n")
+    sys.stdout.write(f"{_fitted(terminal_text(text))}\n")
     sys.stdout.flush()
 
 

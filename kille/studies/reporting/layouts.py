@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from html import escape
 from itertools import cycle
 from typing import NamedTuple
 
@@ -12,6 +11,7 @@ from kille.experiments.strokes import HUES
 from ttr import Record, TypeNode
 from ttr.display.layout import Layout, Matrix, Row, Word, laid_out
 from ttr.display.markup import part_of_page
+from ttr.escapes import html_text
 
 __all__ = ["Described", "apart", "shortened", "side_by_side"]
 
@@ -35,7 +35,7 @@ def side_by_side(theories: Mapping[str, Described]) -> Iterator[str]:
         if len(groups) == 1:
             same[part] = groups[0].value
             continue
-        yield f"<h3>{escape(part)}</h3>"
+        yield f"<h3>{html_text(part)}</h3>"
         yield from _apart(groups, hues)
     yield from _the_same({part: it for part, it in same.items() if it}, len(theories))
 
@@ -78,7 +78,7 @@ def _the_same(parts: Mapping[str, object], count: int) -> Iterator[str]:
     """What all have in common, folded; what it is about is said."""
     about = parts.get("about")
     if about:
-        yield f"<p>{escape(str(about))}</p>"
+        yield f"<p>{html_text(str(about))}</p>"
     folded = {part: it for part, it in parts.items() if part != "about"}
     if folded:
         head = "the same in all: " if count > 1 else ""
@@ -210,15 +210,15 @@ def _columns(
 def _called(names: Sequence[str], hues: Mapping[str, str]) -> str:
     """The names of theories, each with its hue where there are several."""
     if len(names) == 1:
-        return escape(names[0])
+        return html_text(names[0])
     return "".join(
-        f'<span class="of" style="--hue: {hues[name]}">{escape(name)}</span>'
+        f'<span class="of" style="--hue: {hues[name]}">{html_text(name)}</span>'
         for name in names
     )
 
 
 def _folded(summary: str, inside: str) -> Iterator[str]:
-    yield f"<details><summary>{escape(summary)}</summary>{inside}</details>"
+    yield f"<details><summary>{html_text(summary)}</summary>{inside}</details>"
 
 
 # --- texts by name -------------------------------------------------------------------
@@ -240,7 +240,7 @@ def _listed(groups: Sequence[_Group], hues: Mapping[str, str]) -> Iterator[str]:
         yield '<div class="scroll"><table><thead><tr><th></th>'
         yield f"{heads}</tr></thead><tbody>"
         for name, of in differing.items():
-            yield f"<tr><td><code>{escape(name)}</code></td>{_row_of(of)}</tr>"
+            yield f"<tr><td><code>{html_text(name)}</code></td>{_row_of(of)}</tr>"
         yield "</tbody></table></div>"
     same = {name: of[0] for name, of in entries.items() if name not in differing}
     if same:
@@ -263,7 +263,7 @@ def _row_of(entries: Sequence[object]) -> str:
 
 def _names(texts: Mapping[str, object]) -> str:
     lines = (
-        f"<dt><code>{escape(name)}</code></dt><dd>{_text(str(text))}</dd>"
+        f"<dt><code>{html_text(name)}</code></dt><dd>{_text(str(text))}</dd>"
         for name, text in texts.items()
     )
     return f"<dl>{''.join(lines)}</dl>"
@@ -277,4 +277,4 @@ def _entry(text: object) -> str:
 
 def _text(text: str) -> str:
     """A text; one of several lines is code."""
-    return f"<pre>{escape(text)}</pre>" if "\n" in text else escape(text)
+    return f"<pre>{html_text(text)}</pre>" if "\n" in text else html_text(text)

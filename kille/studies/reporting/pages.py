@@ -6,7 +6,6 @@ Each number of a report leads to one of them. They need nothing but the report's
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from html import escape
 from itertools import combinations, cycle
 
 from kille.experiments.report import beginning
@@ -19,6 +18,7 @@ from kille.studies.reporting.findings import Theories
 from kille.studies.reporting.happenings import happening
 from kille.studies.reporting.places import Places
 from kille.studies.reporting.styles import DIALOGUES, THEORIES
+from ttr.escapes import html_address, html_text
 
 __all__ = ["pages"]
 
@@ -34,7 +34,7 @@ def pages(theories: Theories, places: Places, report: str) -> Iterator[Page]:
     `report` is the name of the page that leads to them, a folder further out.
     """
     for name, title, body in _pages(theories, places):
-        back = f'<p><a href="../{escape(report, quote=True)}">report</a></p>'
+        back = f'<p><a href="../{html_address(report)}">report</a></p>'
         parts = (*beginning(title, THEORIES + DIALOGUES), back, *body, "</body></html>")
         yield _file(name), "\n".join(parts) + "\n"
 
@@ -74,7 +74,7 @@ def _title(dialogue: Dialogue) -> str:
 
 
 def _link(place: str, text: str) -> str:
-    return f'<a href="{escape(_beside(place), quote=True)}">{escape(text)}</a>'
+    return f'<a href="{html_text(_beside(place))}">{html_text(text)}</a>'
 
 
 # --- what was said -------------------------------------------------------------------
@@ -88,15 +88,15 @@ def _said(dialogues: Sequence[Dialogue], places: Places) -> Iterator[str]:
         name = it.run.theory
         yield f'<div id="{_anchor(it, places)}" style="--hue: {hues[name]}">'
         yield f"<h4>{_link(places.theory(name), name)}</h4>"
-        yield f'<p class="note">{escape(_summary(it))}</p></div>'
+        yield f'<p class="note">{html_text(_summary(it))}</p></div>'
     yield "</div>"
     for phase in dict.fromkeys(turn.phase for it in dialogues for turn in it.turns):
-        yield f'<h3>{escape(phase)}</h3><div class="theories">'
+        yield f'<h3>{html_text(phase)}</h3><div class="theories">'
         for it in dialogues:
             name = it.run.theory
             yield f'<div style="--hue: {hues[name]}">'
             if len(dialogues) > 1:
-                yield f'<p class="called">{escape(name)}</p>'
+                yield f'<p class="called">{html_text(name)}</p>'
             yield from _turns(it, phase, f"{_anchor(it, places)}-turn")
             yield "</div>"
         yield "</div>"
@@ -132,17 +132,17 @@ def _turn(turn: Turn, who: str, answers: Sequence[Scored], anchor: str) -> str:
     """A turn; who of several tutors speaks in it is said."""
     lines = [_given(turn, who)] if turn.given else []
     if turn.answer:
-        lines.append(f'<p class="robot">{escape(turn.answer)}</p>')
-    lines += [f"<p>{_mark(it)} {escape(_told(it))}</p>" for it in answers]
+        lines.append(f'<p class="robot">{html_text(turn.answer)}</p>')
+    lines += [f"<p>{_mark(it)} {html_text(_told(it))}</p>" for it in answers]
     told = f"<span>{turn.number}</span>"
     return f'<div class="turn" id="{anchor}">{told}{"".join(lines)}</div>'
 
 
 def _given(turn: Turn, who: str) -> str:
     if not turn.words:
-        return f'<p class="happens">{escape(happening(turn.given))}</p>'
-    named = f'<span class="who">{escape(who)}:</span> ' if who else ""
-    return f"<p>{named}{escape(turn.given)}</p>"
+        return f'<p class="happens">{html_text(happening(turn.given))}</p>'
+    named = f'<span class="who">{html_text(who)}:</span> ' if who else ""
+    return f"<p>{named}{html_text(turn.given)}</p>"
 
 
 def _mark(answer: Scored) -> str:
@@ -168,11 +168,11 @@ def _dialogues(
     yield f"<p>{_link(places.answers(name), 'all answers')}</p>"
     for tutor, number in places.tutors.items():
         found = [it for it in dialogues if it.run.tutor == tutor]
-        yield f'<h3 id="tutor-{number}">tutor {escape(tutor)}</h3>'
+        yield f'<h3 id="tutor-{number}">tutor {html_text(tutor)}</h3>'
         yield from _table(_HEADS, (_row(it, places) for it in found))
     for scene, number in places.scenes.items():
         found = [it for it in dialogues if it.run.scene == scene]
-        yield f'<h3 id="scene-{number}">scene {escape(scene)}</h3>'
+        yield f'<h3 id="scene-{number}">scene {html_text(scene)}</h3>'
         yield from _table(_HEADS, (_row(it, places) for it in found))
 
 
@@ -191,7 +191,7 @@ def _row(it: Dialogue, places: Places) -> tuple[str, ...]:
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
     """Cells are pieces of a page already; all but the first are numbers."""
     yield '<div class="scroll"><table><thead><tr>'
-    yield _cells("th", [escape(head) for head in heads])
+    yield _cells("th", [html_text(head) for head in heads])
     yield "</tr></thead><tbody>"
     for row in rows:
         yield f"<tr>{_cells('td', row)}</tr>"
@@ -219,22 +219,22 @@ def _answers(name: str, dialogues: Sequence[Dialogue], places: Places) -> Iterat
     given = [(it, answer) for it in dialogues for answer in it.answers]
     for kind, number in places.kinds.items():
         of_kind = [it for it in given if it[1].kind == kind]
-        yield f'<h2 id="kind-{number}">{escape(kind)}</h2>'
+        yield f'<h2 id="kind-{number}">{html_text(kind)}</h2>'
         for (its, word), place in places.words.items():
             if its != kind:
                 continue
             found = [it for it in of_kind if it[1].right == word]
-            yield f'<h3 id="word-{place}">{escape(word)}</h3>'
+            yield f'<h3 id="word-{place}">{html_text(word)}</h3>'
             yield from _grouped(found, places)
     for phase, number in places.phases.items():
         found = [it for it in given if it[1].phase == phase]
         if found:
-            yield f'<h2 id="phase-{number}">in {escape(phase)}</h2>'
+            yield f'<h2 id="phase-{number}">in {html_text(phase)}</h2>'
             yield from _grouped(found, places)
     for way, number in places.ways.items():
         found = [it for it in given if it[1].way == way]
         if found:
-            yield f'<h2 id="way-{number}">as {escape(way)}</h2>'
+            yield f'<h2 id="way-{number}">as {html_text(way)}</h2>'
             yield from _grouped(found, places)
 
 
@@ -248,8 +248,8 @@ def _grouped(given: Sequence[_Given], places: Places) -> Iterator[str]:
     for (right, said), them in sorted(groups.items()):
         links = "".join(_to_turn(it, answer, places) for it, answer in them)
         yield (
-            f"<tr><td>{_mark(them[0][1])}</td><td>{escape(right)}</td>"
-            f'<td>{escape(said or "–")}</td><td class="number">{len(them)}</td>'
+            f"<tr><td>{_mark(them[0][1])}</td><td>{html_text(right)}</td>"
+            f'<td>{html_text(said or "–")}</td><td class="number">{len(them)}</td>'
             f'<td class="links">{links}</td></tr>'
         )
     yield "</tbody></table></div>"

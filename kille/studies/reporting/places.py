@@ -22,7 +22,10 @@ _Name = TypeVar("_Name")
 
 @dataclass(frozen=True)
 class Places:
-    """The places of dialogues, by numbers from 1; `folder` is seen from the report."""
+    """The places of dialogues, by numbers from 1.
+
+    `folder` is the address of their folder, as seen from the report.
+    """
 
     folder: str
     theories: Mapping[str, int]

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from html import escape
 from itertools import chain, combinations
 from pathlib import Path
 
@@ -36,6 +35,7 @@ from kille.studies.reporting.places import Places, places_of
 from kille.studies.reporting.styles import PAGE, THEORIES
 from ttr import TTRError
 from ttr.display import markup
+from ttr.escapes import html_address, html_text
 from ttr.files import why_unwritten, write_whole
 
 __all__ = ["Subject", "every_two", "results_of", "write"]
@@ -119,7 +119,8 @@ def write(subject: Subject, page: Path) -> list[Result]:
 def _write(subject: Subject, page: Path) -> list[Result]:
     dialogues = _emptied(page.with_name(f"{page.stem}-dialogues"), *_PAGES)
     everything = [it for them in subject.theories.values() for it in them]
-    places = places_of(list(subject.theories), everything, dialogues.name)
+    address = html_address(dialogues.name)
+    places = places_of(list(subject.theories), everything, address)
     found = results_of(subject, places)
     for name, text in pages(subject.theories, places, page.name):
         (dialogues / name).write_text(text, "utf-8")
@@ -130,7 +131,8 @@ def _write(subject: Subject, page: Path) -> list[Result]:
         for place, figure in enumerate(result.figures if can_draw() else ()):
             file = figures / file_of(part, place, figure)
             file.write_bytes(pdf(figure))
-    write_whole(page, "\n".join(_page(subject, parts, figures.name)) + "\n")
+    lines = _page(subject, parts, html_address(figures.name))
+    write_whole(page, "\n".join(lines) + "\n")
     return found
 
 
@@ -166,12 +168,12 @@ _GIST, _THEORIES, _FIRST = 1, 2, 3
 def _page(subject: Subject, parts: Mapping[int, Result], figures: str) -> Iterator[str]:
     yield from beginning(subject.title, PAGE + THEORIES + markup.STYLE)
     for paragraph in filter(None, re.split(r"\n\s*\n", subject.lead.strip())):
-        yield f"<p>{escape(paragraph)}</p>"
+        yield f"<p>{html_text(paragraph)}</p>"
     if subject.numbers:
-        yield f'<p class="quiet">{escape(subject.numbers)}</p>'
+        yield f'<p class="quiet">{html_text(subject.numbers)}</p>'
     yield from _wrong(subject)
     if not can_draw():
-        yield f'<p class="note">{escape(MISSING)}</p>'
+        yield f'<p class="note">{html_text(MISSING)}</p>'
     yield from _contents(parts)
     yield from section(_GIST, parts[_GIST], figures)
     yield f'<section><h2 id="part-{_THEORIES}">The theories</h2>'
@@ -182,11 +184,10 @@ def _page(subject: Subject, parts: Mapping[int, Result], figures: str) -> Iterat
             yield from section(number, result, figures)
     if subject.source:
         yield "<h2>The study</h2><details><summary>its file</summary>"
-        yield f"<pre>{escape(subject.source)}</pre></details>"
+        yield f"<pre>{html_text(subject.source)}</pre></details>"
     if subject.files:
         links = ", ".join(
-            f'<a href="{escape(it, quote=True)}">{escape(it)}</a>'
-            for it in subject.files
+            f'<a href="{html_address(it)}">{html_text(it)}</a>' for it in subject.files
         )
         yield f"<p>The numbers, for R and others: {links}.</p>"
     yield from ending(subject.about)
@@ -198,14 +199,14 @@ def _contents(parts: Mapping[int, Result]) -> Iterator[str]:
     }
     yield "<nav><ul>"
     for number, title in sorted(titles.items()):
-        yield f'<li><a href="#part-{number}">{escape(title)}</a></li>'
+        yield f'<li><a href="#part-{number}">{html_text(title)}</a></li>'
     yield "</ul></nav>"
 
 
 def _wrong(subject: Subject) -> Iterator[str]:
     """What a reader has to know of the numbers, and what broke."""
     for text in (*subject.warnings, *_broken(subject.broken)):
-        yield f'<p class="wrong">{escape(text)}</p>'
+        yield f'<p class="wrong">{html_text(text)}</p>'
 
 
 def _broken(broken: Sequence[tuple[str, str]]) -> Iterator[str]:

@@ -200,7 +200,7 @@ def test_what_another_program_made_up_spoils_no_terminal(memory: Path) -> None:
     assert "cannot be decoded" in shown
     _, listed = on_a_terminal("memory", "list")
     _, gone = on_a_terminal("memory", "forget", "cup", "--yes")
-    assert "�[2J[cup]" in listed
+    assert r"\x1b[2J[cup]" in listed
     shown += listed + gone
     assert not any(code in shown for code in ("\x1b[41m", "\x1b]0", "\x1b[2J"))
 
