@@ -23,7 +23,10 @@ def bar() -> Iterator[Callable[[Progress], None]]:
     err = console(stderr=True)
     shown = Bar(
         BarColumn(bar_width=24),
-        TextColumn("{task.completed:,.0f} of {task.total:,.0f}{task.description}"),
+        TextColumn(
+            "{task.completed:,.0f} of {task.total:,.0f}{task.description}",
+            markup=False,
+        ),
         TimeRemainingColumn(),
         TextColumn("left"),
         console=err,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Literal
 
 from rich.table import Table
 
@@ -72,7 +73,8 @@ def _table(path: Path, entries: Sequence[_Entry]) -> Table:
     title = terminal_word(str(path))
     table = Table(title=title, title_justify="left", box=None, pad_edge=False)
     for heading in ("word", "kind", "lessons", "last taught"):
-        table.add_column(heading, justify="right" if heading == "lessons" else "left")
+        side: Literal["left", "right"] = "right" if heading == "lessons" else "left"
+        table.add_column(heading, justify=side, overflow="fold")
     for entry in entries:
         word, last = terminal_word(entry.word), terminal_word(when(entry.last_taught))
         table.add_row(word, entry.kind, str(entry.lessons), last)

@@ -138,7 +138,8 @@ def _parquet(kinds: Mapping[str, str], path: Path) -> Iterator[_Write]:
     known = {TEXT: pa.string(), INTEGER: pa.int64(), REAL: pa.float64()}
     schema = pa.schema([(name, known[kind]) for name, kind in kinds.items()])
     waiting: list[Row] = []
-    with ParquetWriter(path, schema) as out:
+    # By its name a file might be taken for an address on the network.
+    with path.open("wb") as file, ParquetWriter(file, schema) as out:
 
         def write_group() -> None:
             parts = zip(schema, zip(*waiting, strict=True), strict=True)
