@@ -3,17 +3,26 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import logging
+import sys
 from collections.abc import Callable, Iterator
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
 import pytest
+from rich.cells import cell_len
 
+from kille.experiments.results import Table
+from kille.interfaces.doctor import Finding, as_json, as_text
+from kille.interfaces.grids import print_table
+from kille.interfaces.replay import in_brief, replay
 from kille.interfaces.streams import prepare_streams
+from kille.interfaces.terminal import console
 from kille.memory import Memory, Sighting, Turn
+from kille.studies.persons.lines import typed
 
 Run = Callable[..., Any]
 
@@ -140,15 +149,50 @@ def test_what_is_typed_is_shown_as_it_is_seen(quiet: Run) -> None:
 
 
 def test_a_file_may_be_named_as_markup(
-    quiet: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("FORCE_COLOR", "1")  # bars are drawn as in a terminal
-    file = Path("[red][x]:smile:.dlg")
-    file.write_text("--- [bold]hello\nU> Hello.\nS> Hello.\n")
-    from kille.interfaces.replay import in_brief, replay
-
+    file = Path("[/x]:smile:.dlg")
+    file.parent.mkdir()
+    file.write_text("--- [/bold]hello\nU> Hello.\nS> Hello.\n")
     assert replay([file], in_brief, None) in (0, 1)
+    assert "[/x]:smile:.dlg" in capsys.readouterr().out
+
+
+def test_a_device_is_called_what_it_says(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    found = [Finding(f"Kinect {WORD}", True, False, WORD, WORD)]
+    as_text(found)
+    shown = capsys.readouterr().out
+    assert obeyed(shown) == []
+    assert SEEN in shown
+    as_json(found)
+    facts = capsys.readouterr().out
+    assert obeyed(facts) == []
+    assert json.loads(facts)[0]["state"] == WORD
+
+
+def test_people_in_a_study_see_what_is_said(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "stdin", io.StringIO(f"{WORD}\n"))
+    assert typed(f"{WORD}\n{WORD}> ") == WORD
+    shown = capsys.readouterr().out
+    assert obeyed(shown) == []
+    assert shown.startswith(f"{SEEN}\n{SEEN}> ")
+
+
+def test_columns_are_as_wide_as_what_is_in_them() -> None:
+    out = console()
+    out.file, out.width = io.StringIO(), 60
+    rows = (("\x1b[31m", 1), ("\u202e犬", 22))
+    print_table(out, Table(WORD, ("\x1b", "n"), rows))
+    shown = out.file.getvalue()
+    assert obeyed(shown) == []
+    *_, one, other = shown.splitlines()
+    assert cell_len(one.rstrip()) == cell_len(other.rstrip())
 
 
 @pytest.fixture
