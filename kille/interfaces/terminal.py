@@ -20,7 +20,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.segment import Segment
 from rich.text import Text
 
-from kille.interfaces.streams import end_line, write_error
+from kille.interfaces.streams import write_error
 from ttr.escapes import json_text, terminal_line, terminal_text
 
 __all__ = [
@@ -30,7 +30,6 @@ __all__ = [
     "ask",
     "complain",
     "console",
-    "end_line",
     "hanging",
     "hanging_type",
     "labelled_bar",
