@@ -222,8 +222,7 @@ class Witnesses:
         """The degree of every noun for a thing."""
         if (x, handle) not in self._named:
             found = self.evidence(x, handle)
-            degrees = {} if found is None else found.degrees()
-            self._named[x, handle] = {w: min(p, 1.0) for w, p in degrees.items()}
+            self._named[x, handle] = {} if found is None else found.degrees()
         return self._named[x, handle]
 
     def _colours_of(self, x: str, handle: str) -> Mapping[str, float]:

@@ -3,16 +3,20 @@
 import pytest
 
 from ttr import (
+    Application,
     Basic,
     IllFormed,
     Ind,
     ListOf,
+    NonEmpty,
     Pred,
     Rec,
     RecType,
     Type,
     Unsupported,
+    fun,
     outer,
+    record,
     rectype,
     subtype,
     this,
@@ -112,6 +116,32 @@ def test_unknown_where_equations_are_not_followed():
     S = rectype(x=A @ {"r": this.x})
     assert subtype(S, rectype(x=B)).unknown
     assert "nothing may be of" in subtype(S, rectype(x=B)).why
+
+
+def test_an_application_that_is_not_worked_out_refutes_nothing():
+    """A record is no list, so Rec ⊑ ¬nelist(A), however nelist(A) is written."""
+    applied = Application(fun(r=Rec)(NonEmpty(A)), record())
+    assert subtype(Rec, ~NonEmpty(A)).yes
+    assert not subtype(Rec, ~applied).no
+
+
+def test_an_application_that_is_not_worked_out_is_not_refuted():
+    """The function gives Rec for every argument, which is below itself."""
+    assert not subtype(Application(fun(y=B)(Rec), "b"), Rec).no
+
+
+def test_what_may_have_no_witness_is_not_refuted():
+    S = rectype(f=B, x=ListOf(B) @ this.f)  # an f would be of B and a list
+    assert subtype(S, rectype(f=C)).unknown
+    assert "but nothing may be of" in subtype(S, rectype(f=C)).why
+
+
+def test_nothing_is_refuted_by_a_witness_of_a_circle_that_nobody_can_build():
+    S = rectype(y=B @ this["n.y"], n=rectype(y=B @ outer.y))
+    T = rectype({"z": A, **dict(S.fields)})
+    assert subtype(T, S).yes
+    assert subtype(S, T).unknown
+    assert subtype(S, T).why.startswith(f"{S} has no field z")
 
 
 WHY = [

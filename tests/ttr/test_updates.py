@@ -155,6 +155,47 @@ def test_a_repetition_that_goes_on_and_on():
         play(repeat(longer, measure="log"))
 
 
+def test_a_fact_that_is_new_makes_a_state_one_that_was_not_there_before():
+    """Nothing goes in a circle where each round knows more than the last."""
+    calm = Pred("calm", Ind)
+    facts = iter(["s1", "s2"])
+
+    @rule(when=rectype(n=Count @ 1))
+    def back(s, model):
+        fact = next(facts, None)
+        if fact is not None:
+            return replace(s, n=0), model.given(fact, calm("a"))
+
+    @rule(when=rectype(n=Count @ 0))
+    def forth(s):
+        return replace(s, n=1)
+
+    after, model, trace = play(repeat(first(back, forth)))
+    assert [step.rule.name for step in trace] == ["forth", "back"] * 2 + ["forth"]
+    assert after.n == 1
+    assert model.judge("s2", calm("a")).holds is True
+
+
+def test_a_condition_is_asked_again_of_the_same_state_in_another_model():
+    calm = Pred("calm", Ind)
+
+    @rule(when=Counter)
+    def learn(s, model):
+        return s, model.given("s1", calm("a"))
+
+    @rule(when=rectype(mood=calm("a")))
+    def rest(s):
+        return replace(s, n=5)
+
+    State = rectype({**dict(Counter.fields), "mood": Ind})
+    start = record(n=0, log=[], mood="s1")
+    model = M.given("s1", Ind)
+    unwatched = run(seq(maybe(rest), learn), start, type=State, model=model)
+    assert [str(step.rule) for step in unwatched.trace] == ["learn"]
+    after = run(seq(maybe(rest), learn, rest), start, type=State, model=model)
+    assert [str(step.rule) for step in after.trace] == ["learn", "rest"]
+
+
 def test_events_are_played_once_and_in_order():
     after, _, trace = play(first(hear, up), events=["a", "b", "c"])
     assert after.log == ("a", "b", "c")
@@ -543,6 +584,8 @@ def test_a_measure_gets_smaller_and_is_never_negative():
     assert play(repeat(down, measure="n"), record(n=3, log=[])).state.n == 0
     with pytest.raises(Endless, match="n should get smaller each time up is repeated"):
         play(repeat(up, measure="n"))
+    with pytest.raises(Endless, match=r"should get smaller .* from 3 to 3"):
+        play(repeat(up, times=2, measure=lambda s: 3))
     with pytest.raises(Endless, match="from 0 to -1"):
         play(repeat(up, measure=lambda s: -s.n))
     with pytest.raises(UpdateError, match="a list or a whole number, found None"):
