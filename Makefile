@@ -12,7 +12,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo talk test bench oracles clean
+.PHONY: help demo talk test bench mutants oracles clean
 
 help: ## show these lines
 	@sed -n 's/^\([a-z]*\):[^#]*## /\1\t/p' Makefile | expand -t 10
@@ -34,6 +34,10 @@ bench: $(SENSES) ## measure how fast things are, on one thread
 	@for script in benchmarks/[!_]*.py; do \
 	    echo "== $$script"; $(SINGLE) $(BIN)/python "$$script" || exit 1; \
 	done
+
+mutants: $(SENSES) ## see which small mistakes in a room its tests miss: make mutants ROOM=memory
+	@$(BIN)/python -m pip install -q -e '.[mutants]'
+	@$(BIN)/python tools/mutants.py $(ROOM)
 
 # Some tests compare with other people's programs: libfreenect's tools with the Kinect
 # driver and the recorder, flite as a tutor's voice, ROS with the nodes. Without them
