@@ -134,6 +134,9 @@ def test_a_repetition_without_progress():
         play(repeat(still))
     with pytest.raises(UpdateError, match="help: let its precondition fail"):
         play(repeat(first(at_three, still)))
+    there_and_back = seq(up, rule(when=Counter)(lambda s: replace(s, n=s.n - 1)))
+    with pytest.raises(Endless, match=r"goes in a circle: up → <lambda> → up"):
+        play(repeat(there_and_back))
 
 
 def test_a_repetition_without_end():
@@ -760,6 +763,32 @@ def test_a_rule_takes_the_likeliest_alternative_of_its_type():
     assert (both.event, both.rule.name) == (other, "likely")
     assert both.p.lo == pytest.approx(0.6)
     assert hears((other, 0.7), (yes, 0.3)).rule.name == "sure"
+
+
+def test_how_sure_an_alternative_is_and_how_well_it_fits_count_together():
+    Wave = Basic("Wave")
+    model = M.given("w", Wave, 0.5).given("v", Wave)
+    waved = answer("waved", Wave, p=0)
+
+    def taken(*alternatives):
+        event = nbest(*alternatives)
+        return run(waved, START, type=Counter, model=model, events=[event]).trace[0]
+
+    assert taken(("w", 0.6), ("v", 0.2)).event == "w"  # .30 and .20
+    assert taken(("w", 0.5), ("v", 0.3)).event == "v"  # .25 and .30
+    assert taken(("w", 0.5), ("v", 0.3)).p.lo == pytest.approx(0.55)
+
+
+def test_a_rule_that_has_to_be_certain_hears_nothing_that_may_be_something_else():
+    hears = heard_as(answer("sure", Yes))
+    assert hears((yes, 0.5), (no, 0.5)) is None
+    assert hears(yes) is not None
+    named = heard_as(answer("a", rectype(yes=Ind @ "a")), answer("b", Yes))
+    assert named((yes, 0.5), (record(yes="b"), 0.5)).rule.name == "b"
+
+
+def test_an_event_that_lacks_what_is_asked_for_is_not_heard_at_all():
+    assert heard_as(answer("maybe", Yes, p=(0, 0.5)))(no) is None
 
 
 def test_bands_of_probability_decide():
