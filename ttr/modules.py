@@ -3,13 +3,50 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
 
-__all__ = ["importing_from", "run_file"]
+from ttr.consent import Consent, is_below
+
+__all__ = ["importing_from", "run_file", "run_named", "separate_python"]
+
+
+def run_named(
+    python: str, folder: Path, prefix: str, consent: Consent | None
+) -> ModuleType:
+    """The module that is named FILE.py, from a folder, or MODULE; a file is run anew.
+
+    Raises `NotAllowed` where a file names it and there is no consent to that, and
+    whatever running it raises. None for the consent says that the caller names it.
+    """
+    if consent is not None:
+        consent.check_python(python, folder)
+    if python.endswith(".py"):
+        file = folder / python
+        return run_file(file, f"{prefix}{file.stem}")
+    beside = consent.folder_of(python) if consent is not None else None
+    if beside is None:
+        return importlib.import_module(python)
+    with importing_from(beside):
+        module = importlib.import_module(python)
+    found = getattr(module, "__file__", None)
+    if found is None or not is_below(found, beside):
+        raise ImportError(f"another module is called {python}: rename that in {beside}")
+    return module
+
+
+def separate_python(*arguments: str) -> tuple[list[str], dict[str, str]]:
+    """The command and the environment of another process that runs Python as here.
+
+    It imports from where this process does, and not, as Python would, from the working
+    directory: what lies there by chance is not to be run.
+    """
+    modules = os.pathsep.join(filter(None, map(str, sys.path)))
+    return [sys.executable, "-P", *arguments], {**os.environ, "PYTHONPATH": modules}
 
 
 def run_file(file: Path, name: str) -> ModuleType:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path as FilePath
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol, overload
 
 from immutables import Map
 
+from ttr.consent import Consent
 from ttr.errors import IllFormed, NotationError, Span, TTRError, suggestion
 from ttr.escapes import json_text
 from ttr.paths import occurring
@@ -226,7 +227,8 @@ class _Parse:
 def _parse_theory(text: str, source: str = "<text>") -> Theory:
     """The theory that a text declares; raises `NotationError`, `IllFormed`, `Mistakes`.
 
-    An `import` in it is relative to the working directory.
+    An `import` in it is relative to the working directory, and of what lies there or
+    below.
     """
     from ttr.notation.loading import theory_of_text
 
@@ -240,16 +242,19 @@ def _parse_term(theory: Theory, text: str) -> Object:
     return read(text, theory)
 
 
-def load(path: str | os.PathLike[str]) -> Theory:
+def load(
+    path: str | os.PathLike[str], *, allow: Iterable[str | os.PathLike[str]] = ()
+) -> Theory:
     """The theory in a file; raises `TTRError` where it cannot be read.
 
-    An `import` in it is relative to the file.
+    An `import` in it is relative to the file, and of what lies in the file's folder or
+    below; `allow` names other folders from which may be imported, too.
     """
     from ttr.notation.loading import theory_of_file
 
     if not isinstance(path, str | os.PathLike):
         raise TTRError(f"load takes the path of a file, found {kind_of(path)}")
-    return theory_of_file(FilePath(path))
+    return theory_of_file(FilePath(path), Consent.of(allow))
 
 
 @dataclass(frozen=True, eq=False)

@@ -358,7 +358,11 @@ def test_an_imported_name_is_not_redefined(
     (tmp_path / "below").mkdir()
     respond(session, ":save below/saved.ttr")
     assert 'import "../kennel.ttr"' in (tmp_path / "below" / "saved.ttr").read_text()
-    assert ttr.load("below/saved.ttr").Cats is ttr.ListOf(session.theory.Dog)
+    with pytest.raises(ttr.TTRError, match="--allow"):
+        ttr.load("below/saved.ttr")
+    found = ttr.load("below/saved.ttr", allow=["."])
+    assert found.Cats is ttr.ListOf(session.theory.Dog)
+    assert "Cats" in respond(session, ":load below/saved.ttr").session.theory.names
 
 
 def test_a_fact_that_contradicts_is_refused(kennel: Session) -> None:

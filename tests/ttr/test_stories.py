@@ -314,9 +314,19 @@ REFERENCES = {
     "game.py:dor": "game.py has no game dor",
     "gone.py:door": "there is no file gone.py",
     "raising.py:door": "raising.py cannot be run: ZeroDivisionError",
-    "no.such.module:door": "there is no module no.such.module: name a game as",
-    "json:dumps": "json has no game dumps: there is none in it",
 }
+
+
+@pytest.mark.parametrize(
+    ("reference", "told"),
+    [
+        ("no.such.module:door", "there is no module no.such.module: name a game as"),
+        ("json:dumps", "json has no game dumps: there is none in it"),
+    ],
+)
+def test_a_module_without_the_game_that_a_user_names(reference: str, told: str) -> None:
+    with pytest.raises(StoryError, match=told):
+        setting(reference, Path())
 
 
 @pytest.mark.parametrize(("reference", "told"), REFERENCES.items())

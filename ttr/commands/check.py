@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ttr.commands.consenting import add_allow
 from ttr.commands.output import (
     FAILED,
     FINE,
@@ -34,6 +37,7 @@ def add(commands: Commands) -> None:
     )
     check.add_argument("files", nargs="+", metavar="FILE", help="a theory file (.ttr)")
     check.add_argument("--json", action="store_true", help="report for machines")
+    add_allow(check)
     check.set_defaults(command=_check)
 
 
@@ -56,7 +60,7 @@ class _Outcome:
 def _check(options: argparse.Namespace) -> int:
     outcomes = []
     for file in options.files:
-        outcome = _outcome(file)
+        outcome = _outcome(file, options.allow)
         outcomes.append(outcome)
         if not options.json:
             _tell(outcome)
@@ -65,13 +69,13 @@ def _check(options: argparse.Namespace) -> int:
     return max(one.code for one in outcomes)
 
 
-def _outcome(file: str) -> _Outcome:
+def _outcome(file: str, allow: Sequence[Path]) -> _Outcome:
     from ttr.checking import check
     from ttr.notation.loading import Unreadable
     from ttr.theories import Mistakes, load
 
     try:
-        report = check(load(file))
+        report = check(load(file, allow=allow))
     except Unreadable as error:
         if error.span is None:
             return _Outcome(file, unreadable=error.message)

@@ -6,6 +6,7 @@ import argparse
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
+from ttr.commands.consenting import add_allow
 from ttr.commands.output import FAILED, FINE, Commands, complain, say, say_json
 from ttr.errors import TTRError
 
@@ -28,6 +29,7 @@ def add(commands: Commands) -> None:
         "--lexicon", metavar="FILE", help="a theory file (.ttr) with more words"
     )
     fracas.add_argument("--json", action="store_true", help="report for machines")
+    add_allow(fracas)
     fracas.set_defaults(command=_fracas)
 
 
@@ -38,7 +40,7 @@ def _fracas(options: argparse.Namespace) -> int:
     try:
         words = english()
         if options.lexicon is not None:
-            words = words.extended(options.lexicon)
+            words = words.extended(options.lexicon, allow=options.allow)
         some = problems(options.file)
     except TTRError as error:
         return complain(str(error))

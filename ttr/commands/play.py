@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from ttr.commands.consenting import (
+    add_allow,
+    add_no_python,
+    consent_of,
+    game_named,
+)
 from ttr.commands.output import (
     FAILED,
     FINE,
@@ -19,6 +25,7 @@ from ttr.commands.output import (
     say,
     say_json,
 )
+from ttr.consent import Consent, NotAllowed
 from ttr.errors import TTRError
 from ttr.files import check_outputs, write_whole
 
@@ -49,30 +56,45 @@ def add(commands: Commands) -> None:
     play.add_argument(
         "--junit", type=Path, metavar="FILE", help="write a report for CI (.xml)"
     )
+    play.add_argument(
+        "--game",
+        metavar="GAME",
+        help="play all with this game, FILE.ttr:NAME, FILE.py:NAME or MODULE:NAME, "
+        "whatever they name",
+    )
+    add_allow(play)
+    add_no_python(play)
     play.set_defaults(command=_play)
 
 
 def _play(options: argparse.Namespace) -> int:
     from ttr.logs import LogFile
-    from ttr.stories import Outcome, StoryError, read_stories
+    from ttr.stories import Outcome
 
     outputs = (options.log, options.html, options.junit)
     try:
         check_outputs(options.files, outputs)
     except TTRError as error:
         return complain(str(error))
+    consent, game = consent_of(options), None
+    if options.game is not None:
+        try:
+            game = game_named(options.game, consent)
+        except TTRError as error:
+            return complain(str(error))
     plan: list[tuple[str, Story]] = []
     unread: list[Outcome] = []
     for file in options.files:
         try:
-            plan += ((str(file), story) for story in read_stories(file))
-        except StoryError as error:
+            plan += ((str(file), it) for it in _stories(file, game, consent))
+        except TTRError as error:
             complain(str(error))
             unread.append(Outcome(str(file), file.stem, error=error))
     try:
         with ExitStack() as closing:
             log = closing.enter_context(LogFile(options.log)) if options.log else None
-            results = _Playing(_echo(options), options.trace, log).all(plan)
+            playing = _Playing(_echo(options), options.trace, log, consent, game)
+            results = playing.all(plan)
         _write_reports(options, unread, results)
     except TTRError as error:
         return complain(str(error))
@@ -80,6 +102,19 @@ def _play(options: argparse.Namespace) -> int:
     if unread:
         return WRONG_USE
     return FINE if all(one.as_written for one, _ in results) else FAILED
+
+
+def _stories(file: Path, game: Setting | None, consent: Consent) -> Sequence[Story]:
+    """The stories in a file, none of which names what there is no consent to.
+
+    A game that was given is played in the place of those that they name.
+    """
+    from ttr.stories import check_consent, read_stories
+
+    stories = read_stories(file)
+    for story in stories if game is None else ():
+        check_consent(story, consent)
+    return stories
 
 
 def _echo(options: argparse.Namespace) -> Callable[[str], None]:
@@ -93,6 +128,8 @@ class _Playing:
     echo: Callable[[str], None]
     trace: bool
     log: LogFile | None
+    consent: Consent
+    game: Setting | None = None
     settings: dict[Line | None, Setting] = field(default_factory=dict)
 
     def all(self, plan: list[tuple[str, Story]]) -> list[_Result]:
@@ -106,7 +143,7 @@ class _Playing:
         start = perf_counter()
         try:
             played = self._played(story)
-        except StoryError as error:
+        except (StoryError, NotAllowed) as error:
             seconds = perf_counter() - start
             return Outcome(file, story.title, seconds, error=error), None
         seconds = perf_counter() - start
@@ -124,8 +161,10 @@ class _Playing:
         """The setting that the story names, found once for all that name it so."""
         from ttr.stories import setting_of
 
+        if self.game is not None:
+            return self.game
         if story.game not in self.settings:
-            self.settings[story.game] = setting_of(story)
+            self.settings[story.game] = setting_of(story, self.consent)
         return self.settings[story.game]
 
     def _witness(self, one: Moment) -> None:

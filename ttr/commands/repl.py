@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from ttr.commands.consenting import add_allow, consent_of
 from ttr.commands.output import FAILED, FINE, Commands, ask, complain, say
 from ttr.errors import TTRError
 
@@ -19,6 +20,7 @@ def add(commands: Commands) -> None:
         description="A session in which a theory grows line by line.",
     )
     repl.add_argument("file", nargs="?", metavar="FILE", help="a theory to start from")
+    add_allow(repl)
     repl.set_defaults(command=_repl)
 
 
@@ -27,7 +29,7 @@ def _repl(options: argparse.Namespace) -> int:
     from ttr.interactive.terminal import talk
     from ttr.notation.loading import Unreadable
 
-    session = Session()
+    session = Session(consent=consent_of(options))
     try:
         if options.file is not None:
             session, _ = loaded(session, Path(options.file))

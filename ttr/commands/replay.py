@@ -6,7 +6,9 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ttr.commands.consenting import add_allow, add_trust, consent_of, game_named
 from ttr.commands.output import FAILED, FINE, Commands, complain, say
+from ttr.consent import NotAllowed
 from ttr.errors import TTRError
 from ttr.files import check_outputs, write_whole
 
@@ -38,6 +40,14 @@ def add(commands: Commands) -> None:
         "--story", type=Path, metavar="FILE", help="write the log as stories (.dlg)"
     )
     replay.add_argument("--html", type=Path, metavar="FILE", help="write a transcript")
+    replay.add_argument(
+        "--game",
+        metavar="GAME",
+        help="play it with this game, FILE.ttr:NAME, FILE.py:NAME or MODULE:NAME, "
+        "whatever the log names",
+    )
+    add_allow(replay)
+    add_trust(replay, "the log")
     replay.set_defaults(command=_replay)
 
 
@@ -57,7 +67,7 @@ def _replay(options: argparse.Namespace) -> int:
     try:
         logs = read_logs(options.file)
         played = [_again(log, options) for log in logs]
-    except UnreadableLog as error:
+    except (UnreadableLog, NotAllowed) as error:
         return complain(str(error))
     except TTRError as error:
         say(str(error))
@@ -71,17 +81,51 @@ def _replay(options: argparse.Namespace) -> int:
 
 def _again(log: Log, options: argparse.Namespace) -> tuple[Log, Setting, Replayed]:
     from ttr.logs import LogError, replay
-    from ttr.stories import StoryError, setting
+    from ttr.stories import StoryError
 
     place = f"{log.file}:{log.number}"
-    if not log.header.game:
-        raise LogError(f"{place}: the log names no game: replay it from Python")
     try:
-        found = setting(log.header.game, options.file.parent)
+        found = _setting(log, options, place)
     except StoryError as error:
         raise LogError(f"{place}: {error.message}") from error
     turn = min(options.turn, len(log.entries))
     return log, found, replay(log, found, from_=turn)
+
+
+def _setting(log: Log, options: argparse.Namespace, place: str) -> Setting:
+    """The game that the user names, or else the log; raises `NotAllowed`.
+
+    A log by itself runs nothing: for Python that it names the user has to be asked.
+    """
+    from ttr.logs import LogError
+    from ttr.stories import named_by_user, python_in, setting
+
+    consent, reference = consent_of(options), log.header.game
+    if options.game is not None:
+        return game_named(options.game, consent)
+    if not reference:
+        raise LogError(f"{place}: the log names no game: name it with --game")
+    folder, python = options.file.parent, python_in(reference)
+    if python and not options.trust:
+        raise NotAllowed(f"{place}: the log names {reference}, {_unrun(options)}")
+    if python:
+        where = (folder / python).resolve() if python.endswith(".py") else python
+        say(f"{place}: running {where}, which the log names")
+        consent = named_by_user(reference, folder, consent)
+    try:
+        return setting(reference, folder, consent)
+    except NotAllowed as error:
+        raise NotAllowed(f"{place}: {error.message}") from error
+
+
+def _unrun(options: argparse.Namespace) -> str:
+    """Why Python that a log names is not run, and the ways on."""
+    if options.no_python:
+        return "which is Python, and --no-python refuses it"
+    return (
+        "which is Python, and a log runs none by itself: name the game, as with --game "
+        "FILE.py:NAME, or let it run what it names with --trust"
+    )
 
 
 def _report(log: Log, again: Replayed, start: int) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from ttr.commands.consenting import add_allow
 from ttr.commands.output import FAILED, FINE, Commands, complain, say
 from ttr.errors import TTRError, Unsupported
 
@@ -35,6 +36,7 @@ def add(commands: Commands) -> None:
         metavar="N",
         help="show names for the definitions inside, but for N levels (default: all)",
     )
+    add_allow(show)
     show.set_defaults(command=_show)
 
 
@@ -49,7 +51,7 @@ def _show(options: argparse.Namespace) -> int:
     from ttr.theories import load
 
     try:
-        theory = load(options.file)
+        theory = load(options.file, allow=options.allow)
     except Unreadable as error:
         return complain(error.message)
     except TTRError as error:

@@ -10,6 +10,7 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
+from ttr.commands.consenting import add_allow, add_no_python, consent_of, game_named
 from ttr.commands.output import (
     FAILED,
     FINE,
@@ -23,6 +24,7 @@ from ttr.commands.output import (
 from ttr.errors import TTRError
 
 if TYPE_CHECKING:
+    from ttr.consent import Consent
     from ttr.stories import Setting
     from ttr.testing import Coverage, Report
     from ttr.updates import Game
@@ -66,6 +68,8 @@ def add(commands: Commands) -> None:
         "--seed", type=int, default=0, metavar="S", help="draws other dialogues"
     )
     test.add_argument("--json", action="store_true", help="report for machines")
+    add_allow(test)
+    add_no_python(test)
     test.set_defaults(command=_test)
 
 
@@ -81,7 +85,7 @@ def _test(options: argparse.Namespace) -> int:
     except ImportError as error:
         return complain(str(error))
     try:
-        places = _places(options.rules, options.game)
+        places = _places(options.rules, options.game, consent_of(options))
     except TTRError as error:
         return complain(str(error))
     outcomes = []
@@ -101,23 +105,21 @@ def _test(options: argparse.Namespace) -> int:
 # --- which games ---------------------------------------------------------------------
 
 
-def _places(rules: str, game: str | None) -> list[Setting]:
+def _places(rules: str, game: str | None, consent: Consent) -> list[Setting]:
     """The games that are named, with where they are."""
-    from ttr.stories import setting
-
     if not rules.endswith(".ttr"):
         named = rules if ":" in Path(rules).name else f"{rules}:{game or 'game'}"
-        return [setting(named, Path())]
+        return [game_named(named, consent)]
     if game is not None:
-        return [setting(f"{rules} {game}", Path())]
+        return [game_named(f"{rules} {game}", consent)]
     from ttr.theories import load
 
     if not Path(rules).is_file():
         raise TTRError(f"there is no file {rules}")
-    names = load(rules).openings
+    names = load(rules, allow=consent.folders).openings
     if not names:
         raise TTRError(f"{rules} has no game: write `game NAME(START : TYPE) := …`")
-    return [setting(f"{rules} {name}", Path()) for name in names]
+    return [game_named(f"{rules} {name}", consent) for name in names]
 
 
 # --- testing one ---------------------------------------------------------------------
@@ -230,12 +232,7 @@ def _outcome(place: Setting, options: argparse.Namespace) -> _Outcome:
         try:
             report = suite.run()
             if report.holds and place.reference:
-                across = differing(
-                    place.reference,
-                    place.folder,
-                    examples=PROCESSED,
-                    start=options.seed,
-                )
+                across = differing(place, examples=PROCESSED, start=options.seed)
         except KeyboardInterrupt:
             report = None
         except TTRError as error:

@@ -100,9 +100,17 @@ class Lexicon:
             exclusions=tuple(it for one in self.theories for it in one.exclusions),
         )
 
-    def extended(self, path: str | os.PathLike[str]) -> Lexicon:
-        """The lexicon with the words of one more file; its own words go first."""
-        return lexicon(*self.theories, load(path))
+    def extended(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        allow: Iterable[str | os.PathLike[str]] = (),
+    ) -> Lexicon:
+        """The lexicon with the words of one more file; its own words go first.
+
+        `allow` is as in `ttr.load`.
+        """
+        return lexicon(*self.theories, load(path, allow=allow))
 
 
 @cache

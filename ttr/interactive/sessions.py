@@ -13,6 +13,7 @@ from functools import reduce
 from pathlib import Path
 from typing import TypeAlias
 
+from ttr.consent import OWN_FOLDER, Consent
 from ttr.errors import NotationError, TTRError, Unsupported, following_nesting
 from ttr.escapes import json_text
 from ttr.files import write_whole
@@ -59,7 +60,8 @@ class Session:
     """What was entered so far: `theory` and `model` are what the entries come to.
 
     `last` is what was answered last, `before` the session before the last change, and
-    `over` says that nothing more is to be asked.
+    `over` says that nothing more is to be asked. By `consent`, files may import from
+    the folders of those that the user has named.
     """
 
     entries: tuple[Entry, ...] = ()
@@ -68,6 +70,11 @@ class Session:
     last: Answered = None
     before: Session | None = field(default=None, repr=False)
     over: bool = False
+    consent: Consent = OWN_FOLDER
+
+    def naming(self, path: Path) -> Session:
+        """The session in which the user has named this file."""
+        return replace(self, consent=self.consent.adding(path.parent))
 
 
 # --- entering statements -------------------------------------------------------------
@@ -88,10 +95,11 @@ def declared(
     >>> sorted(changed), str(kennel.theory.Pair)
     (['Ind', 'Pair'], '[a : list(Type), b : list(Type)]')
     """
-    entry = _entry(tree, source, Path())
     if isinstance(tree, trees.Import):
-        entries = (*session.entries, entry)
-        return _afresh(session, entries, _theory_of(entries)), frozenset()
+        session = session.naming(Path(os.path.realpath(tree.path)))
+        entries = (*session.entries, _entry(tree, source, Path(), session.consent))
+        return _afresh(session, entries, _theory_of(session, entries)), frozenset()
+    entry = _entry(tree, source, Path(), session.consent)
     again = _declared_again(session.theory, tree)
     if again or _gathered(session, entry):
         return _redeclared(session, entry, tree, source)
@@ -109,12 +117,12 @@ def _after(
     return draft.finished()
 
 
-def _entry(tree: Statement, source: Source, folder: Path) -> Entry:
+def _entry(tree: Statement, source: Source, folder: Path, consent: Consent) -> Entry:
     """The statement as an entry; an import in it is relative to the folder."""
     if isinstance(tree, trees.Import):
         path = Path(os.path.realpath(folder / tree.path))
         try:
-            theory = theory_of_file(path)
+            theory = theory_of_file(path, consent)
         except TTRError as error:
             raise error.at(source.span(tree)) from None
         kinds = _of_kinds(rule.kind for rule in theory.rules.values())
@@ -196,9 +204,9 @@ def _told(model: Model, given: Given | Expected) -> Model:
         raise error.at(given.span) if given.span else error from None
 
 
-def _theory_of(entries: Iterable[Entry]) -> Theory:
+def _theory_of(session: Session, entries: Iterable[Entry]) -> Theory:
     text = "\n".join(entry.text for entry in entries)
-    return theory_of_text(text, "<session>")
+    return theory_of_text(text, "<session>", session.consent)
 
 
 def _union(names: Iterable[frozenset[str]]) -> frozenset[str]:
@@ -231,7 +239,7 @@ def _redeclared(
     names = entry.declares
     ahead, behind = _parted(session.entries, names, entry.kinds)
     try:
-        _after(_theory_of(ahead), ahead, tree, source)
+        _after(_theory_of(session, ahead), ahead, tree, source)
     except TTRError:
         _refuse_circle(names, entry.rests_on, _names_of(behind))
         raise
@@ -264,7 +272,7 @@ def _replaced(
     names = session.theory.names & _names_of(new)
     entries = (*ahead, *new, *behind)
     try:
-        after = _afresh(session, entries, _theory_of(entries))
+        after = _afresh(session, entries, _theory_of(session, entries))
     except TTRError as error:
         first = error.errors[0] if isinstance(error, Mistakes) else error
         raise type(first)(
@@ -399,9 +407,11 @@ def loaded(session: Session, path: Path) -> tuple[Session, frozenset[str]]:
 
     Raises `TTRError` for a file that cannot be read and for the mistakes in it.
     """
-    theory = theory_of_file(path)
+    session = session.naming(path)
+    theory = theory_of_file(path, session.consent)
     known = {entry.text for entry in session.entries}
-    new = tuple(entry for entry in _entries(path) if entry.text not in known)
+    entries = _entries(path, session.consent)
+    new = tuple(entry for entry in entries if entry.text not in known)
     if not session.entries:
         return _afresh(session, new, theory), frozenset()
     kinds = _union(one.kinds for one in new)
@@ -409,14 +419,16 @@ def loaded(session: Session, path: Path) -> tuple[Session, frozenset[str]]:
     return _replaced(session, ahead, new, behind)
 
 
-def _entries(path: Path) -> Iterator[Entry]:
+def _entries(path: Path, consent: Consent) -> Iterator[Entry]:
     source = Source.of(path.read_text(encoding="utf-8-sig"), str(path))
     for start, end in blocks(source.text):
-        yield _entry(statement(source, start, end), source, path.parent)
+        yield _entry(statement(source, start, end), source, path.parent, consent)
 
 
 def saved(session: Session, path: Path) -> None:
     """Writes the statements into a file that loads again, imports too.
+
+    In another session, imports from other folders have to be allowed.
 
     Raises `TTRError` where the file cannot be written.
     """

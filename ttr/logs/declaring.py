@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
+from ttr.consent import Consent
 from ttr.errors import TTRError
+from ttr.notation.loading import theory_of_text
 from ttr.notation.reader import read
 from ttr.paths import occurring
 from ttr.printing import notation
@@ -29,7 +31,7 @@ class Declared:
         """What is declared with these in addition; raises `TTRError`."""
         more = tuple(statements)
         everything = (*self.statements, *more)
-        theory = Theory.parse("\n".join(everything)) if more else self.theory
+        theory = _theory("\n".join(everything)) if more else self.theory
         names = self.objects.union(objects)
         return Declared(everything, names, replace(theory, objects=names))
 
@@ -58,6 +60,11 @@ class Declared:
         except TTRError:
             return False
         return again == value and type(again) is type(value)
+
+
+def _theory(text: str) -> Theory:
+    """The theory of what a log declares, which imports nothing."""
+    return theory_of_text(text, "<log>", Consent())
 
 
 def _in_order(predicates: list[Pred]) -> Iterator[Pred]:

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ttr.consent import OWN_FOLDER, Consent, check_called
 from ttr.errors import NotationError, Span, TTRError
 from ttr.files import why_unread
 from ttr.interning import identity
@@ -35,17 +36,25 @@ class Unreadable(TTRError):
     """A file that is not there, or is no text."""
 
 
-def theory_of_text(text: str, source: str = "<text>") -> Theory:
+def theory_of_text(
+    text: str, source: str = "<text>", consent: Consent | None = None
+) -> Theory:
     """The theory that a text declares; an import is relative to the working directory.
 
-    Raises the mistake in it, or `Mistakes` where there are several.
+    It imports what lies there or below, or else what there is consent to. Raises the
+    mistake in it, or `Mistakes` where there are several.
     """
-    return _sound(_Files({}).read(Source.of(text, source), Path(), ()))
+    allowed = Consent.of([""]) if consent is None else consent
+    return _sound(_Files(allowed, {}).read(Source.of(text, source), Path(), ()))
 
 
-def theory_of_file(path: Path) -> Theory:
-    """The theory in a file; raises `Unreadable`, the mistake in it, or `Mistakes`."""
-    return _sound(_Files({}).file(path, ()))
+def theory_of_file(path: Path, consent: Consent = OWN_FOLDER) -> Theory:
+    """The theory in a file; raises `Unreadable`, the mistake in it, or `Mistakes`.
+
+    It, and what it imports, may import what lies in its folder or below; other folders
+    with the user's consent.
+    """
+    return _sound(_Files(consent.adding(path.parent), {}).file(path, ()))
 
 
 @dataclass(frozen=True)
@@ -72,7 +81,18 @@ def _sound(reading: _Reading) -> Theory:
 class _Files:
     """The files read so far, each once, however often it is imported."""
 
+    consent: Consent
     known: dict[Path, _Reading]
+
+    def imported(self, path: Path, named: str, chain: tuple[Path, ...]) -> _Reading:
+        """What a file declares that another imports by this name.
+
+        Nothing is read, and so nothing told, but theory files to which there is
+        consent: who writes an import could be shown the lines of any other file.
+        """
+        self.consent.check(path, named)
+        check_called(path, ".ttr", named)
+        return self.file(path, chain)
 
     def file(self, path: Path, chain: tuple[Path, ...]) -> _Reading:
         """What a file declares; `chain` are the files whose imports led to it."""
@@ -207,7 +227,8 @@ class _File:
     def _import(self, tree: trees.Import) -> None:
         span = self.source.span(tree)
         try:
-            found = self.files.file(self.folder / tree.path, self.chain)
+            path = self.folder / tree.path
+            found = self.files.imported(path, tree.path, self.chain)
         except TTRError as error:
             raise error.at(span) from None
         _join(self.declaring.draft, found.theory, span)

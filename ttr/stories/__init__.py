@@ -6,11 +6,11 @@ them and says where they differ from what happens. `written` makes a story of tu
 
 from ttr.stories.hearing import Alternative, alternatives
 from ttr.stories.mismatches import SILENCE, Mismatch
-from ttr.stories.opening import opening, setting_of
+from ttr.stories.opening import check_consent, opening, setting_of
 from ttr.stories.outcomes import Outcome, facts, junit, summary
 from ttr.stories.playing import Played, failing, fits, play
 from ttr.stories.reading import Line, Story, StoryError, read_stories
-from ttr.stories.settings import Setting, setting
+from ttr.stories.settings import Setting, named_by_user, python_in, setting
 from ttr.stories.writing import Moment, moment, worded, written
 
 __all__ = [
@@ -25,13 +25,16 @@ __all__ = [
     "Story",
     "StoryError",
     "alternatives",
+    "check_consent",
     "facts",
     "failing",
     "fits",
     "junit",
     "moment",
+    "named_by_user",
     "opening",
     "play",
+    "python_in",
     "read_stories",
     "setting",
     "setting_of",

@@ -4,18 +4,25 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from shlex import quote
 
+from ttr.consent import OWN_FOLDER, Consent, NotAllowed
 from ttr.errors import TTRError, suggestion
 from ttr.stories.hearing import value
 from ttr.stories.reading import Line, Story, StoryError
-from ttr.stories.settings import Setting, setting
+from ttr.stories.settings import Setting, check_named, python_in, setting
 from ttr.syntax import Record
 
-__all__ = ["opening", "setting_of", "turns_of"]
+__all__ = ["check_consent", "opening", "setting_of", "turns_of"]
 
 
-def setting_of(story: Story) -> Setting:
-    """The setting that a story names; raises `StoryError`."""
+def setting_of(story: Story, consent: Consent = OWN_FOLDER) -> Setting:
+    """The setting that a story names; raises `StoryError` and `NotAllowed`.
+
+    Python that it names is run if it lies in the folder of the story or below, or where
+    there is consent to that.
+    """
+    check_consent(story, consent)
     if story.game is None:
         first = story.lines[0]
         verb = first.text.partition(" ")[0] if first.mark == "@" else ""
@@ -23,11 +30,35 @@ def setting_of(story: Story) -> Setting:
             "`@ game FILE.ttr NAME`"
         )
         raise first.wrong(f"the story names no game: {near}")
-    reference = story.game.text.partition(" ")[2].strip()
     try:
-        return setting(reference, Path(story.game.file).parent)
+        return setting(*_named(story.game), _beside(story.game, consent))
     except StoryError as error:
         raise story.game.wrong(error.message) from error
+
+
+def check_consent(story: Story, consent: Consent) -> None:
+    """Raises `NotAllowed` where a story names what there is no consent to use."""
+    if story.game is None:
+        return
+    try:
+        check_named(*_named(story.game), _beside(story.game, consent))
+    except NotAllowed as error:
+        reference, _ = _named(story.game)
+        or_else = f", or name the game yourself, --game {quote(reference)}"
+        told = error.message + or_else * bool(consent.python and python_in(reference))
+        raise NotAllowed(f"{story.game.place}: {told}") from error
+    except StoryError as error:
+        raise story.game.wrong(error.message) from error
+
+
+def _named(line: Line) -> tuple[str, Path]:
+    """The reference to a game in a line, and the folder from which it is taken."""
+    return line.text.partition(" ")[2].strip(), Path(line.file).parent
+
+
+def _beside(line: Line, consent: Consent) -> Consent:
+    """The consent, and to what lies in the folder of the story."""
+    return consent.adding(Path(line.file).parent)
 
 
 def opening(story: Story, setting: Setting) -> Setting:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import os
 import re
 from dataclasses import dataclass, replace
@@ -10,17 +9,18 @@ from pathlib import Path
 from types import ModuleType
 from typing import Self
 
+from ttr.consent import OWN_FOLDER, Consent, NotAllowed, check_called
 from ttr.errors import TTRError, suggestion
 from ttr.models import Model
-from ttr.modules import run_file
-from ttr.notation.loading import Unreadable
+from ttr.modules import run_named
+from ttr.notation.loading import Unreadable, theory_of_file
 from ttr.notation.reader import read
 from ttr.stories.reading import StoryError
 from ttr.syntax import Basic, Object, Rec, TypeNode, Universe
-from ttr.theories import Theory, load
+from ttr.theories import Theory
 from ttr.updates import Game
 
-__all__ = ["Setting", "setting"]
+__all__ = ["Setting", "check_named", "named_by_user", "python_in", "setting"]
 
 _WRITTEN = "FILE.ttr NAME, FILE.py:NAME or MODULE:NAME"
 
@@ -30,13 +30,14 @@ class Setting:
     """A game, the theory whose names are used in its stories, and how it is named.
 
     `reference` is what stands after `@ game` in a story in this folder; it may be
-    empty.
+    empty. `consent` is what the user lets the game's files use.
     """
 
     game: Game
     theory: Theory
     reference: str = ""
     folder: Path = Path()
+    consent: Consent = OWN_FOLDER
 
     @classmethod
     def of(cls, game: Game, theory: Theory | None = None, reference: str = "") -> Self:
@@ -59,21 +60,62 @@ class Setting:
         return model.reduced(value)
 
 
-def setting(reference: str, folder: Path) -> Setting:
+def setting(reference: str, folder: Path, consent: Consent | None = None) -> Setting:
     """The setting that a reference names; a file is taken from the folder.
 
     A reference is the path of a theory and the name of a game in it, or a Python file
-    or module, a colon and a name. Raises `StoryError` where nothing is named so.
+    or module, a colon and a name. Who calls this names it, and so consents to what is
+    run; for a reference that was found in a file, `consent` is the user's. Raises
+    `StoryError` where nothing is named so, and `NotAllowed` where there is no consent.
     """
+    if consent is not None:
+        check_named(reference, folder, consent)
     file, rest = _parts(reference)
     if file.endswith(".ttr"):
-        found = _of_theory(file, rest.strip(), folder)
+        name = rest.strip().removeprefix(":")
+        found = _of_theory(file, name, folder, consent or OWN_FOLDER)
     else:
-        module, _, name = reference.rpartition(":")
-        if not module or not name.strip():
-            raise StoryError(f"a game is named as {_WRITTEN}, found {reference!r}")
-        found = _of_python(module.strip(), name.strip(), folder)
-    return replace(found, reference=reference, folder=folder)
+        found = _of_python(*_python(reference), folder, consent)
+    named = consent or OWN_FOLDER
+    return replace(found, reference=reference, folder=folder, consent=named)
+
+
+def check_named(reference: str, folder: Path, consent: Consent) -> None:
+    """Raises `NotAllowed` for a reference in a file that there is no consent to.
+
+    A theory may lie anywhere, for nothing in it is run.
+    """
+    python = python_in(reference)
+    if python:
+        consent.check_python(python, folder)
+    else:
+        file, _ = _parts(reference)
+        check_called(folder / file, ".ttr", file)
+
+
+def named_by_user(reference: str, folder: Path, consent: Consent) -> Consent:
+    """The consent of a user who has named a game himself, and so what has to be run."""
+    python = python_in(reference)
+    return consent.naming(python, folder) if python else consent
+
+
+def python_in(reference: str) -> str:
+    """The Python file or module that a reference names; none, if it is of a theory.
+
+    >>> python_in("games.py:door"), python_in("door.ttr door")
+    ('games.py', '')
+    """
+    if _parts(reference)[0].endswith(".ttr"):
+        return ""
+    return _python(reference)[0]
+
+
+def _python(reference: str) -> tuple[str, str]:
+    """The Python file or module that a reference names, and the name of its game."""
+    python, _, name = reference.rpartition(":")
+    if not python or not name.strip():
+        raise StoryError(f"a game is named as {_WRITTEN}, found {reference!r}")
+    return python.strip(), name.strip()
 
 
 def _parts(reference: str) -> tuple[str, str]:
@@ -82,10 +124,10 @@ def _parts(reference: str) -> tuple[str, str]:
     return (found[1], found[2]) if found else ("", reference)
 
 
-def _of_theory(file: str, name: str, folder: Path) -> Setting:
+def _of_theory(file: str, name: str, folder: Path, consent: Consent) -> Setting:
     _check_there(file, folder)
     try:
-        theory = load(folder / file)
+        theory = theory_of_file(folder / file, consent)
         games = theory.games
     except Unreadable as error:
         raise StoryError(error.message) from error
@@ -99,8 +141,8 @@ def _of_theory(file: str, name: str, folder: Path) -> Setting:
     return Setting(games[name], theory)
 
 
-def _of_python(path: str, name: str, folder: Path) -> Setting:
-    module = _module(path, folder)
+def _of_python(path: str, name: str, folder: Path, consent: Consent | None) -> Setting:
+    module = _module(path, folder, consent)
     games = {key: one for key, one in vars(module).items() if isinstance(one, Game)}
     if name not in games:
         raise StoryError(_no_game(path, name, tuple(games)))
@@ -128,16 +170,13 @@ def _no_game(file: str, name: str, known: tuple[str, ...]) -> str:
 # --- games in Python -----------------------------------------------------------------
 
 
-def _module(path: str, folder: Path) -> ModuleType:
+def _module(path: str, folder: Path, consent: Consent | None) -> ModuleType:
     """The module of a file or a dotted name, run if it has not been."""
-    is_file = path.endswith(".py")
-    if is_file:
+    if path.endswith(".py"):
         _check_there(path, folder)
     try:
-        if not is_file:
-            return importlib.import_module(path)
-        return run_file(folder / path, f"_played_{Path(path).stem}")
-    except StoryError:
+        return run_named(path, folder, "_played_", consent)
+    except NotAllowed:
         raise
     except Exception as error:
         raise StoryError(_not_run(path, error)) from error

@@ -7,16 +7,17 @@ rule that depends on that order gives other states there.
 from __future__ import annotations
 
 import hashlib
-import os
 import subprocess
 import sys
 from pathlib import Path
 
 from hypothesis import HealthCheck, Phase, given, seed, settings
 
+from ttr.consent import Consent
 from ttr.errors import TTRError
+from ttr.modules import separate_python
 from ttr.printing import notation
-from ttr.stories import setting
+from ttr.stories import Setting, named_by_user, setting
 from ttr.strategies.dialogues import dialogues
 from ttr.strategies.playing import Dialogue
 from ttr.testing.companions import tutor_of
@@ -26,43 +27,41 @@ __all__ = ["differing"]
 HASH_SEEDS = ("1", "2")
 
 
-def differing(reference: str, folder: Path, *, examples: int, start: int) -> str:
+def differing(place: Setting, *, examples: int, start: int) -> str:
     """How the dialogues of two processes differ, or an empty text if they do not.
 
-    Raises `TTRError` where a process fails.
+    The game is one that the user has named. Raises `TTRError` where a process fails.
     """
-    one, two = (
-        _printed(reference, folder, examples, start, hash_seed)
-        for hash_seed in HASH_SEEDS
-    )
+    one, two = (_printed(place, examples, start, it) for it in HASH_SEEDS)
     for number, (line, other) in enumerate(zip(one, two, strict=False), start=1):
         if line != other:
             return f"dialogue {number} is another in a process with another hash seed"
     return ""
 
 
-def _printed(
-    reference: str, folder: Path, examples: int, start: int, hash_seed: str
-) -> list[str]:
+def _printed(place: Setting, examples: int, start: int, hash_seed: str) -> list[str]:
     """What a process of its own prints: a line for each dialogue."""
-    command = [sys.executable, "-m", __name__, reference, str(folder)]
+    named = (place.reference, str(place.folder), str(examples), str(start))
+    allowed = map(str, place.consent.folders)
+    command, around = separate_python("-m", __name__, *named, *allowed)
     run = subprocess.run(
-        [*command, str(examples), str(start)],
-        env={**os.environ, "PYTHONHASHSEED": hash_seed},
+        command,
+        env={**around, "PYTHONHASHSEED": hash_seed},
         capture_output=True,
         text=True,
         check=False,
     )
     if run.returncode:
         told = run.stderr.strip().splitlines() or ["it was stopped"]
-        raise TTRError(f"a process that plays {reference} failed: {told[-1]}")
+        raise TTRError(f"a process that plays {place.reference} failed: {told[-1]}")
     return run.stdout.splitlines()
 
 
 def main() -> None:
     """Prints a line for each dialogue: a digest of its rules and states."""
-    reference, folder, examples, start = sys.argv[1:]
-    game = setting(reference, Path(folder)).game
+    reference, folder, examples, start, *allowed = sys.argv[1:]
+    consent = named_by_user(reference, Path(folder), Consent.of(allowed))
+    game = setting(reference, Path(folder), consent).game
 
     @seed(int(start))
     @settings(
