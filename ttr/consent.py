@@ -114,13 +114,13 @@ class Consent:
         the folders that may be used.
         """
         if not self.python:
-            raise NotAllowed(f"{python} is Python, which is refused (--no-python)")
+            raise NotAllowed(f"{python} is Python, which may not be run here")
         if python.endswith(".py"):
             self.check(folder / python, python)
         elif python not in self.modules and self.folder_of(python) is None:
             raise NotAllowed(
-                f"{python} is no Python file in the same folder: write one there that "
-                "imports what is needed, and name that"
+                f"there is no module {python} in this folder: write a Python file there "
+                "that imports what is needed, and name that"
             )
 
     def folder_of(self, module: str) -> Path | None:

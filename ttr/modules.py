@@ -23,12 +23,13 @@ def run_named(
     Raises `NotAllowed` where a file names it and there is no consent to that, and
     whatever running it raises. None for the consent says that the caller names it.
     """
-    if consent is not None:
-        consent.check_python(python, folder)
+    if consent is None:
+        consent = Consent.of([folder]).naming(python, folder)
+    consent.check_python(python, folder)
     if python.endswith(".py"):
         file = folder / python
         return run_file(file, f"{prefix}{file.stem}")
-    beside = consent.folder_of(python) if consent is not None else None
+    beside = consent.folder_of(python)
     if beside is None:
         return importlib.import_module(python)
     with importing_from(beside):

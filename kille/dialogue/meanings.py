@@ -13,7 +13,7 @@ import unicodedata
 from collections.abc import Iterator
 from functools import cache, lru_cache
 
-from kille.dialogue.redefining import VARIABLE, types_of
+from kille.dialogue.redefining import ALLOWED, VARIABLE, types_of
 from ttr import (
     Meet,
     Negation,
@@ -66,7 +66,7 @@ KINDS = ("noun", "adjective", "relation")
 @cache
 def theory() -> Theory:
     """The theory of the dialogue, from the packaged `tutor.ttr` or what replaces it."""
-    return types_of(os.environ.get(VARIABLE, ""))
+    return types_of(os.environ.get(VARIABLE, ""), os.environ.get(ALLOWED, ""))
 
 
 def named(name: str) -> RecordType:

@@ -7,19 +7,23 @@ are is said from outside, by a variable.
 from __future__ import annotations
 
 import json
+import os
 import re
 from collections.abc import Mapping
 from importlib.resources import files
-from pathlib import Path
 
 from ttr import Theory, TTRError
+from ttr.consent import check_called
 from ttr.errors import suggestion
 from ttr.theories import load
 
-__all__ = ["VARIABLE", "redefined", "types_of"]
+__all__ = ["ALLOWED", "VARIABLE", "redefined", "types_of"]
 
 VARIABLE = "KILLE_THEORY"
 """The variable of a process that has other types."""
+
+ALLOWED = "KILLE_ALLOW"
+"""The variable that names folders from which these may import, with colons between."""
 
 SOURCE = "tutor.ttr"
 
@@ -27,14 +31,15 @@ _STATEMENT = r"\s*:=.*(\n[ \t\])]+.*)*"
 """What follows the name in a definition, which may go on over indented lines."""
 
 
-def types_of(own: str = "") -> Theory:
-    """The theory of the dialogue, by what the variable says.
+def types_of(own: str = "", allowed: str = "") -> Theory:
+    """The theory of the dialogue, by what the variables say.
 
     Nothing: as packaged. An object of JSON: some types are defined so instead. Else it
     is a file in place of the packaged one. Raises `TTRError` for what is no theory.
     """
     if own and not own.startswith("{"):
-        return load(Path(own))
+        check_called(own, ".ttr")
+        return load(own, allow=filter(None, allowed.split(os.pathsep)))
     text = files("kille.grammars").joinpath(SOURCE).read_text(encoding="utf-8")
     return Theory.parse(redefined(text, json.loads(own or "{}")), SOURCE)
 

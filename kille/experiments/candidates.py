@@ -7,7 +7,6 @@ the others can go on without it.
 
 from __future__ import annotations
 
-import importlib
 import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -19,7 +18,8 @@ from typing import Any, TypeAlias
 
 from kille.experiments.results import ExperimentError
 from kille.perception.learners import check_degrees
-from ttr.modules import importing_from, run_file
+from ttr.consent import Consent, NotAllowed
+from ttr.modules import run_named
 
 __all__ = ["Make", "Methods", "MethodFailed", "candidates"]
 
@@ -39,21 +39,24 @@ class MethodFailed(ExperimentError):
         self.name = name
 
 
-def candidates(names: Sequence[str], known: Methods) -> dict[str, Make]:
+def candidates(
+    names: Sequence[str], known: Methods, consent: Consent | None = None
+) -> dict[str, Make]:
     """The methods of these names, each guarded; ExperimentError for an unknown one.
 
     A name with a colon is of the user's own: `FILE.py:NAME` or `MODULE:NAME`, where
-    NAME is a class, or a function that makes a learner.
+    NAME is a class, or a function that makes a learner. Who calls this names them; for
+    names that were found in a file, `consent` says which Python may be run.
     """
-    return {name: _guarded(name, _maker(name, known)) for name in names}
+    return {name: _guarded(name, _maker(name, known, consent)) for name in names}
 
 
-def _maker(name: str, known: Methods) -> Make:
+def _maker(name: str, known: Methods, consent: Consent | None) -> Make:
     if name in known:
         return known[name]
     module, colon, thing = name.rpartition(":")
     if colon:
-        return _of_module(module, thing)
+        return _of_module(module, thing, consent)
     near = get_close_matches(name, known, n=1)
     hint = f"did you mean {near[0]}?" if near else f"there is {', '.join(known)}."
     raise ExperimentError(
@@ -64,8 +67,8 @@ def _maker(name: str, known: Methods) -> Make:
 # --- a user's own --------------------------------------------------------------------
 
 
-def _of_module(path: str, thing: str) -> Make:
-    module = _module(path)
+def _of_module(path: str, thing: str, consent: Consent | None) -> Make:
+    module = _module(path, consent)
     made: object = getattr(module, thing, None)
     if callable(made):
         return made
@@ -77,31 +80,26 @@ def _of_module(path: str, thing: str) -> Make:
     raise ExperimentError(f"{path} has no {thing or 'learner without a name'}{hint}")
 
 
-def _module(path: str) -> ModuleType:
+def _module(path: str, consent: Consent | None) -> ModuleType:
+    if path.endswith(".py") and not Path(path).is_file():
+        raise ExperimentError(f"there is no file {path}")
     try:
-        return _run(Path(path)) if path.endswith(".py") else _imported(path)
-    except ExperimentError:
-        raise
+        return run_named(path, Path(), "_measured_", consent)
+    except NotAllowed as error:
+        raise ExperimentError(error.message) from error
     except (Exception, SystemExit) as error:
-        raise ExperimentError(f"{path} cannot be run: {_told(error)}") from error
-
-
-def _imported(path: str) -> ModuleType:
-    try:
-        with importing_from(Path.cwd()):
-            return importlib.import_module(path)
-    except ModuleNotFoundError as error:
-        if error.name is not None and f"{path}.".startswith(f"{error.name}."):
+        if _is_missing(path, error):
             raise ExperimentError(
                 f"there is no module {path}: name a method as {_WRITTEN}"
             ) from error
-        raise
+        raise ExperimentError(f"{path} cannot be run: {_told(error)}") from error
 
 
-def _run(file: Path) -> ModuleType:
-    if not file.is_file():
-        raise ExperimentError(f"there is no file {file}")
-    return run_file(file, f"_measured_{file.stem}")
+def _is_missing(path: str, error: BaseException) -> bool:
+    """Whether there is no module of this name, or none that it would be in."""
+    if not isinstance(error, ModuleNotFoundError) or error.name is None:
+        return False
+    return not path.endswith(".py") and f"{path}.".startswith(f"{error.name}.")
 
 
 # --- the guard -----------------------------------------------------------------------

@@ -9,15 +9,20 @@ from collections.abc import Sequence
 from errno import ENOSPC
 from pathlib import Path
 from shlex import join
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
-from kille.interfaces.parsing import Parser, Version, counted, positive, seed
-from kille.interfaces.streams import (
-    drop_output,
-    end_line,
-    prepare_streams,
-    write_error,
+from kille.interfaces.parsing import (
+    Parser,
+    Version,
+    add_consent,
+    counted,
+    positive,
+    seed,
 )
+from kille.interfaces.streams import drop_output, end_line, prepare_streams, write_error
+
+if TYPE_CHECKING:
+    from kille.interfaces.experiment.running import Request
 
 __all__ = ["command", "main"]
 
@@ -316,17 +321,20 @@ def _add_experiment(commands: Any) -> None:
     actions = experiment.add_subparsers(metavar="ACTION", parser_class=Parser)
     checking = actions.add_parser("check", help="all that is wrong with studies")
     checking.add_argument("files", nargs="+", type=Path, metavar="FILE.toml")
+    add_consent(checking)
     checking.set_defaults(run=_experiment_check)
     running = actions.add_parser("run", help="play all dialogues, or go on with them")
     running.add_argument("file", type=Path, metavar="FILE.toml")
     running.add_argument(
         "--out", type=Path, metavar="FOLDER", help="for the results (FILE.results)"
     )
+    add_consent(running)
     _add_players(running)
     running.set_defaults(run=_experiment_run)
     resuming = actions.add_parser("resume", help="go on where it was stopped")
     _add_results(resuming)
     resuming.add_argument("--again", action="store_true", help="also with what broke")
+    _add_study(resuming)
     _add_players(resuming)
     resuming.set_defaults(run=_experiment_resume)
     showing = actions.add_parser("show", help="a dialogue, or how many there are")
@@ -339,10 +347,12 @@ def _add_experiment(commands: Any) -> None:
     replaying = actions.add_parser("replay", help="do dialogues go as they went?")
     _add_results(replaying)
     replaying.add_argument("names", nargs="*", metavar="RUN", help="(all of them)")
+    _add_study(replaying)
     _add_players(replaying)
     replaying.set_defaults(run=_experiment_replay)
     reporting = actions.add_parser("report", help="write the tables and the page")
     _add_results(reporting)
+    add_consent(reporting, log="the log")
     reporting.set_defaults(run=_experiment_report)
     comparing = actions.add_parser("compare", help="how two folders of results differ")
     comparing.add_argument("one", type=Path, metavar="A")
@@ -350,11 +360,22 @@ def _add_experiment(commands: Any) -> None:
     comparing.add_argument(
         "--report", type=Path, metavar="FILE.html", help="write a page"
     )
+    add_consent(comparing, log="a log")
     comparing.set_defaults(run=_experiment_compare)
 
 
 def _add_results(action: argparse.ArgumentParser) -> None:
     action.add_argument("folder", type=Path, metavar="FOLDER", help="of results")
+
+
+def _add_study(action: argparse.ArgumentParser) -> None:
+    action.add_argument(
+        "--study",
+        type=Path,
+        metavar="FILE.toml",
+        help="the study, in the place of the one that the log has",
+    )
+    add_consent(action, log="the log")
 
 
 def _add_players(action: argparse.ArgumentParser) -> None:
@@ -512,24 +533,38 @@ def _evaluate(options: argparse.Namespace) -> int:
 
 def _experiment_check(options: argparse.Namespace) -> int:
     from kille.interfaces.experiment.checking import check_files
+    from ttr.commands.consenting import consent_of
 
-    return check_files(options.files)
+    return check_files(options.files, consent_of(options))
 
 
 def _experiment_run(options: argparse.Namespace) -> int:
-    from kille.interfaces.experiment.running import Request, run_study
+    from kille.interfaces.experiment.running import run_study
 
-    request = Request(options.workers, options.scheduler, _command(options))
-    return run_study(options.file, options.out, request)
+    return run_study(options.file, options.out, _request(options))
 
 
 def _experiment_resume(options: argparse.Namespace) -> int:
-    from kille.interfaces.experiment.running import Request, as_it_is, resume_study
+    from kille.interfaces.experiment.running import as_it_is, resume_study
     from kille.studies.running.runner import forget_broken
 
-    request = Request(options.workers, options.scheduler, _command(options))
     first = forget_broken if options.again else as_it_is
-    return resume_study(options.folder, request, first)
+    return resume_study(options.folder, _request(options), first)
+
+
+def _request(options: argparse.Namespace) -> Request:
+    """By whom a study is to be played, and what it may run."""
+    from kille.interfaces.experiment.running import Request
+    from ttr.commands.consenting import consent_of
+
+    return Request(
+        options.workers,
+        options.scheduler,
+        _command(options),
+        consent_of(options),
+        trusts=getattr(options, "trust", False),
+        study=getattr(options, "study", None),
+    )
 
 
 def _experiment_show(options: argparse.Namespace) -> int:
@@ -541,19 +576,25 @@ def _experiment_show(options: argparse.Namespace) -> int:
 def _experiment_replay(options: argparse.Namespace) -> int:
     from kille.interfaces.experiment.replaying import replay_all
 
-    return replay_all(options.folder, options.names, options.workers, options.scheduler)
+    return replay_all(options.folder, options.names, _request(options))
 
 
 def _experiment_report(options: argparse.Namespace) -> int:
+    from kille.interfaces.experiment.logs import consent_to
     from kille.interfaces.experiment.reporting import report
+    from ttr.commands.consenting import consent_of
 
-    return report(options.folder, _command(options))
+    consent = consent_to(consent_of(options), options.trust)
+    return report(options.folder, _command(options), consent)
 
 
 def _experiment_compare(options: argparse.Namespace) -> int:
+    from kille.interfaces.experiment.logs import consent_to
     from kille.interfaces.experiment.reporting import compare
+    from ttr.commands.consenting import consent_of
 
-    return compare(options.one, options.other, options.report, _command(options))
+    consent, command = consent_to(consent_of(options), options.trust), _command(options)
+    return compare(options.one, options.other, options.report, command, consent)
 
 
 def _command(options: argparse.Namespace) -> str:

@@ -8,11 +8,12 @@ import math
 import re
 from collections.abc import Sequence
 from contextlib import suppress
+from pathlib import Path
 from typing import Any, NoReturn
 
 from kille.interfaces.streams import write, write_error
 
-__all__ = ["Parser", "Version", "counted", "positive", "seed"]
+__all__ = ["Parser", "Version", "add_consent", "counted", "positive", "seed"]
 
 WRONG_USE = 2
 
@@ -65,6 +66,35 @@ def positive(text: str) -> float:
         if 0 < float(text) < math.inf:
             return float(text)
     raise argparse.ArgumentTypeError(f"{text} is no number above 0, such as 10")
+
+
+def add_consent(action: argparse.ArgumentParser, log: str = "") -> None:
+    """Declares by which options the user consents to what a file names.
+
+    What `ttr` has by the same names; `--trust` is for what names a log, called so.
+    """
+    action.add_argument(
+        "--allow",
+        action="append",
+        type=_folder,
+        default=[],
+        metavar="FOLDER",
+        help="files may also use what lies in this folder or below, besides their own; "
+        "may be repeated",
+    )
+    either = action.add_mutually_exclusive_group()
+    either.add_argument(
+        "--no-python", action="store_true", help="refuse what names Python"
+    )
+    if log:
+        told = f"run the Python that {log} names"
+        either.add_argument("--trust", action="store_true", help=told)
+
+
+def _folder(text: str) -> Path:
+    if Path(text).is_dir():
+        return Path(text)
+    raise argparse.ArgumentTypeError(f"there is no folder {text}")
 
 
 class Version(argparse.Action):

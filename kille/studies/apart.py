@@ -13,7 +13,6 @@ import os
 import pickle
 import signal
 import subprocess
-import sys
 import traceback
 from contextlib import suppress
 from functools import lru_cache
@@ -22,11 +21,12 @@ from pathlib import Path
 from threading import Lock
 from typing import Any
 
-from kille.dialogue.redefining import VARIABLE
+from kille.dialogue.redefining import ALLOWED, VARIABLE
 from kille.studies.errors import TheoryError
 from kille.studies.study import Theory
+from ttr.modules import separate_python
 
-__all__ = ["ask", "is_apart", "own_types"]
+__all__ = ["allowed_for", "ask", "is_apart", "own_types"]
 
 _ONE_THREAD = dict.fromkeys(
     ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"
@@ -48,12 +48,19 @@ def own_types(theory: Theory) -> str:
     return own if isinstance(own, str) else json.dumps(dict(own)) if own else ""
 
 
+def allowed_for(theory: Theory) -> str:
+    """The folders from which its meanings may import, as a variable says them."""
+    folders = theory.consent.folders if theory.consent is not None else ()
+    return os.pathsep.join(map(str, folders))
+
+
 def ask(theory: Theory, what: str, *given: object) -> Any:
     """What a function, `MODULE:NAME`, gives in the process of a theory's meanings.
 
     Raises what it raises there, and `TheoryError` where the process cannot begin.
     """
-    return _process(own_types(theory), _changed(theory)).ask(what, given)
+    process = _process(own_types(theory), allowed_for(theory), _changed(theory))
+    return process.ask(what, given)
 
 
 def _changed(theory: Theory) -> int:
@@ -67,9 +74,9 @@ def _changed(theory: Theory) -> int:
 
 
 @lru_cache
-def _process(own: str, _: int) -> _Process:
+def _process(own: str, allowed: str, _: int) -> _Process:
     """The process with these types, as they were when they were changed last."""
-    return _Process(own)
+    return _Process(own, allowed)
 
 
 class _Process:
@@ -79,8 +86,8 @@ class _Process:
     next: so one dialogue that it does not survive does not break the others.
     """
 
-    def __init__(self, own: str) -> None:
-        self._own = own
+    def __init__(self, own: str, allowed: str) -> None:
+        self._variables = {**_ONE_THREAD, VARIABLE: own, ALLOWED: allowed}
         self._asking = Lock()
         self._process: subprocess.Popen[bytes] | None = None
         atexit.register(self._end)
@@ -106,11 +113,12 @@ class _Process:
 
     def _answer(self, question: bytes) -> tuple[bytes, str, str]:
         if self._process is None:
+            command, around = separate_python("-m", "kille.studies.apart")
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "kille.studies.apart"],
+                command,
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
-                env={**os.environ, **_ONE_THREAD, VARIABLE: self._own},
+                env={**around, **self._variables},
             )
         asks, answers = self._process.stdin, self._process.stdout
         assert asks is not None

@@ -13,6 +13,8 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
+from ttr.consent import Consent
+
 __all__ = ["PERSON", "Named", "Phase", "Run", "Study", "Theory"]
 
 PERSON = "person"
@@ -43,6 +45,8 @@ class Theory:
     learners: Mapping[str, str] = field(default_factory=dict)
     meanings: str | Mapping[str, str] = ""
     about: str = ""
+    consent: Consent | None = field(default=None, compare=False, repr=False)
+    """What the user lets the files of a study use; None if Python made the theory."""
 
 
 @dataclass(frozen=True)
@@ -110,6 +114,8 @@ class Study:
     """Where the file is, from which the paths in it begin."""
     file: Path = Path("study.toml")
     """The file, as it was named."""
+    consent: Consent | None = field(default=None, compare=False, repr=False)
+    """As that of a theory."""
 
     def runs(self) -> Iterator[Run]:
         """All dialogues; those that are to be compared with each other in a row."""

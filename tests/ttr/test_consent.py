@@ -117,7 +117,7 @@ def test_a_user_may_refuse_python(
     ):
         assert main([*command, "--no-python"]) == 2
         told = capsys.readouterr().err
-        assert "is Python, which is refused (--no-python)" in told
+        assert "is Python, which may not be run here" in told
         assert told.count("\n") == 1
     assert ran(home) == []
 

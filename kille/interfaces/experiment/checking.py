@@ -12,6 +12,7 @@ from kille.studies.reading import checked
 from kille.studies.reading.doubts import doubts
 from kille.studies.study import Study
 from ttr import TTRError
+from ttr.consent import Consent
 
 __all__ = ["MISTAKES", "check_files", "complain_all", "in_numbers", "tell_doubts"]
 
@@ -19,15 +20,15 @@ MISTAKES = StudyError, TTRError
 """What is told in a line, or in some, and is no fault of the program."""
 
 
-def check_files(files: Sequence[Path]) -> int:
+def check_files(files: Sequence[Path], consent: Consent) -> int:
     """Says of each file what it would play, or all that is wrong with it."""
-    codes = [_check_file(path) for path in files]
+    codes = [_check_file(path, consent) for path in files]
     return max(codes, default=FINE)
 
 
-def _check_file(path: Path) -> int:
+def _check_file(path: Path, consent: Consent) -> int:
     try:
-        study = checked(path)
+        study = checked(path, consent)
     except MISTAKES as error:
         return complain_all(error)
     tell_doubts(study)

@@ -8,6 +8,7 @@ from pathlib import Path
 from kille.interfaces.experiment.bars import bar
 from kille.interfaces.experiment.checking import MISTAKES, complain_all
 from kille.interfaces.experiment.people import people_in
+from kille.interfaces.experiment.running import Request, studied
 from kille.interfaces.terminal import FAILED, FINE, complain, console, hanging
 from kille.studies import log
 from kille.studies.log import Broken, Outcome, RunError
@@ -18,13 +19,11 @@ from kille.studies.study import Run
 __all__ = ["replay_all"]
 
 
-def replay_all(
-    folder: Path, names: Sequence[str], workers: int | None, scheduler: str
-) -> int:
+def replay_all(folder: Path, names: Sequence[str], request: Request) -> int:
     """Plays dialogues of a folder again, all if none is named; 1 where one differs."""
     try:
         befores = [log.named(folder, it) for it in names] or [*log.outcomes(folder)]
-        found = _replayed(folder, befores, workers, scheduler)
+        found = _replayed(folder, befores, request)
     except MISTAKES as error:
         return complain_all(error)
     out = console()
@@ -38,10 +37,10 @@ def replay_all(
 
 
 def _replayed(
-    folder: Path, befores: Sequence[Outcome], workers: int | None, scheduler: str
+    folder: Path, befores: Sequence[Outcome], request: Request
 ) -> dict[Run, Difference | None]:
     """What each dialogue differs in now."""
-    study = log.study(folder)
+    study = studied(folder, request)
     for it in befores:
         if people_in(study, it.run):
             raise RunError(
@@ -50,7 +49,8 @@ def _replayed(
             )
     for name in changed(log.about(folder).sources, sources(study)):
         complain(f"{name} has changed since these dialogues were played")
-    by = crew(1 if len(befores) == 1 else workers, scheduler)
+    workers = 1 if len(befores) == 1 else request.workers
+    by = crew(workers, request.scheduler)
     found: dict[Run, Difference | None] = {}
     with bar() as told:
         for before, differs in replay(study, befores, by=by):

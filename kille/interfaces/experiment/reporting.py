@@ -12,17 +12,22 @@ from kille.experiments.results import Result
 from kille.interfaces.experiment.checking import MISTAKES, complain_all
 from kille.interfaces.grids import print_table
 from kille.interfaces.terminal import FINE, console
-from kille.studies import reporting
+from kille.studies import log, reporting
 from kille.studies.log import write_tables
+from ttr.consent import Consent
 
 __all__ = ["compare", "print_summary", "report"]
 
 
-def report(folder: Path, command: str) -> int:
-    """Writes the tables and the page of a folder of results, and prints it."""
+def report(folder: Path, command: str, consent: Consent) -> int:
+    """Writes the tables and the page of a folder of results, and prints it.
+
+    To show its theories, Python is run only where there is consent to that.
+    """
     try:
         write_tables(folder)
-        page, results = reporting.report(folder, command=command)
+        study = log.study(folder, consent)
+        page, results = reporting.report(folder, command=command, study=study)
         print_results(results)
     except MISTAKES as error:
         return complain_all(error)
@@ -30,13 +35,16 @@ def report(folder: Path, command: str) -> int:
     return FINE
 
 
-def compare(one: Path, other: Path, page: Path | None, command: str) -> int:
+def compare(
+    one: Path, other: Path, page: Path | None, command: str, consent: Consent
+) -> int:
     """Prints how two folders of results differ, and writes a page if one is named."""
     try:
         if page is None:
-            print_results(reporting.compared(one, other))
+            print_results(reporting.compared(one, other, consent))
             return FINE
-        print_results(reporting.compare(one, other, page, command=command).results)
+        found = reporting.compare(one, other, page, command=command, consent=consent)
+        print_results(found.results)
         console().print(f"\nreport: {page}", markup=False)
     except MISTAKES as error:
         return complain_all(error)

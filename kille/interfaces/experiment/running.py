@@ -16,6 +16,7 @@ from kille.interfaces.experiment.checking import (
     in_numbers,
     tell_doubts,
 )
+from kille.interfaces.experiment.logs import logged
 from kille.interfaces.experiment.people import crew_for, has_people
 from kille.interfaces.experiment.reporting import print_summary
 from kille.interfaces.experiment.stopping import stoppable
@@ -23,11 +24,12 @@ from kille.interfaces.terminal import FAILED, FINE, complain, console
 from kille.studies import log, reporting
 from kille.studies.errors import StudyError
 from kille.studies.log import write_tables
-from kille.studies.reading import check, checked
+from kille.studies.reading import check, checked, python_in, read
 from kille.studies.running import Progress, Summary, run
 from kille.studies.study import Study
+from ttr.consent import OWN_FOLDER, Consent
 
-__all__ = ["Request", "as_it_is", "resume_study", "run_study"]
+__all__ = ["Request", "as_it_is", "resume_study", "run_study", "studied"]
 
 SHOWN = 10
 """So many broken dialogues are told; the table of runs has them all."""
@@ -40,6 +42,11 @@ class Request:
     workers: int | None
     scheduler: str
     command: str
+    consent: Consent = OWN_FOLDER
+    trusts: bool = False
+    """Whether Python may run that a log names."""
+    study: Path | None = None
+    """The study, in the place of that of a log."""
 
 
 First: TypeAlias = Callable[[Study, Path], object]
@@ -53,7 +60,7 @@ def run_study(path: Path, folder: Path | None, request: Request) -> int:
     """Plays a study into a folder, or goes on with it; the exit code."""
     folder = folder or Path(f"{path.stem}.results")
     try:
-        study = checked(path)
+        study = checked(path, request.consent)
         tell_doubts(study)
         return _run(study, folder, request)
     except MISTAKES as error:
@@ -63,13 +70,20 @@ def run_study(path: Path, folder: Path | None, request: Request) -> int:
 def resume_study(folder: Path, request: Request, first: First = as_it_is) -> int:
     """Goes on with the study in a folder, after something was done to it first."""
     try:
-        study = log.study(folder)
+        study = studied(folder, request)
         if faults := check(study):
             raise StudyError(faults)
         first(study, folder)
         return _run(study, folder, request)
     except MISTAKES as error:
         return complain_all(error)
+
+
+def studied(folder: Path, request: Request) -> Study:
+    """The study that the user names for a folder, or else that of its log."""
+    if request.study is not None:
+        return read(request.study, request.consent)
+    return logged(folder, request.consent, request.trusts)
 
 
 def _run(study: Study, folder: Path, request: Request) -> int:
@@ -85,24 +99,31 @@ def _run(study: Study, folder: Path, request: Request) -> int:
         try:
             summary = run(study, folder, by=by, told=heard)
         except KeyboardInterrupt:
-            return _stopped(folder, stop.code)
+            return _stopped(study, folder, stop.code)
     write_tables(folder)
-    page, results = reporting.report(folder, command=request.command)
+    page, results = reporting.report(folder, command=request.command, study=study)
     print_summary(results)
-    _tell(folder, page, summary)
+    _tell(study, folder, page, summary)
     return FAILED if summary.broken else FINE
 
 
-def _stopped(folder: Path, code: int) -> int:
+def _stopped(study: Study, folder: Path, code: int) -> int:
     over, planned = log.over(folder), log.about(folder).planned
     return complain(
         f"stopped with {over:,} of {planned:,} dialogues over; go on with: "
-        f"kille experiment resume {quote(str(folder))}",
+        f"{_resuming(study, folder)}",
         code,
     )
 
 
-def _tell(folder: Path, page: Path, summary: Summary) -> None:
+def _resuming(study: Study, folder: Path) -> str:
+    """The command to go on with; a log by itself runs none of the Python it names."""
+    if not python_in(study):
+        return f"kille experiment resume {quote(str(folder))}"
+    return f"kille experiment run {quote(str(study.file))} --out {quote(str(folder))}"
+
+
+def _tell(study: Study, folder: Path, page: Path, summary: Summary) -> None:
     out = console()
     before = summary.planned - summary.played
     told = f"{summary.played:,} dialogue{'s' if summary.played != 1 else ''} played"
@@ -118,9 +139,10 @@ def _tell(folder: Path, page: Path, summary: Summary) -> None:
         complain(f"{it.run}: {it.reason}")
     more = len(broken) - SHOWN
     hint = f"and {more:,} more; " if more > 0 else ""
+    trust = " --trust" if python_in(study) else ""
     complain(
         f"{hint}kille experiment show {quote(str(folder))} RUN says where, and "
-        f"kille experiment resume {quote(str(folder))} --again plays them again"
+        f"kille experiment resume {quote(str(folder))} --again{trust} plays them again"
     )
 
 

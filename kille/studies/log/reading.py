@@ -19,8 +19,12 @@ from kille.studies.log.outcomes import Broken, Finished, Outcome, RunError
 from kille.studies.log.schema import check_ours, table
 from kille.studies.played import Answer, Played, Turn
 from kille.studies.study import Run, Study
+from ttr.consent import Consent
 
 __all__ = ["about", "broken", "facts", "named", "outcomes", "over", "read", "study"]
+
+NO_PYTHON = Consent(python=False)
+"""What a user consents to who names a log."""
 
 Row = TypeVar("Row", Turn, Answer)
 
@@ -84,12 +88,16 @@ def facts(folder: Path) -> tuple[str, ...]:
     return tuple(sorted({name for (it,) in found for name in json.loads(it)}))
 
 
-def study(folder: Path) -> Study:
-    """The study that the log in a folder is of, read from the text that was kept."""
+def study(folder: Path, consent: Consent = NO_PYTHON) -> Study:
+    """The study that the log in a folder is of, read from the text that was kept.
+
+    A log says itself where its files are. So none of the Python that it names may be
+    run, unless there is consent to that.
+    """
     from kille.studies.reading import parsed
 
     it = about(folder)
-    return parsed(it.source, it.file)
+    return parsed(it.source, it.file, consent)
 
 
 _RUNS = """

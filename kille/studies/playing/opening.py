@@ -57,7 +57,7 @@ def tutor_of(study: Study, run: Run, name: str, scene: Scene) -> Tutor:
             return scripted(name, study.folder / os.path.expanduser(set_["file"]))
         case "own":
             words = Words(theory.language)
-            make = maker_of(set_["make"], study.folder)
+            make = maker_of(set_["make"], study.folder, study.consent)
             return make(name=name, words=words, **set_["settings"])
         case "keyboard":
             return Keyboard(name, theory.language)

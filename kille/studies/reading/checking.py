@@ -10,6 +10,7 @@ from pathlib import Path
 
 from kille.studies import protocols, scenes, tutors
 from kille.studies.errors import StudyError
+from kille.studies.reading.consenting import unallowed
 from kille.studies.reading.file import data_of, study_of, text_of
 from kille.studies.reading.hearing import misheard
 from kille.studies.reading.lines import Key
@@ -21,19 +22,22 @@ from kille.studies.reading.trying import troubles
 from kille.studies.reading.words import names_in, unsaid
 from kille.studies.settings import Wrong
 from kille.studies.study import Run, Study, Theory
+from ttr.consent import OWN_FOLDER, Consent
 
 __all__ = ["check", "checked"]
 
 
-def checked(path: Path) -> Study:
+def checked(path: Path, consent: Consent = OWN_FOLDER) -> Study:
     """The study in a file, ready to be played; `StudyError` with a line for each
     mistake, in how it is written and in what it names.
+
+    Of a study that names what there is no consent to, nothing is tried.
     """
     text = text_of(path)
     data = data_of(text, path)
     wrong = [*faults(data)]
     left = sound(data, [it.key for it in wrong]) if wrong else data
-    study = study_of(left, text, path)
+    study = study_of(left, text, path, consent)
     if lines := told([*wrong, *_troubles(study)], text, path):
         raise StudyError(lines)
     return study
@@ -45,6 +49,12 @@ def check(study: Study) -> tuple[str, ...]:
 
 
 def _troubles(study: Study) -> Iterator[Trouble]:
+    """What a study must not use; or else what is wrong with its parts."""
+    refused = [*unallowed(study)]
+    yield from refused or _tried(study)
+
+
+def _tried(study: Study) -> Iterator[Trouble]:
     """What is wrong with the parts of a study, and with how they fit together."""
     known = [it.kind for it in study.scenes.values() if it.kind != UNKNOWN]
     eyes = {"whole" if kind in scenes.WHOLE else "simulated" for kind in known}

@@ -9,6 +9,7 @@ import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import fields
+from importlib.resources import files
 from itertools import count
 from os.path import expanduser
 from pathlib import Path
@@ -20,6 +21,7 @@ from kille.studies.reading.shape import APART, STUDY, faults
 from kille.studies.reading.troubles import told
 from kille.studies.settings import no_file
 from kille.studies.study import Named, Phase, Study, Theory
+from ttr.consent import OWN_FOLDER, Consent
 from ttr.files import why_unread
 
 __all__ = [
@@ -30,24 +32,28 @@ __all__ = [
     "text_of",
 ]
 
+PACKAGED = Path(str(files("kille.grammars")))
+"""Where the theories of the package are, which those of anybody may import."""
+
 _OWN = re.compile(r"\.py(?=:)|\.ttr$")
 """Whether a name is that of something in a file of one's own."""
 
 
-def read(path: Path) -> Study:
+def read(path: Path, consent: Consent = OWN_FOLDER) -> Study:
     """The study in a file; `StudyError` with a line for each mistake."""
-    return parsed(text_of(path), path)
+    return parsed(text_of(path), path, consent)
 
 
-def parsed(text: str, path: Path) -> Study:
+def parsed(text: str, path: Path, consent: Consent = OWN_FOLDER) -> Study:
     """The study of a text that is, or once was, in this file; `StudyError` as `read`.
 
-    Paths in it begin at the folder of the file.
+    Paths in it begin at the folder of the file. Python there, or below, is what it may
+    run, and what else there is consent to.
     """
     data = data_of(text, path)
     if found := [*faults(data)]:
         raise StudyError(told(found, text, path))
-    return study_of(data, text, path)
+    return study_of(data, text, path, consent)
 
 
 def text_of(path: Path) -> str:
@@ -69,13 +75,19 @@ def data_of(text: str, path: Path) -> Mapping[str, Any]:
         raise StudyError([f"{path}:{line}: {why}"]) from error
 
 
-def study_of(data: Mapping[str, Any], text: str, path: Path) -> Study:
+def study_of(
+    data: Mapping[str, Any], text: str, path: Path, consent: Consent = OWN_FOLDER
+) -> Study:
     """The study of data without faults."""
     folder = path.resolve().parent
+    allowed = consent.adding(folder, PACKAGED)
     seeds = data["seeds"]
     return Study(
         title=data["title"],
-        theories={it: _theory(it, one, folder) for it, one in data["theories"].items()},
+        theories={
+            name: _theory(name, one, folder, allowed)
+            for name, one in data["theories"].items()
+        },
         tutors={name: _named(name, one) for name, one in data["tutors"].items()},
         scenes={name: _named(name, one) for name, one in data["scenes"].items()},
         phases=tuple(_phases(data["phases"])),
@@ -85,11 +97,14 @@ def study_of(data: Mapping[str, Any], text: str, path: Path) -> Study:
         source=text,
         folder=folder,
         file=path,
+        consent=allowed,
     )
 
 
-def _theory(name: str, given: Mapping[str, Any], folder: Path) -> Theory:
-    known = {one.name for one in fields(Theory)}
+def _theory(
+    name: str, given: Mapping[str, Any], folder: Path, consent: Consent
+) -> Theory:
+    known = {one.name for one in fields(Theory)} - {"consent"}
     values = {key: value for key, value in given.items() if key in known and value}
     if "without" in values:
         values["without"] = tuple(values["without"])
@@ -102,7 +117,7 @@ def _theory(name: str, given: Mapping[str, Any], folder: Path) -> Theory:
     if "learners" in values:
         own = values["learners"].items()
         values["learners"] = {kind: _found(one, folder) for kind, one in own}
-    return Theory(name, **values)
+    return Theory(name, consent=consent, **values)
 
 
 def _found(reference: str, folder: Path) -> str:

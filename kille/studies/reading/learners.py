@@ -24,12 +24,13 @@ __all__ = ["of_learners"]
 
 def of_learners(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
     """What is wrong with what judges the words, whether `simulated` or `whole`."""
-    for kind, name in theory.learners.items():
+    for kind in theory.learners:
         for seen in sorted(eyes):
-            yield from _of_learner(kind, name, seen)
+            yield from _of_learner(kind, theory, seen)
 
 
-def _of_learner(kind: str, name: str, seen: str) -> Iterator[Trouble]:
+def _of_learner(kind: str, theory: Theory, seen: str) -> Iterator[Trouble]:
+    name = theory.learners[kind]
     known = tuple(NAMES[seen][kind])
     key = ("learners", kind)
     path, colon, _ = name.rpartition(":")
@@ -40,7 +41,7 @@ def _of_learner(kind: str, name: str, seen: str) -> Iterator[Trouble]:
     if path.endswith(".py") and (why_not := no_file(Path(path))):
         yield Trouble(key, why_not)
         return
-    alone = Theory("", learners={kind: name})
+    alone = Theory("", learners={kind: name}, consent=theory.consent)
     try:
         if seen == "simulated":
             words_of(alone)

@@ -17,7 +17,7 @@ from kille.dialogue.tutoring import hear, tutoring
 from kille.experiments.results import ExperimentError
 from kille.simulation.perceiving import glanced
 from kille.simulation.worlds import Thing, World
-from kille.studies.apart import ask, is_apart, own_types
+from kille.studies.apart import allowed_for, ask, is_apart, own_types
 from kille.studies.errors import TheoryError
 from kille.studies.failing import line_in, why
 from kille.studies.reading.languages import of_language
@@ -35,6 +35,7 @@ from kille.studies.theories.games import (
 from kille.studies.theories.rules import PACKAGED, absent
 from ttr import TTRError
 from ttr.checking import check
+from ttr.consent import OWN_FOLDER
 from ttr.errors import Span
 from ttr.theories import Mistakes, load
 from ttr.updates.checks import NEVER, Fault, faults_of
@@ -81,10 +82,10 @@ def _apart(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
         yield Trouble(key, told)
         return
     try:
-        if isinstance(own, str) and (failing := [*_failing(key, Path(own))]):
+        if isinstance(own, str) and (failing := [*_failing(key, Path(own), theory)]):
             yield from failing
             return
-        types_of(own_types(theory))
+        types_of(own_types(theory), allowed_for(theory))
         yield from ask(theory, f"{__name__}:all_troubles", theory, eyes)
     except TTRError as error:
         found = _of_error(key, error)
@@ -122,7 +123,7 @@ def _of_rules(theory: Theory) -> Iterator[Trouble]:
     key: Key = ("rules",) if theory.rules else ("without",)
     try:
         of_file = theory.rules.endswith(".ttr")
-        if failing := [*_failing(key, Path(theory.rules))] if of_file else []:
+        if failing := [*_failing(key, Path(theory.rules), theory)] if of_file else []:
             yield from failing
             return
         if wanting := [Trouble(("without",), it) for it in absent(theory)]:
@@ -143,9 +144,10 @@ def _of_error(key: Key, error: TTRError) -> Iterator[Trouble]:
         yield Trouble(key, f"{one.message}{hint}", _place(one.span))
 
 
-def _failing(key: Key, file: Path) -> Iterator[Trouble]:
+def _failing(key: Key, file: Path, theory: Theory) -> Iterator[Trouble]:
     """What a theory file claims of itself and does not hold."""
-    report = check(load(file))
+    consent = theory.consent or OWN_FOLDER
+    report = check(load(file, allow=consent.folders))
     for failure in report.failures:
         because = f", {failure.why}" if failure.why else ""
         told = f"{failure.check.text} does not hold: found {failure.found}{because}"

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from kille.experiments.results import ExperimentError, Result
 from kille.studies import log
 from kille.studies.errors import StudyError, TheoryError
+from kille.studies.log.reading import NO_PYTHON
 from kille.studies.measuring.scored import Dialogue, scored
 from kille.studies.reporting.asked import tests_of
 from kille.studies.reporting.findings import grouped
@@ -22,6 +23,7 @@ from kille.studies.reporting.writing import Subject, every_two, results_of, writ
 from kille.studies.study import Study, Theory
 from kille.studies.theories.describing import described
 from ttr import TTRError
+from ttr.consent import Consent
 
 __all__ = ["Report", "compare", "compared", "report"]
 
@@ -37,23 +39,35 @@ class Report(NamedTuple):
     results: list[Result]
 
 
-def report(folder: Path, *, command: str = "") -> Report:
+def report(folder: Path, *, command: str = "", study: Study | None = None) -> Report:
     """Writes the report of a folder of results into it.
 
-    StudyError where there are none, TTRError where it cannot be written.
+    It is of this study, or else of the one that the log has, of which no Python is run
+    to show it. StudyError where there are none, TTRError where it cannot be written.
     """
     page = folder / _NAME
-    return Report(page, write(_subject(folder, command), page))
+    subject = _subject(folder, command, study or log.study(folder))
+    return Report(page, write(subject, page))
 
 
-def compare(one: Path, other: Path, page: Path, *, command: str = "") -> Report:
-    """Writes a report of two folders of results side by side."""
-    return Report(page, write(_both(one, other, command), page))
+def compare(
+    one: Path,
+    other: Path,
+    page: Path,
+    *,
+    command: str = "",
+    consent: Consent = NO_PYTHON,
+) -> Report:
+    """Writes a report of two folders of results side by side.
+
+    To show their theories, Python is run only where there is consent to that.
+    """
+    return Report(page, write(_both(one, other, command, consent), page))
 
 
-def compared(one: Path, other: Path) -> list[Result]:
+def compared(one: Path, other: Path, consent: Consent = NO_PYTHON) -> list[Result]:
     """What was found in two folders of results, for a terminal."""
-    subject = _both(one, other, "")
+    subject = _both(one, other, "", consent)
     everything = [it for them in subject.theories.values() for it in them]
     return results_of(subject, places_of(list(subject.theories), everything, ""))
 
@@ -61,8 +75,7 @@ def compared(one: Path, other: Path) -> list[Result]:
 # --- one folder ----------------------------------------------------------------------
 
 
-def _subject(folder: Path, command: str) -> Subject:
-    study = log.study(folder)
+def _subject(folder: Path, command: str, study: Study) -> Subject:
     dialogues = [scored(*it) for it in log.read(folder)]
     theories = grouped(list(study.theories), dialogues)
     shown = _described(study, theories or study.theories)
@@ -160,9 +173,11 @@ def _seeds(seeds: tuple[int, ...]) -> str:
 # --- two folders ---------------------------------------------------------------------
 
 
-def _both(one: Path, other: Path, command: str) -> Subject:
+def _both(one: Path, other: Path, command: str, consent: Consent) -> Subject:
     """Both as one: theories of one name are compared with each other, or else all."""
-    first, second = _subject(one, command), _subject(other, command)
+    studies = [log.study(folder, consent) for folder in (one, other)]
+    first = _subject(one, command, studies[0])
+    second = _subject(other, command, studies[1])
     names = _called(one, other)
     common = [name for name in first.theories if name in second.theories]
     which = [(name, name) for name in common] or [
@@ -202,7 +217,7 @@ def _both(one: Path, other: Path, command: str) -> Subject:
         ],
         warnings=[
             *shared,
-            *unlike(log.study(one), log.study(other)),
+            *unlike(*studies),
             *(
                 f"{label}: {text}"
                 for label, subject in subjects.items()

@@ -64,14 +64,15 @@ def words_of(theory: Theory) -> Mapping[str, MakeWord]:
 
     `ExperimentError` for a learner that there is not, or that cannot be made.
     """
-    return {kind: _word(kind, theory.learners.get(kind, "default")) for kind in KINDS}
+    return {kind: _word(kind, theory) for kind in KINDS}
 
 
-def _word(kind: str, name: str) -> MakeWord:
+def _word(kind: str, theory: Theory) -> MakeWord:
+    name = theory.learners.get(kind, "default")
     if name in WORDS:
         return WORDS[name]
     known = NAMES["simulated"][kind]
-    return partial(Guest, pupil=Pupil(_maker(name, known)))
+    return partial(Guest, pupil=Pupil(_maker(name, known, theory)))
 
 
 def learners_of(theory: Theory) -> Learners:
@@ -82,12 +83,12 @@ def learners_of(theory: Theory) -> Learners:
     noun, place = (theory.learners.get(it, "default") for it in ("noun", "relation"))
     objects, relations = _OF_EYES.get(noun), Learners().relations
     if objects is None:
-        objects = partial(GuestObjects, _maker(noun, OBJECTS), {})
+        objects = partial(GuestObjects, _maker(noun, OBJECTS, theory), {})
     if place != "default":
-        relations = partial(GuestRelations, _maker(place, RELATIONS))
+        relations = partial(GuestRelations, _maker(place, RELATIONS, theory))
     return Learners(objects, relations)
 
 
-def _maker(name: str, known: Mapping[str, Make]) -> Make:
-    """What makes the learner of a name; what it raises later carries the name."""
-    return candidates([name], known)[name]
+def _maker(name: str, known: Mapping[str, Make], theory: Theory) -> Make:
+    """What makes a learner of a theory; what it raises later carries its name."""
+    return candidates([name], known, theory.consent)[name]

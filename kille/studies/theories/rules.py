@@ -15,7 +15,8 @@ from kille.studies.failing import line_in, why
 from kille.studies.settings import no_file, unknown
 from kille.studies.study import Theory
 from ttr import TTRError
-from ttr.modules import run_file
+from ttr.consent import OWN_FOLDER, Consent, NotAllowed
+from ttr.modules import run_named
 from ttr.theories import load
 from ttr.updates import (
     Algorithm,
@@ -68,7 +69,7 @@ def _absent(theory: Theory, whole: Algorithm) -> Iterator[str]:
 
 def _whole(theory: Theory) -> Algorithm:
     """The games with the rules of one's own."""
-    return _with(TUTORING, theory.rules) if theory.rules else TUTORING
+    return _with(TUTORING, theory) if theory.rules else TUTORING
 
 
 def lacking(algorithm: Algorithm, names: Collection[str]) -> Algorithm | None:
@@ -125,11 +126,12 @@ PACKAGED = frozenset(rules_of(TUTORING))
 # --- rules of one's own ---------------------------------------------------------------
 
 
-def _with(whole: Algorithm, reference: str) -> Algorithm:
-    """The games with what a name stands for: rules in place of those of their names."""
+def _with(whole: Algorithm, theory: Theory) -> Algorithm:
+    """The games with a theory's own rules in place of those of their names."""
+    reference, consent = theory.rules, theory.consent
     if reference.endswith(".ttr"):
-        return _in_place(whole, _of_theory(Path(reference)), reference)
-    found = _of_python(reference)
+        return _in_place(whole, _of_theory(Path(reference), consent), reference)
+    found = _of_python(reference, consent)
     if isinstance(found, Algorithm) and not isinstance(found, Rule):
         return found
     if callable(found) and not isinstance(found, Rule):
@@ -137,7 +139,7 @@ def _with(whole: Algorithm, reference: str) -> Algorithm:
     return _in_place(whole, _rules(found, reference), reference)
 
 
-def _of_theory(file: Path) -> Mapping[str, Rule]:
+def _of_theory(file: Path, consent: Consent | None) -> Mapping[str, Rule]:
     """The rules of a theory file, by those that they replace.
 
     Many a rule there cannot have the name of the other, which is that of a predicate:
@@ -145,7 +147,7 @@ def _of_theory(file: Path) -> Mapping[str, Rule]:
     """
     _check_there(file)
     try:
-        rules = _loaded(file, file.stat().st_mtime_ns)
+        rules = _loaded(file, file.stat().st_mtime_ns, consent or OWN_FOLDER)
     except TTRError as error:
         place = f"{error.span.source}:{error.span.line}" if error.span else ""
         hint = f" ({error.hint})" if error.hint else ""
@@ -165,18 +167,20 @@ def _each_for_one(rules: Iterable[tuple[str, Rule]], of: str) -> Mapping[str, Ru
 
 
 @lru_cache
-def _loaded(file: Path, _: int) -> Mapping[str, Rule]:
+def _loaded(file: Path, _: int, consent: Consent) -> Mapping[str, Rule]:
     """The rules of a theory file as it was when it was changed last."""
-    return load(file).rules
+    return load(file, allow=consent.folders).rules
 
 
-def _of_python(reference: str) -> Any:
+def _of_python(reference: str, consent: Consent | None) -> Any:
     path, colon, name = reference.rpartition(":")
     if not colon or not path.endswith(".py"):
         raise TheoryError(f"rules are named {_WRITTEN}, found {reference}")
     _check_there(Path(path))
     try:
-        module = run_file(Path(path), f"_rules_{Path(path).stem}")
+        module = run_named(path, Path(), "_rules_", consent)
+    except NotAllowed as error:
+        raise TheoryError(error.message) from error
     except (Exception, SystemExit) as error:
         at = f"{path}:{line_in(path, error) or 1}"
         raise TheoryError(f"{path} cannot be run: {why(error)}", at) from error

@@ -101,7 +101,7 @@ def _of_own(named: Named, study: Study) -> Iterator[Wrong]:
 
 def _of_made(make: str, given: Mapping[str, Any], study: Study) -> Iterator[str]:
     try:
-        maker = maker_of(make, study.folder)
+        maker = maker_of(make, study.folder, study.consent)
     except StudyError as error:
         yield from error.faults
         return

@@ -8,27 +8,27 @@ not go on from the dialogue before.
 
 from __future__ import annotations
 
-import importlib
 import os
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
 
 from kille.studies.errors import StudyError
 from kille.studies.failing import line_in, why
 from kille.studies.settings import no_file, unknown
 from kille.studies.tutors.tutor import Tutor
-from ttr.modules import importing_from, run_file
+from ttr.consent import Consent, NotAllowed
+from ttr.modules import run_named
 
 __all__ = ["Make", "located", "maker_of"]
 
 Make = Callable[..., Tutor]
 
 
-def maker_of(name: str, folder: Path) -> Make:
+def maker_of(name: str, folder: Path, consent: Consent | None = None) -> Make:
     """What makes a tutor: `FILE.py:NAME`, from a folder, or `MODULE:NAME`.
 
-    Raises `StudyError` where there is none.
+    Who calls this names him; for a name that was found in a file, `consent` says which
+    Python may be run. Raises `StudyError` where there is none.
     """
     where, colon, what = name.rpartition(":")
     if not colon:
@@ -36,7 +36,10 @@ def maker_of(name: str, folder: Path) -> Make:
     if where.endswith(".py") and (told := no_file(_file(where, folder))):
         raise StudyError([told])
     try:
-        module = _module(where, folder)
+        python = os.path.expanduser(where)
+        module = run_named(python, folder, "_tutor_", consent)
+    except NotAllowed as error:
+        raise StudyError([error.message]) from error
     except (Exception, SystemExit) as error:
         told = located(where, folder, error)
         raise StudyError([f"{where} cannot be used: {told}"]) from error
@@ -58,11 +61,3 @@ def located(where: str, folder: Path, error: BaseException) -> str:
 
 def _file(where: str, folder: Path) -> Path:
     return folder / os.path.expanduser(where)
-
-
-def _module(where: str, folder: Path) -> ModuleType:
-    if where.endswith(".py"):
-        file = _file(where, folder)
-        return run_file(file, f"_tutor_{file.stem}")
-    with importing_from(folder.resolve()):
-        return importlib.import_module(where)

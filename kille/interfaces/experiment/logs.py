@@ -1,0 +1,53 @@
+"""The study of a folder of results, whose log runs no Python by itself."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from shlex import quote
+
+from kille.interfaces.terminal import console
+from kille.studies import log
+from kille.studies.errors import StudyError
+from kille.studies.reading import python_in, unallowed
+from kille.studies.study import Study
+from ttr.consent import Consent
+
+__all__ = ["consent_to", "logged"]
+
+
+def logged(folder: Path, consent: Consent, trusts: bool) -> Study:
+    """The study of the log in a folder, to be played; `StudyError` where it may not be.
+
+    What it runs of Python is said, if the user trusts it; else it may name none.
+    """
+    study = log.study(folder, consent)
+    named = python_in(study)
+    if named and not trusts:
+        about = f"{folder} has a study that names Python, {', '.join(named)}"
+        raise StudyError([f"{about}, {_unrun(study, consent)}"])
+    if refused := [*unallowed(study)]:
+        raise StudyError([f"{folder}: {it.what}" for it in refused])
+    for name in named:
+        _tell(study, name)
+    return study
+
+
+def consent_to(consent: Consent, trusts: bool) -> Consent:
+    """The consent to show what logs name: Python only if the user trusts them."""
+    return replace(consent, python=consent.python and trusts)
+
+
+def _unrun(study: Study, consent: Consent) -> str:
+    """Why the Python that a log names is not run, and the ways on."""
+    if not consent.python:
+        return "and --no-python refuses it"
+    return (
+        "and a log runs none by itself: name the study with --study "
+        f"{quote(study.file.name)}, or let it run what it names with --trust"
+    )
+
+
+def _tell(study: Study, name: str) -> None:
+    where = (study.folder / name).resolve() if name.endswith(".py") else name
+    console().print(f"running {where}, which the log names", markup=False)
