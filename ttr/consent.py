@@ -119,8 +119,8 @@ class Consent:
             self.check(folder / python, python)
         elif python not in self.modules and self.folder_of(python) is None:
             raise NotAllowed(
-                f"there is no module {python} in this folder: write a Python file there "
-                "that imports what is needed, and name that"
+                f"there is no module {python} in this folder: write a file there that "
+                "imports what is needed, and name that"
             )
 
     def folder_of(self, module: str) -> Path | None:

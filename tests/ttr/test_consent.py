@@ -14,7 +14,8 @@ import ttr
 from ttr.cli import main
 from ttr.consent import Consent, NotAllowed, is_below
 from ttr.logs import LogError, read_logs
-from ttr.stories import play, read_stories
+from ttr.stories import play, read_stories, setting
+from ttr.testing.processes import differing
 
 GAMES = Path(__file__).parent.parent / "games"
 
@@ -130,6 +131,15 @@ def test_the_other_stories_are_played(
     assert main(["play", "--quiet", bad, good, "--junit", "told.xml"]) == 2
     assert capsys.readouterr().out.startswith(f"{good}: ")
     assert 'errors="1"' in (home / "told.xml").read_text()
+
+
+def test_what_lies_in_the_working_directory_is_not_run(home: Path) -> None:
+    """Dialogues are played once more in processes of their own."""
+    for module in ("random", "hashlib", "hypothesis", "ttr"):
+        (home / f"{module}.py").write_text(GAME.format(door=""))
+    place = setting("door.ttr door", GAMES)
+    assert differing(place, examples=2, start=0) == ""
+    assert ran(home) == []
 
 
 # --- logs ----------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from shlex import quote
 from kille.interfaces.terminal import console
 from kille.studies import log
 from kille.studies.errors import StudyError
-from kille.studies.reading import python_in, unallowed
+from kille.studies.reading import check_allowed, python_in
 from kille.studies.study import Study
 from ttr.consent import Consent
 
@@ -26,8 +26,7 @@ def logged(folder: Path, consent: Consent, trusts: bool) -> Study:
     if named and not trusts:
         about = f"{folder} has a study that names Python, {', '.join(named)}"
         raise StudyError([f"{about}, {_unrun(study, consent)}"])
-    if refused := [*unallowed(study)]:
-        raise StudyError([f"{folder}: {it.what}" for it in refused])
+    check_allowed(study)
     for name in named:
         _tell(study, name)
     return study

@@ -24,7 +24,7 @@ from kille.interfaces.terminal import FAILED, FINE, complain, console
 from kille.studies import log, reporting
 from kille.studies.errors import StudyError
 from kille.studies.log import write_tables
-from kille.studies.reading import check, checked, python_in, read
+from kille.studies.reading import check, check_allowed, checked, python_in, read
 from kille.studies.running import Progress, Summary, run
 from kille.studies.study import Study
 from ttr.consent import OWN_FOLDER, Consent
@@ -82,7 +82,9 @@ def resume_study(folder: Path, request: Request, first: First = as_it_is) -> int
 def studied(folder: Path, request: Request) -> Study:
     """The study that the user names for a folder, or else that of its log."""
     if request.study is not None:
-        return read(request.study, request.consent)
+        study = read(request.study, request.consent)
+        check_allowed(study)
+        return study
     return logged(folder, request.consent, request.trusts)
 
 

@@ -10,17 +10,24 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from kille.dialogue.sources import FILES
+from kille.studies.errors import StudyError
 from kille.studies.reading.lines import Key
-from kille.studies.reading.troubles import Trouble
+from kille.studies.reading.troubles import Trouble, told
 from kille.studies.study import Study, Theory
 from ttr.consent import NotAllowed, check_called
 
-__all__ = ["python_in", "unallowed"]
+__all__ = ["check_allowed", "python_in", "unallowed"]
 
 
 def python_in(study: Study) -> tuple[str, ...]:
     """The Python files and modules that a study names, each once."""
     return tuple(dict.fromkeys(name for _, name in _python(study)))
+
+
+def check_allowed(study: Study) -> None:
+    """Raises `StudyError`, a line for each, where a study names what it must not use."""
+    if found := [*unallowed(study)]:
+        raise StudyError(told(found, study.source, study.file))
 
 
 def unallowed(study: Study) -> Iterator[Trouble]:

@@ -124,12 +124,13 @@ def test_a_dialogue_that_goes_differently_is_told_with_why(
     study.write_text(STUDY.replace("[tutors.Ann]", OWN))
     kille("experiment", "run", str(study), "--workers", "1")
     Path("own.py").write_text(LEARNER.replace("0.9", "0.8"))
-    done = kille("experiment", "replay", "ways.results", "--workers", "1")
+    done = kille("experiment", "replay", "ways.results", "--trust", "--workers", "1")
     assert done.code == 1
     assert (
         done.complaint == "kille: own.py has changed since these dialogues were played"
     )
-    told = done.out.splitlines()
+    running, *told = done.out.splitlines()
+    assert running == f"running {Path('own.py').resolve()}, which the log names"
     assert told[0].startswith("assisted/Ann/table/1: ")
     assert told[-1] == "2 of 4 dialogues go as they went"
     done = kille("experiment", "run", str(study), "--workers", "1")
@@ -253,13 +254,14 @@ def test_what_breaks_is_listed_at_the_end(kille: Run, study: Path) -> None:
     assert told[0] == "kille: 2 of 4 dialogues broke:"
     assert "assisted/Ann/table/1" in told[1]
     assert "I forget" in told[1]
-    assert "resume ways.results --again" in told[-1]
+    assert "resume ways.results --again --trust" in told[-1]
     assert len(list(log.read(Path("ways.results")))) == 2
 
     done = kille("experiment", "show", "ways.results", "assisted/Ann/table/1")
     assert done.code == 1
     assert "Traceback" in done.out
-    done = kille("experiment", "resume", "ways.results", "--again", "--workers", "1")
+    again = "resume", "ways.results", "--again", "--trust", "--workers", "1"
+    done = kille("experiment", *again)
     assert "2 dialogues played, 2 were over before" in done.out
 
 
