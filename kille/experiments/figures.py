@@ -45,6 +45,7 @@ _SETTINGS: Any = {
     "svg.fonttype": "none",
     "pdf.fonttype": 42,  # letters that remain letters
     "text.parse_math": False,  # a dollar in a word is a dollar
+    "text.usetex": False,  # a matplotlibrc in the working directory starts no LaTeX
     "font.size": 10,
     "font.family": "sans-serif",
     "axes.titlesize": 10,

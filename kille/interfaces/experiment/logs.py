@@ -9,7 +9,7 @@ from shlex import quote
 from kille.interfaces.terminal import console
 from kille.studies import log
 from kille.studies.errors import StudyError
-from kille.studies.reading import check_allowed, python_in
+from kille.studies.reading.consenting import check_allowed, python_in
 from kille.studies.study import Study
 from ttr.consent import Consent
 

@@ -24,7 +24,8 @@ from kille.interfaces.terminal import FAILED, FINE, complain, console
 from kille.studies import log, reporting
 from kille.studies.errors import StudyError
 from kille.studies.log import write_tables
-from kille.studies.reading import check, check_allowed, checked, python_in, read
+from kille.studies.reading import check, checked, read
+from kille.studies.reading.consenting import check_allowed, python_in
 from kille.studies.running import Progress, Summary, run
 from kille.studies.study import Study
 from ttr.consent import OWN_FOLDER, Consent

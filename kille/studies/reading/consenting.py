@@ -25,7 +25,7 @@ def python_in(study: Study) -> tuple[str, ...]:
 
 
 def check_allowed(study: Study) -> None:
-    """Raises `StudyError`, a line for each, where a study names what it must not use."""
+    """Raises `StudyError`, a line for each name of what a study must not use."""
     if found := [*unallowed(study)]:
         raise StudyError(told(found, study.source, study.file))
 

@@ -12,7 +12,8 @@ import pytest
 from kille.dialogue.redefining import types_of
 from kille.studies import log
 from kille.studies.apart import ask
-from kille.studies.reading import checked, read, unallowed
+from kille.studies.reading import checked, read
+from kille.studies.reading.consenting import unallowed
 from kille.studies.study import Theory
 from kille.studies.theories.judging import learners_of
 from ttr.consent import NotAllowed
