@@ -13,6 +13,8 @@ from hypothesis import strategies as st
 import ttr
 from ttr.cli import main
 from ttr.consent import Consent, NotAllowed, is_below
+from ttr.interactive.repl import respond
+from ttr.interactive.sessions import Session
 from ttr.logs import LogError, read_logs
 from ttr.stories import play, read_stories, setting
 from ttr.testing.processes import differing
@@ -207,7 +209,7 @@ def test_what_a_log_declares_imports_nothing(home: Path, log: Path) -> None:
         header["declares"].append(f'import "{name}"')
         lines = [f"{json.dumps(line)}\n" for line in (header, *turns)]
         (home / "odd.jsonl").write_text("".join(lines))
-        with pytest.raises(LogError, match="no other file may be used here") as caught:
+        with pytest.raises(LogError, match="used here|not used") as caught:
             _ = read_logs(home / "odd.jsonl")[0].declared
         assert "root:x" not in str(caught.value)
 
@@ -234,7 +236,7 @@ def theories(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def importing(folder: Path, name: str) -> Path:
     file = folder / "mine" / "top.ttr"
-    file.write_text(f'import "{name}"\ncheck Ind <= Ind\n')
+    file.write_text(f'import "{name}"\ncheck Ind <= Ind\nPair := [a : Ind]\n')
     return file
 
 
@@ -266,13 +268,35 @@ def test_a_theory_imports_nothing_else(
     theories: Path, name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = str(importing(theories, name))
-    with pytest.raises(ttr.TTRError) as caught:
+    with pytest.raises(NotAllowed) as caught:
         ttr.load(file)
     for command in (["check", file], ["show", file, "Ind"], ["test", file]):
         assert main(command) != 0
     told = "".join((*capsys.readouterr(), str(caught.value)))
     assert "root:x" not in told
     assert "is not used" in told or "--allow" in told
+
+
+@pytest.mark.parametrize("name", ["mine/secret", "mine/hidden.ttr", "/etc/passwd"])
+def test_a_session_tells_nothing_of_what_is_no_theory(
+    theories: Path, name: str
+) -> None:
+    said = respond(Session(), f'import "{name}"').text
+    assert "is not used" in said
+    assert "root:x" not in said
+
+
+def test_a_session_imports_what_is_typed_and_what_that_may_import(
+    theories: Path,
+) -> None:
+    (theories / "theirs" / "more.ttr").write_text('import "other.ttr"\nbasic More\n')
+    session = respond(Session(), 'import "theirs/more.ttr"').session
+    assert session.theory.names >= {"Ind", "More"}
+    file = importing(theories, "../theirs/other.ttr")
+    assert "--allow" in respond(Session(), f'import "{file}"').text
+    assert "--allow" in respond(Session(), f":load {file}").text
+    allowed = Session(consent=Consent.of(["theirs"]))
+    assert "Ind" in respond(allowed, f":load {file}").session.theory.names
 
 
 def test_a_theory_imports_from_folders_that_are_allowed(theories: Path) -> None:
@@ -283,7 +307,7 @@ def test_a_theory_imports_from_folders_that_are_allowed(theories: Path) -> None:
         assert main(["show", str(file), "Ind", "--allow", "theirs"]) == 0
     for name in ("../theirs/secret", "secret"):
         file = importing(theories, name)
-        with pytest.raises(ttr.TTRError, match=r"expected a file called NAME\.ttr"):
+        with pytest.raises(NotAllowed, match=r"expected a file called NAME\.ttr"):
             ttr.load(file, allow=["theirs"])
 
 
@@ -295,7 +319,7 @@ def test_an_import_of_an_import_stays_in_the_folder_of_the_first(
     with pytest.raises(NotAllowed):
         ttr.load(theories / "mine" / "below" / "under.ttr")
     (theories / "mine" / "beside.ttr").write_text('import "../theirs/other.ttr"')
-    with pytest.raises(ttr.TTRError, match="lies in another folder"):
+    with pytest.raises(NotAllowed):
         ttr.load(importing(theories, "beside.ttr"))
 
 

@@ -13,7 +13,7 @@ from functools import reduce
 from pathlib import Path
 from typing import TypeAlias
 
-from ttr.consent import OWN_FOLDER, Consent
+from ttr.consent import OWN_FOLDER, Consent, check_called
 from ttr.errors import NotationError, TTRError, Unsupported, following_nesting
 from ttr.escapes import json_text
 from ttr.files import write_whole
@@ -122,6 +122,7 @@ def _entry(tree: Statement, source: Source, folder: Path, consent: Consent) -> E
     if isinstance(tree, trees.Import):
         path = Path(os.path.realpath(folder / tree.path))
         try:
+            check_called(folder / tree.path, ".ttr", tree.path)
             theory = theory_of_file(path, consent)
         except TTRError as error:
             raise error.at(source.span(tree)) from None

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ttr.consent import OWN_FOLDER, Consent, check_called
+from ttr.consent import OWN_FOLDER, Consent, NotAllowed, check_called
 from ttr.errors import NotationError, Span, TTRError
 from ttr.files import why_unread
 from ttr.interning import identity
@@ -90,8 +90,8 @@ class _Files:
         Nothing is read, and so nothing told, but theory files to which there is
         consent: who writes an import could be shown the lines of any other file.
         """
-        self.consent.check(path, named)
         check_called(path, ".ttr", named)
+        self.consent.check(path, named)
         return self.file(path, chain)
 
     def file(self, path: Path, chain: tuple[Path, ...]) -> _Reading:
@@ -125,6 +125,8 @@ class _Files:
                 file.give_up(start, end)
                 break
             file.go_on(start, end)
+            if file.is_refused:
+                break
         return _Reading(draft.finished(), frozenset(file.spoilt), tuple(file.mistakes))
 
 
@@ -192,6 +194,11 @@ class _File:
     def source(self) -> Source:
         """The text."""
         return self.declaring.source
+
+    @property
+    def is_refused(self) -> bool:
+        """Is there an import that is not allowed, without which nothing can be told?"""
+        return any(isinstance(one, NotAllowed) for one in self.mistakes)
 
     def go_on(self, start: int, end: int) -> None:
         """Reads the statement text[start:end]."""
