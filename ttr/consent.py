@@ -28,14 +28,14 @@ def is_below(path: str | os.PathLike[str], folder: str | os.PathLike[str]) -> bo
     >>> is_below("games/door.ttr", "games"), is_below("games/../door.ttr", "games")
     (True, False)
     """
-    try:
-        return _real(path).is_relative_to(_real(folder))
-    except ValueError:  # no text with a zero in it is a path
-        return False
+    return _real(path).is_relative_to(_real(folder))
 
 
 def _real(path: str | os.PathLike[str]) -> Path:
-    return Path(os.path.realpath(path))
+    try:
+        return Path(os.path.realpath(path))
+    except ValueError:  # no text with a zero in it is a path
+        raise NotAllowed(f"{str(path)!r} is no path of a file") from None
 
 
 def check_called(path: str | os.PathLike[str], suffix: str, named: str = "") -> None:
@@ -51,7 +51,7 @@ def check_called(path: str | os.PathLike[str], suffix: str, named: str = "") -> 
         raise NotAllowed(
             f"{told} is not used: it leads to a file not called NAME{suffix}"
         )
-    if real.exists() and not (real.is_file() or real.is_dir()):
+    if os.path.exists(real) and not (os.path.isfile(real) or os.path.isdir(real)):
         raise NotAllowed(f"{told} is not used: it is no regular file")
 
 
@@ -128,7 +128,7 @@ class Consent:
         path = Path(*module.split("."))
         for folder in self.folders:
             for file in (folder / f"{path}.py", folder / path / "__init__.py"):
-                if file.is_file() and is_below(file, folder):
+                if os.path.isfile(file) and is_below(file, folder):
                     return folder
         return None
 

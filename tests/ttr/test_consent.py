@@ -209,7 +209,7 @@ def test_what_a_log_declares_imports_nothing(home: Path, log: Path) -> None:
         header["declares"].append(f'import "{name}"')
         lines = [f"{json.dumps(line)}\n" for line in (header, *turns)]
         (home / "odd.jsonl").write_text("".join(lines))
-        with pytest.raises(LogError, match="used here|not used") as caught:
+        with pytest.raises(LogError, match=r"used here|not used") as caught:
             _ = read_logs(home / "odd.jsonl")[0].declared
         assert "root:x" not in str(caught.value)
 
@@ -352,6 +352,19 @@ def test_a_story_tells_nothing_of_what_is_no_theory(
     (theories / "mine" / "a.dlg").write_text("@ game hidden.ttr door\nU> Greet\n")
     assert main(["play", "mine/a.dlg"]) == 2
     assert "root:x" not in "".join(capsys.readouterr())
+
+
+@pytest.mark.parametrize(
+    "name", ["a\0.ttr", "\0", f"{'a' * 5000}.ttr", "\udc80.ttr", "..", "", "loop.ttr"]
+)
+def test_what_is_no_path_is_told(theories: Path, name: str) -> None:
+    (theories / "mine" / "loop.ttr").symlink_to("loop.ttr")
+    top = theories / "mine"
+    with pytest.raises(ttr.TTRError):
+        setting(f"{name} door", top, Consent.of([top]))
+    for python in (f"{name[:-4]}.py", name[:-4]):
+        with pytest.raises(NotAllowed):
+            Consent.of(["below"]).check_python(python, Path("elsewhere"))
 
 
 # --- laws ----------------------------------------------------------------------------

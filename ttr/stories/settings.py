@@ -153,7 +153,7 @@ def _of_python(path: str, name: str, folder: Path, consent: Consent | None) -> S
 
 def _check_there(file: str, folder: Path) -> None:
     path = folder / file
-    if path.is_file():
+    if os.path.isfile(path):
         return
     beside = [one.name for one in path.parent.glob(f"*{path.suffix}")]
     near = suggestion(path.name, beside)
