@@ -1,11 +1,16 @@
-"""Is a lesson that the robot said it learned there, whatever the moment of a kill -9?
+"""Is what was said to be learned there, whatever the moment of a kill -9?
 
-A robot hears a tutor who teaches without end, as `kille talk` does: it looks, learns,
-and answers. It is killed at a moment drawn at random: some lessons and a part of one
-after it woke. Then its file is read, with all that was seen in every lesson, and the
-next robot goes on with the same memory, or after some kills with a new one, so that the
-making of a file is met too. A lesson counts as acknowledged when the robot's answer has
-left its process.
+`--of robot`: a robot hears a tutor who teaches without end, as `kille talk` does: it
+looks, learns, and answers. `--of talk`: the command itself does, reading the tutor's
+lines from a file and printing its own into a pipe. It is killed at a moment drawn at
+random: some lessons and a part of one after it woke. Then its file is read, with all
+that was seen in every lesson, and the next robot goes on with the same memory, or after
+some kills with a new one, so that the making of a file is met too. A lesson counts as
+acknowledged when the robot's answer has left its process.
+
+`--of import`: `kille memory import` adds a package of lessons to a memory with some,
+and is killed at any moment from its start to its end. All lessons that were there must
+be there and whole, and those of the package all or none; all, once the command said so.
 
 Exit code 1 if anything is lost, halved or cannot be read.
 """
@@ -16,6 +21,8 @@ import argparse
 import json
 import os
 import random
+import re
+import shutil
 import signal
 import sys
 import tempfile
@@ -24,14 +31,19 @@ import traceback
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Set
 from dataclasses import asdict, dataclass
-from itertools import count
+from functools import partial
+from itertools import count, islice
 from pathlib import Path
 from typing import NoReturn
 
 import cv2
 
 from kille import Agent
+from kille.interfaces import cli
+from kille.interfaces.memory import moving  # noqa: F401  children have it loaded
+from kille.interfaces.talk import talk  # noqa: F401
 from kille.memory import Memory, MemoryFileError, MemoryReader, Sighting
+from kille.memory.exporting import export
 from kille.perception.thumbnails import restored
 from kille.sensors.synthetic import open_synthetic
 
@@ -41,6 +53,16 @@ LIFE = 3
 """How many lessons a robot may have acknowledged when its last moment begins."""
 OF_ONE_FILE = 20
 """Kills after which a new memory is begun."""
+IN_PACKAGE = 40
+"""Lessons of the package that is imported."""
+
+ACKNOWLEDGEMENT = re.compile(
+    r"(?:S> OK, I learned an? (.*)\.|.*(learned from .*), 0 known before|(\w+))\n"
+)
+"""What is said to be learned: by `kille talk`, by an import, by a robot."""
+
+Child = Callable[[int], None]
+"""What runs in a process of its own; it tells what it learned to this descriptor."""
 
 
 @dataclass
@@ -89,33 +111,79 @@ def lesson_seconds() -> tuple[float, float]:
     return first - waking, second - first
 
 
-def killed(path: Path, start: int, lessons: int, seconds: float) -> list[str]:
-    """What a robot had said it learned, killed so long after so many lessons."""
-    telling, acknowledging = os.pipe()
-    child = os.fork()
-    if child == 0:
-        teaching(path, start, acknowledging)
-    os.close(acknowledging)
-    with os.fdopen(telling, "rb") as told:
-        things = [told.readline() for _ in range(lessons)]
-        time.sleep(seconds)
-        os.kill(child, signal.SIGKILL)
-        things += told.readlines()
-    _, status = os.waitpid(child, 0)
-    if not os.WIFSIGNALED(status):
-        raise RuntimeError("a robot ended before it was killed")
-    return [it.decode().strip() for it in things]
+def robot_teaching(path: Path, start: int) -> Child:
+    """A robot that is taught by calls, and tells each thing that it learned."""
 
-
-def teaching(path: Path, start: int, acknowledging: int) -> NoReturn:
-    """What the child does; it never comes back from here."""
-    try:
+    def run(telling: int) -> None:
         for thing in teach(path, count(start)):
-            os.write(acknowledging, f"{thing}\n".encode())
+            os.write(telling, f"{thing}\n".encode())
+
+    return run
+
+
+def talk_teaching(path: Path, start: int) -> Child:
+    """`kille talk` with more to hear than it will live for."""
+    things = [THINGS[it % len(THINGS)] for it in range(start, start + 10 * LIFE)]
+    script = "".join(f"@ show {it}\nThis is a {it}.\n" for it in things)
+    return command_running(["talk", "--sensor", SENSOR, "--memory", str(path)], script)
+
+
+def command_running(arguments: list[str], script: str = "") -> Child:
+    """A command of kille that reads these lines and prints into the pipe."""
+
+    def run(telling: int) -> None:
+        with tempfile.TemporaryFile() as lines:
+            lines.write(script.encode())
+            lines.seek(0)
+            os.dup2(lines.fileno(), 0)
+        os.dup2(telling, 1)
+        if code := cli.main(arguments):
+            raise RuntimeError(f"kille {arguments[0]} ended with {code}")
+
+    return run
+
+
+def killed(child: Child, lessons: int, seconds: float) -> tuple[list[str], bool]:
+    """What a child had said it learned, killed so long after so many lessons.
+
+    And whether it was over before it could be killed.
+    """
+    telling, acknowledging = os.pipe()
+    sys.stdout.flush()
+    process = os.fork()
+    if process == 0:
+        living(child, acknowledging)
+    os.close(acknowledging)
+    with os.fdopen(telling, "rb") as lines:
+        said = map(acknowledgement, lines)
+        things = list(islice(filter(None, said), lessons))
+        time.sleep(seconds)
+        os.kill(process, signal.SIGKILL)
+        things += filter(None, said)
+    _, status = os.waitpid(process, 0)
+    over = not os.WIFSIGNALED(status)
+    if over and os.waitstatus_to_exitcode(status):
+        raise RuntimeError("a child failed before it was killed")
+    return things, over
+
+
+def living(child: Child, acknowledging: int) -> NoReturn:
+    """What the child does; it never comes back from here."""
+    code = 1
+    try:
+        child(acknowledging)
+        sys.stdout.flush()
+        code = 0
     except BaseException:
         traceback.print_exc()
     finally:
-        os._exit(1)
+        os._exit(code)
+
+
+def acknowledgement(line: bytes) -> str:
+    """What a line says was learned; "" if it says no such thing, or is cut short."""
+    found = ACKNOWLEDGEMENT.fullmatch(line.decode())
+    return found[1] or found[2] or found[3] if found else ""
 
 
 def whole(memory: MemoryReader, key: int, said: Set[tuple[int, int]]) -> bool:
@@ -143,8 +211,13 @@ def examined(path: Path, acknowledged: Counter[str], outcome: Outcome) -> None:
     outcome.lost += (acknowledged - kept).total()
 
 
-def kill_often(kills: int, seed: int, told: Callable[[int], None]) -> Outcome:
-    """Kill so many robots, and tell after each how many there were."""
+def kill_often(
+    teaching: Callable[[Path, int], Child],
+    kills: int,
+    seed: int,
+    told: Callable[[int], None],
+) -> Outcome:
+    """Kill so many of these, and tell after each how many there were."""
     chance, outcome = random.Random(seed), Outcome()
     first, later = lesson_seconds()
     while outcome.kills < kills:
@@ -153,7 +226,10 @@ def kill_often(kills: int, seed: int, told: Callable[[int], None]) -> Outcome:
             for _ in range(min(OF_ONE_FILE, kills - outcome.kills)):
                 lessons = chance.randint(0, LIFE)
                 seconds = chance.uniform(0, later if lessons else first)
-                learned = killed(path, outcome.kills, lessons, seconds)
+                child = teaching(path, outcome.kills)
+                learned, over = killed(child, lessons, seconds)
+                if over:
+                    raise RuntimeError("a robot ended before it was killed")
                 acknowledged.update(learned)
                 outcome.kills += 1
                 outcome.idle += not learned
@@ -161,6 +237,44 @@ def kill_often(kills: int, seed: int, told: Callable[[int], None]) -> Outcome:
                 told(outcome.kills)
             if path.exists():
                 examined(path, acknowledged, outcome)
+    return outcome
+
+
+def kill_imports(kills: int, seed: int, told: Callable[[int], None]) -> Outcome:
+    """Kill so many imports, and tell after each how many there were."""
+    chance, outcome = random.Random(seed), Outcome()
+    with tempfile.TemporaryDirectory() as folder:
+        start, package = Path(folder) / "start.db", Path(folder) / "lessons.zip"
+        path = Path(folder) / "memory.db"
+        mine = list(teach(start, range(LIFE)))
+        theirs = list(teach(path, range(IN_PACKAGE)))
+        with Memory.reading(path) as memory:
+            export(memory, package)
+        importing = command_running(
+            ["memory", "import", str(package), "--memory", str(path)]
+        )
+        shutil.copy(start, path)
+        begun = time.perf_counter()
+        killed(importing, 1, 0)
+        longest = time.perf_counter() - begun
+        shutil.copy(start, path)
+        while outcome.kills < kills:
+            said, over = killed(importing, 0, chance.uniform(0, longest))
+            outcome.kills += not over
+            outcome.idle += not (said or over)
+            if not readable(path):
+                outcome.unreadable += 1
+            with Memory.reading(path) as memory:
+                whole_import = len(memory.lessons()) > len(mine)
+            expected = Counter(mine)
+            if said or whole_import:
+                expected.update(theirs)
+            examined(path, expected, outcome)
+            if whole_import or chance.random() < 1 / OF_ONE_FILE:
+                for it in path.parent.glob("memory.db*"):
+                    it.unlink()
+                shutil.copy(start, path)
+            told(outcome.kills)
     return outcome
 
 
@@ -182,12 +296,18 @@ def on_terminal(kills: int) -> None:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("--of", choices=("robot", "talk", "import"), default="robot")
     parser.add_argument("--kills", type=int, default=1000, metavar="N")
     parser.add_argument("--seed", type=int, default=1, metavar="N")
     parser.add_argument("--json", action="store_true", help="print JSON, one object")
     options = parser.parse_args()
     cv2.setNumThreads(1)
-    outcome = kill_often(options.kills, options.seed, on_terminal)
+    kill = {
+        "robot": partial(kill_often, robot_teaching),
+        "talk": partial(kill_often, talk_teaching),
+        "import": kill_imports,
+    }[options.of]
+    outcome = kill(options.kills, options.seed, on_terminal)
     facts = asdict(outcome) | {"holds": outcome.holds}
     if options.json:
         print(json.dumps(facts))

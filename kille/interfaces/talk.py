@@ -16,6 +16,7 @@ from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import MemoryFileError
 from kille.perception.sheet import overview, write_picture
 from kille.perception.thumbnails import outlined
+from kille.private import create_private_file
 from kille.sensors.sensor import SensorError, Stage
 from kille.speech.sound import SoundError
 from kille.speech.speaking import Voice, voice
@@ -265,6 +266,7 @@ def _line_editing() -> Iterator[None]:
         readline.set_history_length(1000)
         try:
             history.parent.mkdir(parents=True, exist_ok=True)
+            create_private_file(history)
             readline.write_history_file(history)
         except OSError:
             complain(f"the history could not be kept in {history}")

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import shlex
 import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
+
+from kille.databases import shown
 
 
 class MemoryFileError(Exception):
@@ -15,12 +18,21 @@ class NoSuchLessonError(LookupError):
     """A lesson was named that the memory does not hold."""
 
 
+class NotKeptError(Exception):
+    """A lesson that does not come back from the file as it went in."""
+
+
 ELSEWHERE = "or name another file with --memory"
+CHECK = "kille memory check {file} says what is wrong and can save the rest"
 
 # By primary result code, https://www.sqlite.org/rescode.html.
 EXPLANATIONS = {
-    sqlite3.SQLITE_NOTADB: f"is not a kille memory: move it away, {ELSEWHERE}",
-    sqlite3.SQLITE_CORRUPT: f"is damaged: put back a copy of it, {ELSEWHERE}",
+    sqlite3.SQLITE_NOTADB: (
+        f"is not a kille memory: move it away, {ELSEWHERE}; if it was one, "
+        "kille memory check {file} --salvage NEW may save the rest"
+    ),
+    sqlite3.SQLITE_CORRUPT: f"is damaged: {CHECK}; put back a copy, {ELSEWHERE}",
+    sqlite3.SQLITE_TOOBIG: f"has a value larger than any that kille keeps: {CHECK}",
     sqlite3.SQLITE_BUSY: f"is in use by another program: end that one, {ELSEWHERE}",
     sqlite3.SQLITE_READONLY: (
         f"is read-only, or its folder is: make both writable, {ELSEWHERE}"
@@ -38,11 +50,30 @@ EXPLANATIONS = {
 }
 
 
+def explanation(place: str, code: int) -> str:
+    """The line for a person that says what this result of SQLite's means."""
+    return f"{place} {EXPLANATIONS[code].format(file=shlex.quote(place))}"
+
+
+def _check(place: str) -> str:
+    return CHECK.format(file=shlex.quote(place))
+
+
+def untrusted(place: str, fault: str) -> MemoryFileError:
+    """The error for a file that has what kille would not have written."""
+    return MemoryFileError(f"{place} has {fault}: {_check(place)}")
+
+
+_NO_DATABASE = (sqlite3.SQLITE_OK, sqlite3.SQLITE_ERROR)
+"""Codes of text that is not UTF-8, and of formats that SQLite does not know."""
+
+
 @contextmanager
 def explained(place: str) -> Iterator[None]:
-    """Turn what SQLite says of the file at `place` into a line for a person.
+    """Turn whatever fails in the file at `place` into a line for a person.
 
-    Mistakes of the program itself, such as a broken constraint, pass unchanged.
+    Values that no lesson can have were damaged on their disk. Mistakes of the program
+    itself, such as a broken constraint, pass unchanged.
 
     >>> with explained("notes.txt"):
     ...     _ = sqlite3.connect("/").execute("SELECT 1")
@@ -53,21 +84,29 @@ def explained(place: str) -> Iterator[None]:
     try:
         yield
     except sqlite3.Error as error:
-        explanation = EXPLANATIONS.get(primary_code(error))
-        if explanation is None:
+        code = primary_code(error)
+        if isinstance(error, sqlite3.OperationalError) and code in _NO_DATABASE:
+            code = sqlite3.SQLITE_CORRUPT
+        if code not in EXPLANATIONS:
             raise
-        raise MemoryFileError(f"{place} {explanation}") from error
+        raise MemoryFileError(explanation(place, code)) from error
+    except NotKeptError as error:
+        raise MemoryFileError(
+            f"{place} did not keep {error} as it was taught, so nothing was learned: "
+            f"{_check(place)}"
+        ) from error
 
 
 @contextmanager
 def content_explained(place: str) -> Iterator[None]:
-    """The same where lessons are read: what is none was damaged on its disk."""
+    """The same where values are read: what is none was damaged on its disk."""
     try:
         with explained(place):
             yield
-    except (ValueError, TypeError, KeyError) as error:
-        damage = EXPLANATIONS[sqlite3.SQLITE_CORRUPT]
-        raise MemoryFileError(f"{place} {damage}") from error
+    except (ValueError, TypeError, KeyError, OverflowError, RecursionError) as error:
+        raise MemoryFileError(
+            f"{place} is damaged ({shown(str(error))}): {_check(place)}"
+        ) from error
 
 
 def primary_code(error: sqlite3.Error) -> int:

@@ -14,14 +14,17 @@ from typing import Literal
 
 from platformdirs import user_data_dir
 
+from kille.databases import restrict, super_journal
 from kille.memory import schema
 from kille.memory.errors import (
     ELSEWHERE,
-    EXPLANATIONS,
     MemoryFileError,
     explained,
+    explanation,
     primary_code,
+    untrusted,
 )
+from kille.private import create_private_file
 
 # A reader that comes or goes locks the file for an instant; an owner stays.
 PATIENCE_SECONDS = 0.2
@@ -35,7 +38,7 @@ SMALLEST_DATABASE_BYTES = 512
 
 CANNOT_LOG = (sqlite3.SQLITE_CANTOPEN, sqlite3.SQLITE_READONLY)
 
-Mode = Literal["mode=rwc", "mode=ro", "mode=ro&immutable=1"]
+Mode = Literal["mode=rw", "mode=ro", "mode=ro&immutable=1"]
 
 
 def default_path() -> Path:
@@ -49,12 +52,14 @@ def default_path() -> Path:
 def open_to_write(path: Path) -> sqlite3.Connection:
     """A connection that owns the file, which is made where there is none.
 
-    Raises MemoryFileError if the file is no memory, damaged, too new, not writable,
-    or owned by another.
+    Only its user can read a new file, and what SQLite writes beside it. Raises
+    MemoryFileError if the file is no memory, damaged, too new, not writable, has what
+    kille did not write, or is owned by another.
     """
     _make_folder(path)
+    _make_file(path)
     with explained(str(path)):
-        connection = _connect(path, "mode=rwc")
+        connection = _connect(path, "mode=rw")
         try:
             _check_ours(connection, path)
             connection.execute(f"PRAGMA page_size = {PAGE_BYTES}")
@@ -71,7 +76,7 @@ def open_to_read(path: Path) -> sqlite3.Connection:
 
     A file of an older version is left as it is: a copy of it in the working memory is
     brought up to date and read. Raises MemoryFileError if there is no file, or it is
-    no memory, damaged, or of a newer version.
+    no memory, damaged, of a newer version, or has what kille did not write.
     """
     if not os.path.exists(path):
         raise MemoryFileError(
@@ -114,19 +119,31 @@ def _make_folder(path: Path) -> None:
         ) from error
 
 
+def _make_file(path: Path) -> None:
+    try:
+        create_private_file(Path(os.path.realpath(path)))
+    except OSError as error:
+        line = explanation(str(path), sqlite3.SQLITE_CANTOPEN)
+        raise MemoryFileError(line) from error
+
+
 def _connect(path: Path, mode: Mode) -> sqlite3.Connection:
     if os.path.exists(path) and not os.path.isfile(path):
         raise MemoryFileError(
             f"{path} is a folder or a device: name a file with --memory"
         )
     if os.path.exists(path) and 0 < os.path.getsize(path) < SMALLEST_DATABASE_BYTES:
-        raise MemoryFileError(f"{path} {EXPLANATIONS[sqlite3.SQLITE_NOTADB]}")
-    return sqlite3.connect(
+        raise MemoryFileError(explanation(str(path), sqlite3.SQLITE_NOTADB))
+    if super_journal(path):
+        raise untrusted(str(path), "a journal beside it that kille never writes")
+    connection = sqlite3.connect(
         f"{path.absolute().as_uri()}?{mode}",
         uri=True,
         timeout=PATIENCE_SECONDS,
         isolation_level=None,
     )
+    restrict(connection)
+    return connection
 
 
 def _own(connection: sqlite3.Connection) -> None:
@@ -154,8 +171,12 @@ def _check_ours(connection: sqlite3.Connection, path: Path) -> None:
             f"{path} was written by a newer kille (version {found} of the file, this "
             f"program knows {schema.VERSION}): update kille, {ELSEWHERE}"
         )
+    for fault in schema.part_faults(connection):
+        raise untrusted(str(path), fault)
     if connection.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
-        raise MemoryFileError(f"{path} {EXPLANATIONS[sqlite3.SQLITE_CORRUPT]}")
+        raise MemoryFileError(explanation(str(path), sqlite3.SQLITE_CORRUPT))
+    for fault in schema.content_faults(connection):
+        raise untrusted(str(path), fault)
 
 
 def _copied(connection: sqlite3.Connection) -> sqlite3.Connection:

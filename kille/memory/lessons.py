@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+import unicodedata
 from collections.abc import Iterator
-from dataclasses import astuple, dataclass, field
+from dataclasses import astuple, dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -18,6 +19,14 @@ Kind = Literal["object", "attribute", "relation"]
 
 DESCRIPTOR_LENGTH = 128
 
+LONGEST_WORD = 1000
+"""Characters of the longest word; no sentence that teaches one is so long."""
+
+# Control characters, halves of characters, and other line breaks. Of the invisible
+# characters only those that turn the direction of writing.
+_STEERING = frozenset({"Cc", "Cs", "Zl", "Zp"})
+_TURNING = frozenset({"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI"})
+
 
 @dataclass(frozen=True)
 class Word:
@@ -25,13 +34,19 @@ class Word:
 
     `name` is what its predicate is called (`can_of_paint`), `surface` what the tutor
     said when it was first taught ("can of paint"), `article` what stood before it then,
-    "" where that is unknown.
+    "" where that is unknown. Raises ValueError for a name that is empty or longer than
+    LONGEST_WORD, and for characters that no word has: those that steer a terminal.
     """
 
     name: str
     surface: str
     kind: Kind
     article: str = ""
+
+    def __post_init__(self) -> None:
+        _require_word("the name of a word", self.name)
+        for what, text in (("a word", self.surface), ("an article", self.article)):
+            _require_letters(what, text)
 
 
 @dataclass(frozen=True)
@@ -104,7 +119,8 @@ class Arrangement:
     """Two objects as they stood when the word for their relation was taught.
 
     `target` and `landmark` are names of words; `configuration` says how the target
-    stands to the landmark. Raises ValueError for numbers that are not finite.
+    stands to the landmark. Raises ValueError for numbers that are not finite and for
+    names that are none.
     """
 
     sensor: str
@@ -117,6 +133,8 @@ class Arrangement:
     def __post_init__(self) -> None:
         numbers = _numbers(astuple(self.configuration))
         _require_finite("an arrangement", self.time, *numbers)
+        _require_word("a target", self.target)
+        _require_word("a landmark", self.landmark)
 
 
 @dataclass(frozen=True)
@@ -144,6 +162,74 @@ class RelationLesson(Lesson):
     """A lesson in what a relation is called, with what was seen."""
 
     seen: Arrangement
+
+
+def lesson_of(
+    key: int, word: Word, turn: Turn, seen: Sighting | Arrangement, *, holds: bool
+) -> ObjectLesson | RelationLesson:
+    """The lesson in what was seen, whichever kind it is of."""
+    if isinstance(seen, Sighting):
+        return ObjectLesson(key, word, turn, seen, holds=holds)
+    return RelationLesson(key, word, turn, seen, holds=holds)
+
+
+def with_picture(
+    lesson: ObjectLesson | RelationLesson, picture: Picture | None
+) -> ObjectLesson | RelationLesson:
+    """The lesson with this picture of what was seen."""
+    match lesson:
+        case ObjectLesson():
+            return replace(lesson, seen=replace(lesson.seen, picture=picture))
+        case RelationLesson():
+            return replace(lesson, seen=replace(lesson.seen, picture=picture))
+
+
+def has_same_content(
+    one: ObjectLesson | RelationLesson, other: ObjectLesson | RelationLesson
+) -> bool:
+    """Do two lessons teach the same, from the same turn and the same evidence?
+
+    Their keys do not count; NaN is the same as NaN.
+    """
+    if (one.word, one.turn, one.holds) != (other.word, other.turn, other.holds):
+        return False
+    if not isinstance(one.seen, Sighting) or not isinstance(other.seen, Sighting):
+        return one.seen == other.seen
+    return _facts(one.seen) == _facts(other.seen) and all(
+        np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+        for a, b in zip(_arrays(one.seen), _arrays(other.seen), strict=True)
+    )
+
+
+def _facts(seen: Sighting) -> tuple[object, ...]:
+    """All that a sighting has but its arrays."""
+    cues = sorted(seen.traits)
+    return seen.sensor, seen.time, len(seen.scans), seen.place, cues, seen.picture
+
+
+def _arrays(seen: Sighting) -> Iterator[NDArray[np.generic]]:
+    """The arrays of a sighting in a fixed order."""
+    for scan in seen.scans:
+        yield scan.descriptors
+        yield scan.points
+    yield from (seen.traits[cue] for cue in sorted(seen.traits))
+
+
+def _require_word(what: str, text: str) -> None:
+    _require_letters(what, text)
+    if not 0 < len(text) <= LONGEST_WORD:
+        raise ValueError(f"{what} has 1 to {LONGEST_WORD} characters, not {len(text)}")
+
+
+def _require_letters(what: str, text: str) -> None:
+    if not isinstance(text, str):
+        raise TypeError(f"{what} is text, not {text!r}")
+    if text.isprintable():
+        return
+    for letter in text:
+        steers = unicodedata.category(letter) in _STEERING
+        if steers or unicodedata.bidirectional(letter) in _TURNING:
+            raise ValueError(f"{what} cannot have the character {letter!a}")
 
 
 def _require(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sqlite3
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -62,37 +61,37 @@ class MemoryReader:
 
         It is as it was said when that was first taught, with the first article it had.
         """
-        with explained(self.place):
+        with content_explained(self.place):
             return reading.words(self._connection)
 
     def counts(self) -> dict[tuple[Kind, str], int]:
         """In how many lessons each word was said to hold, by its kind and name."""
-        with explained(self.place):
+        with content_explained(self.place):
             return reading.counts(self._connection)
 
     def dialogues(self) -> tuple[Dialogue, ...]:
         """All dialogues, in the order in which they began."""
-        with explained(self.place):
+        with content_explained(self.place):
             return reading.dialogues(self._connection)
 
     def turns(self) -> tuple[Turn, ...]:
         """All that was said, dialogue by dialogue."""
-        with explained(self.place):
+        with content_explained(self.place):
             return reading.turns(self._connection)
 
     def lessons(self) -> tuple[Lesson, ...]:
         """All lessons, oldest first, without what was seen in them."""
-        with explained(self.place):
+        with content_explained(self.place):
             return reading.lessons(self._connection)
 
     def latest(self, count: int = 1) -> tuple[Lesson, ...]:
         """So many of the newest lessons, the newest last, without what was seen."""
-        with explained(self.place):
+        with content_explained(self.place):
             return reading.latest(self._connection, count)
 
     def told(self, key: int) -> Lesson:
         """The lesson of this key without what was seen. Raises NoSuchLessonError."""
-        with explained(self.place):
+        with content_explained(self.place):
             found = reading.told(self._connection, key)
         if found is None:
             raise _no_such(self.place, key)
@@ -100,7 +99,7 @@ class MemoryReader:
 
     def keys_of(self, kind: Kind, name: str) -> tuple[int, ...]:
         """The keys of the lessons in a word, oldest first."""
-        with explained(self.place):
+        with content_explained(self.place):
             return reading.keys_of(self._connection, kind, name)
 
     def objects(self) -> Iterator[ObjectLesson]:
@@ -123,15 +122,11 @@ class MemoryReader:
 
     def lesson(self, key: int) -> ObjectLesson | RelationLesson:
         """The lesson of this key with its picture. Raises NoSuchLessonError."""
-        with (
-            content_explained(self.place),
-            reading.at_one_moment(self._connection),
-        ):
+        with content_explained(self.place):
             found = reading.lesson(self._connection, key)
-            picture = reading.picture(self._connection, key)
         if found is None:
             raise _no_such(self.place, key)
-        return pictured(found, picture)
+        return found
 
     def picture(self, key: int) -> Picture | None:
         """The picture of a lesson, None if none was kept or there is no lesson."""
@@ -298,17 +293,6 @@ class Memory(MemoryReader):
         """What happens inside is kept wholly, or none of it ever happened."""
         with explained(self.place), self._scope(self._connection):
             yield self._connection
-
-
-def pictured(
-    lesson: ObjectLesson | RelationLesson, picture: Picture | None
-) -> ObjectLesson | RelationLesson:
-    """The lesson with this picture of what was seen."""
-    match lesson:
-        case ObjectLesson():
-            return replace(lesson, seen=replace(lesson.seen, picture=picture))
-        case RelationLesson():
-            return replace(lesson, seen=replace(lesson.seen, picture=picture))
 
 
 def _no_such(place: str, key: int) -> NoSuchLessonError:

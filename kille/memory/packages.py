@@ -1,7 +1,7 @@
 """Packages: named files in a folder or a zip, written all at once and read with care.
 
 Whoever is killed while writing leaves the place as it was: a package is made beside it
-and put there when it is whole and on disk.
+and put there when it is whole and on disk. Only its user can read a new one.
 """
 
 from __future__ import annotations
@@ -14,6 +14,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+
+from kille.private import FILE_MODE, FOLDER_MODE, private
 
 ZIP = ".zip"
 MANIFEST = "memory.json"
@@ -138,12 +140,13 @@ class _ZipReader(Reader):
 class _FolderWriter(Writer):
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        folder.mkdir(parents=True)
+        folder.mkdir(FOLDER_MODE, parents=True)
 
     def write(self, name: str, content: bytes) -> None:
-        file = self._folder / name
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_bytes(content)
+        path = self._folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with open(path, "xb", opener=private) as file:
+            file.write(content)
 
 
 class _ZipWriter(Writer):
@@ -152,7 +155,7 @@ class _ZipWriter(Writer):
 
     def write(self, name: str, content: bytes) -> None:
         entry = zipfile.ZipInfo(name, _FIRST_DAY)
-        entry.external_attr = 0o644 << 16
+        entry.external_attr = FILE_MODE << 16
         self._opened.writestr(entry, content)
 
 
@@ -163,7 +166,7 @@ def _draft(draft: Path, *, zipped: bool) -> Iterator[Writer]:
         _sync_all()
         return
     draft.parent.mkdir(parents=True, exist_ok=True)
-    with draft.open("xb") as file:
+    with open(draft, "xb", opener=private) as file:
         with zipfile.ZipFile(file, "w") as opened:
             yield _ZipWriter(opened)
         file.flush()

@@ -37,7 +37,7 @@ COLOURS = {True: "crop.jpg", False: "crop.png"}
 """What the colours of a crop are called, by whether they are a JPEG."""
 FILES = frozenset({FEATURES, FRAME, MASK, DEPTH, *COLOURS.values()})
 TRAIT = "trait_"
-_LARGEST = 2**63 - 1
+_LARGEST = 2**53
 
 
 def pack_dialogue(dialogue: Dialogue) -> Line:

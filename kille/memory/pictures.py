@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import astuple, dataclass
 
 from kille.scene import Box, Intrinsics
 
@@ -29,6 +30,10 @@ class Crop:
         _require("the mask of a crop", self.mask, PNG)
         if self.depth is not None:
             _require("the depth of a crop", self.depth, PNG)
+        if self.intrinsics is not None:
+            lens = astuple(self.intrinsics)
+            if not all(map(math.isfinite, lens)):
+                raise ValueError(f"intrinsics are finite numbers, not {lens}")
 
 
 @dataclass(frozen=True)
@@ -37,7 +42,8 @@ class Picture:
 
     `frame` is the whole frame as a small JPEG. `boxes` say where in it the things are
     that the word was taught of: the thing itself, or target and landmark. Of a single
-    thing there is a crop. Raises ValueError for bytes that are no JPEG.
+    thing there is a crop. Raises ValueError for bytes that are no JPEG, and for boxes
+    that are not whole numbers of pixels.
     """
 
     frame: bytes
@@ -46,6 +52,9 @@ class Picture:
 
     def __post_init__(self) -> None:
         _require("a frame", self.frame, JPEG)
+        for box in self.boxes:
+            if not all(isinstance(side, int) for side in box):
+                raise ValueError(f"a box has whole numbers of pixels, not {box}")
 
 
 def _require(name: str, picture: bytes, *kinds: bytes) -> None:

@@ -28,6 +28,7 @@ from kille.memory.lessons import (
     Sighting,
     Turn,
     Word,
+    with_picture,
 )
 from kille.memory.pictures import Crop, Picture
 from kille.scene import Box, Intrinsics, Point, Traits, Vector
@@ -192,13 +193,13 @@ def relations(connection: sqlite3.Connection) -> Iterator[RelationLesson]:
 def lesson(
     connection: sqlite3.Connection, key: int
 ) -> ObjectLesson | RelationLesson | None:
-    """The lesson of this key without its picture, or None."""
+    """The lesson of this key with its picture, or None."""
     with at_one_moment(connection):
-        for found in objects_between(connection, key, key):
-            return found
-        for stand in relations_between(connection, key, key):
-            return stand
-    return None
+        found: list[ObjectLesson | RelationLesson] = [
+            *objects_between(connection, key, key),
+            *relations_between(connection, key, key),
+        ]
+        return with_picture(found[0], picture(connection, key)) if found else None
 
 
 def picture(connection: sqlite3.Connection, key: int) -> Picture | None:

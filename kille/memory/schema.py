@@ -10,7 +10,10 @@ import json
 import math
 import sqlite3
 import struct
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
+
+from kille.databases import Schema, made_by, row_faults, schema_faults, schema_of
 
 # "KILL" in ASCII: tells our files from any other SQLite database.
 APPLICATION_ID = 0x4B494C4C
@@ -212,10 +215,99 @@ def version(connection: sqlite3.Connection) -> int:
 
 def is_memory(connection: sqlite3.Connection) -> bool:
     """Is this a memory, or a file with nothing in it that may become one?"""
-    return (
-        _pragma(connection, "application_id") == APPLICATION_ID
-        or _pragma(connection, "schema_version") == 0
-    )
+    marks = [_pragma(connection, it) for it in ("application_id", "user_version")]
+    return marks[0] == APPLICATION_ID or (marks == [0, 0] and not schema_of(connection))
+
+
+def part_faults(connection: sqlite3.Connection) -> Iterator[str]:
+    """How the parts of a memory are not those of its version, as ends of "It has …".
+
+    >>> from contextlib import closing
+    >>> with closing(sqlite3.connect(":memory:")) as connection:
+    ...     migrate(connection)
+    ...     _ = connection.execute("DROP INDEX scans_by_lesson")
+    ...     list(part_faults(connection))
+    ['no index scans_by_lesson']
+    """
+    found = version(connection)
+    first = 1 if _pragma(connection, "application_id") else 0
+    if found not in range(first, VERSION + 1):
+        yield f"the version {found}, which no kille writes"
+        return
+    yield from schema_faults(connection, _parts(found))
+
+
+def content_faults(connection: sqlite3.Connection) -> Iterator[str]:
+    """What the tables of a memory hold that kille never writes, told likewise.
+
+    The tables must be those of its version.
+    """
+    yield from row_faults(connection)
+    for since, query, fault in _NEVER:
+        if version(connection) >= since and _any(connection, query):
+            yield fault
+
+
+LARGEST_KEY = 2**62
+"""The largest number of a lesson: no later one must be unable to get a number."""
+
+# Each since a version. A lesson without what was seen would be passed over wherever
+# lessons are read; and SQLite does not look at checks in a file that is only read.
+_NEVER = (
+    (
+        1,
+        "SELECT count(*) FROM lessons "
+        "WHERE kind NOT IN ('object', 'attribute', 'relation')",
+        "lessons of other kinds than kille has",
+    ),
+    (
+        3,
+        "SELECT count(*) FROM lessons WHERE holds NOT IN (0, 1)",
+        "lessons that neither hold nor are denied",
+    ),
+    (
+        1,
+        "SELECT count(*) FROM lessons WHERE iif(kind = 'relation', "
+        "NOT EXISTS (SELECT 1 FROM arrangements WHERE lesson = lessons.id), "
+        "NOT EXISTS (SELECT 1 FROM sightings WHERE lesson = lessons.id))",
+        "lessons without what was seen in them",
+    ),
+    (
+        1,
+        "SELECT count(*) FROM sqlite_sequence WHERE name IS NOT 'lessons' "
+        f"OR typeof(seq) != 'integer' OR seq NOT BETWEEN 0 AND {LARGEST_KEY} "
+        "OR seq < (SELECT max(id) FROM lessons)",
+        "a wrong count of all lessons ever",
+    ),
+    (
+        1,
+        "SELECT count(*) > count(DISTINCT name) FROM sqlite_sequence",
+        "two counts of all lessons ever",
+    ),
+    (
+        1,
+        "SELECT EXISTS (SELECT 1 FROM lessons) "
+        "AND NOT EXISTS (SELECT 1 FROM sqlite_sequence)",
+        "no count of all lessons ever",
+    ),
+    (
+        1,
+        f"SELECT count(*) FROM lessons WHERE id NOT BETWEEN 0 AND {LARGEST_KEY}",
+        "lessons with numbers that kille never gives",
+    ),
+)
+
+
+def _any(connection: sqlite3.Connection, query: str) -> bool:
+    """Does a query count any?"""
+    (count,) = connection.execute(query).fetchone()
+    return bool(count)
+
+
+@cache
+def _parts(version: int) -> Schema:
+    """The parts of a memory of a version, in which nothing is."""
+    return made_by(lambda it: migrate(it, MIGRATIONS[:version]))
 
 
 def migrate(

@@ -6,8 +6,20 @@ import json
 import sqlite3
 from dataclasses import astuple, replace
 
+from kille.memory import reading
 from kille.memory.configurations import to_text
-from kille.memory.lessons import Arrangement, Scan, Sighting, Turn, Word
+from kille.memory.errors import NotKeptError
+from kille.memory.lessons import (
+    Arrangement,
+    ObjectLesson,
+    RelationLesson,
+    Scan,
+    Sighting,
+    Turn,
+    Word,
+    has_same_content,
+    lesson_of,
+)
 from kille.memory.pictures import Crop, Picture
 from kille.scene import Vector
 
@@ -60,7 +72,8 @@ def add_lesson(
 ) -> int:
     """The key of a new lesson, with its turn and all that was seen.
 
-    It is the one given, if one is.
+    It is the one given, if one is. The lesson is read back: raises NotKeptError if it
+    is not on file as it was given.
     """
     key = _insert(
         connection,
@@ -83,6 +96,7 @@ def add_lesson(
         _add_arrangement(connection, key, seen)
     if seen.picture is not None:
         _add_picture(connection, key, seen.picture)
+    _check_kept(connection, lesson_of(key, word, turn, seen, holds=holds))
     return key
 
 
@@ -170,6 +184,18 @@ def _add_crop(connection: sqlite3.Connection, key: int, crop: Crop) -> None:
         crop.depth,
         None if lens is None else json.dumps(astuple(lens)),
     )
+
+
+def _check_kept(
+    connection: sqlite3.Connection, lesson: ObjectLesson | RelationLesson
+) -> None:
+    """Read the lesson back: whoever says that it is learned must know that it is."""
+    try:
+        kept = reading.lesson(connection, lesson.key)
+    except (ValueError, TypeError) as error:
+        raise NotKeptError(f"lesson {lesson.key}") from error
+    if kept is None or not has_same_content(kept, lesson):
+        raise NotKeptError(f"lesson {lesson.key}")
 
 
 def _require_dialogue(connection: sqlite3.Connection, turn: Turn) -> None:

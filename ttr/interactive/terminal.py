@@ -132,6 +132,7 @@ def _line_editing(desk: _Desk) -> Iterator[None]:
         # A history that cannot be kept is no reason to complain.
         with suppress(OSError):
             file.parent.mkdir(parents=True, exist_ok=True)
+            file.touch(0o600)
             readline.write_history_file(file)
 
 

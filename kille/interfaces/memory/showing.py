@@ -38,6 +38,7 @@ from kille.memory import (
 )
 from kille.memory.configurations import as_json as configuration_json
 from kille.memory.pictures import JPEG
+from kille.private import private
 
 __all__ = ["as_json", "as_text", "show"]
 
@@ -140,7 +141,8 @@ def _written(lesson: ObjectLesson | RelationLesson, out: Path | None) -> Shown:
         out.mkdir(parents=True, exist_ok=True)
         for kind, (ending, content) in _pictures(picture).items():
             files[kind] = out / f"{lesson.key}-{name}-{kind}{ending}"
-            files[kind].write_bytes(content)
+            with open(files[kind], "wb", opener=private) as file:
+                file.write(content)
     except OSError as error:
         raise _Unwritable(
             f"the pictures cannot be written to {out} ({error.strerror}): "

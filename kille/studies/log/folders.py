@@ -13,6 +13,8 @@ from contextlib import contextmanager
 from errno import ENOSPC
 from pathlib import Path
 
+from kille.databases import restrict, super_journal
+from kille.private import private
 from kille.studies.log.outcomes import RunError
 
 __all__ = ["FILE", "connected", "explained", "locked", "reading_mode"]
@@ -25,7 +27,7 @@ def locked(folder: Path) -> Iterator[None]:
     """Keeps all other writers out of a folder, which is made."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        file = open(folder / LOCK, "a+")  # noqa: SIM115
+        file = open(folder / LOCK, "a+", opener=private)  # noqa: SIM115
     except OSError as error:
         raise _unwritten(folder, error) from error
     with file:
@@ -45,9 +47,16 @@ def locked(folder: Path) -> Iterator[None]:
         yield
 
 
-def connected(path: Path, mode: str = "mode=rwc") -> sqlite3.Connection:
-    """A connection to a file, which is made unless the mode forbids it."""
-    return sqlite3.connect(f"{path.absolute().as_uri()}?{mode}", uri=True, timeout=5)
+def connected(path: Path, mode: str = "mode=rw") -> sqlite3.Connection:
+    """A connection to a file. RunError for a journal that kille never writes."""
+    if super_journal(path):
+        raise RunError(
+            f"{path} has a journal beside it that kille never writes: take it away"
+        )
+    uri = f"{path.absolute().as_uri()}?{mode}"
+    connection = sqlite3.connect(uri, uri=True, timeout=5)
+    restrict(connection)
+    return connection
 
 
 def reading_mode(path: Path) -> str:

@@ -12,11 +12,12 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any, TypeVar
 
+from kille.databases import shown
 from kille.studies.log.about import About, about_in
 from kille.studies.log.cells import of_cells
 from kille.studies.log.folders import FILE, connected, explained, reading_mode
 from kille.studies.log.outcomes import Broken, Finished, Outcome, RunError
-from kille.studies.log.schema import check_ours, table
+from kille.studies.log.schema import check_ours, check_rows, table
 from kille.studies.played import Answer, Played, Turn
 from kille.studies.study import Run, Study
 from ttr.consent import Consent
@@ -139,4 +140,10 @@ def _reading(folder: Path) -> Iterator[sqlite3.Connection]:
         )
     with explained(folder), closing(connected(path, reading_mode(path))) as connection:
         check_ours(connection, folder)
-        yield connection
+        check_rows(connection, folder)
+        try:
+            yield connection
+        except (ValueError, TypeError, KeyError, RecursionError) as error:
+            raise RunError(
+                f"{path} is damaged ({shown(str(error))}): put back a copy"
+            ) from error

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import sqlite3
+from functools import cache
 from pathlib import Path
 
+from kille.databases import Schema, made_by, row_faults, schema_faults
 from kille.studies.log.cells import columns
 from kille.studies.log.folders import FILE
 from kille.studies.log.outcomes import RunError
 from kille.studies.played import Answer, Turn
 
-__all__ = ["TABLES", "check_ours", "is_empty", "marks", "table"]
+__all__ = ["check_ours", "check_rows", "is_empty", "make", "marks", "table"]
 
 APPLICATION_ID = 0x4B535455
 """KSTU in ASCII: tells these files from any other SQLite database."""
@@ -75,7 +77,7 @@ def is_empty(connection: sqlite3.Connection) -> bool:
 
 
 def check_ours(connection: sqlite3.Connection, folder: Path) -> None:
-    """RunError where it is no log, or one of another kille."""
+    """RunError where it is no log, one of another kille, or has what no kille wrote."""
     (found,) = connection.execute("PRAGMA application_id").fetchone()
     if found != APPLICATION_ID:
         raise RunError(f"{folder / FILE} is no log of a study: name another folder")
@@ -92,3 +94,29 @@ def check_ours(connection: sqlite3.Connection, folder: Path) -> None:
                 f"{folder / FILE} has other {table(of)} than this kille: "
                 f"take the kille that wrote it, or name another folder"
             )
+    for fault in schema_faults(connection, _parts()):
+        raise _untrusted(folder, fault)
+
+
+def check_rows(connection: sqlite3.Connection, folder: Path) -> None:
+    """RunError where a log, whose tables are ours, has rows that no kille wrote."""
+    for fault in row_faults(connection):
+        raise _untrusted(folder, fault)
+
+
+def _untrusted(folder: Path, fault: str) -> RunError:
+    return RunError(
+        f"{folder / FILE} has {fault}: put back a copy, or name another folder"
+    )
+
+
+@cache
+def _parts() -> Schema:
+    """The parts of a log in which nothing is."""
+    return made_by(make)
+
+
+def make(connection: sqlite3.Connection) -> None:
+    """Make the tables of a new log, in the transaction that is open."""
+    for statement in TABLES:
+        connection.execute(statement)

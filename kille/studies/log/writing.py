@@ -12,11 +12,12 @@ from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from typing import Any, Self
 
+from kille.private import create_private_file
 from kille.studies.log.about import about_in, check_same, facts
 from kille.studies.log.cells import cells
 from kille.studies.log.folders import FILE, connected, explained, locked
 from kille.studies.log.outcomes import Broken, Finished, Outcome, broken
-from kille.studies.log.schema import TABLES, is_empty, marks, table
+from kille.studies.log.schema import check_rows, is_empty, make, marks, table
 from kille.studies.played import Answer, Turn
 from kille.studies.study import Run, Study
 
@@ -96,6 +97,7 @@ class Log:
 def _prepared(study: Study, folder: Path) -> sqlite3.Connection:
     """A connection to a log that is this study's, made where there is none."""
     with explained(folder):
+        create_private_file(folder / FILE)
         connection = connected(folder / FILE)
         try:
             _prepare(connection, study, folder)
@@ -111,6 +113,7 @@ def _prepare(connection: sqlite3.Connection, study: Study, folder: Path) -> None
         _begin(connection, study, folder)
     else:
         check_same(about_in(connection, folder), study, folder)
+        check_rows(connection, folder)
     connection.execute("PRAGMA journal_mode = WAL")
     # A kill loses nothing; a loss of power may lose the last dialogues, whole ones.
     connection.execute("PRAGMA synchronous = NORMAL")
@@ -121,7 +124,6 @@ def _begin(connection: sqlite3.Connection, study: Study, folder: Path) -> None:
     """Makes the tables of a new log, and says what it is of."""
     with connection:
         connection.execute("BEGIN IMMEDIATE")
-        for statement in TABLES:
-            connection.execute(statement)
+        make(connection)
         rows = facts(study, folder).items()
         connection.executemany("INSERT INTO about VALUES (?, ?)", rows)

@@ -15,6 +15,7 @@ from kille.memory.pictures import JPEG, PNG
 from kille.scene import Box, Configuration, Intrinsics, Point
 
 NAMES = st.sampled_from(["cup", "can_of_paint", "left", "boîte"])
+SURFACES = st.text("abö中 -'\N{NO-BREAK SPACE}\N{ZERO WIDTH JOINER}")
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
 PLACES = st.builds(Point, NUMBERS, NUMBERS, NUMBERS)
 DIRECTIONS = st.tuples(NUMBERS, NUMBERS, NUMBERS)

@@ -25,7 +25,7 @@ from kille.memory import (
 )
 from kille.scene import Configuration
 
-from .conftest import ARRANGEMENTS, NAMES, SIGHTINGS, plain
+from .conftest import ARRANGEMENTS, NAMES, SIGHTINGS, SURFACES, plain
 
 ARTICLES = st.sampled_from(["", "a", "ett"])
 HOLDS = st.booleans()
@@ -66,7 +66,7 @@ class Remembering(RuleBasedStateMachine):
         turn = self.say(text)
         assert self.memory.record_turn(turn) == self.memory.record_turn(turn)
 
-    @rule(name=NAMES, surface=st.text(), seen=SIGHTINGS, article=ARTICLES, holds=HOLDS)
+    @rule(name=NAMES, surface=SURFACES, seen=SIGHTINGS, article=ARTICLES, holds=HOLDS)
     def learn_object(
         self, name: str, surface: str, seen: Sighting, article: str, holds: bool
     ) -> None:
@@ -78,7 +78,7 @@ class Remembering(RuleBasedStateMachine):
         self.objects[key] = Word(name, surface, "object", article), turn, seen
         self.holding[key] = holds
 
-    @rule(name=NAMES, surface=st.text(), seen=SIGHTINGS, holds=HOLDS)
+    @rule(name=NAMES, surface=SURFACES, seen=SIGHTINGS, holds=HOLDS)
     def learn_attribute(
         self, name: str, surface: str, seen: Sighting, holds: bool
     ) -> None:
@@ -88,7 +88,7 @@ class Remembering(RuleBasedStateMachine):
         self.attributes[key] = Word(name, surface, "attribute"), turn, seen
         self.holding[key] = holds
 
-    @rule(name=NAMES, surface=st.text(), seen=ARRANGEMENTS, holds=HOLDS)
+    @rule(name=NAMES, surface=SURFACES, seen=ARRANGEMENTS, holds=HOLDS)
     def learn_relation(
         self, name: str, surface: str, seen: Arrangement, holds: bool
     ) -> None:
@@ -232,8 +232,9 @@ def test_a_lesson_that_fails_half_way_leaves_nothing(
 ) -> None:
     with Memory.open(path) as memory:
         memory.begin_dialogue("now")
+        halved = replace(seen, sensor="a surrogate: \udcff")
         with pytest.raises(UnicodeEncodeError):
-            memory.learn_object(said(1), "cup", "a surrogate: \udcff", seen)
+            memory.learn_object(said(1), "cup", "cup", halved)
         memory.begin_dialogue("later")
         assert (memory.turns(), memory.words()) == ((), ())
 

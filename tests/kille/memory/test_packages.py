@@ -33,7 +33,7 @@ from kille.memory.importing import opened
 from kille.memory.packages import PackageError
 from kille.scene import Configuration
 
-from .conftest import ARRANGEMENTS, NAMES, SIGHTINGS, plain
+from .conftest import ARRANGEMENTS, NAMES, SIGHTINGS, SURFACES, plain
 
 PLACES = ["package.zip", "package"]
 
@@ -90,7 +90,7 @@ def small_memory(seen: Sighting) -> Iterator[Memory]:
         st.tuples(
             st.booleans(),
             NAMES,
-            st.text(),
+            SURFACES,
             SIGHTINGS | ARRANGEMENTS,
             st.sampled_from(["", "an"]),
             st.booleans(),

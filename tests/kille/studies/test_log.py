@@ -309,6 +309,53 @@ def test_the_database_of_another_program_is_refused(tmp_path: Path) -> None:
     assert (tmp_path / FILE).read_bytes() == before
 
 
+@pytest.mark.parametrize(
+    ("harm", "fault"),
+    [
+        (
+            "CREATE TRIGGER forgetful AFTER INSERT ON runs BEGIN DELETE FROM runs; END",
+            "a trigger that kille never makes, forgetful",
+        ),
+        ("CREATE VIEW more AS SELECT 1", "a view that kille never makes, more"),
+        (
+            "DROP TABLE about; CREATE TABLE about (name, value)",
+            "no index sqlite_autoindex_about_1",
+        ),
+        ("UPDATE runs SET seconds = 'long'", "text as seconds in runs"),
+        ("UPDATE turns SET words = x'00'", "blob as words in turns"),
+        ("DELETE FROM runs", "rows in answers whose runs are missing"),
+    ],
+)
+def test_a_log_with_what_kille_never_writes_is_refused(
+    harm: str, fault: str, tmp_path: Path
+) -> None:
+    play_one(tmp_path)
+    with sqlite3.connect(tmp_path / FILE) as other:
+        other.executescript(harm)
+    other.close()
+    for attempt in (read_it, write_it):
+        with pytest.raises(RunError, match=re.escape(f"{FILE} has {fault}")):
+            attempt(tmp_path)
+
+
+@pytest.mark.parametrize("harm", ["facts = '['", "seconds = 1, facts = '{'"])
+def test_a_dialogue_that_is_none_any_more_is_one_line(
+    harm: str, tmp_path: Path
+) -> None:
+    play_one(tmp_path)
+    with sqlite3.connect(tmp_path / FILE) as other:
+        other.execute(f"UPDATE runs SET {harm}")
+    other.close()
+    with pytest.raises(RunError, match="is damaged"):
+        list(log.read(tmp_path))
+
+
+def test_only_its_user_can_read_a_log(tmp_path: Path) -> None:
+    write_it(tmp_path)
+    modes = {it.name: stat.S_IMODE(it.stat().st_mode) for it in tmp_path.iterdir()}
+    assert modes == {FILE: 0o600, ".lock": 0o600}
+
+
 def test_a_folder_that_cannot_be_made_is_one_line(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(RunError, match=r"cannot be written: .* name another"):
@@ -332,6 +379,11 @@ def read_it(folder: Path) -> None:
 def write_it(folder: Path) -> None:
     with Log.opened(STUDY, folder):
         pass
+
+
+def play_one(folder: Path) -> None:
+    with Log.opened(STUDY, folder) as kept:
+        kept.write(finished(STUDY, run_of(STUDY, 0)))
 
 
 @pytest.mark.parametrize(
