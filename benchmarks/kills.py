@@ -75,6 +75,8 @@ class Outcome:
     acknowledged: int = 0
     kept: int = 0
     """Lessons on file. One a kill may have been kept that was not yet acknowledged."""
+    whole: int = 0
+    """Imports that were killed when all of the package was on disk."""
     lost: int = 0
     halved: int = 0
     unreadable: int = 0
@@ -137,7 +139,12 @@ def command_running(arguments: list[str], script: str = "") -> Child:
             lines.seek(0)
             os.dup2(lines.fileno(), 0)
         os.dup2(telling, 1)
-        if code := cli.main(arguments):
+        with (
+            open(0, closefd=False) as sys.stdin,
+            open(1, "w", closefd=False) as sys.stdout,
+        ):
+            code = cli.main(arguments)
+        if code:
             raise RuntimeError(f"kille {arguments[0]} ended with {code}")
 
     return run
@@ -172,7 +179,6 @@ def living(child: Child, acknowledging: int) -> NoReturn:
     code = 1
     try:
         child(acknowledging)
-        sys.stdout.flush()
         code = 0
     except BaseException:
         traceback.print_exc()
@@ -254,21 +260,30 @@ def kill_imports(kills: int, seed: int, told: Callable[[int], None]) -> Outcome:
             ["memory", "import", str(package), "--memory", str(path)]
         )
         shutil.copy(start, path)
-        begun = time.perf_counter()
-        killed(importing, 1, 0)
-        longest = time.perf_counter() - begun
+        longest = 0.0
+        for _ in range(3):
+            shutil.copy(start, path)
+            begun = time.perf_counter()
+            killed(importing, 1, 0)
+            longest = time.perf_counter() - begun
         shutil.copy(start, path)
         while outcome.kills < kills:
-            said, over = killed(importing, 0, chance.uniform(0, longest))
-            outcome.kills += not over
-            outcome.idle += not (said or over)
-            if not readable(path):
-                outcome.unreadable += 1
+            # Most of an import is reading; half of the kills are meant for its end.
+            earliest = chance.choice((0, 0.8 * longest))
+            seconds = chance.uniform(earliest, 1.1 * longest)
+            said, over = killed(importing, 0, seconds)
+            if over:
+                shutil.copy(start, path)
+                continue
+            outcome.kills += 1
+            outcome.idle += not said
+            outcome.unreadable += not readable(path)
             with Memory.reading(path) as memory:
                 whole_import = len(memory.lessons()) > len(mine)
             expected = Counter(mine)
             if said or whole_import:
                 expected.update(theirs)
+            outcome.whole += whole_import
             examined(path, expected, outcome)
             if whole_import or chance.random() < 1 / OF_ONE_FILE:
                 for it in path.parent.glob("memory.db*"):

@@ -60,7 +60,7 @@ def super_journal(path: Path) -> bool:
     Journals do so that were written for several databases at once; ours never are.
     """
     try:
-        with path.with_name(f"{path.name}-journal").open("rb") as file:
+        with Path(f"{path}-journal").open("rb") as file:
             file.seek(-len(_SUPER_JOURNAL), 2)
             return file.read() == _SUPER_JOURNAL
     except OSError:

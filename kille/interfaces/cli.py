@@ -416,7 +416,18 @@ def _add_memory_actions(actions: Any) -> None:
     importing = actions.add_parser("import", help="add what was exported")
     importing.add_argument("source", type=Path, metavar="FILE.zip|FOLDER")
     importing.set_defaults(run=_memory_import)
-    for action in (listing, showing, forgetting, exporting, importing):
+    checking = actions.add_parser(
+        "check", help="say what is wrong with it, and save what can be read"
+    )
+    checking.add_argument("file", nargs="?", type=Path, metavar="FILE")
+    checking.add_argument(
+        "--salvage",
+        type=Path,
+        metavar="NEW",
+        help="make a new memory, in this file, of what can be read",
+    )
+    checking.set_defaults(run=_memory_check)
+    for action in (listing, showing, forgetting, exporting, importing, checking):
         action.add_argument("--memory", type=Path, metavar="FILE", help="which memory")
         action.add_argument("--json", action="store_true", help="report for machines")
 
@@ -512,6 +523,15 @@ def _memory_import(options: argparse.Namespace) -> int:
 
     report = as_json if options.json else as_text
     return import_memory(options.memory, options.source, report)
+
+
+def _memory_check(options: argparse.Namespace) -> int:
+    from kille.interfaces.memory.checking import as_json, as_text, check_memory
+
+    if options.file is not None and options.memory is not None:
+        options.parser.error("name FILE or --memory FILE, one of them")
+    report = as_json if options.json else as_text
+    return check_memory(options.file or options.memory, options.salvage, report)
 
 
 def _evaluate(options: argparse.Namespace) -> int:

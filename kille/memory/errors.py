@@ -64,8 +64,13 @@ def untrusted(place: str, fault: str) -> MemoryFileError:
     return MemoryFileError(f"{place} has {fault}: {_check(place)}")
 
 
-_NO_DATABASE = (sqlite3.SQLITE_OK, sqlite3.SQLITE_ERROR)
-"""Codes of text that is not UTF-8, and of formats that SQLite does not know."""
+DAMAGE = (
+    sqlite3.SQLITE_CORRUPT,
+    sqlite3.SQLITE_TOOBIG,
+    sqlite3.SQLITE_OK,  # text that is not UTF-8
+    sqlite3.SQLITE_ERROR,  # a format that SQLite does not know
+)
+STRANGE_JOURNAL = "a journal beside it that kille never writes"
 
 
 @contextmanager
@@ -85,10 +90,10 @@ def explained(place: str) -> Iterator[None]:
         yield
     except sqlite3.Error as error:
         code = primary_code(error)
-        if isinstance(error, sqlite3.OperationalError) and code in _NO_DATABASE:
-            code = sqlite3.SQLITE_CORRUPT
         if code not in EXPLANATIONS:
-            raise
+            if code not in DAMAGE or not isinstance(error, sqlite3.OperationalError):
+                raise
+            code = sqlite3.SQLITE_CORRUPT
         raise MemoryFileError(explanation(place, code)) from error
     except NotKeptError as error:
         raise MemoryFileError(

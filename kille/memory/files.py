@@ -18,6 +18,7 @@ from kille.databases import restrict, super_journal
 from kille.memory import schema
 from kille.memory.errors import (
     ELSEWHERE,
+    STRANGE_JOURNAL,
     MemoryFileError,
     explained,
     explanation,
@@ -78,22 +79,30 @@ def open_to_read(path: Path) -> sqlite3.Connection:
     brought up to date and read. Raises MemoryFileError if there is no file, or it is
     no memory, damaged, of a newer version, or has what kille did not write.
     """
-    if not os.path.exists(path):
-        raise MemoryFileError(
-            f"{path} does not exist: teach a word first with kille talk, {ELSEWHERE}"
-        )
     with explained(str(path)):
-        connection = _connect(path, _reading_mode(path))
+        connection = connect_to_read(path)
         try:
             _check_ours(connection, path)
             if schema.version(connection) == schema.VERSION:
                 return connection
-            copy = _copied(connection)
+            copy = up_to_date_copy(connection)
         except BaseException:
             connection.close()
             raise
         connection.close()
     return copy
+
+
+def connect_to_read(path: Path) -> sqlite3.Connection:
+    """A connection to a file that nothing has been checked of but that it is one.
+
+    Raises MemoryFileError if there is none, and sqlite3.Error as SQLite does.
+    """
+    if not os.path.exists(path):
+        raise MemoryFileError(
+            f"{path} does not exist: teach a word first with kille talk, {ELSEWHERE}"
+        )
+    return _connect(path, _reading_mode(path))
 
 
 def open_transient() -> sqlite3.Connection:
@@ -135,7 +144,7 @@ def _connect(path: Path, mode: Mode) -> sqlite3.Connection:
     if os.path.exists(path) and 0 < os.path.getsize(path) < SMALLEST_DATABASE_BYTES:
         raise MemoryFileError(explanation(str(path), sqlite3.SQLITE_NOTADB))
     if super_journal(path):
-        raise untrusted(str(path), "a journal beside it that kille never writes")
+        raise untrusted(str(path), STRANGE_JOURNAL)
     connection = sqlite3.connect(
         f"{path.absolute().as_uri()}?{mode}",
         uri=True,
@@ -160,6 +169,17 @@ def _own(connection: sqlite3.Connection) -> None:
 
 def _check_ours(connection: sqlite3.Connection, path: Path) -> None:
     """Refuse what is not ours before anything in it is changed."""
+    check_identity(connection, path)
+    for fault in schema.part_faults(connection):
+        raise untrusted(str(path), fault)
+    if connection.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
+        raise MemoryFileError(explanation(str(path), sqlite3.SQLITE_CORRUPT))
+    for fault in schema.content_faults(connection):
+        raise untrusted(str(path), fault)
+
+
+def check_identity(connection: sqlite3.Connection, path: Path) -> None:
+    """Refuse the database of another program, and what a newer kille wrote."""
     if not schema.is_memory(connection):
         raise MemoryFileError(
             f"{path} is the database of another program, not a kille memory: "
@@ -171,16 +191,10 @@ def _check_ours(connection: sqlite3.Connection, path: Path) -> None:
             f"{path} was written by a newer kille (version {found} of the file, this "
             f"program knows {schema.VERSION}): update kille, {ELSEWHERE}"
         )
-    for fault in schema.part_faults(connection):
-        raise untrusted(str(path), fault)
-    if connection.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
-        raise MemoryFileError(explanation(str(path), sqlite3.SQLITE_CORRUPT))
-    for fault in schema.content_faults(connection):
-        raise untrusted(str(path), fault)
 
 
-def _copied(connection: sqlite3.Connection) -> sqlite3.Connection:
-    """A copy of a file, without a file and with the tables up to date."""
+def up_to_date_copy(connection: sqlite3.Connection) -> sqlite3.Connection:
+    """A copy of a memory, without a file and with the tables up to date."""
     copy = sqlite3.connect(":memory:", isolation_level=None)
     connection.backup(copy)
     with copy:

@@ -12,7 +12,7 @@ from kille.memory.exporting import export
 from kille.memory.importing import opened
 from kille.memory.packages import PackageError
 
-__all__ = ["as_json", "as_text", "export_memory", "import_memory"]
+__all__ = ["as_json", "as_text", "export_memory", "import_memory", "listed"]
 
 Report = Callable[[str, Mapping[str, int]], None]
 """How it is told what was done, with how much of what."""
@@ -51,11 +51,15 @@ def as_json(_: str, amounts: Mapping[str, int]) -> None:
 
 def as_text(done: str, amounts: Mapping[str, int]) -> None:
     """The amounts, for people."""
-    told = ", ".join(_told(what, count) for what, count in amounts.items())
-    console().print(f"{done}: {told}", markup=False)
+    console().print(f"{done}: {listed(amounts)}", markup=False)
 
 
-def _told(what: str, count: int) -> str:
+def listed(amounts: Mapping[str, int]) -> str:
+    """The amounts as a list: 1 dialogue, 6 turns."""
+    return ", ".join(_amount(what, count) for what, count in amounts.items())
+
+
+def _amount(what: str, count: int) -> str:
     if what == "lessons_known":
         return f"{count} known before"
     return f"{count} {what[:-1] if count == 1 else what}"

@@ -1,0 +1,99 @@
+"""`kille memory check`: what is wrong with a memory, and saving the rest of it."""
+
+from __future__ import annotations
+
+import json
+import shlex
+from collections.abc import Callable
+from dataclasses import asdict
+from pathlib import Path
+
+from kille.interfaces.memory.describing import legible
+from kille.interfaces.memory.moving import listed
+from kille.interfaces.terminal import FAILED, FINE, complain, console, memory_path
+from kille.memory import MemoryFileError
+from kille.memory.checking import Health, check
+from kille.memory.salvaging import Salvage, salvage
+
+__all__ = ["as_json", "as_text", "check_memory"]
+
+Report = Callable[[Path, Health, Path | None, Salvage | None], None]
+"""How it is told what is wrong with a file, and what was saved of it where."""
+
+
+def check_memory(given: Path | None, target: Path | None, report: Report) -> int:
+    """Say what is wrong with a memory; 1 if anything is, or is not saved.
+
+    With a target, a new memory there gets what can be saved.
+    """
+    path = memory_path(given)
+    try:
+        health = _health(path, may_be_lost=target is not None)
+        saved = None if target is None else salvage(path, target)
+    except MemoryFileError as error:
+        return complain(error)
+    report(path, health, target, saved)
+    return FAILED if health.faults or (saved and saved.losses) else FINE
+
+
+def _health(path: Path, *, may_be_lost: bool) -> Health:
+    """What is wrong with a file; that it is no memory any more, if it may be so."""
+    try:
+        return check(path)
+    except MemoryFileError as error:
+        if not may_be_lost or not path.is_file():
+            raise
+        fault = str(error).removeprefix(f"{path} ").partition(":")[0]
+        return Health((f"it {fault}",), (), None)
+
+
+def as_json(
+    path: Path, health: Health, target: Path | None, saved: Salvage | None
+) -> None:
+    """What is wrong and what was saved, for machines."""
+    facts: dict[str, object] = {
+        "file": str(path),
+        "sound": not health.faults,
+        "faults": health.faults,
+        "notes": health.notes,
+        "holds": None if health.amount is None else asdict(health.amount),
+    }
+    if saved is not None:
+        facts["salvaged"] = {"file": str(target), **_saved(saved)}
+        facts["losses"] = saved.losses
+    console().print_json(json.dumps(facts))
+
+
+def as_text(
+    path: Path, health: Health, target: Path | None, saved: Salvage | None
+) -> None:
+    """What is wrong and what was saved, for people."""
+    _print(f"{path} {_in_brief(health)}")
+    for line in (*health.faults, *health.notes):
+        _print(f"  {line}")
+    if saved is not None:
+        _print(f"{target} holds what could be saved: {listed(_saved(saved))}")
+        for line in saved.losses:
+            _print(f"  lost: {line}")
+    elif health.faults:
+        way = f"kille memory check {shlex.quote(str(path))} --salvage NEW.db"
+        _print(f"{way} makes a new memory of what can be read.")
+
+
+def _in_brief(health: Health) -> str:
+    if health.amount is not None:
+        return f"is sound: {listed(asdict(health.amount))}"
+    return f"has {len(health.faults)} fault{'s' * (len(health.faults) != 1)}:"
+
+
+def _saved(saved: Salvage) -> dict[str, int]:
+    gained = saved.saved
+    return {
+        "dialogues": gained.dialogues,
+        "turns": gained.turns,
+        "lessons": len(gained.lessons),
+    }
+
+
+def _print(line: str) -> None:
+    console().print(legible(line), markup=False)

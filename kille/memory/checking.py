@@ -1,0 +1,110 @@
+"""What is wrong with a memory file: all that opening it would refuse, and more."""
+
+from __future__ import annotations
+
+import os
+import sqlite3
+import stat
+from collections.abc import Iterator
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+
+from kille.databases import shown, super_journal
+from kille.memory import files, reading, schema
+from kille.memory.errors import DAMAGE, STRANGE_JOURNAL, explained, primary_code
+from kille.memory.exporting import Amount
+
+__all__ = ["Health", "check"]
+
+MOST_FAULTS = 20
+"""How many faults of one sort are told."""
+
+
+@dataclass(frozen=True)
+class Health:
+    """What there is to say of a memory file."""
+
+    faults: tuple[str, ...]
+    """What is wrong with it, each as a line for people."""
+    notes: tuple[str, ...]
+    """What its user should know, though nothing is wrong with it."""
+    amount: Amount | None
+    """How much is in it; None if that cannot be known."""
+
+
+def check(path: Path) -> Health:
+    """Look through a memory file, all of it, and change nothing.
+
+    Raises MemoryFileError if there is no file, or it is not a memory of this or an
+    earlier kille.
+    """
+    if super_journal(path):
+        return Health((f"it has {STRANGE_JOURNAL}",), tuple(_notes(path)), None)
+    amount: Amount | None = None
+    faults: list[str] = []
+    with explained(str(path)):
+        try:
+            with closing(files.connect_to_read(path)) as connection:
+                files.check_identity(connection, path)
+                faults += _faults(connection)
+                amount = None if faults else _amount(connection)
+        except sqlite3.Error as error:
+            if primary_code(error) not in DAMAGE:
+                raise
+            faults.append(f"it is damaged: {shown(str(error))}")
+    return Health(tuple(dict.fromkeys(faults)), tuple(_notes(path)), amount)
+
+
+def _faults(connection: sqlite3.Connection) -> Iterator[str]:
+    parts = [f"it has {fault}" for fault in schema.part_faults(connection)]
+    yield from parts[:MOST_FAULTS]
+    damage = f"PRAGMA integrity_check({MOST_FAULTS})"
+    pages = [it for (it,) in connection.execute(damage) if it != "ok"]
+    yield from (f"its pages: {_in_short(it)}" for it in pages)
+    if parts or pages:
+        return
+    yield from (f"it has {fault}" for fault in schema.content_faults(connection))
+    if schema.version(connection) == schema.VERSION:
+        yield from _lesson_faults(connection)
+        return
+    with closing(files.up_to_date_copy(connection)) as copy:
+        yield from _lesson_faults(copy)
+
+
+def _in_short(damage: str) -> str:
+    """What SQLite says first of some damage, without its heading."""
+    lines = [it for it in damage.splitlines() if not it.startswith("***")]
+    return shown(" ".join(" ".join(lines).split()))
+
+
+def _lesson_faults(connection: sqlite3.Connection) -> Iterator[str]:
+    keys = connection.execute("SELECT id FROM lessons ORDER BY id").fetchall()
+    told = 0
+    for (key,) in keys:
+        try:
+            reading.lesson(connection, key)
+        except (ValueError, TypeError, KeyError, OverflowError, sqlite3.Error) as error:
+            yield f"lesson {key} cannot be read: {shown(str(error))}"
+            told += 1
+            if told == MOST_FAULTS:
+                return
+
+
+def _amount(connection: sqlite3.Connection) -> Amount:
+    if not schema.version(connection):
+        return Amount(0, 0, 0)
+    counts = [
+        connection.execute(f"SELECT count(*) FROM {table}").fetchone()[0]
+        for table in ("dialogues", "turns", "lessons")
+    ]
+    return Amount(*counts)
+
+
+def _notes(path: Path) -> Iterator[str]:
+    mode = stat.S_IMODE(os.stat(path).st_mode)
+    if os.name == "posix" and mode & 0o077:
+        yield (
+            f"others on this machine may open it (mode {mode:o}): "
+            "chmod 600 makes it yours alone"
+        )

@@ -1,0 +1,306 @@
+"""Saving what can be read of a memory file that is damaged, or not to be trusted.
+
+Nothing of the old file is believed or executed: its rows are read from its pages and
+put into the tables that kille makes, what belongs together is mended, and every lesson
+that is whole then is learned by a new memory. The old file is only read.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sqlite3
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import closing, suppress
+from dataclasses import dataclass
+from mmap import ACCESS_READ, mmap
+from pathlib import Path
+from typing import NamedTuple
+
+from kille.databases import restrict, shown, super_journal
+from kille.memory import reading, schema
+from kille.memory.errors import ELSEWHERE, MemoryFileError, explained
+from kille.memory.lessons import Dialogue, ObjectLesson, RelationLesson, Turn
+from kille.memory.memory import Memory
+from kille.memory.merging import Merged
+from kille.memory.pages import Row, Rows, Value, rows_in
+
+__all__ = ["Salvage", "salvage"]
+
+UNKNOWN = "unknown"
+"""When a lost dialogue began, and who said a lost turn."""
+
+
+class Column(NamedTuple):
+    """A column of a table of ours."""
+
+    kind: str
+    is_key: bool
+    """Is it the rowid, of which nothing is stored?"""
+    is_required: bool
+
+
+_NEW = "new.db"
+_BESIDE = ("-wal", "-journal")
+
+
+@dataclass(frozen=True)
+class Salvage:
+    """What was saved, and what was not."""
+
+    saved: Merged
+    losses: tuple[str, ...]
+    """What is lost, each as a line for people; that rows were not found is none."""
+
+
+def salvage(path: Path, target: Path) -> Salvage:
+    """Make a new memory of what can be read of a file, which stays as it is.
+
+    Raises MemoryFileError if the target is taken, the file is changed meanwhile, or
+    nothing of a memory is found in it.
+    """
+    if os.path.lexists(target):
+        raise MemoryFileError(f"{target} is there already: name a new file")
+    try:
+        folder = tempfile.TemporaryDirectory(prefix=".kille-", dir=target.parent)
+    except OSError as error:
+        raise MemoryFileError(
+            f"{target} cannot be made ({error.strerror}): name a file elsewhere"
+        ) from error
+    with folder as name:
+        saved = _salvaged(path, Path(name))
+        os.rename(Path(name) / _NEW, target)
+    return saved
+
+
+def _salvaged(path: Path, folder: Path) -> Salvage:
+    """Make the new memory in a folder of its own."""
+    place = folder / "rows.db"
+    with (
+        explained(str(path)),
+        closing(sqlite3.connect(place, isolation_level=None)) as tables,
+    ):
+        losses = list(_fill(tables, _rows_of(_copy(path, folder))))
+        kept = _Kept(tables)
+        if not (kept.dialogues or kept.turns or kept.keys):
+            raise MemoryFileError(
+                f"nothing of a kille memory can be found in {path}: "
+                f"put back a copy, {ELSEWHERE}"
+            )
+        with Memory.open(folder / _NEW) as memory:
+            saved = memory.merge(kept)
+    Memory.reading(folder / _NEW).close()  # it is one that can be trusted
+    return Salvage(saved, (*losses, *kept.losses))
+
+
+# --- the file ------------------------------------------------------------------------
+
+
+def _copy(path: Path, folder: Path) -> Path:
+    """A copy of a file in which all is that was committed to it."""
+    copy = folder / "copy.db"
+    files = [Path(f"{path}{ending}") for ending in ("", *_BESIDE)]
+    try:
+        before = [_stamp(it) for it in files]
+        for ending, file in zip(("", *_BESIDE), files, strict=True):
+            if file.is_file() and not (ending == "-journal" and super_journal(path)):
+                shutil.copyfile(file, f"{copy}{ending}")
+        after = [_stamp(it) for it in files]
+    except OSError as error:
+        raise MemoryFileError(f"{path} cannot be read ({error.strerror})") from error
+    if before != after:
+        raise MemoryFileError(f"{path} is in use by another program: end that one")
+    # What waits in a log beside the file belongs to it, as far as it can be put there.
+    with suppress(sqlite3.Error), closing(sqlite3.connect(copy)) as connection:
+        restrict(connection)
+        connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+    return copy
+
+
+def _stamp(path: Path) -> tuple[int, int] | None:
+    try:
+        found = path.stat()
+    except FileNotFoundError:
+        return None
+    return found.st_size, found.st_mtime_ns
+
+
+def _rows_of(path: Path) -> Rows:
+    if not path.stat().st_size:
+        return Rows({}, (), 0)
+    with path.open("rb") as file, mmap(file.fileno(), 0, access=ACCESS_READ) as pages:
+        return rows_in(pages)
+
+
+# --- its rows in tables of ours -------------------------------------------------------
+
+
+def _fill(tables: sqlite3.Connection, found: Rows) -> Iterator[str]:
+    """Put rows into tables of the current version; what does not fit is told."""
+    version = max(
+        range(1, schema.VERSION + 1), key=lambda it: _count_fitting(it, found)
+    )
+    with tables:
+        tables.execute("BEGIN")
+        schema.migrate(tables, schema.MIGRATIONS[:version])
+        lost = found.unreadable + _insert(tables, found)
+        if lost:
+            yield f"{lost} row{'s' * (lost != 1)} or pages that cannot be read"
+        yield from _mend(tables)
+        schema.migrate(tables)
+
+
+def _count_fitting(version: int, found: Rows) -> int:
+    """How many rows could be of a memory of this version."""
+    with closing(sqlite3.connect(":memory:")) as tables:
+        schema.migrate(tables, schema.MIGRATIONS[:version])
+        return _insert(tables, found, dry=True)
+
+
+def _insert(tables: sqlite3.Connection, found: Rows, *, dry: bool = False) -> int:
+    """Insert all rows that fit; how many do not, or in a dry run how many do."""
+    columns = {it: _columns(tables, it) for it in _names(tables)}
+    rows = [(name, it) for name in columns for it in found.tables.get(name, ())]
+    rows += [(name, it) for it in found.strays if (name := _table_of(it, columns))]
+    fitting, lost = 0, 0
+    for name, row in rows:
+        values = _fitted(row, columns[name])
+        fitting += values is not None
+        if dry:
+            continue
+        if values is None:
+            lost += 1
+            continue
+        marks = ", ".join("?" * len(values))
+        done = tables.execute(f"INSERT OR IGNORE INTO {name} VALUES ({marks})", values)
+        lost += not done.rowcount
+    return fitting if dry else lost
+
+
+def _names(tables: sqlite3.Connection) -> list[str]:
+    names = "SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name"
+    found = [name for (name,) in tables.execute(names)]
+    return [it for it in found if not it.startswith("sqlite_")]
+
+
+def _columns(tables: sqlite3.Connection, table: str) -> list[Column]:
+    found = tables.execute(f"PRAGMA table_info({table})")
+    return [
+        Column(kind, bool(key), bool(required))
+        for _, _, kind, required, _, key in found
+    ]
+
+
+def _table_of(row: Row, columns: dict[str, list[Column]]) -> str:
+    """The only table in which a row fits, or "": none, or one of several."""
+    fitting = [it for it, kinds in columns.items() if _fitted(row, kinds, strict=True)]
+    return fitting[0] if len(fitting) == 1 else ""
+
+
+def _fitted(
+    row: Row, columns: Sequence[Column], *, strict: bool = False
+) -> tuple[Value, ...] | None:
+    """The values of a row as these columns have them; None if one is of another type.
+
+    Text that was stored as bytes is text, unless that is strictly looked at.
+    """
+    if len(row.values) != len(columns):
+        return None
+    values: list[Value] = []
+    for column, value in zip(columns, row.values, strict=True):
+        if value is None:
+            if column.is_required:
+                return None
+            values.append(row.key if column.is_key else None)
+        elif isinstance(value, _TYPES[column.kind]) and not column.is_key:
+            values.append(value)
+        elif column.kind == "TEXT" and isinstance(value, bytes) and not strict:
+            values.append(value.decode("utf-8", "replace"))
+        else:
+            return None
+    return tuple(values)
+
+
+# A real number that is whole is stored as an integer.
+_TYPES = {"INTEGER": int, "REAL": float | int, "TEXT": str, "BLOB": bytes}
+
+
+# --- what belongs together ------------------------------------------------------------
+
+
+def _mend(tables: sqlite3.Connection) -> Iterator[str]:
+    """Give every row what it needs to be of use, or take it away."""
+    numbers = (0, schema.LARGEST_KEY)
+    outside = "FROM lessons WHERE id NOT BETWEEN ? AND ?"
+    for key, name in tables.execute(f"SELECT id, name {outside}", numbers).fetchall():
+        yield f"lesson {key} ({shown(name)}) has a number that kille never gives"
+    tables.execute(f"DELETE {outside}", numbers)
+    tables.execute(
+        "INSERT INTO dialogues SELECT DISTINCT dialogue, ? FROM turns "
+        "WHERE dialogue NOT IN (SELECT id FROM dialogues)",
+        (UNKNOWN,),
+    )
+    yield from _mend_turns(tables)
+    tables.execute(
+        "INSERT INTO sightings (lesson) SELECT id FROM lessons "
+        "WHERE kind != 'relation' AND id NOT IN (SELECT lesson FROM sightings) "
+        "AND id IN (SELECT lesson FROM scans)"
+    )
+    unseen = tables.execute(
+        "SELECT id, name FROM lessons WHERE iif(kind = 'relation', "
+        "id NOT IN (SELECT lesson FROM arrangements), "
+        "id NOT IN (SELECT lesson FROM sightings)) ORDER BY id"
+    ).fetchall()
+    for key, name in unseen:
+        yield f"lesson {key} ({shown(name)}): nothing is left of what was seen"
+    tables.executemany("DELETE FROM lessons WHERE id = ?", [(it,) for it, _ in unseen])
+    orphans: set[int] = set()
+    for table in ("crops", "pictures", "scans", "traits", "sightings", "arrangements"):
+        if table in _names(tables):
+            gone = f"FROM {table} WHERE lesson NOT IN (SELECT id FROM lessons)"
+            orphans |= {key for (key,) in tables.execute(f"SELECT lesson {gone}")}
+            tables.execute(f"DELETE {gone}")
+    for key in sorted(orphans - {key for key, _ in unseen}):
+        yield f"lesson {key}: what was seen is left, but not what word it taught"
+
+
+def _mend_turns(tables: sqlite3.Connection) -> Iterator[str]:
+    """Give lessons whose turn is lost one of a dialogue of which nothing is known."""
+    homeless = tables.execute(
+        "SELECT turn, min(id), min(name) FROM lessons "
+        "WHERE turn NOT IN (SELECT id FROM turns) GROUP BY turn ORDER BY turn"
+    ).fetchall()
+    if not homeless:
+        return
+    (dialogue,) = tables.execute("SELECT max(id) + 1 FROM dialogues").fetchone()
+    dialogue = dialogue or 1
+    tables.execute("INSERT INTO dialogues VALUES (?, ?)", (dialogue, UNKNOWN))
+    for number, (turn, key, name) in enumerate(homeless, 1):
+        tables.execute(
+            "INSERT INTO turns VALUES (?, ?, ?, ?, '', '', ?)",
+            (turn, dialogue, number, UNKNOWN, UNKNOWN),
+        )
+        yield f"lesson {key} ({shown(name)}) is kept, but not who taught it when"
+
+
+class _Kept:
+    """The memory in the tables, as it is merged into another; `losses` are told."""
+
+    def __init__(self, tables: sqlite3.Connection) -> None:
+        self._tables = tables
+        self.dialogues: tuple[Dialogue, ...] = reading.dialogues(tables)
+        self.turns: tuple[Turn, ...] = reading.turns(tables)
+        self.keys = [key for (key,) in tables.execute("SELECT id FROM lessons")]
+        self.losses: list[str] = []
+
+    def lessons(self) -> Iterator[ObjectLesson | RelationLesson]:
+        """All lessons that are whole, oldest first."""
+        for key in sorted(self.keys):
+            try:
+                lesson = reading.lesson(self._tables, key)
+            except (ValueError, TypeError, KeyError, OverflowError) as error:
+                self.losses.append(f"lesson {key} is damaged: {shown(str(error))}")
+                continue
+            if lesson is not None:
+                yield lesson
