@@ -9,7 +9,7 @@ import tempfile
 import zipfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
 
@@ -20,6 +20,7 @@ from hypothesis import strategies as st
 
 from kille.memory import (
     Arrangement,
+    Dialogue,
     Lesson,
     Memory,
     MemoryReader,
@@ -30,6 +31,7 @@ from kille.memory import (
 )
 from kille.memory.exporting import Amount, export
 from kille.memory.importing import opened
+from kille.memory.merging import Merged
 from kille.memory.packages import PackageError
 from kille.scene import Configuration
 
@@ -198,6 +200,100 @@ def test_a_dialogue_of_another_robot_at_the_same_time_is_another(
         assert imported(path, memory) == (1, 0)
         assert [it.text for it in memory.turns()] == ["cup", "mug"]
         assert len(memory.dialogues()) == 2
+
+
+def test_a_dialogue_is_one_of_ours_only_once(tmp_path: Path) -> None:
+    """Two dialogues there that look like one of ours are not both it."""
+    path = tmp_path / "other.zip"
+    with Memory.transient() as memory, Memory.transient() as other:
+        memory.begin_dialogue("now")
+        for _ in range(2):
+            other.begin_dialogue("now")
+        export(other, path)
+        for _ in range(2):
+            imported(path, memory)
+            assert [it.began for it in memory.dialogues()] == ["now", "now"]
+
+
+def test_a_denial_is_not_the_lesson_that_it_denies(
+    tmp_path: Path, said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    path = tmp_path / "other.zip"
+    with Memory.transient() as memory, Memory.transient() as other:
+        for it, holds in ((memory, True), (other, False)):
+            it.begin_dialogue("now")
+            it.learn_object(said(1), "cup", "cup", seen, holds=holds)
+        export(other, path)
+        assert imported(path, memory) == (1, 0)
+        assert [it.holds for it in memory.lessons()] == [True, False]
+
+
+def test_a_turn_that_taught_a_word_of_two_things_taught_it_twice(
+    tmp_path: Path, said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    """ "These are cups." may be known of one of them already."""
+    path = tmp_path / "other.zip"
+    with Memory.transient() as memory, Memory.transient() as other:
+        for it, things in ((memory, 1), (other, 2)):
+            it.begin_dialogue("now")
+            for _ in range(things):
+                it.learn_object(said(1), "cup", "cup", seen)
+        export(other, path)
+        assert imported(path, memory) == (1, 1)
+        assert imported(path, memory) == (0, 2)
+        assert len(memory.lessons()) == 2
+
+
+def test_of_two_dialogues_the_one_with_more_in_common_is_the_same(
+    tmp_path: Path, said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    path = tmp_path / "other.zip"
+    with Memory.transient() as memory, Memory.transient() as other:
+        for turns in ((1,), (1, 2, 3), (1, 2)):
+            dialogue = memory.begin_dialogue("now")
+            for number in turns:
+                memory.record_turn(replace(said(number), dialogue=dialogue))
+        other.begin_dialogue("now")
+        for number in (1, 2, 3):
+            other.record_turn(said(number))
+        other.learn_object(said(4), "cup", "cup", seen)
+        export(other, path)
+        assert imported(path, memory) == (1, 0)
+        assert memory.lessons()[0].turn.dialogue == 2
+        assert len(memory.dialogues()) == 3
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """A memory that begins with its seventh dialogue."""
+
+    dialogues: tuple[Dialogue, ...] = (Dialogue(7, "now"),)
+    turns: tuple[Turn, ...] = (Turn(7, 1, "tutor", "Hello.", "", "now"),)
+
+    def lessons(self) -> Iterator[ObjectLesson | RelationLesson]:
+        return iter(())
+
+
+def test_dialogues_keep_their_numbers_in_an_empty_memory_alone() -> None:
+    with Memory.transient() as memory:
+        memory.merge(Elsewhere())
+        assert [it.number for it in memory.dialogues()] == [7]
+        assert [it.dialogue for it in memory.turns()] == [7]
+    with Memory.transient() as memory:
+        memory.begin_dialogue("before")
+        memory.merge(Elsewhere())
+        assert [it.number for it in memory.dialogues()] == [1, 2]
+
+
+def test_what_a_memory_gains_is_counted(tmp_path: Path, seen: Sighting) -> None:
+    path = tmp_path / "other.zip"
+    with small_memory(seen) as other, Memory.transient() as memory:
+        export(other, path)
+        memory.begin_dialogue("before")
+        with opened(path) as package:
+            assert memory.merge(package) == Merged(2, 4, (2, 3), 0)
+        with opened(path) as package:
+            assert memory.merge(package) == Merged(0, 0, (), 2)
 
 
 def test_what_was_forgotten_can_be_brought_back(tmp_path: Path, seen: Sighting) -> None:
