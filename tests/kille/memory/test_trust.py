@@ -8,6 +8,7 @@ import stat
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -413,6 +414,21 @@ def test_a_memory_that_others_may_read_is_left_so(tmp_path: Path) -> None:
     assert modes(tmp_path) == {"memory.db": 0o644}
 
 
+@pytest.fixture
+def careless_sqlite(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An SQLite that was built to be fast: Debian's overwrites what is deleted."""
+    connect = sqlite3.connect
+
+    def careless(*arguments: Any, **options: Any) -> sqlite3.Connection:
+        connection = connect(*arguments, **options)
+        connection.execute("PRAGMA secure_delete = OFF")
+        connection.execute("PRAGMA synchronous = OFF")
+        return connection
+
+    monkeypatch.setattr(sqlite3, "connect", careless)
+
+
+@pytest.mark.usefixtures("careless_sqlite")
 def test_what_was_forgotten_cannot_be_found_in_the_file(
     path: Path, said: Callable[[int], Turn], seen: Sighting
 ) -> None:
@@ -426,6 +442,7 @@ def test_what_was_forgotten_cannot_be_found_in_the_file(
     assert not any(it in path.read_bytes() for it in vectors)
 
 
+@pytest.mark.usefixtures("careless_sqlite")
 def test_commits_are_durable_before_they_return(path: Path) -> None:
     with Memory.open(path) as memory:
         found = memory._connection.execute("PRAGMA synchronous").fetchone()
