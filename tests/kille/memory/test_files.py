@@ -307,6 +307,7 @@ def test_a_log_that_cannot_be_read_is_not_passed_over(
         killed = Path(folder) / path.name
         for name in (path.name, f"{path.name}-wal"):
             shutil.copy(path.with_name(name), folder)
+            killed.with_name(name).chmod(0o644)  # the file itself may be read
         killed.parent.chmod(0o555)
         assert "or its folder not written" in as_nobody("reading", killed)
         killed.parent.chmod(0o755)

@@ -453,3 +453,25 @@ def test_what_cannot_be_opened_is_a_memory_file_error(tmp_path: Path) -> None:
     (tmp_path / "loop.db").symlink_to(tmp_path / "loop.db")
     with pytest.raises(MemoryFileError):
         Memory.open(tmp_path / "loop.db")
+
+
+@OPENINGS
+def test_a_file_whose_free_pages_are_counted_wrong_is_damaged(
+    opening: Callable[[Path], object], path: Path
+) -> None:
+    """Every row can be read; writing would go on from the damage."""
+    Memory.open(path).close()
+    with path.open("r+b") as file:
+        file.seek(36)
+        file.write((5).to_bytes(4, "big"))
+    assert "is damaged" in refusal(opening, path)
+
+
+def test_a_connection_trusts_no_schema_and_checks_pages(path: Path) -> None:
+    expected = {"trusted_schema": 0, "cell_size_check": 1}
+    for opening in (Memory.open, Memory.reading):
+        with opening(path) as memory:
+            asked = memory._connection.execute
+            found = {it: asked(f"PRAGMA {it}").fetchone()[0] for it in expected}
+            assert found == expected
+            assert asked("PRAGMA page_size").fetchone() == (16_384,)
