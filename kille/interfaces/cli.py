@@ -386,8 +386,14 @@ def _add_players(action: argparse.ArgumentParser) -> None:
         "--scheduler",
         default="",
         metavar="ADDRESS",
-        help="a cluster of Dask that is there already, such as tcp://127.0.0.1:8786",
+        help="a cluster of Dask that is there already, such as tls://lab:8786",
     )
+    for name, what in (
+        ("ca", "the authority that signed the certificates of the cluster"),
+        ("cert", "the certificate that the cluster knows you by"),
+        ("key", "the key of this certificate"),
+    ):
+        action.add_argument(f"--tls-{name}", type=Path, metavar="FILE", help=what)
 
 
 def _add_memory_actions(actions: Any) -> None:
@@ -574,12 +580,13 @@ def _experiment_resume(options: argparse.Namespace) -> int:
 
 def _request(options: argparse.Namespace) -> Request:
     """By whom a study is to be played, and what it may run."""
+    from kille.interfaces.experiment.crews import scheduler_from
     from kille.interfaces.experiment.running import Request
     from ttr.commands.consenting import consent_of
 
     return Request(
         options.workers,
-        options.scheduler,
+        scheduler_from(options),
         _command(options),
         consent_of(options),
         trusts=getattr(options, "trust", False),

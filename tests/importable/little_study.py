@@ -53,6 +53,22 @@ def play(study: Study, run: Run) -> Played:
     return Played(tuple(turns), (answer,), 3, {"guesses": float(run.seed)})
 
 
+def die(study: Study, run: Run) -> Played:
+    """A dialogue that nothing survives."""
+    os.kill(os.getpid(), 9)
+    raise AssertionError
+
+
+def give_what_cannot_be_sent(study: Study, run: Run) -> Played:
+    """A dialogue with a result that no other process can be sent."""
+    return Played((), (), 0, {"file": open(os.devnull)})  # type: ignore[dict-item]
+
+
+def say_much(study: Study, run: Run) -> Played:
+    """A dialogue of which more is to be sent than fits between two processes."""
+    return Played((Turn(1, "lessons", run.tutor, "instruct", "a" * 3_000_000, ""),), ())
+
+
 def count_threads(study: Study, run: Run) -> Played:
     """A dialogue that only counts the threads in which numpy would add up."""
     np.ones((2, 2)) @ np.ones((2, 2))

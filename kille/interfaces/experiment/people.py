@@ -15,12 +15,13 @@ from dataclasses import replace
 from itertools import product
 from random import Random
 
+from kille.interfaces.experiment.crews import choose_crew
 from kille.interfaces.terminal import console
 from kille.studies.log import Broken, Finished, Outcome, RunError
 from kille.studies.log.outcomes import Play
 from kille.studies.persons.lines import ready
 from kille.studies.protocols import CHANGING, successor, tasks
-from kille.studies.running import Crew, alone, crew
+from kille.studies.running import Crew, Scheduler, alone
 from kille.studies.running.crews import PlayAll
 from kille.studies.scenes import opened
 from kille.studies.study import PERSON, Run, Study
@@ -37,13 +38,13 @@ def has_people(study: Study) -> bool:
     return tutors or any(it.mode == PERSON for it in study.theories.values())
 
 
-def crew_for(study: Study, workers: int | None, scheduler: str) -> Crew:
+def crew_for(study: Study, workers: int | None, scheduler: Scheduler | None) -> Crew:
     """Those who play a study: with a person, the process in front of them alone.
 
     RunError where others were asked for that cannot be had.
     """
     if not has_people(study):
-        return crew(workers, scheduler)
+        return choose_crew(workers, scheduler)
     if scheduler or workers not in (None, 1):
         raise RunError(
             "a person takes part in this study, whom only one process can ask: play it "

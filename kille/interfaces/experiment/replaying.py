@@ -7,13 +7,14 @@ from pathlib import Path
 
 from kille.interfaces.experiment.bars import bar
 from kille.interfaces.experiment.checking import MISTAKES, complain_all
+from kille.interfaces.experiment.crews import choose_crew
 from kille.interfaces.experiment.people import people_in
 from kille.interfaces.experiment.running import Request, studied
 from kille.interfaces.terminal import FAILED, FINE, complain, console, hanging
 from kille.studies import log
 from kille.studies.log import Broken, Outcome, RunError
 from kille.studies.log.sources import changed, sources
-from kille.studies.running import Difference, Progress, crew, replay
+from kille.studies.running import Difference, Progress, replay
 from kille.studies.study import Run
 
 __all__ = ["replay_all"]
@@ -50,7 +51,7 @@ def _replayed(
     for name in changed(log.about(folder).sources, sources(study)):
         complain(f"{name} has changed since these dialogues were played")
     workers = 1 if len(befores) == 1 else request.workers
-    by = crew(workers, request.scheduler)
+    by = choose_crew(workers, request.scheduler)
     found: dict[Run, Difference | None] = {}
     with bar() as told:
         for before, differs in replay(study, befores, by=by):

@@ -26,7 +26,7 @@ from kille.studies.errors import StudyError
 from kille.studies.log import write_tables
 from kille.studies.reading import check, checked, read
 from kille.studies.reading.consenting import check_allowed, python_in
-from kille.studies.running import Progress, Summary, run
+from kille.studies.running import Progress, Scheduler, Summary, run
 from kille.studies.study import Study
 from ttr.consent import OWN_FOLDER, Consent
 
@@ -41,7 +41,7 @@ class Request:
     """By whom a study is to be played, and how the user said so."""
 
     workers: int | None
-    scheduler: str
+    scheduler: Scheduler | None
     command: str
     consent: Consent = OWN_FOLDER
     trusts: bool = False

@@ -3,11 +3,13 @@
 from kille.studies.running.crews import Crew, alone, crew
 from kille.studies.running.replaying import Difference, replay
 from kille.studies.running.runner import Progress, Summary, forget_broken, run
+from kille.studies.running.schedulers import Scheduler
 
 __all__ = [
     "Crew",
     "Difference",
     "Progress",
+    "Scheduler",
     "Summary",
     "alone",
     "crew",

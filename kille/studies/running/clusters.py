@@ -1,4 +1,4 @@
-"""Those who play dialogues in processes of their own: here, or on a cluster of Dask.
+"""The workers of a cluster of Dask, which play dialogues.
 
 Runs are sent in batches that take about as long as each other, few at a time, so that
 little is lost when all is stopped. What a worker had that dies is played by another.
@@ -20,20 +20,21 @@ from contextlib import contextmanager, suppress
 from functools import lru_cache
 from importlib.metadata import version
 from queue import Empty, SimpleQueue
+from ssl import SSLError
 from typing import Any
 
 import cloudpickle
-import dask
-from distributed import Client, Future, KilledWorker, LocalCluster
+from distributed import Client, Future, KilledWorker
 from distributed.client import ClosedClientError
+from distributed.security import Security
 
 from kille.studies.log.outcomes import Broken, Outcome, Play, RunError, outcome
-from kille.studies.running.crews import PlayAll
-from kille.studies.running.local import Workers
+from kille.studies.running.crews import DEADLY, PlayAll
+from kille.studies.running.schedulers import Scheduler
 from kille.studies.running.threads import one_thread
 from kille.studies.study import Run, Study
 
-__all__ = ["elsewhere", "led", "play_batch", "quietly"]
+__all__ = ["elsewhere", "play_batch"]
 
 BATCH_SECONDS = 1.0
 LARGEST = 100
@@ -44,65 +45,21 @@ GLANCE = 2.0
 PATIENCE = 60.0
 """So long there may be no workers at all."""
 CONNECTING = 10.0
-STARTING = 60.0
-"""So long it may take until processes of this machine answer, if it is busy."""
 WAITING = 10.0
 CLOSING = 5.0
 
-_SETTINGS: dict[str, object] = {
-    "distributed.scheduler.allowed-failures": 1,
-    "distributed.comm.retry.count": 0,
-    # What Dask would learn of this machine many times a second takes time to learn.
-    "distributed.scheduler.work-stealing": False,
-    "distributed.worker.profile.enabled": False,
-    "distributed.admin.tick.interval": "1s",
-    "distributed.admin.system-monitor.interval": "10s",
-}
-
 
 @contextmanager
-def led(begun: Workers, study: Study, play: Play) -> Iterator[PlayAll]:
-    """Processes of this machine, led by a scheduler in this one, as `Crew` has it."""
-    place = "this machine"
-    with quietly(), dask.config.set(_SETTINGS), _scheduler() as scheduler:
-        begun.join(scheduler.scheduler_address, _SETTINGS)
-        with _connected(scheduler, place, STARTING) as client:
-            _wait(client, begun)
-            yield _Cluster(client, place, study, play).play_all
-
-
-@contextmanager
-def _scheduler() -> Iterator[LocalCluster]:
-    """A scheduler in this process, which hears this machine alone."""
-    cluster = LocalCluster(
-        n_workers=0, host="127.0.0.1", protocol="tcp://", dashboard_address=None
-    )
-    try:
-        yield cluster
-    finally:
-        with suppress(Exception):
-            cluster.close(timeout=CLOSING)
-
-
-def _wait(client: Client, begun: Workers) -> None:
-    """Until all are there, or have had long enough."""
-    until = time.monotonic() + STARTING
-    while time.monotonic() < until:
-        begun.check()
-        with suppress(TimeoutError):
-            client.wait_for_workers(begun.count, timeout=GLANCE)
-            return
-
-
-@contextmanager
-def elsewhere(scheduler: str, study: Study, play: Play) -> Iterator[PlayAll]:
+def elsewhere(scheduler: Scheduler, study: Study, play: Play) -> Iterator[PlayAll]:
     """The workers of a cluster that is there already.
 
-    RunError where nobody is at this address, or the workers have no such kille.
+    RunError where nobody is at this address, the certificates do not fit, or the
+    workers have no such kille.
     """
-    with quietly(), _connected(scheduler, scheduler, CONNECTING) as client:
-        _check_workers(client, scheduler)
-        yield _Cluster(client, scheduler, study, play).play_all
+    place = scheduler.address
+    with quietly(), _connected(scheduler, CONNECTING) as client:
+        _check_workers(client, place)
+        yield _Cluster(client, place, study, play).play_all
 
 
 class _Cluster:
@@ -148,7 +105,7 @@ class _Cluster:
         found = self._result(future)
         if found is not None:
             return found[0]
-        return Broken(run, _DEADLY, "", 0.0)
+        return Broken(run, DEADLY, "", 0.0)
 
     def _send(self, left: deque[Run]) -> None:
         # The last are small, so that all workers come to their end together.
@@ -235,7 +192,6 @@ class _Cluster:
         self.pace = max(1e-6, 0.7 * self.pace + 0.3 * mean)
 
 
-_DEADLY = "every worker that played it died: is there memory enough?"
 _GO_ON = "what was over is kept; run it again to go on"
 
 
@@ -287,19 +243,56 @@ class _Connecting(Client):  # type: ignore[misc]
 
 
 @contextmanager
-def _connected(address: Any, place: str, seconds: float) -> Iterator[Client]:
+def _connected(scheduler: Scheduler, seconds: float) -> Iterator[Client]:
+    security = _security(scheduler)
     try:
-        client = _Connecting(address, timeout=seconds, set_as_default=False)
+        client = _Connecting(
+            scheduler.address,
+            timeout=seconds,
+            set_as_default=False,
+            security=security,
+        )
     except (OSError, ValueError, RuntimeError) as error:
-        raise RunError(
-            f"no scheduler can be reached at {place}: is it running, and its address "
-            f"right, such as tcp://127.0.0.1:8786?"
-        ) from error
+        raise RunError(_unreached(scheduler, error)) from error
     try:
         yield client
     finally:
         with suppress(Exception):
             client.close(timeout=CLOSING)
+
+
+def _security(scheduler: Scheduler) -> Security:
+    """How Dask is to protect the connection; RunError where TLS lacks certificates."""
+    files = {
+        "tls_ca_file": scheduler.authority,
+        "tls_client_cert": scheduler.certificate,
+        "tls_client_key": scheduler.key,
+    }
+    given = {name: str(file) for name, file in files.items() if file}
+    found = Security(**given)  # the rest is as Dask is configured
+    known = found.get_connection_args("client")["ssl_context"]
+    if scheduler.is_encrypted and not known:
+        raise RunError(
+            f"{scheduler.address} needs certificates: give --tls-ca, --tls-cert and "
+            "--tls-key"
+        )
+    return found
+
+
+def _unreached(scheduler: Scheduler, error: BaseException) -> str:
+    """Why nobody is reached at an address."""
+    cause: BaseException | None = error
+    while cause and not isinstance(cause, SSLError):
+        cause = cause.__cause__
+    if cause:
+        return (
+            f"the scheduler at {scheduler.address} and these certificates do not go "
+            f"together: {cause}"
+        )
+    return (
+        f"no scheduler can be reached at {scheduler.address}: is it running, and its "
+        f"address right, such as tls://127.0.0.1:8786?"
+    )
 
 
 def _check_workers(client: Client, place: str) -> None:

@@ -14,12 +14,14 @@ from importlib.util import find_spec
 from typing import TypeAlias
 
 from kille.studies.log.outcomes import Outcome, Play, RunError, outcome
+from kille.studies.running.schedulers import Scheduler
 from kille.studies.running.threads import one_thread
 from kille.studies.study import Run, Study
 
-__all__ = ["MISSING", "Crew", "PlayAll", "alone", "cores", "crew", "playing"]
+__all__ = ["DEADLY", "MISSING", "Crew", "PlayAll", "alone", "cores", "crew", "playing"]
 
-MISSING = "Dask is not installed: pip install 'kille[experiments]'"
+MISSING = "Dask is not installed: pip install 'kille[cluster]'"
+DEADLY = "every worker that played it died: is there memory enough?"
 
 PlayAll: TypeAlias = Callable[[Sequence[Run]], Generator[Outcome, None, None]]
 """Plays many dialogues; what became of them, as they end."""
@@ -54,22 +56,22 @@ def as_studied() -> Play:
     return play
 
 
-def crew(workers: int | None = None, scheduler: str = "") -> Crew:
-    """Those who play: so many processes here, or those of the cluster at an address.
+def crew(workers: int | None = None, scheduler: Scheduler | None = None) -> Crew:
+    """Those who play: so many processes here, or a cluster.
 
-    One, or none named where Dask is missing, is this process. RunError where others are
-    asked for, and Dask is missing.
+    By default it is one process for each core; one is this process itself. RunError
+    where a cluster is asked for, and Dask is missing or certificates cannot be used.
     """
     if scheduler:
-        _need_dask()
+        scheduler.check()
+        if not find_spec("distributed"):
+            raise RunError(f"{MISSING}, or play on this machine without --scheduler")
         from kille.studies.running.clusters import elsewhere
 
         return partial(elsewhere, scheduler)
-    if workers is None:
-        workers = cores() if find_spec("distributed") else 1
+    workers = cores() if workers is None else workers
     if workers == 1:
         return alone
-    _need_dask()
     from kille.studies.running.local import here
 
     return partial(here, workers)
@@ -78,11 +80,6 @@ def crew(workers: int | None = None, scheduler: str = "") -> Crew:
 def cores() -> int:
     """How many processors this process may use."""
     return len(os.sched_getaffinity(0))
-
-
-def _need_dask() -> None:
-    if not find_spec("distributed"):
-        raise RunError(f"{MISSING}, or play with --workers 1")
 
 
 @contextmanager

@@ -1,145 +1,122 @@
-"""Workers of Dask on this machine, forked from one process that has loaded all.
+"""The processes of this machine that play dialogues, forked from one that loaded all.
 
-    python -m kille.studies.running.workers
+    python -m kille.studies.running.workers CONTROL
 
-Loading is done once, so that each worker is there at once, and one that dies is soon
-replaced. Whom they work for is one line of JSON in the input, see `begin`; they end
-when the input does, and so outlive nobody who began them, whatever ends that one.
+`kille.studies.running.local` starts it. CONTROL is the number of an open socket, on
+which one byte comes for each worker that is wanted, and with it the worker's channel.
+All sockets are pairs that were handed on: they have no name, so nobody else can connect
+to them. When the control socket is closed, the whole process group is killed; so no
+worker outlives the process that it works for, whatever ends that one.
 """
 
 from __future__ import annotations
 
-import asyncio
 import gc
-import json
 import os
-import select
+import pickle
 import signal
+import socket
 import sys
-import time
-from collections.abc import Callable, Coroutine, Iterator
+from collections.abc import Callable
 from contextlib import suppress
-from tempfile import TemporaryDirectory
+from multiprocessing.connection import Connection
 
-__all__ = ["begin"]
+from kille.studies.log.outcomes import Outcome, Play, RunError, broken, outcome
+from kille.studies.running.threads import one_thread
+from kille.studies.study import Run, Study
 
-GLANCE = 0.2
-"""After so many seconds it is seen which worker died, and whether all is over."""
-APART = 1.0
-"""Seconds between two workers in one place: some may never be able to work."""
-FAILED = 87
-"""A code of its own: with 1 a library may end a process that does work."""
-SOON = 5.0
-"""Who fails within so many seconds never worked."""
-MOST = 5
-"""After so many in a row that never worked no other is begun."""
+__all__ = ["READY", "fork_workers", "serve"]
+
+READY = None
+"""What a worker sends first, when it has loaded the study."""
 
 
-def begin() -> None:
-    """Forks workers for the scheduler that the input names, until the input ends.
+def fork_workers(control: socket.socket, work: Callable[[Connection], None]) -> None:
+    """Forks a worker for each channel that arrives, until the control socket closes."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)  # these are for whoever sends the runs
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # then the system forgets the dead
+    while channel := _next_channel(control):
+        # A worker that cannot be forked is noticed, as its channel is closed.
+        with suppress(OSError):
+            _fork(control, channel, work)
+        os.close(channel)
 
-    The line has its `address`, how many `workers` there shall be, and the `settings` of
-    Dask.
-    """
-    for it in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(it, signal.SIG_IGN)  # meant for who sends the runs
-    load()
-    line = sys.stdin.readline()
-    if not line:
+
+def _next_channel(control: socket.socket) -> int | None:
+    """The file descriptor that arrives next; None when nobody is there any more."""
+    try:
+        _, channels, _, _ = socket.recv_fds(control, 1, 1)
+    except ConnectionError:
+        return None
+    return channels[0] if channels else None
+
+
+def _fork(
+    control: socket.socket, channel: int, work: Callable[[Connection], None]
+) -> None:
+    """Starts a process that does this work, and nothing after it."""
+    if os.fork():
         return
-    asked = json.loads(line)
-    with suppress(OSError), TemporaryDirectory(prefix="kille-workers-") as folder:
+    try:
+        for number in (signal.SIGTERM, signal.SIGCHLD):
+            signal.signal(number, signal.SIG_DFL)
+        control.close()
+        os.set_inheritable(channel, False)
+        work(Connection(channel))
+    except ConnectionError:
+        pass  # nobody waits for an answer any more
+    except BaseException:
+        sys.excepthook(*sys.exc_info())
+    finally:
+        os._exit(1)
 
-        def work(number: int) -> None:
-            silent(working(asked["address"], number, folder, asked["settings"]))
 
-        keep(asked["workers"], work)
+def serve(channel: Connection) -> None:
+    """Plays each run that arrives on a channel, and sends back what became of it.
+
+    The first message is the study and what plays it, pickled.
+    """
+    try:
+        study, play = _load_study(channel.recv_bytes())
+        channel.send(READY)
+        with one_thread():
+            while True:
+                run = channel.recv()
+                channel.send_bytes(_played(study, run, play))
+    except EOFError:
+        return
+    except RunError as error:
+        channel.send(error)
+
+
+def _load_study(payload: bytes) -> tuple[Study, Play]:
+    try:
+        study, play = pickle.loads(payload)
+    except Exception as error:
+        why = " ".join(f"{type(error).__name__}: {error}".split())
+        raise RunError(f"workers cannot load the study: {why}") from error
+    return study, play
+
+
+def _played(study: Study, run: Run, play: Play) -> bytes:
+    """What became of a run, pickled; one whose results cannot be sent is broken."""
+    found: Outcome = outcome(study, run, play)
+    try:
+        return pickle.dumps(found)
+    except Exception as error:
+        return pickle.dumps(broken(run, error, found.seconds))
 
 
 def load() -> None:
-    """Loads Dask and what plays; what is there then is not looked at any more."""
-    import kille.studies.playing
-    import kille.studies.running.clusters  # noqa: F401
+    """Loads what plays dialogues, so that workers share it."""
+    import kille.studies.playing  # noqa: F401
 
     gc.collect()
     gc.freeze()
 
 
-def keep(workers: int, work: Callable[[int], None]) -> None:
-    """Keeps so many at work until the input ends, or they fail; ends them then."""
-    at_work = dict[int, int]()
-    begun = dict[int, float]()
-    failed = 0
-    try:
-        while failed < MOST and not over(GLANCE * bool(begun)):
-            for process, code in ended():
-                lasted = time.monotonic() - begun[at_work.pop(process)]
-                failed = failed + 1 if code == FAILED and lasted < SOON else 0
-            for number in set(range(workers)) - set(at_work.values()):
-                if time.monotonic() - begun.get(number, -APART) >= APART:
-                    begun[number] = time.monotonic()
-                    at_work[forked(work, number)] = number
-    finally:
-        for process in at_work:
-            with suppress(ProcessLookupError, ChildProcessError):
-                os.kill(process, signal.SIGKILL)
-                os.waitpid(process, 0)
-
-
-def over(seconds: float) -> bool:
-    """Whether the input has ended, after so many seconds at most."""
-    return bool(select.select([sys.stdin], [], [], seconds)[0])
-
-
-def forked(work: Callable[[int], None], number: int) -> int:
-    """The process that does this work, and nothing after it."""
-    process = os.fork()
-    if process:
-        return process
-    code = FAILED
-    try:
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
-        os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
-        work(number)
-        code = 0
-    finally:
-        os._exit(code)
-
-
-def ended() -> Iterator[tuple[int, int]]:
-    """The processes that have ended since it was asked last, and their exit codes."""
-    with suppress(ChildProcessError):
-        while (found := os.waitpid(-1, os.WNOHANG))[0]:
-            yield found[0], os.waitstatus_to_exitcode(found[1])
-
-
-def silent(work: Coroutine[None, None, None]) -> None:
-    """Does it, and says nothing, nor of what is left when its loop is closed."""
-    from kille.studies.running.clusters import quietly
-
-    with quietly():
-        asyncio.run(work)
-
-
-async def working(
-    address: str, number: int, folder: str, settings: dict[str, object]
-) -> None:
-    """Works for this scheduler for as long as it is there."""
-    import dask
-    from distributed import Worker
-
-    with dask.config.set(settings):
-        worker = Worker(
-            address,
-            nthreads=1,
-            name=number,
-            memory_limit=0,
-            dashboard=False,
-            local_directory=folder,
-        )
-        async with worker:
-            await worker.finished()
-
-
 if __name__ == "__main__":
-    begin()
+    load()
+    fork_workers(socket.socket(fileno=int(sys.argv[1])), serve)
+    os.killpg(0, signal.SIGKILL)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import asyncio
 import gc
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import pytest
 from distributed import Client
@@ -27,9 +27,10 @@ from kille.studies.log import Log, write_tables
 from kille.studies.log.outcomes import Outcome, RunError
 from kille.studies.running.clusters import _Cluster, _connected
 from kille.studies.running.crews import alone, crew, playing
+from kille.studies.running.local import MOST, Workers
 from kille.studies.running.runner import Progress, forget_broken, run
+from kille.studies.running.schedulers import Scheduler
 from kille.studies.running.threads import READ_WHEN_LOADED, one_thread
-from kille.studies.running.workers import MOST, silent
 from kille.studies.study import Run, Study
 from little_study import BAD, DEADLY, GOOD, folder_of, play
 
@@ -127,7 +128,9 @@ def test_a_cluster_plays_on_when_one_of_its_workers_is_killed(tmp_path: Path) ->
             if it.over == 100:
                 workers[0].kill()
 
-        assert run(study, tmp_path, play, crew(None, address), told).broken == 0
+        assert (
+            run(study, tmp_path, play, crew(None, Scheduler(address)), told).broken == 0
+        )
         workers[0].wait()
     assert names(tmp_path) == list(map(str, study.runs()))
     assert [it.played for it in log.read(tmp_path)] == [
@@ -146,7 +149,7 @@ def test_a_scheduler_that_goes_away_is_one_line_and_loses_nothing(
                 scheduler.kill()
 
         with pytest.raises(RunError, match="is gone: what was over is kept"):
-            run(study, tmp_path, play, crew(None, address), told)
+            run(study, tmp_path, play, crew(None, Scheduler(address)), told)
     over = log.over(tmp_path)
     assert 200 <= over < 10_000
     assert run(study, tmp_path, play).played == 10_000 - over
@@ -164,7 +167,7 @@ def test_a_cluster_without_workers_is_one_line_and_loses_nothing(
                 worker.kill()
 
         with pytest.raises(RunError, match="no worker is left at tcp"):
-            run(study, tmp_path, play, crew(None, address), told)
+            run(study, tmp_path, play, crew(None, Scheduler(address)), told)
     assert 100 <= log.over(tmp_path) < 600
 
 
@@ -205,7 +208,7 @@ def test_what_dask_leaves_unheard_is_not_told(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     with cluster(workers=1) as (address, _, _):
-        with _connected(address, address, SETTLED) as client:
+        with _connected(Scheduler(address), SETTLED) as client:
             future = client.loop.asyncio_loop.create_future()
             future.set_exception(TimeoutError())
         del future
@@ -214,7 +217,9 @@ def test_what_dask_leaves_unheard_is_not_told(
 
 def played_by(address: str) -> list[Outcome]:
     study = little_study.study()
-    with playing(study, list(study.runs()), play, crew(None, address)) as outcomes:
+    with playing(
+        study, list(study.runs()), play, crew(None, Scheduler(address))
+    ) as outcomes:
         return list(outcomes)
 
 
@@ -277,11 +282,17 @@ from pathlib import Path
 import little_study
 from kille.studies.running import crew, run
 
-print(run(little_study.study(), Path(sys.argv[1]), little_study.play, crew(2)).played)
+def play(study, run):
+    return little_study.play(study, run)
+
+print(run(little_study.study(), Path(sys.argv[1]), play, crew(2)).broken)
+print({"dask", "distributed"} & set(sys.modules))
 """
 
 
-def test_a_script_plays_with_many_whatever_else_it_does(tmp_path: Path) -> None:
+def test_a_script_plays_what_it_defines_with_many_and_without_dask(
+    tmp_path: Path,
+) -> None:
     script = tmp_path / "script.py"
     script.write_text(SCRIPT)
     found = subprocess.run(
@@ -292,89 +303,129 @@ def test_a_script_plays_with_many_whatever_else_it_does(tmp_path: Path) -> None:
         check=False,
         timeout=SETTLED,
     )
-    assert (found.stdout, found.stderr, found.returncode) == ("6\n", "", 0)
+    assert (found.stdout, found.stderr, found.returncode) == ("0\nset()\n", "", 0)
 
 
 def test_workers_end_with_who_began_them_whatever_ends_it(tmp_path: Path) -> None:
     with started(tmp_path / "results", "2", 50, seeds=300) as program:
-        assert list(tmp_path.glob("kille-workers-*"))
+        (forking,) = children(program.pid)
+        assert len(members(forking)) > 1
         program.kill()
         program.communicate(timeout=SETTLED)
-        settle(lambda: not list(tmp_path.glob("kille-workers-*")))
+        settle(lambda: not members(forking))
+    assert [it.name for it in tmp_path.iterdir()] == ["results"]
 
 
-def test_a_stop_of_all_processes_leaves_no_folder_behind(tmp_path: Path) -> None:
+def test_a_stop_of_all_processes_leaves_nothing_behind(tmp_path: Path) -> None:
     with started(tmp_path / "results", "2", 50, seeds=2_000) as program:
         (forking,) = children(program.pid)
-        for process in (program.pid, forking, *children(forking)):
+        for process in (program.pid, *members(forking)):
             with suppress(ProcessLookupError):  # the first may have ended the others
                 os.kill(process, signal.SIGTERM)
         _, told = program.communicate(timeout=SETTLED)
         assert (program.returncode, told) == (128 + signal.SIGTERM, b"")
-        settle(lambda: not list(tmp_path.glob("kille-workers-*")))
+        settle(lambda: not members(forking))
+    assert [it.name for it in tmp_path.iterdir()] == ["results"]
+
+
+def test_a_worker_that_is_killed_is_replaced_and_nothing_is_lost(
+    tmp_path: Path,
+) -> None:
+    study = little_study.study(seeds=300)
+
+    def kill(it: Progress) -> None:
+        if it.over % 100 == 50:
+            (forking,) = children(os.getpid())
+            os.kill(children(forking)[0], signal.SIGKILL)
+
+    assert run(study, tmp_path, play, crew(2), kill).broken == 0
+    assert [it.played for it in log.read(tmp_path)] == [
+        play(study, it) for it in study.runs()
+    ]
+
+
+def test_workers_play_on_without_the_process_that_forked_them(tmp_path: Path) -> None:
+    study = little_study.study(seeds=300)
+    forked: list[int] = []
+
+    def kill(it: Progress) -> None:
+        if it.over == 50:
+            forked.extend(children(os.getpid()))
+            os.kill(forked[0], signal.SIGKILL)
+
+    assert run(study, tmp_path, play, crew(2), kill).played == 600
+    assert not members(forked[0])
 
 
 def children(process: int) -> list[int]:
     """The processes that this one has begun, and that have not ended."""
-    found = list[int]()
+    return [it.process for it in processes() if it.parent == process]
+
+
+def members(session: int) -> list[int]:
+    """The processes of a session that have not ended."""
+    return [it.process for it in processes() if it.session == session]
+
+
+class Process(NamedTuple):
+    """A process that has not ended, as `/proc` has it."""
+
+    process: int
+    parent: int
+    session: int
+
+
+def processes() -> Iterator[Process]:
     for it in Path("/proc").glob("[0-9]*/stat"):
         with suppress(OSError):
-            state, parent = it.read_text().rpartition(")")[2].split()[:2]
-            found += [int(it.parent.name)] * (int(parent) == process and state != "Z")
-    return found
+            words = it.read_text().rpartition(")")[2].split()
+            if words[0] != "Z":
+                yield Process(int(it.parent.name), int(words[1]), int(words[3]))
 
 
-FAILING = """
-from kille.studies.running import workers
+class Deadly:
+    """What nobody can load and live."""
 
-def fail(number):
-    raise OSError(number)
-
-workers.APART = 0.0
-workers.keep(2, fail)
-"""
+    def __reduce__(self) -> tuple[object, ...]:
+        return os._exit, (1,)
 
 
-def test_workers_that_always_fail_are_given_up() -> None:
-    program = [sys.executable, "-c", FAILING]
-    with subprocess.Popen(program, stdin=subprocess.PIPE) as failing:
-        assert failing.wait(SETTLED) == 0
+def test_workers_that_never_get_ready_are_given_up() -> None:
+    with (
+        Workers(2, pickle.dumps(Deadly())) as workers,
+        pytest.raises(RunError, match="no workers can be begun"),
+    ):
+        list(workers.play_all([*little_study.study().runs()]))
 
 
-LEAVING = """
-import os
-from kille.studies.running import workers
-
-def leave(number):
-    os.write(1, b".")
-    os._exit(1)
-
-workers.APART = workers.GLANCE = 0.0
-workers.keep(1, leave)
-"""
+def test_workers_that_cannot_load_the_study_say_why() -> None:
+    with (
+        Workers(2, b"no pickle") as workers,
+        pytest.raises(RunError, match="cannot load the study: UnpicklingError"),
+    ):
+        list(workers.play_all([*little_study.study().runs()]))
 
 
-def test_workers_that_a_dialogue_has_ended_are_not_given_up() -> None:
-    program = [sys.executable, "-c", LEAVING]
-    with subprocess.Popen(
-        program, stdin=subprocess.PIPE, stdout=subprocess.PIPE
-    ) as leaving:
-        assert leaving.stdout
-        assert leaving.stdin
-        begun = 2 * MOST
-        assert leaving.stdout.read(begun) == b"." * begun
-        leaving.stdin.close()
-        assert leaving.wait(SETTLED) == 0
-
-
-def test_what_workers_leave_unheard_is_not_told(
-    caplog: pytest.LogCaptureFixture,
+def test_dialogues_that_always_kill_their_workers_are_all_found(
+    tmp_path: Path,
 ) -> None:
-    async def work() -> None:
-        asyncio.get_running_loop().create_future().set_exception(TimeoutError())
+    study = little_study.study()
+    summary = run(study, tmp_path, little_study.die, crew(2))
+    assert (summary.played, summary.broken) == (6, 6)
+    assert summary.broken > MOST
 
-    silent(work())
-    assert caplog.messages == []
+
+def test_what_cannot_be_sent_breaks_its_own_dialogue(tmp_path: Path) -> None:
+    unsendable = little_study.give_what_cannot_be_sent
+    assert run(little_study.study(), tmp_path, unsendable, crew(2)).broken == 6
+    assert "cannot pickle" in log.broken(tmp_path)[0].reason
+
+
+def test_what_is_large_is_sent_whole(tmp_path: Path) -> None:
+    study = little_study.study(source="b" * 3_000_000)
+    assert run(study, tmp_path, little_study.say_much, crew(2)).broken == 0
+    for it in log.read(tmp_path):
+        assert it.played == little_study.say_much(study, it.run)
 
 
 def test_one_thread_is_there_when_workers_are_forked() -> None:
@@ -405,15 +456,14 @@ def settle(is_so: Callable[[], bool]) -> None:
 # --- without Dask --------------------------------------------------------------------
 
 
-def test_without_dask_one_worker_plays_and_more_are_refused(
-    monkeypatch: pytest.MonkeyPatch,
+def test_only_a_cluster_needs_dask(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setattr("kille.studies.running.crews.find_spec", lambda name: None)
-    assert crew() is alone
     assert crew(1) is alone
-    for wanted in ({"workers": 2}, {"scheduler": "tcp://127.0.0.1:1"}):
-        with pytest.raises(StudyError, match=r"pip install 'kille\[experiments\]'"):
-            crew(**wanted)  # type: ignore[arg-type]
+    assert run(little_study.study(), tmp_path, play, crew(2)).played == 6
+    with pytest.raises(StudyError, match=r"pip install 'kille\[cluster\]'"):
+        crew(scheduler=Scheduler("tcp://127.0.0.1:1"))
 
 
 # --- threads -------------------------------------------------------------------------
@@ -452,6 +502,8 @@ from pathlib import Path
 import little_study
 from kille.interfaces.experiment.stopping import stoppable
 from kille.studies.running.crews import crew
+from kille.studies.running.schedulers import Scheduler
+from kille.studies.running.local import MOST, Workers
 from kille.studies.running.runner import run
 
 def told(it):
