@@ -34,6 +34,13 @@ def test_a_server_that_fails_lets_its_clients_go(tmp_path: Path) -> None:
     assert not server.path.exists()
 
 
+def test_nobody_but_the_user_may_open_the_socket(tmp_path: Path) -> None:
+    server = Server(Host(), tmp_path / "socket")
+    assert server.path.stat().st_mode & 0o777 == 0o600
+    server.stop()
+    server.serve()
+
+
 def on_a_kinect(*arguments: str) -> subprocess.Popen[str]:
     """`python -m kinect_emulator`, started."""
     if compiler() is None:

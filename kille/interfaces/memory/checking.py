@@ -8,7 +8,6 @@ from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 
-from kille.interfaces.memory.describing import legible
 from kille.interfaces.memory.moving import listed
 from kille.interfaces.terminal import FAILED, FINE, complain, console, memory_path
 from kille.memory import MemoryFileError
@@ -96,4 +95,4 @@ def _saved(saved: Salvage) -> dict[str, int]:
 
 
 def _print(line: str) -> None:
-    console().print(legible(line), markup=False)
+    console().print(line)

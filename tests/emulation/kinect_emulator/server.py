@@ -6,6 +6,7 @@ the second come the transfers that ended. One thread serves all and lets time pa
 
 from __future__ import annotations
 
+import os
 import selectors
 import socket
 import struct
@@ -81,6 +82,7 @@ class Server:
         self._selector = selectors.DefaultSelector()
         self._clients: dict[int, _Client] = {}
         self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        os.fchmod(self._listener.fileno(), 0o600)  # nobody else is to turn the Kinect
         self._listener.bind(str(path))
         self._listener.listen()
         self._listener.setblocking(False)

@@ -76,6 +76,9 @@ class Sure:
 """
 
 
+CERTIFIED = "--tls-ca", "ca.pem", "--tls-cert", "cert.pem", "--tls-key", "key.pem"
+
+
 @pytest.fixture
 def study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A study in the working directory."""
@@ -203,22 +206,38 @@ def test_what_is_probably_not_meant_is_told_before_it_is_played(
         (["run", "ways.toml", "--workers", "0"], "0 is no whole number from 1"),
         (["run", "ways.toml", "--worker", "2"], "did you mean --workers?"),
         (
-            ["run", "ways.toml", "--scheduler", "tcp://127.0.0.1:1"],
-            "no scheduler can be reached at tcp://127.0.0.1:1",
+            ["run", "ways.toml", "--scheduler", "tls://127.0.0.1:1"],
+            "tls://127.0.0.1:1 needs certificates: give --tls-ca, --tls-cert and",
+        ),
+        (["run", "ways.toml", "--tls-ca", "ca.pem"], "are given together"),
+        (["run", "ways.toml", *CERTIFIED], "need a --scheduler"),
+        (
+            ["run", "ways.toml", "--scheduler", "tcp://lab:1", *CERTIFIED],
+            "tcp://lab:1 is without TLS, and takes no certificates: is it tls://lab:1?",
+        ),
+        (
+            ["run", "ways.toml", "--scheduler", "tls://lab:1", *CERTIFIED],
+            "ca.pem cannot be read: [Errno 2] No such file or directory",
         ),
     ],
 )
 def test_a_mistake_is_one_line(
-    kille: Run,
-    study: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    words: list[str],
-    told: str,
+    kille: Run, study: Path, words: list[str], told: str
 ) -> None:
-    monkeypatch.setattr("kille.studies.running.clusters.CONNECTING", 0.5)
     done = kille("experiment", *words)
     assert done.code == 2
     assert told in done.complaint
+
+
+def test_an_address_without_tls_is_warned_of_before_anybody_is_there(
+    kille: Run, study: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("kille.studies.running.clusters.CONNECTING", 0.5)
+    done = kille("experiment", "run", str(study), "--scheduler", "tcp://127.0.0.1:1")
+    warning, error = done.err.splitlines()
+    assert done.code == 2
+    assert "without TLS: any user of this machine can run programs as you" in warning
+    assert "no scheduler can be reached at tcp://127.0.0.1:1" in error
 
 
 def test_another_study_does_not_go_into_the_same_folder(

@@ -9,14 +9,16 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from shutil import which
 from tempfile import TemporaryDirectory
 from typing import NamedTuple, TypeAlias
 
 import pytest
 from distributed import Client
+from distributed.security import Security
 from threadpoolctl import threadpool_info, threadpool_limits
 
 import little_study
@@ -32,6 +34,7 @@ from kille.studies.running.runner import Progress, forget_broken, run
 from kille.studies.running.schedulers import Scheduler
 from kille.studies.running.threads import READ_WHEN_LOADED, one_thread
 from kille.studies.study import Run, Study
+from listening import sockets_of
 from little_study import BAD, DEADLY, GOOD, folder_of, play
 
 HELPERS = str(Path(little_study.__file__).parent)
@@ -187,7 +190,7 @@ def test_an_address_where_nobody_is_is_one_line(
 ) -> None:
     monkeypatch.setattr("kille.studies.running.clusters.CONNECTING", 0.5)
     with pytest.raises(RunError, match="no scheduler can be reached at nowhere"):
-        played_by("nowhere")
+        played_by(Scheduler("nowhere"))
 
 
 def test_no_connection_that_failed_is_left_to_the_garbage_collector(
@@ -197,7 +200,7 @@ def test_no_connection_that_failed_is_left_to_the_garbage_collector(
     gc.disable()
     try:
         with pytest.raises(RunError):
-            played_by("nowhere")
+            played_by(Scheduler("nowhere"))
         clients = [it for it in gc.get_objects() if issubclass(type(it), Client)]
         assert {it.status for it in clients} <= {"closed"}
     finally:
@@ -215,11 +218,10 @@ def test_what_dask_leaves_unheard_is_not_told(
         assert caplog.messages == []
 
 
-def played_by(address: str) -> list[Outcome]:
+def played_by(scheduler: Scheduler) -> list[Outcome]:
     study = little_study.study()
-    with playing(
-        study, list(study.runs()), play, crew(None, Scheduler(address))
-    ) as outcomes:
+    by = crew(None, scheduler)
+    with playing(study, list(study.runs()), play, by) as outcomes:
         return list(outcomes)
 
 
@@ -227,9 +229,11 @@ Program: TypeAlias = subprocess.Popen[bytes]
 
 
 @contextmanager
-def cluster(workers: int) -> Iterator[tuple[str, Program, list[Program]]]:
+def cluster(
+    workers: int, tls: Sequence[str] = ()
+) -> Iterator[tuple[str, Program, list[Program]]]:
     """A scheduler of Dask and its workers, on loopback."""
-    host = "--host", "127.0.0.1", "--no-dashboard"
+    host = "--host", "127.0.0.1", "--no-dashboard", *tls
     with TemporaryDirectory() as folder, ended() as programs:
         told = Path(folder, "scheduler.json")
         file = "--scheduler-file", str(told)
@@ -238,7 +242,7 @@ def cluster(workers: int) -> Iterator[tuple[str, Program, list[Program]]]:
         alone = "--no-nanny", "--nthreads", "1"
         some = [dask("worker", *file, *alone, *host) for _ in range(workers)]
         programs.extend(some)
-        address = settled(told, workers)
+        address = settled(told, workers, tls)
         yield address, scheduler, some
 
 
@@ -263,15 +267,130 @@ def dask(*words: str) -> Program:
     )
 
 
-def settled(told: Path, workers: int) -> str:
+def settled(told: Path, workers: int, tls: Sequence[str]) -> str:
     """The address that a scheduler has told in a file, when all workers are there."""
     until = time.monotonic() + SETTLED
     while not told.is_file() and time.monotonic() < until:
         time.sleep(0.05)
-    file = str(told)
-    with Client(scheduler_file=file, timeout=SETTLED, set_as_default=False) as client:
+    security = Security(
+        **{
+            f"tls_{name}": file
+            for name, file in zip(
+                ("ca_file", "client_cert", "client_key"), tls[1::2], strict=False
+            )
+        }
+    )
+    with Client(
+        scheduler_file=str(told),
+        timeout=SETTLED,
+        set_as_default=False,
+        security=security,
+    ) as client:
         client.wait_for_workers(workers, timeout=SETTLED)
         return str(client.scheduler_info()["address"])
+
+
+# --- TLS -----------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def certificates(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """An authority, a certificate and key that it signed, and another authority."""
+    if not which("openssl"):
+        pytest.skip("openssl is not here, which makes certificates")
+    folder = tmp_path_factory.mktemp("tls")
+    names = "ca", "ca.key", "cert", "key", "request", "stranger", "stranger.key"
+    found = {name: folder / f"{name}.pem" for name in names}
+    new = "req", "-newkey", "rsa:2048", "-nodes"
+    for name in ("ca", "stranger"):
+        files = "-out", found[name], "-keyout", found[f"{name}.key"]
+        openssl(*new, "-x509", "-days", "9", "-subj", f"/CN={name}", *files)
+    files = "-out", found["request"], "-keyout", found["key"]
+    openssl(*new, "-subj", "/CN=kille", *files)
+    signing = "-CA", found["ca"], "-CAkey", found["ca.key"], "-CAcreateserial"
+    files = "-in", found["request"], "-out", found["cert"]
+    openssl("x509", "-req", "-days", "9", *signing, *files)
+    return found
+
+
+def openssl(*words: str | Path) -> None:
+    subprocess.run(["openssl", *words], check=True, capture_output=True)
+
+
+def test_a_cluster_with_tls_plays_for_who_has_its_certificates(
+    tmp_path: Path, certificates: dict[str, Path]
+) -> None:
+    study = little_study.study()
+    ca, cert, key = (certificates[name] for name in ("ca", "cert", "key"))
+    files = "--tls-ca-file", str(ca), "--tls-cert", str(cert), "--tls-key", str(key)
+    before = sockets_of([os.getpid()])
+    with cluster(1, files) as (address, _, _):
+        assert address.startswith("tls://")
+
+        def told(it: Progress) -> None:
+            # Who sends the runs connects to others, and nobody to it.
+            assert sockets_of([os.getpid()]) == before
+
+        known = Scheduler(address, ca, cert, key)
+        assert run(study, tmp_path, play, crew(None, known), told).broken == 0
+        stranger = Scheduler(address, certificates["stranger"], cert, key)
+        with pytest.raises(RunError, match=r"do not go together: .*CERTIFICATE_VERIFY"):
+            played_by(stranger)
+        with pytest.raises(RunError, match="needs certificates: give --tls-ca"):
+            played_by(Scheduler(address))
+        with pytest.raises(RunError, match="no scheduler can be reached at tcp"):
+            played_by(Scheduler(address.replace("tls", "tcp")))
+
+
+@pytest.mark.parametrize(
+    ("files", "told"),
+    [
+        (("ca", None, "key"), "are given together"),
+        (("none", "cert", "key"), "none.pem cannot be read"),
+        (("ca", "none", "key"), "key.pem cannot be read"),
+        (("key", "cert", "key"), "expected certificates of an authority"),
+        (("ca", "cert", "ca.key"), "a certificate and its key .*MISMATCH"),
+        (("ca", "cert", "cert"), "expected a certificate and its key"),
+    ],
+)
+def test_certificates_that_cannot_be_used_are_one_line(
+    certificates: dict[str, Path], files: tuple[str | None, ...], told: str
+) -> None:
+    none = certificates["ca"].with_name("none.pem")
+    given = [certificates.get(it, none) if it else None for it in files]
+    with pytest.raises(RunError, match=told) as found:
+        crew(None, Scheduler("tls://127.0.0.1:8786", *given))
+    assert "\n" not in str(found.value)
+
+
+def test_a_key_with_a_password_is_one_line_and_nobody_is_asked_for_it(
+    tmp_path: Path, certificates: dict[str, Path]
+) -> None:
+    locked = tmp_path / "locked.pem"
+    locking = "-aes256", "-passout", "pass:hidden"
+    openssl("rsa", *locking, "-in", certificates["key"], "-out", locked)
+    ca, cert = certificates["ca"], certificates["cert"]
+    with pytest.raises(RunError, match="expected a certificate and its key"):
+        Scheduler("tls://127.0.0.1:8786", ca, cert, locked).check()
+
+
+@pytest.mark.parametrize(
+    ("address", "who"),
+    [
+        ("tcp://10.0.0.5:8786", "anybody who reaches it"),
+        ("lab:8786", "anybody who reaches it"),
+        ("ws://lab:8786", "anybody who reaches it"),
+        ("tcp://127.0.0.1.evil.org:8786", "anybody who reaches it"),
+        ("tcp://127.0.0.1:8786", "any user of this machine"),
+        ("localhost:8786", "any user of this machine"),
+        ("tls://10.0.0.5:8786", ""),
+        ("wss://lab:8786", ""),
+        ("tcp://[bad", "anybody who reaches it"),
+    ],
+)
+def test_who_may_misuse_an_address_is_told(address: str, who: str) -> None:
+    risk = Scheduler(address).risk
+    assert (who in risk) if who else not risk
 
 
 # --- workers of this machine ---------------------------------------------------------
