@@ -120,11 +120,13 @@ def tables(folder: Path) -> list[bytes]:
 
 
 def over(folder: Path) -> set[str]:
-    """The dialogues that are over, as any other program can read them."""
-    results = folder / "results"
-    if not (results / "log.db").exists():
-        return set()
-    return {str(it.run) for it in log.outcomes(results)}
+    """The dialogues that are over, as any other program can read them.
+
+    A log whose tables are just being made has none.
+    """
+    with suppress(StudyError):
+        return {str(it.run) for it in log.outcomes(folder / "results")}
+    return set()
 
 
 def workers_of(folder: Path) -> list[int]:
@@ -173,18 +175,22 @@ def disturb(
     folder: Path, chance: random.Random, seconds: float, outcome: Outcome
 ) -> bool:
     """Runs the study and kills once or twice; is it over?"""
-    before = over(folder)
-    command = running(folder, 2)
-    for victim in (chance.choice(VICTIMS), "command"):
-        wait_some(folder, chance, seconds, command)
-        if has_ended(command):
-            break
-        before = over(folder)
-        if kill(victim, command, workers_of(folder)):
-            outcome.kills += 1
-            outcome.over += len(before)
-        if victim in ("command", "all"):
-            break
+    before, command = over(folder), running(folder, 2)
+    try:
+        for victim in (chance.choice(VICTIMS), "command"):
+            wait_some(folder, chance, seconds, command)
+            if has_ended(command):
+                break
+            before = over(folder)
+            if kill(victim, command, workers_of(folder)):
+                outcome.kills += 1
+                outcome.over += len(before)
+            if victim in ("command", "all"):
+                break
+    except KeyboardInterrupt:
+        os.kill(command, signal.SIGKILL)
+        os.waitpid(command, 0)
+        raise
     _, status = os.waitpid(command, 0)
     left = not until(lambda: not workers_of(folder))
     outcome.left_behind += left or any((folder / "tmp").iterdir())
@@ -209,7 +215,9 @@ def wait_some(
 
 def counted(results: Path) -> int:
     """How many dialogues are over."""
-    return log.over(results) if (results / "log.db").exists() else 0
+    with suppress(StudyError):
+        return log.over(results)
+    return 0
 
 
 def kill_often(kills: int, seed: int, outcome: Outcome) -> None:
