@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ttr import updates
+from ttr.budgets import budget
 from ttr.constructors import Pi, fun, rectype
 from ttr.errors import (
     Endless,
@@ -19,6 +20,7 @@ from ttr.errors import (
     NotHeard,
     Refused,
     RuleFailed,
+    TooLargeError,
     TTRError,
     Undecided,
     Unexpected,
@@ -120,6 +122,7 @@ __all__ = [
     "Str",
     "TTRError",
     "Theory",
+    "TooLargeError",
     "Type",
     "TypeNode",
     "Undecided",
@@ -130,6 +133,7 @@ __all__ = [
     "Why",
     "amerge",
     "box",
+    "budget",
     "check",
     "common_supertype",
     "concat",

@@ -15,6 +15,7 @@ from typing import Any, TypeAlias
 from immutables import Map
 
 from ttr.axioms import above, below, excluding, match_schema
+from ttr.budgets import spend
 from ttr.errors import Refused, TTRError
 from ttr.links import Atom, Claim, Conditioned, Expectation, Links
 from ttr.paths import escaping, occurring
@@ -251,6 +252,7 @@ class Assignment:
         facts = self.known.get(key, _EMPTY)
         if facts.get(T) == p:
             return self
+        spend(8)  # four maps are made anew, and what was before may be kept
         known = self.known.set(key, facts.set(T, p))
         for name in _names(T):
             if name not in known:

@@ -12,6 +12,7 @@ from functools import partial
 from itertools import chain, product
 from math import prod
 
+from ttr.budgets import spend
 from ttr.constructors import ordered
 from ttr.errors import Unsupported
 from ttr.normal_forms import inwards, meet_normal_form
@@ -41,12 +42,16 @@ def splits(T: TypeNode) -> bool:
         case Join() | Negation():
             return True
         case Meet(parts):
+            spend(len(parts))
             return any(map(splits, parts))
         case Str(parts):
+            spend(len(parts))
             return any(splits(part) for part in parts if not is_of_strings(part))
         case RecordType(fields):
+            spend(len(fields))
             return any(splits(field) for _, field in fields)
         case Singleton(base, _):
+            spend()
             return splits(base)
     return False
 
@@ -62,6 +67,7 @@ def cases(T: TypeNode) -> tuple[TypeNode, ...] | None:
     >>> print(*cases(A & (B | ~~C)), sep="; ")
     A /\\ B; A /\\ C
     """
+    spend()
     if not splits(T):
         return (T,)
     match T:

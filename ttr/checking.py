@@ -6,8 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, assert_never
 
+from ttr.budgets import SharedPurse, one_of_several, purse_of_several
 from ttr.circles import circle
-from ttr.errors import Span, TTRError, Undecided
+from ttr.errors import Span, TooLargeError, TTRError, Undecided
 from ttr.merging import amerge, merge
 from ttr.printing import notation
 from ttr.queries import (
@@ -70,10 +71,11 @@ def asked(theory: Theory) -> Report:
     """Asks the theory's checks, and looks at no rule; raises as `check` does."""
     if not isinstance(theory, Theory):
         raise TTRError(f"check takes a theory, found {kind_of(theory)}")
-    model = model_of(theory)
+    purse = purse_of_several(len(theory.givens) + len(theory.checks))
+    model = model_of(theory, purse)
     failures = []
     for one in theory.checks:
-        answer = _answered(one.query, theory, model)
+        answer = _answered(one.query, theory, model, purse)
         if answer.verdict != one.expected:
             failures.append(Failure(one, answer.found, answer.why))
     return Report(len(theory.checks), tuple(failures))
@@ -94,24 +96,33 @@ def _is_own(span: Span | None, theory: Theory) -> bool:
     return span is not None and span.source == theory.source
 
 
-def model_of(theory: Theory) -> Model:
+def model_of(theory: Theory, purse: SharedPurse | None = None) -> Model:
     """The model of just the givens; an error tells which of them it was."""
     from ttr.models import Model
 
     model = Model(replace(theory, givens=()))
+    purse = purse or purse_of_several(len(theory.givens))
     for given in theory.givens:
         try:
-            model = model.stated(given)
+            with one_of_several(purse):
+                model = model.stated(given)
         except TTRError as error:
             raise error.at(given.span) if given.span else error from None
     return model
 
 
-def _answered(query: Query | TTRError, theory: Theory, model: Model) -> _Answer:
+def _answered(
+    query: Query | TTRError, theory: Theory, model: Model, purse: SharedPurse
+) -> _Answer:
+    if isinstance(query, TooLargeError):
+        return _Answer("unknown", "unknown", query.message)
     if isinstance(query, TTRError):
         return _Answer("error", "error", query.message)
     try:
-        return _asked(_reduced(query, model), theory, model)
+        with one_of_several(purse):
+            return _asked(_reduced(query, model), theory, model)
+    except TooLargeError as error:
+        return _Answer("unknown", "unknown", error.message)
     except TTRError as error:
         return _Answer("error", "error", error.message)
     except RecursionError:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
 
+from ttr.budgets import spend
 from ttr.constructors import ordered
 from ttr.paths import escaping, occurring, rebuilt
 from ttr.syntax import Object, RecordType, Singleton, TypeNode
@@ -90,6 +91,7 @@ def straightened(T: TypeNode) -> TypeNode:
 
 
 def _without_circles(value: Object) -> Object:
+    spend()
     value = rebuilt(value, lambda part, _: _without_circles(part))
     if not isinstance(value, RecordType):
         return value
@@ -105,6 +107,7 @@ def _without_circles(value: Object) -> Object:
 def _leaves(T: TypeNode, at: Address) -> Iterator[tuple[Address, TypeNode]]:
     if not isinstance(T, RecordType):
         return
+    spend((1 + len(at)) * len(T.fields))
     for label, field in T.fields:
         address = (*at, label)
         if isinstance(field, RecordType) and field.fields:

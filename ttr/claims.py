@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ttr.errors import following_nesting
+from ttr.budgets import within_budget
 from ttr.printing import notation
 from ttr.probability import CERTAIN, Degree, complement
 from ttr.probability.degrees import ordered
@@ -14,7 +14,7 @@ from ttr.theories import Signature
 __all__ = ["entails", "equivalent"]
 
 
-@following_nesting
+@within_budget
 def entails(
     first: object, second: object, theory: Signature | None = None, /
 ) -> Answer:

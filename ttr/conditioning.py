@@ -11,6 +11,7 @@ from functools import partial
 from itertools import product
 
 from ttr.assignments import Assignment
+from ttr.budgets import spend
 from ttr.dependences import check_together, dependence
 from ttr.errors import Refused, TTRError, Unsupported
 from ttr.judgements import Why, together
@@ -151,6 +152,7 @@ def _atom(T: TypeNode, what: str) -> Atom:
 
 def _literals(T: TypeNode, what: str) -> list[tuple[Atom, bool]]:
     """The basic types and ptypes that T says something is of, or is not."""
+    spend()
     match T:
         case Meet(parts):
             return [one for part in parts for one in _literals(part, what)]

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING
 
+from ttr.budgets import spend
 from ttr.errors import IllFormed
 from ttr.objects import check_label, labelled
 from ttr.paths import escaping, moved, replace_paths
@@ -65,6 +66,7 @@ def rectype(
 
 def ordered(fields: Mapping[str, TypeNode]) -> tuple[tuple[str, TypeNode], ...]:
     """The fields by (depth of dependency, label); those on or behind a cycle last."""
+    spend(len(fields))
     waits: dict[str, int] = {}
     needed_by: dict[str, list[str]] = {}
     for label, T in fields.items():

@@ -7,6 +7,7 @@ from functools import partial
 from itertools import product
 
 from ttr.assignments import Assignment
+from ttr.budgets import spend
 from ttr.circles import straightened
 from ttr.creating import created, told
 from ttr.errors import TTRError
@@ -108,6 +109,7 @@ def witness(
 
     `size` is how many elements the lists and sets in it have, if they may.
     """
+    spend()
     facts = Assignment(Signature(axioms=theory.axioms, exclusions=theory.exclusions))
     try:
         sit, facts = created(facts, S, size)

@@ -11,9 +11,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+from ttr.budgets import within_budget
 from ttr.constructors import star
 from ttr.dividing import events_in_words
-from ttr.errors import Unexpected, Unsupported, following_nesting
+from ttr.errors import Unexpected, Unsupported
 from ttr.following import Following, followed_from
 from ttr.models import Model, as_model
 from ttr.paths import escaping
@@ -26,7 +27,7 @@ from ttr.syntax import Object, TypeNode, as_type, freeze, join
 __all__ = ["Course", "begun", "star"]
 
 
-@following_nesting
+@within_budget
 def begun(T: TypeNode, model: Model, /) -> Course:
     """The course of a string of T of which nothing has happened yet.
 
@@ -78,7 +79,7 @@ class Course:
     _following: Following = field(repr=False)
     length: int = 0
 
-    @following_nesting
+    @within_budget
     def seen(self, event: object, /) -> Course:
         """The course after one more event.
 
@@ -90,7 +91,7 @@ class Course:
             raise self._unexpected(event)
         return after
 
-    @following_nesting
+    @within_budget
     def expects(self, event: object, /) -> Degree:
         """How probable it is that some string of the type goes on so."""
         return self._after(freeze(event)).on_course
@@ -116,7 +117,7 @@ class Course:
         return self._following.may_end
 
     @property
-    @following_nesting
+    @within_budget
     def expected(self) -> TypeNode | None:
         """The type of the events that may come next; None if none may.
 
@@ -133,7 +134,7 @@ class Course:
         return join(*labels) if labels else None
 
     @property
-    @following_nesting
+    @within_budget
     def rest(self) -> TypeNode:
         """The type of the strings that may follow: what is left of the type to come.
 

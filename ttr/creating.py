@@ -8,6 +8,7 @@ from itertools import count, cycle, islice
 from typing import assert_never
 
 from ttr.assignments import Assignment
+from ttr.budgets import spend
 from ttr.cases import cases, splits
 from ttr.certainty import certainly
 from ttr.circles import circle
@@ -250,6 +251,7 @@ class _Making:
     def _list(self, facts: Assignment, item: TypeNode, size: int) -> Made:
         if size == 0:
             return (), facts
+        spend(size)
         kinds = cases(item) or (item,)
         items: list[Object] = []
         for _, kind in zip(range(size), cycle(kinds), strict=False):
@@ -280,6 +282,7 @@ class _Making:
         return list(islice(cycle(kinds), max(1, self._size)))
 
     def _record(self, facts: Assignment, T: RecordType) -> Made:
+        spend(1 + len(T.fields))
         fields: dict[str, Object] = {}
         for label, field in T.fields:
             if type(field) is Singleton and stands(field):

@@ -11,6 +11,7 @@ from operator import is_
 from typing import TypeAlias
 
 from ttr.assignments import Assignment, head
+from ttr.budgets import spend
 from ttr.syntax import (
     Join,
     Meet,
@@ -41,6 +42,7 @@ def demands_of(T: TypeNode) -> Demands:
     >>> demands_of(rectype(latest=asks | tells)) == {("latest", "e"): {ask, tell}}
     True
     """
+    spend()
     match T:
         case PType(pred, _):
             return {(): frozenset((pred,))}

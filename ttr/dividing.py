@@ -9,6 +9,7 @@ from functools import partial
 from typing import overload
 
 from ttr.assignments import Assignment, Atom
+from ttr.budgets import spend
 from ttr.following import followed_from
 from ttr.judgements import Why
 from ttr.objects import Unresolved
@@ -143,6 +144,7 @@ class Dividing:
 
     def _plainly(self, event: Object, T: TypeNode) -> Degree | None:
         """Whether an event is of a type, where the facts say yes or no; else None."""
+        spend()
         match T:
             case Join(parts):
                 return _any([self._plainly(event, part) for part in parts])

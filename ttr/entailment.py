@@ -14,6 +14,7 @@ from itertools import combinations_with_replacement
 from typing import assert_never
 
 from ttr.axioms import above, excluding
+from ttr.budgets import spend
 from ttr.cases import Clause, cases, clauses
 from ttr.errors import Unsupported
 from ttr.hypothetical import Assumption, Hypothetical
@@ -150,6 +151,7 @@ class Question:
 
     def ask(self, term: Object, T: TypeNode, where: Where = ()) -> Finding:
         """Is a term of T for sure? T's paths start where the whole witness stands."""
+        spend()
         term = self.witness.normal(term)
         known = self._known(term)
         if any(one is T for one in known):

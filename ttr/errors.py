@@ -7,10 +7,8 @@ found, where it is known a place in a text, and where there is one a way out.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import wraps
-from typing import ParamSpec, TypeVar
 
 from ttr.escapes import columns, terminal_line, terminal_text
 
@@ -24,11 +22,11 @@ __all__ = [
     "RuleFailed",
     "Span",
     "TTRError",
+    "TooLargeError",
     "Undecided",
     "Unexpected",
     "Unsupported",
     "UpdateError",
-    "following_nesting",
     "suggestion",
 ]
 
@@ -140,24 +138,8 @@ class Unsupported(TTRError):
     """An operation that is not defined for a constructor."""
 
 
-P = ParamSpec("P")
-R = TypeVar("R")
-
-
-def following_nesting(function: Callable[P, R]) -> Callable[P, R]:
-    """Makes a function over types raise `Unsupported` where they nest too deep."""
-
-    @wraps(function)
-    def followed(*args: P.args, **kwargs: P.kwargs) -> R:
-        try:
-            return function(*args, **kwargs)
-        except RecursionError:
-            raise Unsupported(
-                "this nests deeper than can be followed",
-                hint="put fewer records, lists and types inside one another",
-            ) from None
-
-    return followed
+class TooLargeError(TTRError):
+    """A question that takes more steps than its budget allows."""
 
 
 class UpdateError(TTRError):

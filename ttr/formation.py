@@ -9,8 +9,9 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple, TypeVar
 
+from ttr.budgets import spend, within_budget
 from ttr.circles import circle
-from ttr.errors import IllFormed, following_nesting, suggestion
+from ttr.errors import IllFormed, suggestion
 from ttr.paths import escaping, parts
 from ttr.printing import notation
 from ttr.subtyping import Answer, subtype
@@ -36,7 +37,7 @@ from ttr.theories import Signature, signature_of
 __all__ = ["checked", "checked_binder", "checked_within", "target", "wellformed"]
 
 
-@following_nesting
+@within_budget
 def wellformed(T: TypeNode, theory: Signature | None = None, /) -> Answer:
     """Whether every path in T leads to a field that fits, and none in a circle.
 
@@ -66,6 +67,7 @@ Where = tuple[str, ...]
 """The labels that lead to the field that is looked at."""
 
 
+@within_budget
 def checked(T: RecordType, theory: Signature | None = None) -> RecordType:
     """The record type itself, if its paths resolve and fit; else `IllFormed`.
 
@@ -81,6 +83,7 @@ def checked(T: RecordType, theory: Signature | None = None) -> RecordType:
 _BINDER = TypeVar("_BINDER", Function, FunType)
 
 
+@within_budget
 def checked_binder(binder: _BINDER, theory: Signature | None = None) -> _BINDER:
     """The function or function type itself, if its paths resolve and fit."""
     inside = binder.body if isinstance(binder, Function) else binder.result
@@ -197,6 +200,7 @@ def _shown(T: TypeNode) -> str:
 
 def _field(T: TypeNode, label: str) -> TypeNode | None:
     """The type of a field that every witness of T has, or None."""
+    spend()
     match T:
         case RecordType():
             return T.get(label)
@@ -234,6 +238,7 @@ def _check_domains(
 
     `around` are the scopes around the value, innermost first.
     """
+    spend()
     outermost = len(around) - 1
     if not any(path.up == outermost for path in escaping(value)):
         return

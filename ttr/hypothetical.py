@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 
+from ttr.budgets import spend
 from ttr.levels import why_outside
 from ttr.paths import escaping, occurring, replace_paths
 from ttr.places import (
@@ -146,17 +147,22 @@ class Hypothetical:
     def _claim(self, place: Path, T: TypeNode) -> None:
         match T:
             case Meet(parts):
+                spend(2 * len(parts))
                 for part in parts:
                     self._claim(place, part)
                 return
             case Singleton(base, _):
                 self._claim(place, base)
             case ListOf(item) | NonEmpty(item) | SetOf(item):
+                spend(2 + len(place.labels) // 4)
                 self._claim(element(place), item)
-            case Str():
+            case Str(items):
+                spend(2 * len(items))
                 for number, item in enumerate(events_of(T) or ()):
                     self._claim(event(place, number), item)
             case RecordType(fields):
+                # A claim is kept for each field, with a place as long as it is deep.
+                spend((2 + len(place.labels) // 4) * len(fields))
                 for label, field in fields:
                     self._claim(step(place, label), unpacked(field, place))
         self._claims.append((place, T))
@@ -185,6 +191,7 @@ class Hypothetical:
 
     def _spread(self, term: Object, T: TypeNode, condition: Path | None) -> None:
         """Adds what a list's type claims of an element that is written in it."""
+        spend()
         match T:
             case Meet(parts):
                 for part in parts:
@@ -231,6 +238,7 @@ class Hypothetical:
             self._equate(place, value, place)
 
     def _equate(self, left: Object, right: Object, at: Path) -> None:
+        spend()
         left, right = self.normal(left), self.normal(right)
         if identity(left) == identity(right):
             return

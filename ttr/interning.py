@@ -13,8 +13,9 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any, dataclass_transform
 from weakref import ref
 
+from ttr.budgets import Spent, open_purse, within_budget
 from ttr.display.notebooks import Drawn
-from ttr.errors import IllFormed, TTRError, following_nesting
+from ttr.errors import IllFormed, TTRError
 
 __all__ = ["Node", "identity", "node"]
 
@@ -60,6 +61,11 @@ class _Interning(type):
                 if error.__traceback__.tb_next is not None:
                     raise
                 raise _misfit(cls) from None
+            purse = open_purse()
+            if purse is not None:  # as `spend` does; this is the busiest place of all
+                purse.left -= 1
+                if purse.left < 0:
+                    raise Spent
             key = (cls, *cls._key(*values))
             entry = _pool.get(key)
             found = None if entry is None else entry()
@@ -107,13 +113,13 @@ class Node(Drawn, metaclass=_Interning):
         """What makes two nodes of the class the same."""
         return tuple(map(identity, args))
 
-    @following_nesting
+    @within_budget
     def __str__(self) -> str:
         from ttr.printing import notation
 
         return notation(self)
 
-    @following_nesting
+    @within_budget
     def __repr__(self) -> str:
         from ttr.printing import python
 
@@ -154,6 +160,11 @@ def identity(value: object) -> object:
     if kind is str or isinstance(value, Node):
         return value
     if kind is tuple:
+        purse = open_purse()
+        if purse is not None:
+            purse.left -= len(value)  # type: ignore[arg-type]
+            if purse.left < 0:
+                raise Spent
         return (tuple, *map(identity, value))  # type: ignore[call-overload]
     if kind is float:
         return (float, struct.pack("<d", value))

@@ -10,6 +10,7 @@ from itertools import islice, product
 from typing import assert_never
 
 from ttr.assignments import Assignment
+from ttr.budgets import spend
 from ttr.cases import cases
 from ttr.dependences import dependence
 from ttr.dividing import Dividing, events_in_words, stopped
@@ -87,12 +88,15 @@ class _Derivation:
             case Singleton():
                 return self._singleton(sit, T, around, where)
             case Meet(parts):
+                spend(len(parts))
                 grounds = [self.of(sit, part, around, "") for part in parts]
                 return self._whole(sit, T, "each part", grounds, where)
             case Join(parts):
+                spend(len(parts))
                 grounds = [self.of(sit, part, around, "") for part in parts]
                 return self._whole(sit, T, "one part", grounds, where, "any")
             case Negation(body):
+                spend()
                 grounds = [self.of(sit, body, around, "")]
                 return self._whole(sit, T, "what is denied", grounds, where, "none")
             case ListOf() | NonEmpty() | SetOf():
@@ -144,6 +148,7 @@ class _Derivation:
         return replace(why, p=found.p, rule=rule, alone=why.p)
 
     def _singleton(self, sit: Object, T: Singleton, around: Around, where: str) -> Why:
+        spend()
         try:
             wanted = reduced(self._facts, grounded(T.value, around))
         except (Unresolved, Refused) as wrong:
@@ -168,6 +173,7 @@ class _Derivation:
             return Why(sit, T, REFUTED, f"it is no {kind}", where=where)
         if isinstance(T, NonEmpty) and not inside:
             return Why(sit, T, REFUTED, "it is empty", where=where)
+        spend(1 + len(inside))
         grounds = [self.of(element, T.item, around, "") for element in inside]
         return self._whole(sit, T, "each element", grounds, where)
 
@@ -180,6 +186,7 @@ class _Derivation:
         if len(sit) != len(items):
             rule = f"it has {events_in_words(len(sit))}, not {len(items)}"
             return Why(sit, T, REFUTED, rule, where=where)
+        spend(1 + len(items))
         pairs = zip(sit, items, strict=True)
         grounds = [self.of(event, item, around, "") for event, item in pairs]
         return self._whole(sit, T, "event by event", grounds, where)
@@ -190,6 +197,7 @@ class _Derivation:
         """Pieces in a row: in a way that is certain, or in one of those possible."""
 
         def derives(part: Object, U: TypeNode) -> Why:
+            spend()
             return self.of(part, U, around, "")
 
         found = automaton(T)
@@ -266,6 +274,7 @@ class _Derivation:
     def _record(self, sit: Object, T: RecordType, around: Around, where: str) -> Why:
         if not isinstance(sit, Record):
             return Why(sit, T, REFUTED, "it is no record", where=where)
+        spend(1 + len(T.fields))
         inside = (sit._fields, *around)
         grounds = [
             self.of(sit._fields[label], field, inside, label)
@@ -334,6 +343,7 @@ def reduced(facts: Assignment, value: Object) -> Object:
     Raises `Refused` where an argument is not certainly of the function's domain, or
     what is applied is no function.
     """
+    spend()
     if not _applies(value):
         return value
     value = rebuilt(value, lambda part, _: reduced(facts, part))

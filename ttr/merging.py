@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from ttr.budgets import spend, within_budget
 from ttr.constructors import rectype
-from ttr.errors import TTRError, following_nesting
+from ttr.errors import TTRError
 from ttr.subtyping import subtype
 from ttr.syntax import Record, RecordType, Singleton, TypeNode, as_type, identity, meet
 from ttr.theories import Signature, signature_of
@@ -11,7 +12,7 @@ from ttr.theories import Signature, signature_of
 __all__ = ["amerge", "merge", "singleton_type"]
 
 
-@following_nesting
+@within_budget
 def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeNode:
     """The merge S ∧̣ T: what is of it is of S and of T, in the simplest form.
 
@@ -27,6 +28,7 @@ def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeN
     >>> print(merge(rectype(x=Ind, e=run(this.x)), rectype(x=Ind @ "j")))
     [x = j : Ind, e : run(x)]
     """
+    spend()
     S, T, theory = as_type(S), as_type(T), signature_of(theory)
     if S is T:
         return S
@@ -80,7 +82,7 @@ def _merge_records(
     return rectype(fields, theory)
 
 
-@following_nesting
+@within_budget
 def amerge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeNode:
     """The asymmetric merge: T's say wins wherever one side is no record type.
 
@@ -91,6 +93,7 @@ def amerge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Type
     >>> print(amerge(rectype(x=Ind @ "j", y=Ind), rectype(x=Ind)))
     [x : Ind, y : Ind]
     """
+    spend()
     S, T, theory = as_type(S), as_type(T), signature_of(theory)
     if not isinstance(S, RecordType) or not isinstance(T, RecordType):
         return T

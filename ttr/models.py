@@ -13,6 +13,7 @@ from typing import Any, Protocol, TypeAlias, cast
 from immutables import Map
 
 from ttr.assignments import Assignment, WitnessFunction
+from ttr.budgets import within_budget
 from ttr.conditioning import (
     conditional,
     expected,
@@ -22,8 +23,8 @@ from ttr.conditioning import (
 )
 from ttr.creating import created, told
 from ttr.dependences import check_together
-from ttr.errors import IllFormed, Refused, TTRError, Unsupported, following_nesting
-from ttr.judgements import Judgement
+from ttr.errors import IllFormed, Refused, TooLargeError, TTRError, Unsupported
+from ttr.judgements import Judgement, Why
 from ttr.judging import derivation, reduced
 from ttr.nonspecific import Range, of_any, some
 from ttr.paths import escaping
@@ -64,6 +65,33 @@ Types: TypeAlias = TypeNode | Sequence[TypeNode]
 
 Table: TypeAlias = Mapping[tuple[bool, ...], object]
 """A probability for each case."""
+
+
+def _judged_unknown(
+    error: TooLargeError, model: Model, sit: object, T: TypeNode, /, **_: object
+) -> Judgement:
+    """The judgement where the budget ended: anything between yes and no."""
+    sit = _frozen(sit)
+    return Judgement(sit, T, UNKNOWN, Why(sit, T, UNKNOWN, error.message), model)
+
+
+@within_budget
+def _frozen(value: object) -> Object:
+    """The value as an object; what has more parts than the budget raises."""
+    return freeze(value)
+
+
+def _truth_unknown(error: TooLargeError, *_: object, **__: object) -> Degree:
+    """The degree where the budget ended."""
+    return UNKNOWN
+
+
+def _range_unknown(
+    error: TooLargeError, model: Model, T: TypeNode, /, *, when: Types, **_: object
+) -> Range:
+    """The range where the budget ended."""
+    types = cast(Sequence[TypeNode], when if isinstance(when, tuple | list) else [when])
+    return Range(T, tuple(types), UNKNOWN, ())
 
 
 class _HasSignature(Protocol):
@@ -121,7 +149,7 @@ class Model:
         """The axioms, open types and first judgements that the model goes by."""
         return self._facts.theory
 
-    @following_nesting
+    @within_budget
     def given(
         self, sit: object, T: TypeNode, /, p: object = 1.0, *, when: Conditions = ()
     ) -> Model:
@@ -244,7 +272,7 @@ class Model:
             )
         return self._with(self._facts.with_function(head, by))
 
-    @following_nesting
+    @within_budget(otherwise=_judged_unknown)
     def judge(self, sit: object, T: TypeNode, /, *, when: Conditions = ()) -> Judgement:
         """Is sit of T? What is there is checked; nothing is filled in.
 
@@ -268,7 +296,7 @@ class Model:
         )
         return Judgement(sit, T, why.p, why, self)
 
-    @following_nesting
+    @within_budget(otherwise=_judged_unknown)
     def perceive(self, sit: object, T: TypeNode, /) -> Judgement:
         """Judges after filling the fields that are missing and can be perceived.
 
@@ -289,7 +317,7 @@ class Model:
         seen, facts = filled(self._facts, sit, T)
         return self._with(facts).judge(seen, T)
 
-    @following_nesting
+    @within_budget
     def create(self, T: TypeNode, /) -> tuple[Object, Model]:
         """A fresh witness of T, and the model that has it; else `Refused`.
 
@@ -302,7 +330,7 @@ class Model:
         witness, facts = created(self._facts, T)
         return witness, self._with(facts)
 
-    @following_nesting
+    @within_budget
     def apply(self, function: object, argument: object, /) -> Object:
         """f(a), worked out: the body of the function for the argument.
 
@@ -319,12 +347,12 @@ class Model:
         """
         return self.reduced(Application(function, argument))
 
-    @following_nesting
+    @within_budget
     def reduced(self, value: object, /) -> Object:
         """The type or object with every application in it worked out."""
         return reduced(self._facts, freeze(value))
 
-    @following_nesting
+    @within_budget
     def witnesses(self, T: TypeNode, /) -> tuple[Object, ...]:
         """The known objects that certainly are of T, in the order they were told.
 
@@ -342,7 +370,7 @@ class Model:
         _, T = _closed((), T)
         return tuple(witnesses(self._facts, T))
 
-    @following_nesting
+    @within_budget(otherwise=_truth_unknown)
     def true(
         self,
         proposition: object,
@@ -377,7 +405,7 @@ class Model:
         except Unsupported:
             return CERTAIN if self._has_unlisted(T) else UNKNOWN
 
-    @following_nesting
+    @within_budget(otherwise=_range_unknown)
     def chance(
         self,
         T: TypeNode,

@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TypeAlias
 
-from ttr.errors import Unsupported, following_nesting
+from ttr.budgets import spend, within_budget
+from ttr.errors import Unsupported
 from ttr.syntax import Join, Meet, Negation, TypeNode, as_type, join, meet
 
 __all__ = ["inwards", "join_normal_form", "meet_normal_form"]
@@ -22,7 +23,7 @@ _Part: TypeAlias = frozenset[TypeNode]
 """The types in one of the joins of a meet, or in one of the meets of a join."""
 
 
-@following_nesting
+@within_budget
 def meet_normal_form(T: TypeNode, /, limit: int = LIMIT) -> TypeNode:
     r"""The type as a meet of joins: (A ∧ B) ∨ C becomes (A ∨ C) ∧ (B ∨ C).
 
@@ -41,7 +42,7 @@ def meet_normal_form(T: TypeNode, /, limit: int = LIMIT) -> TypeNode:
     return meet(*[join(*part) for part in found])
 
 
-@following_nesting
+@within_budget
 def join_normal_form(T: TypeNode, /, limit: int = LIMIT) -> TypeNode:
     r"""The type as a join of meets: A ∧ (B ∨ C) becomes (A ∧ B) ∨ (A ∧ C).
 
@@ -60,6 +61,7 @@ def join_normal_form(T: TypeNode, /, limit: int = LIMIT) -> TypeNode:
 
 def inwards(T: TypeNode) -> TypeNode:
     """The type with negations only before what is no meet, join or negation."""
+    spend()
     match T:
         case Meet(parts):
             return meet(*map(inwards, parts))
@@ -76,6 +78,7 @@ def inwards(T: TypeNode) -> TypeNode:
 
 def _parts(T: TypeNode, outer: type[Meet] | type[Join], limit: int) -> list[_Part]:
     """The parts of T as a meet of joins, or as a join of meets: `outer` is outside."""
+    spend()
     if not isinstance(T, Meet | Join):
         return [frozenset((T,))]
     inner = [_parts(part, outer, limit) for part in T.parts]
@@ -92,6 +95,7 @@ def _needed(parts: Iterable[_Part], limit: int) -> list[_Part]:
     """The parts that no other one is in; a limited number of them."""
     once: dict[_Part, None] = {}
     for part in parts:
+        spend()
         once[part] = None
         if len(once) > limit:
             raise Unsupported(
@@ -103,6 +107,7 @@ def _needed(parts: Iterable[_Part], limit: int) -> list[_Part]:
     for part in sorted(once, key=len):
         if kept and len(part) > len(kept[-1]):
             smaller = kept.copy()
+        spend(1 + len(smaller) // 8)  # of these comparisons many go in one step
         if not any(less <= part for less in smaller):
             kept.append(part)
     return kept

@@ -13,8 +13,9 @@ from itertools import chain, groupby
 from types import NoneType
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
+from ttr.budgets import spend, within_budget
 from ttr.display.notebooks import Drawn
-from ttr.errors import IllFormed, TTRError, following_nesting
+from ttr.errors import IllFormed, TTRError
 from ttr.interning import Node, identity, node
 
 __all__ = [
@@ -71,6 +72,7 @@ def freeze(value: object) -> Object:
 
 def _frozen(values: tuple[object, ...]) -> tuple[Object, ...]:
     """The values as objects: the same tuple where all of them are objects already."""
+    spend()
     if _TAKEN_FOR_NOTATION.isdisjoint(map(type, values)):
         return values
     return tuple(map(freeze, values))
@@ -360,6 +362,7 @@ class Record(Drawn):
     _noted: dict[Any, tuple[Any, ...]] | None
 
     def __init__(self, fields: Mapping[str, object]) -> None:
+        spend(1 + len(fields))
         for label in fields:
             check_label(label)
         object.__setattr__(self, "_fields", {k: freeze(v) for k, v in fields.items()})
@@ -393,6 +396,9 @@ class Record(Drawn):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Record):
             return NotImplemented
+        if self is other:
+            return True
+        spend()
         mine, theirs = self._fields, other._fields
         return mine.keys() == theirs.keys() and all(
             identity(v) == identity(theirs[k]) for k, v in mine.items()
@@ -413,13 +419,13 @@ class Record(Drawn):
     def __delattr__(self, label: str) -> None:
         raise TTRError(f"a record does not change, so {label} cannot be deleted")
 
-    @following_nesting
+    @within_budget
     def __str__(self) -> str:
         from ttr.printing import notation
 
         return notation(self)
 
-    @following_nesting
+    @within_budget
     def __repr__(self) -> str:
         from ttr.printing import python
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
+from ttr.budgets import spend
 from ttr.objects import Unresolved, concat, fst, rst
 from ttr.syntax import (
     Application,
@@ -50,22 +51,30 @@ def parts(value: Object) -> tuple[Parts, Parts]:
     """
     match value:
         case PType(_, inner) | Meet(inner) | Join(inner) | Str(inner):
+            spend(len(inner))
             return inner, ()
         case RecordType(fields):
+            spend(len(fields))
             return (), tuple([T for _, T in fields])
         case Singleton(base, obj):
             return (base, obj), ()
         case ListOf(item) | NonEmpty(item) | SetOf(item) | Plus(item) | Negation(item):
+            spend()
             return (item,), ()
         case FunType(domain, inside) | Function(domain, inside):
+            spend()
             return (domain,), (inside,)
         case Application(function, argument):
+            spend()
             return (function, argument), ()
         case EventString(inner) | FiniteSet(inner) | Operation(_, inner):
+            spend(len(inner))
             return inner, ()
         case Record():
+            spend(len(value))
             return tuple(value._fields.values()), ()
         case tuple():
+            spend(len(value))
             return value, ()
     return (), ()
 

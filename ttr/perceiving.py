@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ttr.assignments import Assignment
+from ttr.budgets import spend
 from ttr.errors import Refused
 from ttr.judging import reduced
 from ttr.objects import Unresolved
@@ -18,6 +19,7 @@ def filled(facts: Assignment, sit: Record, T: TypeNode) -> tuple[Record, Assignm
     A missing field whose ptype has a witness function gets a fresh situation, of the
     ptype as far as the function says. T has no paths that escape it.
     """
+    spend()
     match T:
         case Meet(parts):
             for part in parts:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import keyword
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from ttr.brackets import (
     WORDS,
@@ -19,6 +19,7 @@ from ttr.brackets import (
     is_loose,
     is_loose_beside,
 )
+from ttr.budgets import spend
 from ttr.escapes import json_text
 from ttr.objects import Missing
 from ttr.paths import occurring, replace_paths
@@ -77,6 +78,7 @@ def notation(value: Object, scope: Scope = ()) -> str:
         case RecordType(()):
             return "Rec"
         case RecordType(fields):
+            spend(len(fields))
             inner = (frozenset(value.labels), *scope)
             return f"[{', '.join(_field(k, f, inner) for k, f in fields)}]"
         case Singleton(base, obj):
@@ -99,6 +101,7 @@ def notation(value: Object, scope: Scope = ()) -> str:
             return _path(value, scope)
     if type(value) in WORDS:
         types, _ = contents(value)
+        spend(len(types))
         inside = ", ".join([notation(T, scope) for T in types])
         return f"{WORDS[type(value)]}({inside})"
     return _object(value, scope)
@@ -114,12 +117,14 @@ def _field(label: str, field: TypeNode, scope: Scope) -> str:
 
 def _operand(value: Object, scope: Scope) -> str:
     """A part of a meet, join or negation: in brackets unless it binds closer."""
+    spend()
     text = notation(value, scope)
     return f"({text})" if is_loose(value) else text
 
 
 def _tight(value: Object, scope: Scope) -> str:
     """A part beside @, + or an arrow: in brackets unless it holds together."""
+    spend()
     text = notation(value, scope)
     return f"({text})" if is_loose_beside(value) else text
 
@@ -154,7 +159,8 @@ def _hides(scope: Scope, name: str) -> bool:
     return any(name == names or name in _labels(names) for names in scope)
 
 
-def _objects(values: Iterable[Object], scope: Scope) -> str:
+def _objects(values: Sequence[Object], scope: Scope) -> str:
+    spend(len(values))
     return ", ".join([notation(as_object(v, scope), scope) for v in values])
 
 
@@ -259,6 +265,7 @@ def _object(value: Object, scope: Scope) -> str:
         return repr(value)
     match value:
         case Record():
+            spend(len(value))
             items = sorted(value._fields.items())
             inside = [f"{k} = {notation(as_object(v, scope), scope)}" for k, v in items]
             return f"{{{', '.join(inside)}}}"
@@ -307,6 +314,7 @@ def python(value: Object) -> str:
     >>> eval(repr(T)) is T
     True
     """
+    spend(2)
     match value:
         case Basic(name):
             return f"Basic({name!r})"

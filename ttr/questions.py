@@ -17,6 +17,7 @@ from contextlib import suppress
 from functools import lru_cache, reduce
 from typing import TypeGuard
 
+from ttr.budgets import spend
 from ttr.certainty import certainly
 from ttr.constructors import fun, rectype
 from ttr.errors import TTRError
@@ -130,6 +131,7 @@ def is_question(value: Object) -> bool:
     >>> is_question(whether(Rec)), is_question(Rec)
     (True, False)
     """
+    spend()
     if isinstance(value, FiniteSet):
         return len(value) > 1 and all(map(is_polar, value))
     return (
@@ -141,6 +143,7 @@ def is_question(value: Object) -> bool:
 
 def is_polar(value: Object) -> TypeGuard[Function]:
     """Whether an object is a question whether: one that asks for no object."""
+    spend()
     return is_question(value) and isinstance(value, Function) and value.domain is Rec
 
 
@@ -263,6 +266,7 @@ def _no_question(found: Object) -> TTRError:
 
 def _combined(answer: Object, question: Object, model: Model) -> TypeNode | None:
     """What an answer comes to, or None where it is not about the question."""
+    spend()
     if isinstance(question, FiniteSet):
         found = (_combined(answer, one, model) for one in question)
         plain = isinstance(answer, TypeNode)
@@ -345,6 +349,7 @@ def _matches(
 
     `out` is how many record types further in than the variable the pattern stands.
     """
+    spend()
     if isinstance(pattern, RecordType):
         return isinstance(found, RecordType) and all(
             label in found and _matches(field, found[label], out + 1, bound)

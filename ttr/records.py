@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from ttr.budgets import spend
 from ttr.errors import TTRError, suggestion
 from ttr.objects import labelled, lasts
 from ttr.printing import notation
@@ -94,6 +95,7 @@ def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:
     >>> list(differences(record(x="a", y=["b"]), record(x="c", y=["b", "d"])))
     ['x: a → c', 'y: + d']
     """
+    spend()
     if isinstance(before, tuple) and isinstance(after, tuple):
         yield from _list_differences(before, after, path)
         return

@@ -6,13 +6,14 @@ from collections.abc import Callable
 from types import BuiltinFunctionType, FunctionType, ModuleType, NoneType
 from typing import TYPE_CHECKING
 
+from ttr.budgets import within_budget
 from ttr.display.drawing import drawn, drawn_derivation
 from ttr.display.folding import folding
 from ttr.display.layout import Layout, Line, Sign, Step, Word, laid_out
 from ttr.display.markup import marked_up, marked_up_derivation
 from ttr.display.notebooks import Drawn
 from ttr.display.typesetting import typeset, typeset_derivation
-from ttr.errors import IllFormed, following_nesting
+from ttr.errors import IllFormed
 from ttr.interning import Node
 from ttr.judgements import Judgement, Why, mark
 from ttr.syntax import Object, Record, freeze
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["box", "html", "latex"]
 
 
-@following_nesting
+@within_budget
 def box(
     value: object,
     *,
@@ -51,7 +52,7 @@ def box(
     return drawn(_shown(value, shown), width)
 
 
-@following_nesting
+@within_budget
 def latex(
     value: object, *, unfold: int | None = None, theory: Signature | None = None
 ) -> str:
@@ -70,7 +71,7 @@ def latex(
     return typeset(_shown(value, shown))
 
 
-@following_nesting
+@within_budget
 def html(
     value: object, *, unfold: int | None = None, theory: Signature | None = None
 ) -> str:

@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from ttr.errors import IllFormed, following_nesting
+from ttr.budgets import spend, within_budget
+from ttr.errors import IllFormed
 from ttr.levels import level_of
 from ttr.paths import escaping, rebuilt
 from ttr.syntax import (
@@ -52,7 +53,7 @@ class _Placed(NamedTuple):
     around: Scopes
 
 
-@following_nesting
+@within_budget
 def with_levels(T: TypeNode, /) -> TypeNode:
     """T with the least superscripts at which each manifest field is of its type.
 
@@ -75,7 +76,7 @@ def with_levels(T: TypeNode, /) -> TypeNode:
     return as_type(_read(as_type(T), ()))
 
 
-@following_nesting
+@within_budget
 def levelled_judgement(sit: object, T: TypeNode, /) -> tuple[Object, TypeNode]:
     """The judgement sit : T with the least superscripts at which it makes sense.
 
@@ -91,7 +92,7 @@ def levelled_judgement(sit: object, T: TypeNode, /) -> tuple[Object, TypeNode]:
     return found, as_type(_read(raised, ()))
 
 
-@following_nesting
+@within_budget
 def without_levels(T: TypeNode, /) -> TypeNode:
     """T with every superscript left out.
 
@@ -104,6 +105,7 @@ def without_levels(T: TypeNode, /) -> TypeNode:
 
 
 def _bare(value: Object) -> Object:
+    spend()
     if isinstance(value, Universe):
         return Universe(value.name)
     return rebuilt(value, lambda part, _: _bare(part))
@@ -114,6 +116,7 @@ def _bare(value: Object) -> Object:
 
 def _read(value: Object, around: Scopes) -> Object:
     """The value with levels; a field sees the fields before it with theirs."""
+    spend()
     match value:
         case RecordType(fields):
             scope = dict(fields)
@@ -135,6 +138,7 @@ def _read(value: Object, around: Scopes) -> Object:
 
 def _raised(T: TypeNode, values: list[_Placed]) -> TypeNode:
     """T with the least superscripts at which the values may be of it."""
+    spend()
     if not values:
         return T
     match T:

@@ -10,10 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from ttr.budgets import within_budget
 from ttr.cases import cases
 from ttr.circles import in_order
 from ttr.entailment import Finding, Question
-from ttr.errors import following_nesting
+from ttr.errors import TooLargeError
 from ttr.hypothetical import Assumption
 from ttr.interning import Node
 from ttr.paths import occurring
@@ -100,7 +101,12 @@ class Answer:
         return f"{self.verdict}: {self.why}"
 
 
-@following_nesting
+def _left_open(error: TooLargeError, *_: object, **__: object) -> Answer:
+    """The answer where the budget ended."""
+    return Answer("unknown", error.message)
+
+
+@within_budget(otherwise=_left_open)
 def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Answer:
     """Is S a subtype of T, by structure and, with a theory, by its axioms?
 
@@ -191,7 +197,7 @@ def _by_form(S: TypeNode, T: TypeNode) -> str:
     return f"{S} is below {T} by its form"
 
 
-@following_nesting
+@within_budget(otherwise=_left_open)
 def consistent(*types: TypeNode, theory: Signature | None = None) -> Answer:
     """Can something be of all the types, under some assignment?
 

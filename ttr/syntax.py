@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING, NoReturn
 
+from ttr.budgets import within_budget
 from ttr.errors import IllFormed
 from ttr.interning import Node, identity, node
 from ttr.objects import (
@@ -523,6 +524,7 @@ def _shortest_first(arity: tuple[TypeNode, ...]) -> tuple[int, str, str]:
 # --- meets and joins -----------------------------------------------------------------
 
 
+@within_budget
 def meet(*parts: TypeNode) -> TypeNode:
     """The meet S ∧ T: flat, each part once, in one order whatever the order of writing.
 
@@ -536,6 +538,7 @@ def meet(*parts: TypeNode) -> TypeNode:
     return flat[0] if len(flat) == 1 else Meet(flat)
 
 
+@within_budget
 def join(*parts: TypeNode) -> TypeNode:
     """The join S ∨ T: flat, each part once, in one order whatever the order of writing.
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ttr.errors import IllFormed, Refused, following_nesting
+from ttr.budgets import within_budget
+from ttr.errors import IllFormed, Refused
 from ttr.judgements import Judgement
 from ttr.merging import merge
 from ttr.models import Model, as_model
@@ -91,7 +92,7 @@ def topos(fg: Function | Topos, /) -> Topos:
 # --- of a situation ------------------------------------------------------------------
 
 
-@following_nesting
+@within_budget
 def expected(model: Model, sit: object, warrant: Topos, /) -> TypeNode:
     """t(s), what the topos lets expect of a situation.
 
@@ -100,7 +101,7 @@ def expected(model: Model, sit: object, warrant: Topos, /) -> TypeNode:
     return as_type(as_model(model).apply(topos(warrant).fg, sit))
 
 
-@following_nesting
+@within_budget
 def necessary(model: Model, sit: object, T: TypeNode, warrant: Topos, /) -> ModalAnswer:
     """s : nec(T, B, t): is s of the background B, and t(s) ⊑ T?
 
@@ -115,7 +116,7 @@ def necessary(model: Model, sit: object, T: TypeNode, warrant: Topos, /) -> Moda
     return _as_far(background, answer, f"{follows} follows; is it below {T}?")
 
 
-@following_nesting
+@within_budget
 def possible(model: Model, sit: object, T: TypeNode, warrant: Topos, /) -> ModalAnswer:
     """s : poss(T, B, t): is s of the background B, and T compatible with t(s)?"""
     told = _applied(model, sit, warrant)
@@ -155,7 +156,7 @@ def _as_far(background: Judgement, answer: Answer, question: str) -> ModalAnswer
 # --- of one another ------------------------------------------------------------------
 
 
-@following_nesting
+@within_budget
 def combined(first: Topos, second: Topos, theory: Signature | None = None, /) -> Topos:
     r"""The topos about situations of both backgrounds, which lets expect both.
 

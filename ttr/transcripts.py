@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
+from ttr.budgets import within_budget
 from ttr.display.comparing import compared
 from ttr.display.folding import folding
 from ttr.display.markup import STYLE, page, part_of_page
-from ttr.errors import following_nesting
 from ttr.escapes import html_text
 from ttr.printing import notation
 from ttr.records import differences
@@ -37,7 +37,7 @@ class Transcribed:
     ending: str = ""
 
 
-@following_nesting
+@within_budget
 def transcript(title: str, dialogues: Iterable[Transcribed]) -> str:
     """The page, as HTML.
 

@@ -9,6 +9,7 @@ from itertools import product
 from typing import cast
 
 from ttr.assignments import Assignment
+from ttr.budgets import spend
 from ttr.errors import Refused, Unsupported
 from ttr.judging import derivation, reduced
 from ttr.merging import merge
@@ -80,6 +81,7 @@ class _Listing:
     least: float
 
     def of(self, T: TypeNode) -> Iterator[Object]:
+        spend()
         facts = self.facts
         match T:
             case Basic() | PType():
@@ -140,6 +142,7 @@ class _Listing:
         self, T: RecordType, label: str, fields: dict[str, Object]
     ) -> Iterator[dict[str, Object]]:
         """The fields with each witness of the next one, given those before it."""
+        spend(4)
         try:
             field = grounded(T[label], (fields,))
         except Unresolved as unresolved:
@@ -147,7 +150,9 @@ class _Listing:
                 f"the records of {T} cannot be listed: {unresolved.message}",
                 hint="fields on a cycle can be judged, but not listed",
             ) from None
-        yield from ({**fields, label: sit} for sit in self.of(field))
+        for sit in self.of(field):
+            spend(4)
+            yield {**fields, label: sit}
 
 
 def _listed_part(parts: tuple[TypeNode, ...]) -> TypeNode:

@@ -5,7 +5,8 @@ import pickle
 import pytest
 
 from ttr import IllFormed, Refused, TTRError
-from ttr.errors import Span, Unsupported, following_nesting, suggestion
+from ttr.budgets import within_budget
+from ttr.errors import Span, Unsupported, suggestion
 
 TEXT = "basic Ind\nX := [x : Idn]\n"
 SPAN = Span.of("a.ttr", TEXT, 20, 23)
@@ -48,7 +49,7 @@ def test_suggestions():
 
 
 def test_too_deep_a_nesting_is_an_error_of_ours():
-    @following_nesting
+    @within_budget
     def endless(n):
         return endless.__wrapped__(n + 1)
 

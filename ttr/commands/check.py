@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ttr.budgets import STEPS, budget
 from ttr.commands.consenting import add_allow
 from ttr.commands.output import (
     FAILED,
@@ -18,8 +19,9 @@ from ttr.commands.output import (
     place,
     say,
     say_json,
+    steps,
 )
-from ttr.errors import TTRError
+from ttr.errors import TooLargeError, TTRError
 
 if TYPE_CHECKING:
     from ttr.reports import Report
@@ -38,6 +40,13 @@ def add(commands: Commands) -> None:
     check.add_argument("files", nargs="+", metavar="FILE", help="a theory file (.ttr)")
     check.add_argument("--json", action="store_true", help="report for machines")
     add_allow(check)
+    check.add_argument(
+        "--steps",
+        type=steps,
+        default=STEPS,
+        metavar="N",
+        help=f"how much work each check may be before it is left (default: {STEPS:,})",
+    )
     check.set_defaults(command=_check)
 
 
@@ -52,7 +61,7 @@ class _Outcome:
 
     @property
     def code(self) -> int:
-        if self.unreadable:
+        if self.unreadable or any(isinstance(e, TooLargeError) for e in self.mistakes):
             return WRONG_USE
         return FINE if self.report is not None and self.report.holds else FAILED
 
@@ -60,7 +69,8 @@ class _Outcome:
 def _check(options: argparse.Namespace) -> int:
     outcomes = []
     for file in options.files:
-        outcome = _outcome(file, options.allow)
+        with budget(steps=options.steps):
+            outcome = _outcome(file, options.allow)
         outcomes.append(outcome)
         if not options.json:
             _tell(outcome)

@@ -28,6 +28,7 @@ __all__ = [
     "say_json",
     "complain",
     "place",
+    "steps",
 ]
 
 FINE, FAILED, WRONG_USE, INTERRUPTED, PIPE_CLOSED = 0, 1, 2, 130, 141
@@ -94,3 +95,14 @@ def place(span: Span | None) -> dict[str, Any]:
     if span is None:
         return {}
     return {"file": span.source, "line": span.line, "column": span.column}
+
+
+def steps(text: str) -> int:
+    """A number of steps that was given as an option; refuses what is none."""
+    try:
+        found = int(text.replace("_", "").replace(",", ""))
+    except ValueError:
+        found = 0
+    if found < 1:
+        raise argparse.ArgumentTypeError(f"a whole number from 1, found {text!r}")
+    return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+from ttr.budgets import spend
 from ttr.display.layout import (
     Chain,
     Layout,
@@ -139,6 +140,7 @@ def _bracket(sign: str, block: Block) -> Block:
 
 
 def _draw(layout: Layout, room: int) -> Block:
+    spend()
     match layout:
         case Word(text, _) | Sign(text):
             return Block.of(text)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
+from ttr.budgets import spend
 from ttr.errors import IllFormed
 from ttr.paths import escaping, rebuilt
 from ttr.syntax import (
@@ -84,6 +85,7 @@ def _is_long(value: Object) -> bool:
 
 
 def _folded(value: Object, names: Mapping[object, str], unfold: int) -> Object:
+    spend()
     name = names.get(identity(value)) if _is_long(value) else None
     if name is not None and unfold == 0:
         return Basic(name)

@@ -19,6 +19,7 @@ from ttr.brackets import (
     is_loose,
     is_loose_beside,
 )
+from ttr.budgets import spend
 from ttr.escapes import columns, terminal_line
 from ttr.paths import parts as contents
 from ttr.printing import Scope, as_object, head, notation, variable
@@ -296,6 +297,7 @@ _COLON = Sign(" : ")
 
 def laid_out(value: Object, scope: Scope = ()) -> Layout:
     """The layout of a type or object, with names as the notation chooses them."""
+    spend(4)  # what is laid out is kept, and typeset after that
     match value:
         case Basic(name) | Universe(name, 0):
             return Word(name, "type")
@@ -338,6 +340,7 @@ def laid_out(value: Object, scope: Scope = ()) -> Layout:
 
 
 def _object(value: Object, scope: Scope) -> Layout:
+    spend()
     match value:
         case Record() if len(value):
             fields = sorted(value._fields.items())
@@ -364,6 +367,7 @@ def _role(value: Object) -> Role:
 
 
 def _row(label: str, field: TypeNode, scope: Scope) -> Row:
+    spend()
     match field:
         case Singleton(base, obj):
             (given,) = _objects((obj,), scope)

@@ -6,6 +6,7 @@ notation, unseen, so that what is copied or read aloud is notation too.
 
 from __future__ import annotations
 
+from ttr.budgets import spend
 from ttr.display.layout import (
     Chain,
     Layout,
@@ -103,6 +104,7 @@ def _styled(body: str) -> str:
 
 
 def _markup(layout: Layout) -> str:
+    spend()
     match layout:
         case Word(text, role):
             return f'<span class="ttr-{role}">{html_text(text)}</span>'

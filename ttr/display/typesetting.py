@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
+from ttr.budgets import spend
 from ttr.display.layout import (
     Chain,
     Layout,
@@ -55,6 +56,7 @@ def _guarded(text: str) -> str:
 
 
 def _typeset(layout: Layout) -> str:
+    spend()
     match layout:
         case Word(text, role):
             return latex_text(text, role)

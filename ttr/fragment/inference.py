@@ -13,7 +13,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from ttr.errors import TTRError, Unsupported, following_nesting
+from ttr.budgets import within_budget
+from ttr.errors import TTRError, Unsupported
 from ttr.fragment.feasibility import Undecidable
 from ttr.fragment.formulas import Formula, Neither, claim
 from ttr.fragment.lexicon import Lexicon, lexicon_of
@@ -37,7 +38,7 @@ class Inference:
         return f"{self.verdict}: {self.why}"
 
 
-@following_nesting
+@within_budget
 def follows(
     premises: Iterable[str | Sentence],
     hypothesis: str | Sentence,

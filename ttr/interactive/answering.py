@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from ttr.budgets import within_budget
 from ttr.checking import asked
 from ttr.display.folding import folding
-from ttr.errors import NotationError, Span, TTRError, following_nesting
+from ttr.errors import NotationError, Span, TTRError
 from ttr.interactive.sessions import INPUT, Answered, Session, created, declared
 from ttr.judgements import Why
 from ttr.merging import amerge, merge
@@ -43,7 +44,7 @@ class Reply:
     text: str = ""
 
 
-@following_nesting
+@within_budget
 def answered(session: Session, text: str) -> Reply:
     """The reply to a statement, a question or a term; raises `TTRError`.
 
@@ -61,7 +62,7 @@ def answered(session: Session, text: str) -> Reply:
     return _stated(session, tree, source)
 
 
-@following_nesting
+@within_budget
 def term(session: Session, text: str) -> Object:
     """The type or object a text stands for, with its applications worked out."""
     return session.model.reduced(read(text, session.theory, INPUT))

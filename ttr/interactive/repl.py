@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 from functools import reduce
 from pathlib import Path
 
-from ttr.errors import TTRError, following_nesting, suggestion
+from ttr.budgets import within_budget
+from ttr.errors import TTRError, suggestion
 from ttr.interactive.answering import Reply, answered, changes, term
 from ttr.interactive.sessions import Session, loaded, saved
 from ttr.judgements import Judgement
@@ -121,7 +122,7 @@ def is_complete(text: str) -> bool:
 # --- commands ------------------------------------------------------------------------
 
 
-@following_nesting
+@within_budget
 def _commanded(session: Session, text: str) -> Reply:
     word, _, argument = text[1:].partition(" ")
     command = COMMANDS.get(word)

@@ -13,8 +13,9 @@ from functools import reduce
 from pathlib import Path
 from typing import TypeAlias
 
+from ttr.budgets import within_budget
 from ttr.consent import OWN_FOLDER, Consent, check_called
-from ttr.errors import NotationError, TTRError, Unsupported, following_nesting
+from ttr.errors import NotationError, TTRError, Unsupported
 from ttr.escapes import json_text
 from ttr.files import write_whole
 from ttr.judgements import Judgement, Why
@@ -80,7 +81,7 @@ class Session:
 # --- entering statements -------------------------------------------------------------
 
 
-@following_nesting
+@within_budget
 def declared(
     session: Session, tree: Statement, source: Source
 ) -> tuple[Session, frozenset[str]]:
@@ -361,7 +362,7 @@ def _read(text: str) -> tuple[Statement, Source]:
 # --- witnesses -----------------------------------------------------------------------
 
 
-@following_nesting
+@within_budget
 def created(session: Session, T: TypeNode) -> tuple[Session, Object]:
     """The session with the facts of a fresh witness of T, and the witness.
 

@@ -11,7 +11,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from ttr.errors import IllFormed, following_nesting
+from ttr.budgets import within_budget
+from ttr.errors import IllFormed
 from ttr.learning.counts import NO_THEORY, Counts
 from ttr.learning.evidence import NO_EVIDENCE, Evidence
 from ttr.learning.features import Features, features_of, seen, types_of
@@ -24,7 +25,7 @@ from ttr.theories import Signature, signature_of
 __all__ = ["NaiveBayes", "posterior"]
 
 
-@following_nesting
+@within_budget
 def posterior(
     judgements: Counts,
     classes: Sequence[TypeNode],

@@ -16,7 +16,8 @@ from typing import Any, NamedTuple, TypeVar
 
 from immutables import Map
 
-from ttr.errors import IllFormed, Refused, TTRError, following_nesting
+from ttr.budgets import within_budget
+from ttr.errors import IllFormed, Refused, TTRError
 from ttr.judgements import Judgement
 from ttr.learning.smoothing import NO_SMOOTHING, Smoothing, as_smoothing
 from ttr.paths import escaping
@@ -93,7 +94,7 @@ class Counts:
     def __post_init__(self) -> None:
         object.__setattr__(self, "theory", signature_of(self.theory))
 
-    @following_nesting
+    @within_budget
     def learned(self, *evidence: Record | Judgement) -> Counts:
         """J with these propositions or judgements, each once more.
 
@@ -145,7 +146,7 @@ class Counts:
         sure, perhaps = _weight(shares["yes"]), _weight(shares["unknown"])
         return Weight(sure.lo, sure.hi + perhaps.hi)
 
-    @following_nesting
+    @within_budget
     def p(
         self,
         T: TypeNode,

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import reduce
 
-from ttr.errors import IllFormed, Refused, following_nesting
+from ttr.budgets import within_budget
+from ttr.errors import IllFormed, Refused
 from ttr.merging import merge
 from ttr.paths import escaping
 from ttr.subtyping import consistent, subtype
@@ -18,7 +19,7 @@ Features = tuple[bool, ...]
 """For each feature type, whether the type of the situation is below it."""
 
 
-@following_nesting
+@within_budget
 def feature_types(T: TypeNode, /) -> tuple[TypeNode, ...]:
     """The feature types of a record type: each field with those that it depends on.
 
@@ -75,7 +76,7 @@ def features_of(types: Iterable[TypeNode]) -> tuple[TypeNode, ...]:
     return found
 
 
-@following_nesting
+@within_budget
 def seen(
     x: TypeNode, features: tuple[TypeNode, ...], theory: Signature | None = None
 ) -> Features:

@@ -11,8 +11,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ttr.budgets import SharedPurse, one_of_several, purse_of_several
 from ttr.consent import OWN_FOLDER, Consent, NotAllowed, check_called
-from ttr.errors import NotationError, Span, TTRError
+from ttr.errors import NotationError, Span, TooLargeError, TTRError
 from ttr.files import why_unread
 from ttr.interning import identity
 from ttr.notation import trees
@@ -83,6 +84,7 @@ class _Files:
 
     consent: Consent
     known: dict[Path, _Reading]
+    purse: SharedPurse = field(default_factory=purse_of_several)
 
     def imported(self, path: Path, named: str, chain: tuple[Path, ...]) -> _Reading:
         """What a file declares that another imports by this name.
@@ -114,6 +116,7 @@ class _Files:
         except NotationError as error:
             return _Reading(Theory(source=source.name), mistakes=(error,))
         places = list(blocks(source.text))
+        self.purse.allow(len(places))
         later: dict[str, int] = {}
         for start, _ in places:
             for name in _announced(source.text, start):
@@ -209,7 +212,12 @@ class _File:
             elif isinstance(tree, trees.Import):
                 self._import(tree)
             else:
-                self.declaring.declare(tree)
+                with one_of_several(self.files.purse):
+                    self.declaring.declare(tree)
+        except TooLargeError as error:
+            span = self.source.span(Part(start, end))
+            self.mistakes.append(error.at(span))
+            self._spoil(start)
         except TTRError as error:
             self.mistakes.append(error)
             self._spoil(start)

@@ -20,6 +20,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, NoReturn, TypeVar
 
+from ttr.budgets import within_budget
 from ttr.constructors import Pi, fun, function_type, rectype, star
 from ttr.errors import IllFormed, NotationError, TTRError, suggestion
 from ttr.merging import amerge, merge
@@ -144,6 +145,7 @@ def _listed(using: Iterable[object]) -> tuple[object, ...]:
     )
 
 
+@within_budget
 def read(text: str, theory: Theory, source: str = "<text>") -> Object:
     """The type or object that a text stands for in a theory; else `NotationError`."""
     from ttr.notation import grammar

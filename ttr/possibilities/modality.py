@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 
+from ttr.budgets import spend
 from ttr.judgements import Judgement
 from ttr.objects import Unresolved
 from ttr.paths import occurring
@@ -72,6 +73,7 @@ def is_modal(T: TypeNode) -> bool:
 
     Then what is of it does not depend on the situation.
     """
+    spend()
     match T:
         case Meet(parts) | Join(parts):
             return all(map(is_modal, parts))
@@ -97,6 +99,7 @@ def claims_of(
     >>> [(sit, str(kind)) for sit, kind in claims_of(record(x="fido", c="s1"), T)]
     [('s1', 'poss(dog(fido))')]
     """
+    spend()
     match T:
         case PType(pred, _) if pred in (nec, poss):
             with suppress(Unresolved):

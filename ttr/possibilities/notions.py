@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from ttr.assignments import Assignment
 from ttr.axioms import below
-from ttr.errors import IllFormed, Refused, Unsupported, following_nesting
+from ttr.budgets import spend, within_budget
+from ttr.errors import IllFormed, Refused, Unsupported
 from ttr.merging import merge
 from ttr.paths import occurring
 from ttr.possibilities.modality import ModalAnswer, is_modal, mentions_modal, nec, poss
@@ -85,7 +86,7 @@ class Notion:
     system: ModalSystem
     scope: Scope
 
-    @following_nesting
+    @within_budget
     def necessary(self, proposition: object, /) -> ModalAnswer:
         """□P: is it true in every possibility?
 
@@ -103,7 +104,7 @@ class Notion:
             return ModalAnswer(p, _so(P, names))
         return ModalAnswer(p, _not_so(P, worst, found[worst]), worst)
 
-    @following_nesting
+    @within_budget
     def possible(self, proposition: object, /) -> ModalAnswer:
         """◇P: is it true in some possibility?
 
@@ -123,7 +124,7 @@ class Notion:
             return ModalAnswer(p, _so(P, (best,)), best)
         return ModalAnswer(p, _not_so(P, best, found[best]), best)
 
-    @following_nesting
+    @within_budget
     def subtype(self, S: TypeNode, T: TypeNode, /) -> ModalAnswer:
         """Is every witness of S one of T, in every possibility?
 
@@ -166,6 +167,7 @@ class Notion:
 
     def _truth(self, name: str, P: Object) -> Degree:
         """How certain a proposition is in a possibility."""
+        spend()
         try:
             return self._asked(name, P)
         except Refused:
@@ -240,6 +242,7 @@ def _lists_all(S: TypeNode, T: TypeNode) -> bool:
 
 
 def _is_flat(T: TypeNode) -> bool:
+    spend()
     match T:
         case RecordType(fields):
             return not any(_mentions_records(field) for _, field in fields)

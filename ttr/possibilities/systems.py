@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
-from ttr.errors import IllFormed, Refused, following_nesting, suggestion
+from ttr.budgets import within_budget
+from ttr.errors import IllFormed, Refused, suggestion
 from ttr.judgements import Judgement
 from ttr.models import Model
 from ttr.objects import labelled
@@ -117,7 +118,7 @@ class ModalSystem:
             one for one in occurring([value]) if isinstance(one, Basic | Pred)
         )
 
-    @following_nesting
+    @within_budget
     def judge(self, name: str, sit: object, T: TypeNode, /) -> Judgement:
         """Is sit of T in this possibility? Box and diamond types ask the whole system.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from typing import NamedTuple, TypeAlias
 
+from ttr.budgets import spend
 from ttr.probability.degrees import CERTAIN, REFUTED, UNKNOWN, Degree, ordered
 from ttr.probability.dependence import INDEPENDENT, Component, Dependence
 from ttr.probability.events import (
@@ -154,6 +155,7 @@ class _Solving:
         return Chance(p, self._exact, found)
 
     def _solved(self, event: Event) -> Degree:
+        spend()
         match event:
             case Atomic(atom, p):
                 return self._entangled(event) if atom in self._known.place else p
@@ -191,6 +193,7 @@ class _Solving:
 
     def _in_cases(self, number: int, event: Event) -> Degree | None:
         """How probable it is by what is left in each case; None if they are many."""
+        spend()
         component = self._known.components[number]
         mine = {a: so for a, so in self._condition.items() if a in component.degrees}
         conjoined = _conjoined(component, event, mine)

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeVar
 
+from ttr.budgets import spend
 from ttr.probability.degrees import UNKNOWN, Degree
 from ttr.probability.events import Event, Truth, substituted
 
@@ -143,6 +144,7 @@ def _in_order(
     names: tuple[Atom, ...], parents: Mapping[Atom, tuple[Atom, ...]]
 ) -> dict[Atom, tuple[Atom, ...]] | None:
     """The atoms with their parents before them; None where they go in a circle."""
+    spend()
     placed: dict[Atom, tuple[Atom, ...]] = {}
     waiting = list(names)
     while waiting:

@@ -10,6 +10,7 @@ from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from ttr.budgets import spend
 from ttr.probability.degrees import CERTAIN, REFUTED, Degree
 
 __all__ = [
@@ -93,6 +94,7 @@ def decided(event: Event, truth: Truth) -> Event:
     >>> decided(All((a, b)), {"a": False})
     AnyOf(parts=())
     """
+    spend()
     match event:
         case Atomic(atom, p):
             if atom in truth:
@@ -127,6 +129,7 @@ def _joined(
     truth: Truth,
 ) -> Event:
     """The parts that are left, those of the same kind inside them taken out."""
+    spend()
     kept: list[Event] = []
     for part in parts:
         left = decided(part, truth)
@@ -146,6 +149,7 @@ def substituted(event: Event, by: Mapping[Hashable, Event]) -> Event:
     >>> substituted(Not(a), {"a": b}) == Not(b)
     True
     """
+    spend()
     match event:
         case Atomic(atom):
             return by.get(atom, event)

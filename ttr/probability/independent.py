@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Hashable, Mapping
 from itertools import product
 
+from ttr.budgets import spend
 from ttr.probability.degrees import Degree, ordered
 from ttr.probability.events import All, AnyOf, Atomic, Event, Not, atoms, signs
 
@@ -67,6 +68,7 @@ def _weighted(event: Event, p: Mapping[Hashable, float]) -> tuple[float, float]:
 
 def _apart(event: Event, case: Mapping[Hashable, bool]) -> tuple[float, float]:
     """The probability where all atoms are apart but those that the case decides."""
+    spend()
     match event:
         case Atomic(atom, p):
             return (float(case[atom]),) * 2 if atom in case else (p.lo, p.hi)
@@ -94,6 +96,7 @@ def bounds(event: Event) -> Degree:
     >>> print(bounds(All((a, b))))
     [0.5, 0.7]
     """
+    spend()
     match event:
         case Atomic(_, p):
             return p

@@ -14,6 +14,7 @@ from fractions import Fraction
 from itertools import product
 from math import prod
 
+from ttr.budgets import spend
 from ttr.probability.degrees import REFUTED, UNKNOWN, Degree, ordered
 from ttr.probability.dependence import Component
 from ttr.probability.events import Truth
@@ -171,6 +172,7 @@ def _ancestry(parents: Parents, needed: Iterable[Hashable]) -> Parents:
 def _rows(parents: Parents) -> Iterator[Row]:
     for atom, on in parents.items():
         for case in product((True, False), repeat=len(on)):
+            spend()
             yield atom, case
 
 
@@ -191,6 +193,7 @@ def _tables(parents: Parents, chosen: Mapping[Row, int], unit: int) -> list[Tabl
     for atom, on in parents.items():
         weights: dict[Case, int] = {}
         for case in product((True, False), repeat=len(on)):
+            spend(3 + len(on) // 4)
             weights[True, *case] = chosen[atom, case]
             weights[False, *case] = unit - chosen[atom, case]
         found.append(((atom, *on), weights))
@@ -200,6 +203,7 @@ def _tables(parents: Parents, chosen: Mapping[Row, int], unit: int) -> list[Tabl
 def _settled(table: Table, truth: Truth) -> Table:
     """The part of a table in which some atoms are so, or not; they are left out."""
     names, weights = table
+    spend(len(weights))
     kept = [number for number, name in enumerate(names) if name not in truth]
     found = {
         tuple([case[number] for number in kept]): weight
@@ -248,6 +252,7 @@ def _multiplied(
     for case in product((True, False), repeat=len(names)):
         total = 0
         for rest in product((True, False), repeat=len(out)):
+            spend(1 + len(tables))
             truth = dict(zip((*names, *out), (*case, *rest), strict=True))
             total += prod(
                 [

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
 
+from ttr.budgets import spend
 from ttr.probability.degrees import Degree, ordered
 from ttr.probability.dependence import Component
 from ttr.probability.events import Truth
@@ -121,6 +122,7 @@ def _extended(
 
 def _allowed(component: Component, world: Truth, new: Hashable) -> bool:
     """Whether nothing is so without what it entails, or with what it excludes."""
+    spend()
     for lower, upper in component.entailed:
         if new in (lower, upper) and world.get(lower) and world.get(upper) is False:
             return False

@@ -12,6 +12,8 @@ from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 
+from ttr.budgets import spend
+
 __all__ = ["Infeasible", "Row", "least", "units"]
 
 Row = Sequence[int]
@@ -119,6 +121,7 @@ class _Table:
         return left < right or (left == right and self.basis[one] < self.basis[other])
 
     def _pivot(self, number: int, column: int) -> None:
+        spend(1 + len(self.rows) * len(self.cost) // 8)
         row = self.rows[number]
         if row[column] < 0:
             row = self.rows[number] = [-x for x in row]

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from ttr.errors import IllFormed, Refused, TTRError, following_nesting
+from ttr.budgets import within_budget
+from ttr.errors import IllFormed, Refused, TTRError
 from ttr.models import Model, as_model
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, Degree, degree
@@ -98,7 +99,7 @@ def _entry(entry: object) -> tuple[object, Degree]:
     return entry, CERTAIN
 
 
-@following_nesting
+@within_budget
 def extension(
     M: Model, P: object, thresholds: Thresholds | None = None, /
 ) -> Extension:

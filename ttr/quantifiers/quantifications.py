@@ -12,7 +12,8 @@ from collections.abc import Hashable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from ttr.errors import TTRError, Undecided, following_nesting
+from ttr.budgets import within_budget
+from ttr.errors import TTRError, Undecided
 from ttr.judgements import Why
 from ttr.models import Model
 from ttr.objects import Missing
@@ -148,7 +149,7 @@ def named(cases: tuple[Case, ...]) -> str:
     return names + ", …" * (len(cases) > SHOWN)
 
 
-@following_nesting
+@within_budget
 def quantify(
     q: Determiner, P: Extension, Q: Extension, thresholds: Thresholds | None = None, /
 ) -> Quantification:
@@ -176,7 +177,7 @@ def quantify(
     return _counted(q(P.property, Q.property), found, thresholds_of(thresholds))
 
 
-@following_nesting
+@within_budget
 def settle(
     M: Model, T: TypeNode, thresholds: Thresholds | None = None, /
 ) -> Quantification:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TypeGuard
 
-from ttr.errors import following_nesting
+from ttr.budgets import within_budget
 from ttr.judgements import Judgement, Why
 from ttr.models import Model
 from ttr.printing import notation
@@ -27,7 +27,7 @@ from ttr.syntax import (
 __all__ = ["judged"]
 
 
-@following_nesting
+@within_budget
 def judged(
     M: Model, s: object, T: TypeNode, thresholds: Thresholds | None = None, /
 ) -> Judgement:

@@ -9,12 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from ttr.errors import (
-    IllFormed,
-    Refused,
-    Unsupported,
-    following_nesting,
-)
+from ttr.budgets import spend, within_budget
+from ttr.errors import IllFormed, Refused, Unsupported
 from ttr.judgements import Why
 from ttr.models import Model, as_model
 from ttr.objects import Missing, Unresolved
@@ -60,7 +56,7 @@ It is not `~T`, which whatever is not of T is of.
 """
 
 
-@following_nesting
+@within_budget
 def truth(M: Model, T: TypeNode, thresholds: Thresholds | None = None) -> Truth:
     """How certain it is that something is of T, by what M has been told.
 
@@ -88,6 +84,7 @@ class _Truths:
         self._M, self._thresholds = M, thresholds
 
     def of(self, T: TypeNode) -> Truth:
+        spend()
         match T:
             case PType() if determiner_of(T) is not None:
                 from ttr.quantifiers.quantifications import settle
@@ -154,6 +151,7 @@ class _Truths:
         self, T: RecordType, way: list[tuple[str, Truth]], needed: set[str]
     ) -> Iterator[list[tuple[str, Truth]]]:
         """The ways to fill one field more; each object, where others depend on it."""
+        spend()
         label, field = T.fields[len(way)]
         try:
             S = grounded(field, ({k: found.witness for k, found in way},))

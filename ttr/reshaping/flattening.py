@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Any, TypeVar
 
+from ttr.budgets import spend, within_budget
 from ttr.constructors import ordered
-from ttr.errors import IllFormed, following_nesting
+from ttr.errors import IllFormed
 from ttr.objects import check_label
 from ttr.paths import replace_paths
 from ttr.reshaping.addresses import Address, absolute, nearest, written
@@ -21,7 +22,7 @@ _Shape = TypeVar("_Shape", RecordType, Record)
 # --- flat ----------------------------------------------------------------------------
 
 
-@following_nesting
+@within_budget
 def flatten(
     value: _Shape, like: RecordType | None = None, /, sep: str = "__"
 ) -> _Shape:
@@ -62,6 +63,7 @@ def _flat_type(T: RecordType, sep: str) -> RecordType:
 
 def _leaves(T: RecordType, at: Address) -> Iterator[tuple[Address, TypeNode]]:
     """The fields that are no record types with fields, and where they stand."""
+    spend((1 + len(at) // 4) * len(T.fields))
     for label, field in T.fields:
         if isinstance(field, RecordType) and field.fields:
             yield from _leaves(field, (*at, label))
@@ -88,6 +90,7 @@ def _flat_path(
 
 def _all_parts(r: Record, at: Address) -> Iterator[tuple[Address, Object]]:
     """What is in a record and in the records with labels that it holds."""
+    spend()
     for label, value in r._fields.items():
         if isinstance(value, Record) and len(value) > 0:
             yield from _all_parts(value, (*at, label))
@@ -99,6 +102,7 @@ def _parts_like(
     T: RecordType, value: Object, at: Address
 ) -> Iterator[tuple[Address, Object]]:
     """What is in a record, and in a record in it where T has a record type."""
+    spend()
     labels = value._fields if isinstance(value, Record) else {}
     for label, field in T.fields:
         if label not in labels:
@@ -141,7 +145,7 @@ def _check_separator(sep: object) -> None:
 # --- nested --------------------------------------------------------------------------
 
 
-@following_nesting
+@within_budget
 def unflatten(value: _Shape, sep: str = "__") -> _Shape:
     """The record type or record that flattens to this one.
 
@@ -202,12 +206,14 @@ def _both(label: str, sep: str) -> IllFormed:
 
 
 def _record(tree: _Tree) -> Record:
+    spend()
     return Record(
         {k: _record(v) if isinstance(v, dict) else v for k, v in tree.items()}
     )
 
 
 def _record_type(tree: _Tree) -> RecordType:
+    spend()
     return RecordType(
         ordered(
             {k: _record_type(v) if isinstance(v, dict) else v for k, v in tree.items()}

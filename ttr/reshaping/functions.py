@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import cast
 
+from ttr.budgets import within_budget
 from ttr.constructors import ordered
-from ttr.errors import IllFormed, following_nesting
+from ttr.errors import IllFormed
 from ttr.formation import checked, checked_binder
 from ttr.merging import merge
 from ttr.paths import replace_paths
@@ -23,7 +24,7 @@ from ttr.theories import Signature
 __all__ = ["fix", "restrict"]
 
 
-@following_nesting
+@within_budget
 def restrict(f: Function, S: TypeNode, theory: Signature | None = None, /) -> Function:
     r"""λv:merge(T, S). body: the function f = λv:T. body, only for what is also of S.
 
@@ -42,7 +43,7 @@ def restrict(f: Function, S: TypeNode, theory: Signature | None = None, /) -> Fu
     return checked_binder(Function(domain, f.body, f.hint), theory)
 
 
-@following_nesting
+@within_budget
 def fix(f: Function, theory: Signature | None = None, /) -> RecordType:
     r"""The fixed-point type of f = λr:S. T, for record types S and T.
 

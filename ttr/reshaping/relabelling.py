@@ -6,8 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import overload
 
+from ttr.budgets import spend, within_budget
 from ttr.constructors import ordered
-from ttr.errors import IllFormed, following_nesting, suggestion
+from ttr.errors import IllFormed, suggestion
 from ttr.objects import check_label, labelled
 from ttr.paths import replace_paths
 from ttr.reshaping.addresses import Address, address, written
@@ -41,7 +42,7 @@ def relabel(
 ) -> Record: ...
 
 
-@following_nesting
+@within_budget
 def relabel(
     value: RecordType | Record,
     names: Mapping[str, str] | None = None,
@@ -139,6 +140,7 @@ def _type(
     T: TypeNode, renaming: _Renaming, scopes: _Scopes, where: Address
 ) -> TypeNode:
     """A type in which something may be renamed, standing in these scopes."""
+    spend()
     if not renaming.first():
         followed: TypeNode = _following(T, scopes, where)
         return followed
@@ -163,6 +165,7 @@ def _object(
     value: Object, renaming: _Renaming, scopes: _Scopes, where: Address
 ) -> Object:
     """What a manifest field is set to, with the same renamed in it as in its type."""
+    spend()
     if not renaming.first():
         return _following(value, scopes, where)
     match value:
@@ -235,6 +238,7 @@ def _check(kinds: Iterable[Object], renaming: _Renaming, where: Address) -> None
 
     `kinds` are what one record is of; it may have the labels of all of them.
     """
+    spend()
     if not renaming.first():
         return
     inside: dict[str, list[Object]] = {}
@@ -267,6 +271,7 @@ def _check_labels(labels: Iterable[str], renaming: _Renaming, where: Address) ->
 
 def _fields(T: Object) -> Iterator[tuple[str, Object]]:
     """The fields of a type, of all its parts, and of what it is set to."""
+    spend()
     match T:
         case RecordType(fields):
             yield from fields

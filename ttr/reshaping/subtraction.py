@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TypeVar
 
+from ttr.budgets import spend, within_budget
 from ttr.constructors import ordered
-from ttr.errors import IllFormed, following_nesting, suggestion
+from ttr.errors import IllFormed, suggestion
 from ttr.formation import checked
 from ttr.paths import occurring
 from ttr.reshaping.addresses import Address, address, written
@@ -18,7 +19,7 @@ __all__ = ["subtract"]
 _Shape = TypeVar("_Shape", RecordType, Record)
 
 
-@following_nesting
+@within_budget
 def subtract(value: _Shape, /, *paths: str, theory: Signature | None = None) -> _Shape:
     """T ⊖ π: the record type or record without what these paths lead to.
 
@@ -52,6 +53,7 @@ def subtract(value: _Shape, /, *paths: str, theory: Signature | None = None) -> 
 
 
 def _without(T: RecordType, labels: Address, around: Address) -> RecordType:
+    spend()
     label, *rest = labels
     here = (*around, label)
     if label not in T:
@@ -65,6 +67,7 @@ def _without(T: RecordType, labels: Address, around: Address) -> RecordType:
 
 
 def _inside_without(T: TypeNode, labels: Address, at: Address) -> TypeNode:
+    spend()
     match T:
         case RecordType():
             return _without(T, labels, at)

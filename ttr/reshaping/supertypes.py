@@ -13,8 +13,9 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from ttr.axioms import above
+from ttr.budgets import spend, within_budget
 from ttr.constructors import function_type, ordered, rectype
-from ttr.errors import IllFormed, following_nesting
+from ttr.errors import IllFormed
 from ttr.hypothetical import Hypothetical
 from ttr.merging import merge
 from ttr.objects import in_print
@@ -48,7 +49,7 @@ from ttr.theories import Signature
 __all__ = ["common_supertype"]
 
 
-@following_nesting
+@within_budget
 def common_supertype(
     S: TypeNode, T: TypeNode, theory: Signature | None = None, /
 ) -> TypeNode:
@@ -177,6 +178,7 @@ class _Both:
 
     def _type(self, place: Path) -> TypeNode | None:
         """The type of what is at a place and what it is set to, as written there."""
+        spend()
         value = self._value(place)
         if value is not _APART:
             self.settled.add(place)
@@ -225,6 +227,7 @@ class _Both:
 
     def common(self, F: TypeNode, G: TypeNode) -> TypeNode | None:
         """The meet of what both types say; None if they say nothing in common."""
+        spend()
         found = self._common([F], [G])
         return meet(*found) if found else None
 
@@ -239,6 +242,7 @@ class _Both:
 
     def _said(self, T: TypeNode) -> Iterator[TypeNode]:
         """The types that a type is below by its form, and by the axioms."""
+        spend()
         if isinstance(T, Meet):
             for part in T.parts:
                 yield from self._said(part)
@@ -251,6 +255,7 @@ class _Both:
 
     def _part(self, f: TypeNode, g: TypeNode) -> TypeNode | None:
         """What two types that are no meets have in common."""
+        spend()
         if f is not g and not escaping(f) and not escaping(g):
             higher = self._higher(f, g)
             if higher is not None:
@@ -332,6 +337,7 @@ class _Both:
 
         Both stand `depth` scopes further in than the fields.
         """
+        spend()
         if identity(s) == identity(t) and not _leads_in(s, depth):
             return s
         found = self._path(s, t, depth)

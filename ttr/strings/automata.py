@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import NamedTuple, TypeAlias
 
+from ttr.budgets import spend
 from ttr.constructors import star
 from ttr.errors import Unsupported
 from ttr.strings.forms import alternatives, is_of_strings, is_regular, regular_above
@@ -134,6 +135,7 @@ class _Building:
         self, left: _Left, edges: dict[Edge, None], wholes: dict[Edge, None]
     ) -> Iterator[int]:
         """The states that are the same without an event; notes the steps with one."""
+        spend()
         head, then = left
         match head:
             case _Repeated(item):
@@ -188,6 +190,7 @@ class _Building:
 
     def _rest(self, state: int) -> TypeNode:
         """The type of what is left in a state."""
+        spend()
         pieces = []
         left = self._left[state]
         while left is not None:

@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from itertools import product
 from math import prod
 
+from ttr.budgets import spend
 from ttr.normal_forms import inwards
 from ttr.syntax import (
     EventString,
@@ -49,6 +50,7 @@ def is_of_strings(T: TypeNode) -> bool:
         case Str() | Plus():
             return True
         case Join(parts) | Meet(parts):
+            spend(len(parts))
             return any(map(is_of_strings, parts))
         case Singleton(base, _):
             return is_of_strings(base)
@@ -90,6 +92,7 @@ def alternatives(T: TypeNode) -> tuple[TypeNode, ...]:
     >>> print(*alternatives((A | Str(A)) & B), sep="; ")
     A /\\ B; B /\\ str(A)
     """
+    spend()
     if not is_of_strings(T):
         return (T,)
     T = inwards(T)
@@ -119,6 +122,7 @@ def is_regular(T: TypeNode) -> bool:
     They do not where a string as a whole is asked for: to be another string, or of a
     type that is not of strings.
     """
+    spend()
     match T:
         case Str() | Plus():
             return True
@@ -141,6 +145,7 @@ def regular_above(T: TypeNode) -> TypeNode:
     >>> print(regular_above(Str(Ind) & Basic("Short")))
     str(Ind)
     """
+    spend()
     match T:
         case Meet(parts):
             kept = [part for part in parts if _says_all(part)]

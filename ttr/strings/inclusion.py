@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from ttr.budgets import spend
 from ttr.strings.automata import Automaton, Edges
 from ttr.syntax import TypeNode, meet
 
@@ -135,6 +136,7 @@ class _Following:
         return found
 
     def _is_below(self, label: TypeNode, labels: tuple[TypeNode, ...]) -> bool:
+        spend()
         if label in labels:
             return True
         asked = (label, labels)

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from ttr.budgets import within_budget
 from ttr.certainty import certainly
 from ttr.errors import Endless, NotHeard, TTRError, UpdateError, suggestion
 from ttr.judgements import Judgement
@@ -155,6 +156,7 @@ class Game:
         """The start of a dialogue."""
         return Run(self.start, self.model, ())
 
+    @within_budget
     def take(self, so_far: Run, event: object = None) -> Turn:
         """One turn: the event, then the moves on the agenda.
 

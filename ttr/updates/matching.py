@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 
+from ttr.budgets import spend
 from ttr.certainty import certainly
 from ttr.errors import Refused
 from ttr.judging import reduced
@@ -65,6 +66,7 @@ def _found(
     variables: Mapping[str, Object],
     model: Model,
 ) -> Found | None:
+    spend()
     if not fields:
         return bound, model
     (label, field), *rest = fields

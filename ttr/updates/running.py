@@ -13,6 +13,7 @@ from math import inf
 from time import perf_counter
 from typing import NamedTuple
 
+from ttr.budgets import within_budget
 from ttr.certainty import certainly_also
 from ttr.errors import Endless, UpdateError
 from ttr.judgements import Judgement
@@ -144,6 +145,7 @@ def run(
     return Run(state, model, tuple(trace))
 
 
+@within_budget
 def continued(
     algorithm: Algorithm, so_far: Run, event: Object | NBest, type: RecordType
 ) -> Run:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
-from ttr.errors import UpdateError, following_nesting
+from ttr.budgets import within_budget
+from ttr.errors import UpdateError
 from ttr.models import Model, as_model
 from ttr.syntax import Record, RecordType, TypeNode, freeze
 from ttr.updates.algorithms import Algorithm, checked
@@ -111,7 +112,7 @@ NEVER = ("dead", "unset")
 """The sorts of faults that say that a rule never fires."""
 
 
-@following_nesting
+@within_budget
 def _found(rules: RuleSet, checks: Iterable[Check] = CHECKS) -> tuple[Fault, ...]:
     """The faults, but that a rule never fires where it has another that explains it."""
     found: dict[object, Fault] = {}

@@ -1,0 +1,306 @@
+"""Work is bounded: a question ends within its budget, with an honest answer."""
+
+from __future__ import annotations
+
+import json
+import threading
+from collections.abc import Callable
+
+import pytest
+
+import ttr
+from ttr import (
+    Answer,
+    Basic,
+    Ind,
+    ListOf,
+    Model,
+    Plus,
+    Pred,
+    Str,
+    Theory,
+    TooLargeError,
+    TTRError,
+    TypeNode,
+    budgets,
+    consistent,
+    join,
+    meet,
+    merge,
+    record,
+    rectype,
+    subtype,
+    this,
+)
+from ttr.budgets import open_purse, spend, within_budget
+from ttr.checking import check
+from ttr.cli import main
+from ttr.updates import rule
+from ttr.updates.games import Game
+
+A, B, C = map(Basic, "ABC")
+FEW = 20_000
+"""Enough for all that people write, and soon spent by what is made to be large."""
+
+
+def doubled(times: int, leaf: TypeNode) -> TypeNode:
+    """[l : T, r : T] of such a type and so on: 40 lines stand for 2⁴⁰ fields."""
+    for _ in range(times):
+        leaf = rectype(l=leaf, r=leaf)
+    return leaf
+
+
+def deep_record(times: int) -> object:
+    value: object = "a"
+    for _ in range(times):
+        value = record(l=value, r=value)
+    return value
+
+
+def pigeons(holes: int) -> TypeNode:
+    """One pigeon more than there are holes, no two in one: nothing is of it."""
+    at = [[Basic(f"P{p}H{h}") for h in range(holes)] for p in range(holes + 1)]
+    somewhere = [join(*row) for row in at]
+    alone = [
+        ~one[h] | ~other[h]
+        for h in range(holes)
+        for i, one in enumerate(at)
+        for other in at[:i]
+    ]
+    return meet(*somewhere, *alone)
+
+
+def friends(count: int) -> tuple[Model, TypeNode]:
+    """A relation without circles among so many, and the type of a circle of four."""
+    r = Pred("r", Ind, Ind)
+    M = Model()
+    for i in range(count):
+        M = M.given(f"a{i}", Ind)
+    for i in range(count):
+        for j in range(i):
+            M = M.given(f"e{i}_{j}", r(f"a{i}", f"a{j}"))
+    four = dict.fromkeys("xyzw", Ind)
+    around = zip("xyzw", "yzwx", strict=True)
+    return M, rectype(**four, **{f"c{x}": r(this[x], this[y]) for x, y in around})
+
+
+# --- what three-valued questions answer ----------------------------------------------
+
+UNKNOWN: dict[str, Callable[[], Answer]] = {
+    "doubled records": lambda: subtype(doubled(40, A), doubled(39, A)),
+    "doubled joins": lambda: subtype(doubled(40, A | B), rectype(l=doubled(38, A))),
+    "joins against negations": lambda: subtype(
+        meet(*[Basic(f"A{i}") | Basic(f"B{i}") for i in range(9)]),
+        join(*[~(Basic(f"A{i}") | ~Basic(f"B{i}")) for i in range(9)]),
+    ),
+    "pigeonholes": lambda: subtype(pigeons(5), C),
+    "consistent joins": lambda: consistent(doubled(40, A | B), doubled(40, C)),
+    "chains of functions": lambda: subtype(_arrows(30, A), _arrows(29, A)),
+}
+
+
+def _arrows(times: int, T: TypeNode) -> TypeNode:
+    for _ in range(times):
+        T = T >> T
+    return T
+
+
+@pytest.mark.parametrize("name", UNKNOWN)
+def test_what_is_too_large_is_unknown(name):
+    with ttr.budget(steps=FEW):
+        answer = UNKNOWN[name]()
+    assert answer.unknown
+    assert answer.why == f"too large: it takes more than {FEW:,} steps"
+
+
+def test_degrees_are_unknown_where_the_budget_ends():
+    M, circle = friends(12)
+    with ttr.budget(steps=FEW):
+        assert M.true(circle) == ttr.Degree(0.0, 1.0)
+        judged = M.judge(deep_record(25), doubled(25, Ind))
+        assert judged.p == ttr.Degree(0.0, 1.0)
+        assert "too large" in str(judged.why.rule)
+        chance = M.given("o", A).chance(doubled(40, A | B), when=A)
+        assert chance.p == ttr.Degree(0.0, 1.0)
+    assert M.true(rectype(x=Ind, y=Ind)) == ttr.Degree(1.0, 1.0)
+
+
+RAISED: dict[str, Callable[[], object]] = {
+    "create": lambda: Model().create(doubled(40, Ind)),
+    "give": lambda: Model().given(deep_record(40), doubled(40, Ind)),
+    "merge": lambda: merge(doubled(40, A), doubled(40, B)),
+    "print": lambda: str(doubled(40, A)),
+    "repr": lambda: repr(doubled(40, A)),
+    "box": lambda: ttr.box(doubled(40, A)),
+    "latex": lambda: ttr.latex(doubled(40, A)),
+    "flatten": lambda: ttr.flatten(doubled(40, A)),
+    "common supertype": lambda: ttr.common_supertype(doubled(40, A), doubled(40, B)),
+    "judge an object that is too large": lambda: Model().judge(_pairs(40), ListOf(A)),
+    "list witnesses": lambda: friends(9)[0].witnesses(
+        rectype({f"x{i}": Ind for i in range(9)})
+    ),
+    "a normal form": lambda: ttr.join_normal_form(_negated(30)),
+}
+
+
+def _pairs(times: int) -> object:
+    value: object = "a"
+    for _ in range(times):
+        value = (value, value)
+    return value
+
+
+def _negated(times: int) -> TypeNode:
+    T: TypeNode = A
+    for _ in range(times):
+        T = (T & B) | ~T
+    return T
+
+
+@pytest.mark.parametrize("name", RAISED)
+def test_what_has_no_unknown_raises(name):
+    with ttr.budget(steps=FEW), pytest.raises(TooLargeError, match="too large: it"):
+        RAISED[name]()
+
+
+def test_steps_stay_below_the_budget_and_are_counted_alike_each_time():
+    def steps() -> int:
+        @within_budget
+        def asked() -> int:
+            before = open_purse().left  # type: ignore[union-attr]
+            subtype(doubled(6, A | B), doubled(6, A))
+            return before - open_purse().left  # type: ignore[union-attr]
+
+        return asked()
+
+    first = steps()
+    assert 0 < first == steps()
+
+
+# --- one budget for all that a question asks -----------------------------------------
+
+
+def test_a_question_inside_another_shares_its_budget_and_its_end():
+    answers = []
+
+    def by(x: object) -> bool:
+        try:
+            answers.append(subtype(doubled(40, A), doubled(39, A)))
+        except Exception as error:  # it is not an error of the types
+            answers.append(error)
+        return False
+
+    with ttr.budget(steps=FEW):
+        judged = (
+            Model().witnessed(Pred("p", Ind), by=by).judge("s", Pred("p", Ind)("a"))
+        )
+    assert judged.p == ttr.Degree(0.0, 1.0)
+    assert answers == []
+
+
+def test_a_rule_never_reads_it_as_no():
+    T = doubled(40, A)
+
+    @rule(when=rectype(n=A))
+    def ask(s):
+        return record(n=s.n) if subtype(T, doubled(39, A)).yes else s
+
+    game = Game("asking", rectype(n=A), record(n="a"), ask, model=Model().given("a", A))
+    with ttr.budget(steps=FEW), pytest.raises(TooLargeError):
+        game.take(game.begin())
+
+
+def test_each_thread_has_a_budget_of_its_own():
+    found = {}
+
+    def ask(name: str) -> None:
+        with ttr.budget(steps=FEW if name == "few" else budgets.STEPS):
+            found[name] = subtype(doubled(11, A | B), doubled(11, A | B | C)).verdict
+
+    threads = [threading.Thread(target=ask, args=(name,)) for name in ("few", "many")]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    with ttr.budget(steps=FEW):
+        alone = subtype(doubled(11, A | B), doubled(11, A | B | C)).verdict
+    assert found["few"] == alone
+
+
+def test_nothing_is_counted_where_nothing_is_asked():
+    spend(10**9)
+    assert open_purse() is None
+
+
+@pytest.mark.parametrize("steps", [0, -1, True, 1.5, "many"])
+def test_a_budget_is_a_number_of_steps(steps):
+    with (
+        pytest.raises(TTRError, match="a budget is a whole number of steps from 1"),
+        ttr.budget(steps=steps),
+    ):
+        pass
+
+
+# --- theory files --------------------------------------------------------------------
+
+LINES = "\n".join(f"A{i + 1} := [l : A{i}, r : A{i}]" for i in range(27))
+DOUBLING = f"basic A0\n{LINES}\n"
+
+
+def test_checks_are_unknown_each_by_itself():
+    theory = Theory.parse(
+        f"{DOUBLING}check A27 <= [l : A25]\ncheck A2 <= [l : A1]\n"
+        "check unknown A27 <= [l : A25]"
+    )
+    with ttr.budget(steps=FEW):
+        report = check(theory)
+    (failure,) = report.failures
+    assert (failure.found, failure.check.span.line) == ("unknown", 29)
+    assert failure.why == f"too large: it takes more than {FEW:,} steps"
+
+
+def test_many_checks_share_what_the_file_may_take():
+    theory = Theory.parse(DOUBLING + "check A27 <= [l : A25]\n" * 20)
+    with ttr.budget(steps=FEW):
+        report = check(theory)
+    assert len(report.failures) == 20
+    assert "with what comes before, it takes more than" in report.failures[-1].why
+
+
+def test_a_statement_that_is_too_large_is_a_mistake_where_it_stands(tmp_path, capsys):
+    file = tmp_path / "long.ttr"
+    lines = "\n".join(f"S{i + 1} := str(S{i}, S{i})" for i in range(40))
+    file.write_text(f"basic S0\n{lines}\ncheck S40 <= S39\n")
+    assert main(["check", str(file), "--steps", "5000"]) == 2
+    said = capsys.readouterr().out
+    assert "error: too large: it takes more than 5,000 steps" in said
+    assert "long.ttr:1" in said
+    assert "--steps" in said
+    assert "1 mistake, nothing checked" in said
+
+
+def test_the_command_takes_the_number_of_steps(tmp_path, capsys):
+    file = tmp_path / "small.ttr"
+    file.write_text(
+        "basic A\nT := [l : A, r : A]\nU := [l : T, r : T]\n"
+        "check [l : U, r : U] <= [l : U]\n"
+    )
+    assert main(["check", str(file)]) == 0
+    assert main(["check", str(file), "--steps", "40", "--json"]) == 1
+    said = capsys.readouterr().out
+    (facts,) = json.loads(said[said.index("[\n") :])
+    assert facts["failures"][0]["found"] == "unknown"
+    with pytest.raises(SystemExit, match="2"):
+        main(["check", str(file), "--steps", "none"])
+    assert "a whole number from 1, found 'none'" in capsys.readouterr().err
+
+
+def test_a_doubling_repetition_ends():
+    def repeated(times: int) -> TypeNode:
+        T: TypeNode = A
+        for number in range(times):
+            T = Plus(Str(T, T) | T | Plus(Basic(f"C{number}")))
+        return T
+
+    with ttr.budget(steps=FEW), pytest.raises(TooLargeError):
+        repeated(20)
