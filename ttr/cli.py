@@ -11,6 +11,7 @@ from io import TextIOWrapper
 
 from ttr.commands import COMMANDS
 from ttr.commands.output import FAILED, INTERRUPTED, PIPE_CLOSED, Parser, complain, say
+from ttr.unforeseen import report_unforeseen
 
 __all__ = ["main"]
 
@@ -31,9 +32,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         _drop_output()
         return PIPE_CLOSED
-    except OSError as error:
-        if error.errno != ENOSPC:
-            raise
+    except Exception as error:
+        if not isinstance(error, OSError) or error.errno != ENOSPC:
+            return report_unforeseen("ttr", error)
         _drop_output()
         complain("the output cannot be written: no space left on device")
         return FAILED

@@ -34,7 +34,8 @@ def why_unwritten(path: object, error: OSError) -> str:
 
 
 def _reason(error: OSError) -> str:
-    return (error.strerror or "it cannot be opened").lower()
+    why = error.strerror or "it cannot be opened"
+    return why[:1].lower() + why[1:]
 
 
 def write_whole(path: Path, text: str) -> None:

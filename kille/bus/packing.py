@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import io
 import json
-import zipfile
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
+from kille.archives import read_arrays
 from kille.bus.messages import Bundle, BusError
+from ttr.inputs import parse_json
 
 __all__ = ["facts_in", "packed", "unpacked", "written"]
 
@@ -36,10 +37,9 @@ def packed(bundle: Bundle) -> bytes:
 def unpacked(data: bytes) -> Bundle:
     """The bundle in these bytes; BusError if they are none."""
     try:
-        with np.load(io.BytesIO(data), allow_pickle=False) as archive:
-            arrays = {name: archive[name] for name in archive.files}
+        arrays = read_arrays(data)
         facts = arrays.pop(_FACTS).tobytes().decode()
-    except (zipfile.BadZipFile, ValueError, KeyError, EOFError, OSError) as error:
+    except (ValueError, KeyError, OSError) as error:
         raise BusError(f"what came is no bundle of arrays ({error})") from error
     return Bundle(facts_in(facts), arrays)
 
@@ -52,8 +52,8 @@ def written(facts: Mapping[str, Any]) -> str:
 def facts_in(text: str) -> Mapping[str, Any]:
     """The facts in JSON; BusError if it is not an object."""
     try:
-        facts = json.loads(text)
-    except (ValueError, RecursionError) as error:
+        facts = parse_json(text)
+    except ValueError as error:
         raise BusError(f"`{_short(text)}` is not JSON ({error})") from error
     if not isinstance(facts, dict):
         raise BusError(f"`{_short(text)}` should be an object, {{…}}")

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import os
 import signal
 import sys
+import threading
 from collections.abc import Sequence
 from errno import ENOSPC
 from pathlib import Path
@@ -35,9 +37,18 @@ def command() -> NoReturn:
     When all is done a thread may still be building a part of the index. Python waits
     for it, and Ctrl-C then would tell of the thread, and of nothing that matters.
     """
+    threading.excepthook = _unforeseen_in_thread
     code = main()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     sys.exit(code)
+
+
+def _unforeseen_in_thread(told: threading.ExceptHookArgs) -> None:
+    """What a thread met is one line, too; the command goes on without the thread."""
+    if told.exc_value is not None and not isinstance(told.exc_value, SystemExit):
+        from ttr.unforeseen import report_unforeseen
+
+        report_unforeseen("kille", told.exc_value)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -52,9 +63,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         drop_output()
         return PIPE_CLOSED
-    except OSError as error:
-        if error.errno != ENOSPC:
-            raise
+    except Exception as error:
+        if not isinstance(error, OSError) or error.errno != ENOSPC:
+            from ttr.unforeseen import report_unforeseen
+
+            return report_unforeseen("kille", error)
         drop_output()
         write_error("kille: the output cannot be written: no space left on device")
         return FAILED
@@ -68,8 +81,19 @@ def _run(argv: Sequence[str] | None) -> int:
     if "run" not in options:
         options.parser.error("a command is missing")
     options.words = tuple(sys.argv[1:] if argv is None else argv)
+    _limit_pictures()
     code: int = options.run(options)
     return code
+
+
+def _limit_pictures() -> None:
+    """Has OpenCV itself refuse what is too large, which it settles when it is loaded.
+
+    Sizes are read before that, too, but by another reader of the same headers.
+    """
+    from ttr.limits import PICTURE
+
+    os.environ.setdefault("OPENCV_IO_MAX_IMAGE_PIXELS", str(PICTURE.allowed))
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -28,6 +27,7 @@ from kille.memory.packing import (
     unpack_turn,
     whole,
 )
+from ttr.inputs import parse_json, read_lines
 
 
 class Package:
@@ -41,13 +41,14 @@ class Package:
         self._reader, self._path = reader, path
         sums = _sums(reader, path)
         self.dialogues: tuple[Dialogue, ...] = tuple(
-            map(unpack_dialogue, _lines(reader, DIALOGUES, sums))
+            unpack_dialogue(_json(it)) for it in _lines(reader, DIALOGUES, sums)
         )
-        turns = list(map(unpack_turn, _lines(reader, TURNS, sums)))
+        turns = [unpack_turn(_json(it)) for it in _lines(reader, TURNS, sums)]
         self._turns = {(it.dialogue, it.number): it for it in turns}
         self.turns: tuple[Turn, ...] = tuple(turns)
-        lessons = _lines(reader, LESSONS, sums)
-        self._lessons = sorted(lessons, key=lambda line: whole(line, "lesson"))
+        # A line as it is written takes far less memory than what is in it.
+        lessons = ((_number(it), it) for it in _lines(reader, LESSONS, sums))
+        self._lessons = sorted(lessons)
         self._check(turns)
 
     def lessons(self) -> Iterator[ObjectLesson | RelationLesson]:
@@ -55,9 +56,9 @@ class Package:
 
         Raises PackageError at the first that is damaged.
         """
-        for line in self._lessons:
+        for _, line in self._lessons:
             with damage_told(self._path):
-                lesson = self._lesson(line)
+                lesson = self._lesson(_json(line))
             yield lesson
 
     def _lesson(self, line: Line) -> ObjectLesson | RelationLesson:
@@ -72,7 +73,7 @@ class Package:
         numbers = [it.number for it in self.dialogues]
         _require_unlike("dialogue", numbers)
         _require_unlike("turn", [(it.dialogue, it.number) for it in turns])
-        _require_unlike("lesson", [it["lesson"] for it in self._lessons])
+        _require_unlike("lesson", [number for number, _ in self._lessons])
         if lost := {it.dialogue for it in turns} - set(numbers):
             raise ValueError(f"dialogue {min(lost)} is missing")
 
@@ -107,9 +108,14 @@ def _sums(reader: Reader, path: Path) -> dict[str, str]:
     return sums
 
 
-def _lines(reader: Reader, name: str, sums: dict[str, str]) -> Iterator[Line]:
+def _lines(reader: Reader, name: str, sums: dict[str, str]) -> Iterator[bytes]:
     content = _checked(reader, name, sums[name])
-    return map(_json, io.BytesIO(content))
+    return read_lines(io.BytesIO(content))
+
+
+def _number(line: bytes) -> int:
+    """The number of a lesson."""
+    return whole(_json(line), "lesson")
 
 
 def _checked(reader: Reader, name: str, known: str) -> bytes:
@@ -120,7 +126,7 @@ def _checked(reader: Reader, name: str, known: str) -> bytes:
 
 
 def _json(content: bytes) -> Line:
-    value = json.loads(content, parse_constant=_refused)
+    value = parse_json(content, _refused)
     if not isinstance(value, dict):
         raise TypeError(f"{content[:40]!r} is no object of JSON")
     return value

@@ -9,18 +9,18 @@ from __future__ import annotations
 import os
 import shutil
 import zipfile
-import zlib
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from kille.archives import check_sizes, opened_zip, read_member
 from kille.private import FILE_MODE, FOLDER_MODE, private
+from ttr.inputs import read_bytes
+from ttr.limits import MEMBER, PACKAGE
 
 ZIP = ".zip"
 MANIFEST = "memory.json"
-_LARGEST = 2**30
-"""Bytes that a file of a package may have: no lesson comes near."""
 _FIRST_DAY = (1980, 1, 1, 0, 0, 0)  # of zips: the same content is the same bytes
 
 
@@ -39,11 +39,6 @@ def damage_told(path: Path) -> Iterator[None]:
         reason = error.strerror or error
         raise PackageError(f"{path} cannot be read ({reason})") from error
     except (
-        zipfile.BadZipFile,
-        zlib.error,
-        EOFError,
-        NotImplementedError,  # ways to compress that we never use
-        RuntimeError,  # a password
         RecursionError,
         ValueError,
         KeyError,
@@ -80,7 +75,8 @@ def reading(path: Path) -> Iterator[Reader]:
     if path.is_dir():
         yield _FolderReader(path)
         return
-    with zipfile.ZipFile(path) as opened:
+    with opened_zip(path) as opened:
+        check_sizes(opened, PACKAGE)
         yield _ZipReader(opened)
 
 
@@ -121,11 +117,9 @@ class _FolderReader(Reader):
 
     def read(self, name: str) -> bytes:
         try:
-            with (self._folder / name).open("rb") as file:
-                content = file.read(_LARGEST + 1)
+            return read_bytes(self._folder / name, MEMBER)
         except (FileNotFoundError, NotADirectoryError):
             raise KeyError(f"{name} is missing") from None
-        return _not_too_large(name, content)
 
 
 class _ZipReader(Reader):
@@ -133,8 +127,7 @@ class _ZipReader(Reader):
         self._opened = opened
 
     def read(self, name: str) -> bytes:
-        with self._opened.open(name) as file:
-            return _not_too_large(name, file.read(_LARGEST + 1))
+        return read_member(self._opened, name, MEMBER)
 
 
 class _FolderWriter(Writer):
@@ -186,15 +179,9 @@ def _is_package(path: Path) -> bool:
     try:
         with reading(path) as package:
             package.read(MANIFEST)
-    except (KeyError, ValueError, zipfile.BadZipFile, RuntimeError):
+    except (KeyError, ValueError):
         return False
     return True
-
-
-def _not_too_large(name: str, content: bytes) -> bytes:
-    if len(content) > _LARGEST:
-        raise ValueError(f"{name} is too large")
-    return content
 
 
 def _sync_all() -> None:

@@ -14,6 +14,7 @@ from typing import Any, get_args
 
 import numpy as np
 
+from kille.archives import read_arrays
 from kille.memory.configurations import as_json, from_json
 from kille.memory.lessons import (
     Arrangement,
@@ -28,6 +29,7 @@ from kille.memory.lessons import (
 )
 from kille.memory.pictures import JPEG, Crop, Picture
 from kille.scene import Box, Intrinsics, Point
+from ttr.limits import MEMBER
 
 Line = dict[str, Any]
 Files = Mapping[str, bytes]
@@ -147,8 +149,7 @@ def _features(seen: Sighting) -> bytes:
 
 
 def _unpack_features(packed: bytes) -> tuple[tuple[Scan, ...], dict[str, Any]]:
-    with np.load(io.BytesIO(packed), allow_pickle=False) as arrays:
-        found = {name: arrays[name] for name in arrays.files}
+    found = read_arrays(packed, MEMBER)
     scans = tuple(
         Scan(found.pop(f"descriptors_{number}"), found.pop(f"points_{number}"))
         for number in range(sum(name.startswith("points_") for name in found))

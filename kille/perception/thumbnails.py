@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from kille.memory.pictures import Crop, Picture
 from kille.perception.segment import region_of
 from kille.scene import Box, Colour, Depth, Frame, Intrinsics, Mask, Region
+from kille.sensors import pictures
 
 __all__ = ["decoded", "evidence_of", "outlined", "restored"]
 
@@ -62,8 +63,7 @@ def restored(crop: Crop, time: float = 0.0) -> tuple[Frame, Region]:
 
 def decoded(picture: bytes) -> Colour:
     """The pixels (H, W, 3) RGB of a JPEG or PNG. ValueError if there are none."""
-    pixels = _read(picture, cv2.IMREAD_COLOR)
-    return cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB).astype(np.uint8, copy=False)
+    return _read(picture, cv2.IMREAD_COLOR_RGB).astype(np.uint8, copy=False)
 
 
 def outlined(picture: Picture) -> Colour:
@@ -163,7 +163,10 @@ def _depth(crop: Crop) -> Depth | None:
 
 
 def _read(picture: bytes, flags: int) -> NDArray[Any]:
-    pixels = cv2.imdecode(np.frombuffer(picture, np.uint8), flags) if picture else None
+    try:
+        pixels = pictures.decoded(np.frombuffer(picture, np.uint8), flags)
+    except OSError as error:
+        raise ValueError(f"a picture that was kept is odd: {error.strerror}") from error
     if pixels is None:
         raise ValueError("a picture that was kept cannot be decoded")
     return pixels

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import io
+import os
 import struct
 import zlib
 from pathlib import Path
 from typing import Any
 
 import cv2
+import imagesize
 import numpy as np
 from numpy.typing import NDArray
 
 from kille.scene import Colour, Depth
 from kille.sensors.sensor import SensorError
+from ttr.inputs import open_file, read_bytes
+from ttr.limits import MEASURED, PICTURE, PICTURE_FILE
 
 SUFFIXES = frozenset({".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp"})
 
@@ -28,7 +33,7 @@ def is_picture(path: Path) -> bool:
 
 def read_colour(path: Path) -> Colour:
     """The picture as (H, W, 3) RGB, read-only; SensorError if it does not open."""
-    return _fixed(cv2.cvtColor(_decode(path, cv2.IMREAD_COLOR), cv2.COLOR_BGR2RGB))
+    return _fixed(_decode(path, cv2.IMREAD_COLOR_RGB))
 
 
 def fitted(colour: Colour, largest: tuple[int, int]) -> Colour:
@@ -82,12 +87,12 @@ def read_labels(path: Path) -> NDArray[Any]:
 
 def _decode(path: Path, flags: int) -> NDArray[Any]:
     try:
-        content = np.frombuffer(path.read_bytes(), np.uint8)
+        content = np.frombuffer(read_bytes(path, PICTURE_FILE), np.uint8)
+        picture = decoded(content, flags)
     except OSError as error:
         raise SensorError(f"{path}: cannot be read ({error.strerror})") from error
     if not content.size:
         raise SensorError(f"{path}: the file is empty, expected a picture")
-    picture = decoded(content, flags)
     if picture is None:
         raise SensorError(f"{path}: this picture does not open; it may be damaged")
     return picture
@@ -96,9 +101,14 @@ def _decode(path: Path, flags: int) -> NDArray[Any]:
 def decoded(content: NDArray[np.uint8], flags: int) -> NDArray[Any] | None:
     """The picture in the bytes of a file, read as OpenCV's flags say; None if none is.
 
-    OpenCV would tell of damage in lines of its own.
+    What is larger than is read raises `OSError`, before any of it is decoded. OpenCV
+    would tell of damage in lines of its own.
     """
-    if not content.size or _is_broken_png(content):
+    size = _size(content)
+    if size is None:
+        return None
+    (MEASURED if flags == cv2.IMREAD_UNCHANGED else PICTURE).check(size[0] * size[1])
+    if _is_broken_png(content):
         return None
     level = cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
     try:
@@ -107,6 +117,34 @@ def decoded(content: NDArray[np.uint8], flags: int) -> NDArray[Any] | None:
         return None
     finally:
         cv2.utils.logging.setLogLevel(level)
+
+
+_HEADS = {
+    b"\x89PNG": 1 << 10,
+    b"\xff\xd8\xff": 1 << 22,
+    b"GIF8": 1 << 10,
+    b"BM": 1 << 10,
+    b"RIFF": 1 << 10,
+    b"II": PICTURE_FILE.most,
+    b"MM": PICTURE_FILE.most,
+    b"P1": 1 << 16,
+    b"P2": 1 << 16,
+    b"P3": 1 << 16,
+    b"P4": 1 << 16,
+    b"P5": 1 << 16,
+    b"P6": 1 << 16,
+}
+"""How the files of the known kinds begin, and within how many bytes they say how wide
+and high the picture is; those of TIFF say it anywhere."""
+
+
+def _size(content: NDArray[np.uint8]) -> tuple[int, int] | None:
+    """The width and height that the head of a file tells; None if it is no picture."""
+    start = content[:4].tobytes()
+    within = next((it for head, it in _HEADS.items() if start.startswith(head)), 0)
+    head = io.BytesIO(content[:within].tobytes())
+    width, height = imagesize.get(head, exif_rotation=False)
+    return (int(width), int(height)) if width > 0 and height > 0 else None
 
 
 _PNG = b"\x89PNG\r\n\x1a\n"
@@ -152,10 +190,10 @@ _ENDS = {_PNG: b"IEND\xaeB`\x82", b"\xff\xd8\xff": b"\xff\xd9"}
 def whole_picture(path: Path) -> bool:
     """Whether the file is there, is not empty, and ends as its kind does."""
     try:
-        with path.open("rb") as file:
+        with open_file(path) as file:
             head = file.read(8)
-            file.seek(max(0, path.stat().st_size - 8))
-            tail = file.read()
+            file.seek(max(0, file.seek(0, os.SEEK_END) - 8))
+            tail = file.read(8)
     except OSError:
         return False
     ends = [end for start, end in _ENDS.items() if head.startswith(start)]
@@ -186,4 +224,8 @@ def write_picture(path: Path, picture: NDArray[Any]) -> None:
 
 def shows_picture(path: Path) -> bool:
     """Whether the file begins as those of pictures do, whatever its name."""
-    return bool(cv2.haveImageReader(str(path)))
+    try:
+        with open_file(path) as file:
+            return file.read(4).startswith(tuple(_HEADS))
+    except OSError:
+        return False

@@ -8,6 +8,7 @@ from pathlib import Path
 from ttr.commands.consenting import add_allow, consent_of
 from ttr.commands.output import FAILED, FINE, Commands, ask, complain, say
 from ttr.errors import TTRError
+from ttr.limits import TooMuch
 
 __all__ = ["add"]
 
@@ -38,5 +39,8 @@ def _repl(options: argparse.Namespace) -> int:
     except TTRError as error:
         say(f"error: {error}")
         return FAILED
-    talk(session, say, ask)
+    try:
+        talk(session, say, ask)
+    except TooMuch as error:
+        return complain(f"the input cannot be read: {error.strerror}")
     return FINE

@@ -11,7 +11,6 @@ import os
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Literal, NoReturn, TypeAlias
 from xml.parsers import expat
 
@@ -20,6 +19,8 @@ from ttr.files import why_unread
 from ttr.fragment.inference import follows
 from ttr.fragment.lexicon import Lexicon
 from ttr.fragment.reading import OutsideFragment
+from ttr.inputs import read_bytes
+from ttr.limits import PROBLEMS
 from ttr.quantifiers import Thresholds
 
 __all__ = [
@@ -35,8 +36,8 @@ __all__ = [
 LAST = 80
 """The last problem of section 1."""
 
-LARGEST = 10_000_000
-"""How many bytes a file may have; the whole problem set has 140,000."""
+DIGITS = 9
+"""How many digits the number of a problem may have."""
 
 ANSWERS = ("yes", "no", "unknown")
 
@@ -85,13 +86,9 @@ def problems(path: str | os.PathLike[str]) -> tuple[Problem, ...]:
 
 def _parsed(path: str | os.PathLike[str]) -> ET.Element:
     try:
-        data = Path(path).read_bytes()
+        data = read_bytes(path, PROBLEMS)
     except OSError as error:
         raise Unreadable(why_unread(path, error)) from None
-    except ValueError:
-        raise Unreadable(f"{path!r} is no name of a file") from None
-    if len(data) > LARGEST:
-        raise Unreadable(f"{path} is too large for a problem set")
     try:
         _refuse_entities(path, data)
         return ET.fromstring(data)
@@ -112,7 +109,7 @@ def _refuse_entities(path: str | os.PathLike[str], data: bytes) -> None:
 
 def _problem(path: str | os.PathLike[str], it: ET.Element) -> Problem:
     name = it.get("id", "")
-    if not name.isdecimal():
+    if not name.isdecimal() or len(name) > DIGITS:
         raise Unreadable(f"{path} has a problem whose id is no number: {name!r}")
     premises = tuple(_text(p) for p in it.findall("p"))
     return Problem(

@@ -18,7 +18,9 @@ from ttr.consent import OWN_FOLDER, Consent, check_called
 from ttr.errors import NotationError, TTRError, Unsupported
 from ttr.escapes import json_text
 from ttr.files import write_whole
+from ttr.inputs import read_text
 from ttr.judgements import Judgement, Why
+from ttr.limits import THEORY
 from ttr.models import Model
 from ttr.notation import trees
 from ttr.notation.drafts import Draft
@@ -422,7 +424,7 @@ def loaded(session: Session, path: Path) -> tuple[Session, frozenset[str]]:
 
 
 def _entries(path: Path, consent: Consent) -> Iterator[Entry]:
-    source = Source.of(path.read_text(encoding="utf-8-sig"), str(path))
+    source = Source.of(read_text(path, THEORY), str(path))
     for start, end in blocks(source.text):
         yield _entry(statement(source, start, end), source, path.parent, consent)
 

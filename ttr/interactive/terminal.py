@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -11,9 +10,12 @@ from itertools import islice
 from pathlib import Path
 from typing import TypeAlias
 
+from ttr.inputs import read_line
 from ttr.interactive.completing import completions
 from ttr.interactive.repl import Pending, respond
 from ttr.interactive.sessions import Session
+from ttr.limits import LINE
+from ttr.unforeseen import state_folder
 
 __all__ = ["talk"]
 
@@ -44,7 +46,7 @@ def _through_pipe(session: Session, say: Say) -> None:
     if isinstance(sys.stdin, TextIOWrapper):  # not where a program has replaced it
         sys.stdin.reconfigure(errors="backslashreplace")
     desk = _Desk(session, say)
-    for line in sys.stdin:
+    while line := read_line(sys.stdin):
         desk.take(line.rstrip("\n"))
         if desk.session.over:
             return
@@ -61,6 +63,7 @@ class _Desk:
     def clear(self) -> None:
         """Takes the lines away that wait for more."""
         self.waiting: list[str] = []
+        self._characters = 0
         self._pending = Pending()
 
     def take(self, typed: str) -> None:
@@ -72,6 +75,9 @@ class _Desk:
     def _take_line(self, line: str) -> None:
         """Goes on with a line; an empty one ends an input that is not whole."""
         self.waiting.append(line)
+        self._characters += len(line)
+        if self._characters > LINE.allowed:
+            raise LINE.exceeded()
         self._pending = self._pending.after(line)
         if line.strip() and not self._pending.is_complete:
             return
@@ -138,7 +144,4 @@ def _line_editing(desk: _Desk) -> Iterator[None]:
 
 def _history() -> Path:
     """The file of the lines typed, where desktops keep such things."""
-    state = os.environ.get("XDG_STATE_HOME", "")
-    home = Path(os.environ.get("HOME", ""))
-    folder = Path(state) if os.path.isabs(state) else home / ".local" / "state"
-    return folder / "ttr" / "history"
+    return state_folder("ttr") / "history"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -10,6 +9,8 @@ from pathlib import Path
 
 from ttr.errors import TTRError
 from ttr.files import why_unread
+from ttr.inputs import parse_json, read_bytes
+from ttr.limits import LINE, LOG
 from ttr.logs.declaring import Declared
 from ttr.logs.entries import Entry, Fault, Header, LogError, entry, header
 
@@ -67,7 +68,7 @@ def read_logs(path: Path) -> tuple[Log, ...]:
     The last line may be cut off: what is before it is given.
     """
     try:
-        text = path.read_bytes()
+        text = read_bytes(path, LOG)
     except OSError as error:
         raise UnreadableLog(why_unread(path, error)) from None
     *lines, rest = text.split(b"\n")
@@ -107,11 +108,13 @@ def _dialogues(path: Path, lines: list[bytes]) -> list[Log]:
 def _parsed(path: Path, lines: list[bytes]) -> Iterator[Header | Entry]:
     for number, line in enumerate(lines, start=1):
         try:
-            facts = json.loads(line.decode("utf-8"))
+            if len(line) > LINE.allowed:
+                raise LogError(f"{path}:{number}: {LINE.exceeded().strerror}")
+            facts = parse_json(line.decode("utf-8"))
             yield header(facts) or entry(facts)
         except Fault as fault:
             raise LogError(f"{path}:{number}: {fault}") from None
         except UnicodeDecodeError:
             raise LogError(f"{path}:{number}: this is no text in UTF-8") from None
-        except (ValueError, RecursionError):
+        except ValueError:
             raise LogError(f"{path}:{number}: this is no JSON") from None

@@ -15,7 +15,9 @@ from ttr.budgets import SharedPurse, one_of_several, purse_of_several
 from ttr.consent import OWN_FOLDER, Consent, NotAllowed, check_called
 from ttr.errors import NotationError, Span, TooLargeError, TTRError
 from ttr.files import why_unread
+from ttr.inputs import read_text
 from ttr.interning import identity
+from ttr.limits import THEORY
 from ttr.notation import trees
 from ttr.notation.drafts import Draft, Names, is_declared, meaning
 from ttr.notation.plain import plain_statement
@@ -136,7 +138,7 @@ class _Files:
 def _contents(path: Path) -> tuple[Path, str]:
     """A file's one true path and its text; raises `Unreadable`."""
     try:
-        return path.resolve(), path.read_text(encoding="utf-8-sig")
+        return path.resolve(), read_text(path, THEORY)
     except (OSError, UnicodeDecodeError) as error:
         raise Unreadable(why_unread(path, error)) from None
     except (ValueError, RuntimeError):

@@ -17,6 +17,8 @@ from pathlib import Path
 
 from ttr.errors import Span, TTRError
 from ttr.files import why_unread
+from ttr.inputs import read_text
+from ttr.limits import STORIES
 
 __all__ = ["Line", "Story", "StoryError", "line_of", "read_stories"]
 
@@ -80,7 +82,7 @@ def read_stories(path: Path) -> tuple[Story, ...]:
     'a greeting'
     """
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_text(path, STORIES)
     except (OSError, UnicodeDecodeError) as error:
         raise StoryError(why_unread(path, error)) from None
     stories = tuple(_stories(path.stem, _lines(path, text)))

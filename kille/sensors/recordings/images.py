@@ -61,8 +61,8 @@ def kind_of(message: Any) -> str:
 def colour_of(message: Any) -> Colour:
     """The picture (H, W, 3) RGB, read-only; NotThis if the message holds none."""
     if is_compressed(message):
-        picture = _decoded(np.asarray(message.data, np.uint8), cv2.IMREAD_COLOR)
-        return _fixed(cv2.cvtColor(picture, cv2.COLOR_BGR2RGB))
+        content = np.asarray(message.data, np.uint8)
+        return _fixed(_decoded(content, cv2.IMREAD_COLOR_RGB))
     channels = _CHANNELS.get(message.encoding)
     if channels is None:
         raise NotThis(

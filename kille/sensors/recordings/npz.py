@@ -7,23 +7,21 @@ matrix (3, 3); `times` (n,) in seconds, thirty frames a second without it.
 
 from __future__ import annotations
 
-import lzma
 import struct
 import zipfile
-import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from itertools import pairwise
 from math import isfinite
 from pathlib import Path
 from tempfile import TemporaryFile
-from tokenize import TokenError
 from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kille.archives import Damaged, damage_told, opened_zip, read_array, read_head
 from kille.scene import Frame, Intrinsics
 from kille.sensors.captures import RATE
 from kille.sensors.pictures import measured
@@ -31,27 +29,15 @@ from kille.sensors.recordings.lenses import lens_from
 from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.reels import Moment, Reel
 from kille.sensors.sensor import SensorError
+from ttr.inputs import open_file
+from ttr.limits import ARRAYS, PICTURE
 
 _ALSO = {"color": "colour", "rgb": "colour", "time": "times", "K": "intrinsics"}
-_DAMAGE = (
-    ValueError,
-    LookupError,
-    ArithmeticError,
-    RuntimeError,
-    EOFError,
-    MemoryError,
-    TokenError,
-    struct.error,
-    zlib.error,
-    lzma.LZMAError,
-    zipfile.BadZipFile,
-)
-"""What numpy and zipfile come to where bytes of an archive are wrong."""
 
 
 def is_npz(path: Path) -> bool:
     """Whether it is an archive of arrays, or begins as one and is cut short."""
-    with path.open("rb") as file:
+    with open_file(path) as file:
         head = file.read(512)
     return head.startswith(b"PK\x03\x04") and b".npy" in head
 
@@ -60,7 +46,7 @@ def open_npz(name: str, path: Path, options: Options) -> Reel:
     """The recording in this file; SensorError if an array is missing or misfits."""
     try:
         arrays = _arrays(path)
-    except _DAMAGE as error:
+    except Damaged as error:
         raise SensorError(
             f"{name}: this archive does not open; it may be cut short ({error})"
         ) from error
@@ -110,6 +96,10 @@ def _colour(name: str, arrays: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
         )
     if not colour.size:
         raise SensorError(f"{name}: `colour` holds no frame")
+    try:
+        PICTURE.check(colour.shape[1] * colour.shape[2])
+    except OSError as error:
+        raise SensorError(f"{name}: `colour`: {error.strerror}") from error
     return colour
 
 
@@ -168,44 +158,54 @@ def _told(array: NDArray[Any]) -> str:
 
 
 def _arrays(path: Path) -> dict[str, NDArray[Any]]:
-    """The arrays by name; those that are not compressed stay on disk."""
-    with zipfile.ZipFile(path) as archive:
+    """The arrays that are asked for, by name; those not compressed stay on disk."""
+    with opened_zip(path) as archive:
         entries = [it for it in archive.infolist() if it.filename.endswith(".npy")]
-        named = {it.filename.removesuffix(".npy"): it for it in entries}
+        named = {_name(it): it for it in entries}
+        held = [it for it in named.values() if not _stays(it)]
+        try:
+            ARRAYS.check(sum(it.file_size for it in held))
+        except OSError as error:
+            way_out = "np.savez, which does not compress, leaves them on disk"
+            raise SensorError(f"{path}: {error.strerror}; {way_out}") from error
         return {
-            _ALSO.get(name, name): _array(path, archive, entry)
+            name: _mapped(path, archive, entry)
+            if _stays(entry)
+            else read_array(archive, entry)
             for name, entry in named.items()
         }
 
 
-def _array(path: Path, archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Any:
-    with archive.open(entry) as file:
-        if entry.compress_type != zipfile.ZIP_STORED or entry.file_size < 65536:
-            return np.lib.format.read_array(file, allow_pickle=False)
-        head = _HEADS[np.lib.format.read_magic(file)](file)
-        skipped = file.tell()
-    shape, by_columns, kind = head
-    if kind.hasobject:
-        raise ValueError("it holds Python objects")
-    return np.memmap(
-        path,
-        kind,
-        "r",
-        _start(path, entry) + skipped,
-        shape,
-        order="F" if by_columns else "C",
-    )
+def _name(entry: zipfile.ZipInfo) -> str:
+    name = entry.filename.removesuffix(".npy")
+    return _ALSO.get(name, name)
 
 
-_HEADS: Mapping[tuple[int, int], Callable[[IO[bytes]], tuple[Any, bool, Any]]] = {
-    (1, 0): np.lib.format.read_array_header_1_0,
-    (2, 0): np.lib.format.read_array_header_2_0,
-}
+def _stays(entry: zipfile.ZipInfo) -> bool:
+    """Whether the array stays on disk, of which only what is asked for is read."""
+    return entry.compress_type == zipfile.ZIP_STORED and entry.file_size >= 65536
+
+
+def _mapped(
+    path: Path, archive: zipfile.ZipFile, entry: zipfile.ZipInfo
+) -> NDArray[Any]:
+    with damage_told():
+        with archive.open(entry) as file:
+            head = read_head(file)
+            skipped = file.tell()
+        return np.memmap(
+            path,
+            head.kind,
+            "r",
+            _start(path, entry) + skipped,
+            head.shape,
+            order="F" if head.by_columns else "C",
+        )
 
 
 def _start(path: Path, entry: zipfile.ZipInfo) -> int:
     """Where the bytes of an entry begin, behind the head that it has in the archive."""
-    with path.open("rb") as file:
+    with open_file(path) as file:
         file.seek(entry.header_offset + 26)
         name, extra = struct.unpack("<HH", file.read(4))
     return int(entry.header_offset + 30 + name + extra)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.scene import Colour
+from kille.sensors.pictures import read_colour
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic.model import (
     TEXELS_PER_METRE,
@@ -17,6 +18,8 @@ from kille.sensors.synthetic.model import (
     smooth_normals,
     standing,
 )
+from ttr.inputs import read_text
+from ttr.limits import MESH
 
 
 def found(path: Path) -> dict[str, Path]:
@@ -86,8 +89,10 @@ def _called(file: Path) -> str:
 
 def _read(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
+        return read_text(path, MESH)
+    except OSError as error:
+        raise SensorError(f"{path}: cannot be read ({error.strerror})") from error
+    except UnicodeDecodeError as error:
         raise SensorError(f"{path}: cannot be read as an OBJ mesh: {error}") from error
 
 
@@ -153,10 +158,10 @@ def _texture(path: Path, lines: list[str]) -> Colour:
     if not maps:
         raise SensorError(f"{path}: its material names no texture (`map_Kd`)")
     file = path.parent / maps[0]
-    picture = cv2.imread(str(file), cv2.IMREAD_COLOR) if file.is_file() else None
-    if picture is None:
-        raise SensorError(f"{file}: the mesh's texture does not open")
-    return cv2.cvtColor(picture, cv2.COLOR_BGR2RGB).astype(np.uint8)
+    try:
+        return read_colour(file)
+    except SensorError as error:
+        raise SensorError(f"{file}: the mesh's texture does not open") from error
 
 
 def _check_size(path: Path, vertices: NDArray[np.float32]) -> None:
