@@ -12,6 +12,7 @@ import io
 import json
 import os
 import stat
+import sys
 import tomllib
 from collections.abc import Callable, Iterator
 from selectors import EVENT_READ, DefaultSelector
@@ -22,6 +23,7 @@ from ttr.limits import LINE, PIPE, SILENCE, Limit
 
 __all__ = [
     "DEPTH",
+    "ask_line",
     "open_file",
     "parse_json",
     "parse_toml",
@@ -98,6 +100,24 @@ def read_line(stream: TextIO, limit: Limit = LINE) -> str:
     if len(line) > limit.allowed:
         raise limit.exceeded()
     return line
+
+
+def ask_line(prompt: str, limit: Limit = LINE) -> str:
+    """The line that somebody types after a prompt, or that comes through a pipe.
+
+    As `input` does, it raises `EOFError` at the end; a line that is too long is an
+    `OSError`, and is read no further.
+    """
+    if sys.stdin is None:
+        raise EOFError
+    if sys.stdin.isatty():
+        return input(prompt)
+    sys.stdout.write(prompt)
+    sys.stdout.flush()
+    line = read_line(sys.stdin, limit)
+    if not line:
+        raise EOFError
+    return line.removesuffix("\n")
 
 
 def read_lines(stream: BinaryIO, limit: Limit = LINE) -> Iterator[bytes]:

@@ -33,7 +33,7 @@ class Limit:
 
     >>> Limit(1_000, "pixels").check(999)
     >>> Limit(1_000, "pixels").exceeded(3_500).strerror
-    'it has 3,500 pixels, and at most 1,000 pixels is ...'
+    'it has 3,500 pixels, and no more than ...'
     """
 
     most: int
@@ -60,7 +60,7 @@ class Limit:
                 f"it has more than {most} ({FACTOR}=10 reads ten times that)"
             )
         return TooMuch(
-            f"it has {amount(found, self.unit)}, and at most {most} is read "
+            f"it has {amount(found, self.unit)}, and no more than {most} are read "
             f"({FACTOR}={math.ceil(found / self.most)} reads it all the same)"
         )
 
@@ -104,6 +104,9 @@ LOG = Limit(100_000_000, "bytes")
 LINE = Limit(1_000_000, "characters")
 """A line of a log, of a package, or of what is typed or piped in."""
 
+UTTERANCE = Limit(10_000, "characters")
+"""What is said to the robot at once."""
+
 SETTINGS = Limit(250_000, "bytes")
 """A file of settings: a study, a lexicon, a grammar, a calibration."""
 
@@ -135,7 +138,7 @@ MEASURED = Limit(12_000_000, "pixels")
 ARRAYS = Limit(250_000_000, "bytes")
 """The arrays of one archive (`.npz`) together, as far as they are held in memory."""
 
-SOUND_FILE = Limit(400_000_000, "bytes")
+SOUND_FILE = Limit(120_000_000, "bytes")
 """A file of sound (WAV)."""
 
 SOUND = Limit(30 * 60, "seconds")
@@ -146,6 +149,12 @@ MESH = Limit(20_000_000, "bytes")
 
 MESSAGE = Limit(150_000_000, "bytes")
 """A message of a bag, or a chunk of them as it is when it is decompressed."""
+
+BAG_UNPACKED = Limit(4_000_000_000, "bytes")
+"""A file of a bag that is compressed as a whole, when it is unpacked."""
+
+FRAMES = Limit(1_000_000, "frames")
+"""The frames of a recording, nine hours of a Kinect's."""
 
 # --- archives ------------------------------------------------------------------------
 

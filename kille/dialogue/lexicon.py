@@ -5,7 +5,6 @@ All of it is read from `grammars/lexicon.*.toml`; the comments there say what is
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -15,6 +14,7 @@ from typing import Any
 from kille.dialogue.inflection import Articles, Inflection
 from kille.dialogue.sources import source
 from ttr import Record
+from ttr.inputs import parse_toml
 
 __all__ = ["Lexicon", "Style", "lexicon"]
 
@@ -121,7 +121,7 @@ def lexicon(language: str = "en", wording: str = "paper") -> Lexicon:
 
     The wordings of a set stand under `says_` and its name; the others are those of all.
     """
-    data = tomllib.loads(source("lexicon.{}.toml", language))
+    data = parse_toml(source("lexicon.{}.toml", language))
     understands, phrases, articles = (
         data["understands"],
         data["phrases"],

@@ -9,6 +9,9 @@ from __future__ import annotations
 from importlib.resources import files
 from pathlib import Path, PurePath
 
+from ttr.inputs import read_text
+from ttr.limits import SETTINGS
+
 __all__ = ["FILES", "language_in", "plain", "source"]
 
 FILES = ("tutor.{}.lark", "lexicon.{}.toml")
@@ -34,7 +37,7 @@ def plain(language: str) -> str:
 
 
 def source(file: str, language: str) -> str:
-    """The text of one of the `FILES` of a language.
+    """The text of one of the `FILES` of a language; `OSError` where it is not read.
 
     >>> source("tutor.{}.lark", "nowhere/en") == source("tutor.{}.lark", "en")
     True
@@ -42,5 +45,5 @@ def source(file: str, language: str) -> str:
     name = file.format(plain(language))
     own = Path(language).parent / name
     if own.parent != Path() and own.is_file():
-        return own.read_text(encoding="utf-8")
+        return read_text(own, SETTINGS)
     return files("kille.grammars").joinpath(name).read_text(encoding="utf-8")

@@ -7,7 +7,7 @@ configurations it was judged of, to what degree it was held to fit, and in which
 from __future__ import annotations
 
 import csv
-import json
+import io
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -20,6 +20,8 @@ import numpy as np
 from kille.experiments.results import ExperimentError
 from kille.perception.relations.bounds import Bounds, hold
 from kille.scene import Configuration, Direction
+from ttr.inputs import parse_json, read_text
+from ttr.limits import TABLE
 
 __all__ = ["Choice", "Judged", "Study", "read"]
 
@@ -134,7 +136,7 @@ def _rooms(folder: Path) -> Study:
     Those of sides are left out where the viewer is not known and where they are by the
     landmark's own front, and so are words with fewer than 40 statements.
     """
-    scenes = json.loads((folder / "scenes.json").read_text(encoding="utf-8"))
+    scenes = parse_json(read_text(folder / "scenes.json", TABLE))
     words: dict[str, list[Judged]] = defaultdict(list)
     for row in _rows(folder / "relations.csv"):
         x = _in_room(row, scenes[row["scene"]])
@@ -243,8 +245,7 @@ def _choices(
 ) -> list[Choice]:
     if not file.is_file():
         return []
-    with file.open(newline="", encoding="utf-8") as lines:
-        _, *rows = csv.reader(lines)
+    _, *rows = csv.reader(io.StringIO(read_text(file, TABLE)))
     found = []
     for _, _, _, scene, word, figure, ground, _, *others in rows:
         possible = [it for it in others if (scene, it, ground) in pairs]
@@ -259,8 +260,7 @@ def _share(text: str) -> float:
 
 
 def _rows(file: Path) -> Iterable[dict[str, str]]:
-    with file.open(newline="", encoding="utf-8") as lines:
-        yield from csv.DictReader(lines)
+    yield from csv.DictReader(io.StringIO(read_text(file, TABLE)))
 
 
 def _direction(vector: Any) -> Direction:

@@ -6,7 +6,6 @@ thing is chosen so that the overlaps are largest in sum (Hungarian matching).
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -34,6 +33,8 @@ from kille.sensors.captures import (
     read_scenes,
     read_sequence,
 )
+from ttr.inputs import parse_json, read_text
+from ttr.limits import TABLE
 
 __all__ = ["Capture", "Score", "captures", "regions", "score"]
 
@@ -203,7 +204,7 @@ def _captures(folder: Path) -> list[Capture]:
     if description is None:
         return []
     read = read_sequence if is_sequence(description) else read_scenes
-    kinds = json.loads(description.read_text(encoding="utf-8")).get("scenes", {})
+    kinds = parse_json(read_text(description, TABLE)).get("scenes", {})
     return [
         Capture(str(kinds.get(shot.name, {}).get("kind", folder.name)), shot)
         for shot in read(description)

@@ -11,6 +11,8 @@ from kille.bus import Asking, Bus, BusError, Facts
 from kille.interfaces.ros import Opening
 from kille.interfaces.terminal import FINE, complain, console
 from kille.nodes.topics import CALLS, STAGE
+from ttr.inputs import ask_line
+from ttr.limits import UTTERANCE, TooMuch
 
 __all__ = ["talk_over", "talk_as_node"]
 
@@ -41,12 +43,15 @@ def talk_over(bus: Bus, patience: float = _PATIENCE) -> int:
     A call is answered even if the robot is started anew in the middle of it.
     """
     calling, staging = Asking(bus, CALLS, patience), Asking(bus, STAGE, patience)
-    for line in _lines():
-        try:
-            for told in _told(line, calling, staging):
-                console().print(told, markup=False)
-        except BusError as error:
-            complain(error)
+    try:
+        for line in _lines():
+            try:
+                for told in _told(line, calling, staging):
+                    console().print(told, markup=False)
+            except BusError as error:
+                complain(error)
+    except TooMuch as error:
+        return complain(f"the input cannot be read: {error.strerror}")
     return FINE
 
 
@@ -68,7 +73,7 @@ def _lines() -> Iterator[str]:
         import_module("readline")
     while True:
         try:
-            line = input("U> " if typed else "").strip()
+            line = ask_line("U> " if typed else "", UTTERANCE).strip()
         except EOFError:
             return
         if not typed and line:

@@ -21,6 +21,8 @@ from kille.sensors.sensor import SensorError, Stage
 from kille.speech.sound import SoundError
 from kille.speech.speaking import Voice, voice
 from ttr import TTRError
+from ttr.inputs import ask_line
+from ttr.limits import UTTERANCE, TooMuch
 
 __all__ = ["talk"]
 
@@ -71,6 +73,8 @@ def talk(
             _Conversation(robot, account, ears, speaks, language).hold()
         except SoundError as error:
             return complain(error)
+        except TooMuch as error:
+            return complain(f"the input cannot be read: {error.strerror}")
     return FINE
 
 
@@ -124,7 +128,7 @@ class _Conversation:
             return
         while True:
             try:
-                line = input("U> " if self._typed else "").strip()
+                line = ask_line("U> " if self._typed else "", UTTERANCE).strip()
             except EOFError:
                 if self._typed:
                     self._print("")

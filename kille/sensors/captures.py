@@ -10,7 +10,6 @@ of its own.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import count, pairwise
@@ -23,6 +22,8 @@ import numpy as np
 from kille.scene import Frame, Intrinsics, Mask
 from kille.sensors.pictures import read_colour, read_depth, read_labels
 from kille.sensors.sensor import SensorError
+from ttr.inputs import parse_json, read_text
+from ttr.limits import TABLE
 
 DESCRIPTIONS = ("scene.json", "index.json", "boxes.json")
 _COLOUR = "_color.png"
@@ -194,7 +195,7 @@ def _geometry(description: Path, content: Mapping[str, Any]) -> Geometry:
 
 def _load(description: Path) -> Mapping[str, Any]:
     try:
-        content = json.loads(description.read_text(encoding="utf-8"))
+        content = parse_json(read_text(description, TABLE))
     except OSError as error:
         raise SensorError(
             f"{description}: cannot be read ({error.strerror})"

@@ -105,11 +105,9 @@ def decoded(content: NDArray[np.uint8], flags: int) -> NDArray[Any] | None:
     would tell of damage in lines of its own.
     """
     size = _size(content)
-    if size is None:
+    if size is None or _is_broken_png(content):
         return None
     (MEASURED if flags == cv2.IMREAD_UNCHANGED else PICTURE).check(size[0] * size[1])
-    if _is_broken_png(content):
-        return None
     level = cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
     try:
         return cv2.imdecode(content, flags)

@@ -12,10 +12,16 @@ from typing import BinaryIO, cast
 
 import numpy as np
 
+from ttr.inputs import read_bytes
+from ttr.limits import SOUND, SOUND_FILE
+
 __all__ = ["RATE", "Sound", "SoundError", "WavFile", "read_wav"]
 
 RATE = 16_000
 """Samples a second in what is heard; what the model of sounds was trained on."""
+
+_PART = 120
+"""Seconds of sound that are brought to another rate at once."""
 
 _PAUSE = 0.4
 """Seconds of silence between sentences in a file."""
@@ -49,12 +55,20 @@ class Sound:
         """
         if rate == self.rate or not self.samples:
             return Sound(rate, self.samples)
-        values = np.frombuffer(self.samples, dtype="<i2").astype(float)
+        # A long sound is taken in parts of whole seconds, which takes less memory.
+        size = 2 * self.rate * _PART
+        parts = range(0, len(self.samples), size)
+        return Sound(rate, b"".join(self._at(rate, it, it + size) for it in parts))
+
+    def _at(self, rate: int, start: int, end: int) -> bytes:
+        values = np.frombuffer(self.samples[start:end], dtype="<i2").astype(float)
         wanted = round(len(values) * rate / self.rate)
+        if not wanted:
+            return b""
         spectrum = np.fft.rfft(values)[: wanted // 2 + 1]
         spectrum = np.pad(spectrum, (0, wanted // 2 + 1 - len(spectrum)))
         new = np.fft.irfft(spectrum, wanted) * (wanted / len(values))
-        return Sound(rate, np.clip(new.round(), -32768, 32767).astype("<i2").tobytes())
+        return np.clip(new.round(), -32768, 32767).astype("<i2").tobytes()
 
 
 def read_wav(source: Path | bytes) -> Sound:
@@ -64,10 +78,14 @@ def read_wav(source: Path | bytes) -> Sound:
     """
     name = source if isinstance(source, Path) else "the sound"
     try:
-        opened = io.BytesIO(source) if isinstance(source, bytes) else source.open("rb")
-        with opened, wave.open(opened) as file:
-            channels, width = file.getnchannels(), file.getsampwidth()
-            rate, data = file.getframerate(), file.readframes(_LONGEST)
+        data = source if isinstance(source, bytes) else read_bytes(source, SOUND_FILE)
+        with wave.open(io.BytesIO(data)) as file:
+            rate = file.getframerate()
+            if rate not in _RATES:
+                raise wave.Error(f"it has {rate} samples a second")
+            # A stream that is piped claims to be hours long.
+            SOUND.check(min(file.getnframes(), len(data) // _width(file)) // rate)
+            return Sound(rate, b"".join(_pieces(file)))
     except OSError as error:
         raise SoundError(f"{name} cannot be read: {error.strerror}") from error
     except (wave.Error, EOFError, ValueError) as error:
@@ -76,11 +94,24 @@ def read_wav(source: Path | bytes) -> Sound:
             f"{name} is not a WAV file that can be heard ({told}): make one with "
             "sox IN -r 16000 -c 1 -b 16 OUT.wav"
         ) from error
-    return Sound(rate, _mono(data, channels, width))
 
 
-_LONGEST = 2**29
-"""Samples that are read of a file: hours. A stream that is piped claims as many."""
+_RATES = range(1_000, 400_000)
+"""How many samples a second there may be in a file."""
+
+_PIECE = 1 << 16
+"""How many samples of a file are read at once."""
+
+
+def _width(file: wave.Wave_read) -> int:
+    """The bytes of a sample, of all channels."""
+    return file.getnchannels() * file.getsampwidth()
+
+
+def _pieces(file: wave.Wave_read) -> Iterator[bytes]:
+    """The samples of a file in one channel, piece by piece."""
+    while data := file.readframes(_PIECE):
+        yield _mono(data, file.getnchannels(), file.getsampwidth())
 
 
 def _mono(data: bytes, channels: int, width: int) -> bytes:

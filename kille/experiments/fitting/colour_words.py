@@ -14,6 +14,7 @@ vivid ones: so the fit does not lean towards them.
 from __future__ import annotations
 
 import csv
+import io
 import json
 import sys
 import zlib
@@ -30,6 +31,9 @@ from kille.experiments.results import Table
 from kille.perception.colours.borders import AXES, along
 from kille.perception.colours.space import even
 from kille.perception.colours.words import ColourWords, read
+from ttr.inputs import read_text
+from ttr.limits import TABLE
+from ttr.unforeseen import guarded
 
 Numbers = NDArray[np.float64]
 
@@ -94,11 +98,10 @@ def read_survey(data: Path) -> Survey:
     if not (folder / COUNTS).is_file():
         raise SystemExit(f"{folder} has no {COUNTS}: give the folder of data")
     rows: dict[tuple[int, ...], dict[str, int]] = {}
-    with (folder / COUNTS).open(encoding="utf-8", newline="") as lines:
-        for row in csv.DictReader(lines):
-            at = int(row["L"]), int(row["a"]), int(row["b"])
-            name = _SPACED.get(row["name"], row["name"])
-            rows.setdefault(at, {})[name] = int(row["count"])
+    for row in csv.DictReader(io.StringIO(read_text(folder / COUNTS, TABLE))):
+        at = int(row["L"]), int(row["a"]), int(row["b"])
+        name = _SPACED.get(row["name"], row["name"])
+        rows.setdefault(at, {})[name] = int(row["count"])
     names = tuple(sorted({name for row in rows.values() for name in row}))
     counts = [[row.get(name, 0) for name in names] for row in rows.values()]
     held = [zlib.crc32(f"{at}".encode()) % _HELD_OUT == 0 for at in rows]
@@ -246,4 +249,5 @@ def main(data: Path, out: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]) if len(sys.argv) > 2 else SHIPPED)
+    written_to = Path(sys.argv[2]) if len(sys.argv) > 2 else SHIPPED
+    sys.exit(guarded("kille", lambda: main(Path(sys.argv[1]), written_to)))

@@ -37,6 +37,7 @@ from kille.perception.votes import beyond_chance, votes
 from kille.scene import Frame, Region
 from kille.sensors.sensor import Stage
 from kille.sensors.sources import open_sensor
+from ttr.unforeseen import guarded
 
 Numbers = NDArray[np.float64]
 
@@ -362,4 +363,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(guarded("kille", main))

@@ -53,6 +53,7 @@ from kille.perception.surfaces.relief import (
 )
 from kille.scene import Frame
 from kille.sensors.synthetic import obj
+from ttr.unforeseen import guarded
 
 HEAPS, SCREENS, TIDY = range(700), range(200), range(200)
 MORE_HEAPS = (*HEAPS, *range(1000, 1700))
@@ -246,4 +247,4 @@ def _told(them: Score) -> str:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    sys.exit(guarded("kille", lambda: main(Path(sys.argv[1]))))

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kille.sensors.kinect.commands import BadReply
+from ttr.inputs import parse_json
 
 _REGISTRATION = struct.Struct("<2x29i")
 _PADDING = struct.Struct("<2x3H")
@@ -143,7 +144,7 @@ class Calibration:
         True
         """
         try:
-            told = json.loads(text)
+            told = parse_json(text)
         except ValueError as error:
             raise CalibrationError(f"device.json is not JSON: {error}") from None
         registration = _part(told, "reg_info")

@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from kille.sensors.recordings.images import NotThis
 from kille.sensors.sensor import SensorError
+from ttr.inputs import open_file
+from ttr.limits import FRAMES
 
 if TYPE_CHECKING:
     from rosbags.highlevel import AnyReader
@@ -33,7 +35,7 @@ _SUFFIXES = {
 
 def ros_suffix(path: Path) -> str | None:
     """What the name of a file of this content should end in, if it is of ROS."""
-    with path.open("rb") as file:
+    with open_file(path) as file:
         start = file.read(16)
     found = (end for head, end in _SUFFIXES.items() if start.startswith(head))
     return next(found, None)
@@ -51,7 +53,8 @@ def is_bag(path: Path) -> bool:
         return ros_suffix(path) is not None
     described = path / DESCRIPTION
     if described.is_file():
-        return b"rosbag2_bagfile_information" in described.read_bytes()[:65536]
+        with open_file(described) as file:
+            return b"rosbag2_bagfile_information" in file.read(65536)
     return len(ros_files(path)) == 1
 
 
@@ -70,6 +73,7 @@ class Bag:
 
     name: str
     reader: AnyReader
+    store: Typestore
     topics: Mapping[str, Sequence[Connection]]
     remark: str
 
@@ -93,8 +97,10 @@ class Bag:
             yield kept, bytes(data)
 
     def decoded(self, topic: str, data: bytes) -> Any:
-        """A message with its fields."""
-        return self.reader.deserialize(data, self.kind(topic))
+        """A message with its fields, as ROS defines them, whatever the bag says."""
+        if self.reader.is2:
+            return self.store.deserialize_cdr(data, self.kind(topic))
+        return self.store.deserialize_ros1(data, self.kind(topic))
 
     def kind(self, topic: str) -> str:
         """The type of the topic's messages."""
@@ -105,8 +111,11 @@ class Bag:
 
         Where their heads do not say, it is when they were recorded.
         """
+        row: list[tuple[int, int]] = []
         with told(self.name):
-            row = [(kept, self._made(data)) for kept, data in self.raw(topic)]
+            for kept, data in self.raw(topic):
+                FRAMES.check(len(row))
+                row.append((kept, self._made(data)))
         said = any(made for _, made in row)
         counts: dict[int, int] = {}
         stamps = []
@@ -129,11 +138,20 @@ def opened(name: str, path: Path) -> Bag:
     try:
         from rosbags.highlevel import AnyReader, AnyReaderError
         from rosbags.typesys import Stores, get_typestore
+
+        from kille.sensors.recordings.bag_limits import (
+            BagPath,
+            bounded,
+            check_unpacked,
+        )
     except ImportError as error:
         raise SensorError(f"{name}: {NOT_INSTALLED}") from error
     usual = get_typestore(Stores.ROS2_HUMBLE)
     held = _file(path)
-    with told(name), _suffixed(held) as suited:
+    with told(name), _suffixed(held) as linked, bounded():
+        suited = BagPath(linked)
+        if suited.is_dir():
+            check_unpacked(suited)
         reader = AnyReader([suited], default_typestore=usual)
         try:
             reader.open()
@@ -147,7 +165,8 @@ def opened(name: str, path: Path) -> Bag:
         alike = topics.setdefault(it.topic, [])
         if not alike or alike[0].msgtype == it.msgtype:
             alike.append(it)
-    return Bag(name, reader, topics, remark)
+    store = usual if reader.is2 else get_typestore(Stores.ROS1_NOETIC)
+    return Bag(name, reader, store, topics, remark)
 
 
 _CUT_SHORT = (

@@ -11,7 +11,6 @@ See https://github.com/OpenKinect/libfreenect, fakenect/.
 
 from __future__ import annotations
 
-import json
 import re
 import struct
 from collections.abc import Mapping, Sequence
@@ -32,6 +31,8 @@ from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.pairing import paired
 from kille.sensors.recordings.reels import Moment, Reel, remark_on
 from kille.sensors.sensor import SensorError
+from ttr.inputs import open_file, parse_json, read_bytes, read_text
+from ttr.limits import SETTINGS, TABLE, Limit
 
 INDEX, DEVICE = "INDEX.txt", "device.json"
 WIDTH, HEIGHT = 640, 480
@@ -44,6 +45,9 @@ TILT = struct.Struct("<3hbxi")
 
 _NAME = re.compile(r"([rda])-(\d{1,200}(?:\.\d*)?)-(\d{1,20})\.\w+")
 _LONGEST_HEAD = 64
+
+RAW = Limit(max(BYTES.values()) + _LONGEST_HEAD, "bytes")
+"""A file of a recording."""
 
 
 class Event(NamedTuple):
@@ -60,7 +64,7 @@ def is_fakenect(folder: Path) -> bool:
     index = folder / INDEX
     if not index.is_file():
         return False
-    with index.open("rb") as file:
+    with open_file(index) as file:
         first = file.readline(200).decode("utf-8", "replace")
     return not first.strip() or event_of(first) is not None
 
@@ -84,7 +88,7 @@ def open_fakenect(name: str, folder: Path, options: Options) -> Reel:
     device that is not described has the usual calibration. SensorError if nothing of it
     can be played.
     """
-    lines = (folder / INDEX).read_text("utf-8", "replace").splitlines()
+    lines = read_text(folder / INDEX, TABLE, "replace").splitlines()
     told = [(line, event_of(line)) for line in lines if line.strip()]
     if not told:
         raise SensorError(f"{name}: the recording is empty: {INDEX} names no file")
@@ -181,10 +185,10 @@ def _device(folder: Path, options: Options) -> _Device:
     path = folder / DEVICE
     if not path.is_file():
         return _Device(Calibration.typical(), options.intrinsics or COLOUR_CAMERA)
-    text = path.read_text("utf-8", "replace")
+    text = read_text(path, SETTINGS, "replace")
     try:
         calibration = Calibration.from_json(text)
-        numbers = json.loads(text).get("intrinsics")
+        numbers = parse_json(text).get("intrinsics")
         told = COLOUR_CAMERA if numbers is None else lens_from([*map(float, numbers)])
     except CalibrationError as error:
         raise SensorError(
@@ -223,7 +227,7 @@ def _content(folder: Path, event: Event) -> bytes:
     """What is behind the head; SensorError if the file cannot be read or misfits."""
     path = folder / event.file
     try:
-        data = path.read_bytes()
+        data = read_bytes(path, RAW)
     except OSError as error:
         raise SensorError(f"{path}: cannot be read ({error.strerror})") from error
     head, content = data[: -BYTES[event.kind]], data[-BYTES[event.kind] :]

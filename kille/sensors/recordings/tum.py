@@ -27,6 +27,8 @@ from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.pairing import paired
 from kille.sensors.recordings.reels import Moment, Reel, remark_on
 from kille.sensors.sensor import SensorError
+from ttr.inputs import open_file, read_text
+from ttr.limits import SETTINGS, TABLE
 
 UNITS_PER_METRE = 5000.0
 USUAL = Intrinsics(fx=525.0, fy=525.0, cx=319.5, cy=239.5)
@@ -45,7 +47,7 @@ def is_tum(folder: Path) -> bool:
     listed = folder / "rgb.txt"
     if not listed.is_file():
         return False
-    with listed.open("rb") as file:
+    with open_file(listed) as file:
         lines = file.read(4096).decode("utf-8", "replace").splitlines()
     first = next((it for it in lines if it.strip() and it[0] != "#"), "0")
     return _number(first.split()[0]) is not None
@@ -107,7 +109,7 @@ def _with_depth(
 def _listed(path: Path) -> list[Entry]:
     """The entries of a list in order of time; SensorError for a line that is none."""
     entries = []
-    text = path.read_text(encoding="utf-8", errors="replace")
+    text = read_text(path, TABLE, "replace")
     for number, line in enumerate(text.splitlines(), start=1):
         if not line.strip() or line.startswith("#"):
             continue
@@ -132,7 +134,7 @@ def _number(text: str) -> float | None:
 def _lens(name: str, folder: Path, picture: Path) -> Intrinsics:
     told = folder / CALIBRATION
     if told.is_file():
-        words = told.read_text("utf-8", "replace").split()[:4]
+        words = read_text(told, SETTINGS, "replace").split()[:4]
         lens = lens_from([it for word in words if (it := _number(word)) is not None])
         if lens is None:
             raise SensorError(f"{told}: expected `fx fy cx cy`, four numbers above 0")

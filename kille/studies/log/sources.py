@@ -9,10 +9,12 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from kille.studies.study import Study
+from ttr.inputs import open_file
 
 __all__ = ["STUDY", "changed", "sources"]
 
@@ -21,6 +23,9 @@ PLACES = {"file", "folder"}
 """The settings that are paths, whatever they look like."""
 LARGE = 10_000_000
 """A folder of more bytes is known by its files' names and sizes alone."""
+HUGE = 500_000_000
+"""A file of more bytes is known by its size alone."""
+_PIECE = 1 << 20
 
 
 def sources(study: Study) -> dict[str, str]:
@@ -85,7 +90,7 @@ def _texts(value: Any) -> Iterator[str]:
 
 def _digest(path: Path) -> str:
     if path.is_file():
-        return _hashed([path.read_bytes()])
+        return _hashed(_pieces(path))
     files = sorted(it for it in path.rglob("*") if it.is_file() and _is_source(it))
     sizes = [it.stat().st_size for it in files]
     names = [str(it.relative_to(path)) for it in files]
@@ -93,8 +98,20 @@ def _digest(path: Path) -> str:
         f"{name} {size}\n".encode() for name, size in zip(names, sizes, strict=True)
     ]
     if sum(sizes) <= LARGE:
-        parts += [it.read_bytes() for it in files]
+        return _hashed(chain(parts, *map(_pieces, files)))
     return _hashed(parts)
+
+
+def _pieces(path: Path) -> Iterator[bytes]:
+    """What is in a file, piece by piece; of a very large one, only its size."""
+    with open_file(path) as file:
+        size = file.seek(0, os.SEEK_END)
+        if size > HUGE:
+            yield f"{size}".encode()
+            return
+        file.seek(0)
+        while piece := file.read(_PIECE):
+            yield piece
 
 
 def _is_source(path: Path) -> bool:

@@ -6,7 +6,6 @@ Whether what it names can be used, `kille.studies.reading.checking` says.
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from importlib.resources import files
@@ -23,6 +22,8 @@ from kille.studies.settings import no_file
 from kille.studies.study import Named, Phase, Study, Theory
 from ttr.consent import OWN_FOLDER, Consent
 from ttr.files import why_unread
+from ttr.inputs import parse_toml, read_text
+from ttr.limits import SETTINGS
 
 __all__ = [
     "data_of",
@@ -59,7 +60,7 @@ def parsed(text: str, path: Path, consent: Consent = OWN_FOLDER) -> Study:
 def text_of(path: Path) -> str:
     """The text of a file; `StudyError` where there is none."""
     try:
-        return path.read_text(encoding="utf-8-sig")
+        return read_text(path, SETTINGS)
     except FileNotFoundError as error:
         raise StudyError([no_file(path)]) from error
     except (OSError, UnicodeDecodeError) as error:
@@ -69,8 +70,8 @@ def text_of(path: Path) -> str:
 def data_of(text: str, path: Path) -> Mapping[str, Any]:
     """What is in a text; `StudyError` where it is no TOML."""
     try:
-        return tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # numbers and lists without end
+        return parse_toml(text)
+    except ValueError as error:
         line, why = why_not_toml(text, error)
         raise StudyError([f"{path}:{line}: {why}"]) from error
 

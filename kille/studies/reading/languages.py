@@ -18,6 +18,9 @@ from kille.studies.settings import no_folder, unknown
 from kille.studies.study import Theory
 from kille.studies.theories.games import language_of
 from ttr import TTRError
+from ttr.files import why_unread
+from ttr.inputs import read_text
+from ttr.limits import SETTINGS
 
 __all__ = ["of_language"]
 
@@ -81,8 +84,8 @@ def _others(theory: Theory) -> str:
 def _of_grammar(language: str, file: Path, texts: Iterable[str]) -> Iterator[Trouble]:
     try:
         Grammar(grammar_text(language)).parse("a")
-    except UnicodeDecodeError:
-        yield Trouble(_KEY, "this is no text: it must be UTF-8", f"{file}:1")
+    except (OSError, UnicodeDecodeError) as error:
+        yield Trouble(_KEY, why_unread(file.name, error), f"{file}:1")
         return
     except GrammarError as error:
         what = str(error).partition("\n")[0]
@@ -105,15 +108,15 @@ def _of_lexicon(theory: Theory, file: Path) -> Iterator[Trouble]:
     except tomllib.TOMLDecodeError as error:
         where = f"{file}:{_line_in(error)}"
         yield Trouble(_KEY, f"this lexicon is no TOML: {error}", where)
-    except UnicodeDecodeError:
-        yield Trouble(_KEY, "this is no text: it must be UTF-8", at)
+    except (OSError, UnicodeDecodeError) as error:
+        yield Trouble(_KEY, why_unread(file.name, error), at)
     except KeyError as error:
         told = f"this lexicon lacks {error.args[0]}, which that of the package has"
         yield Trouble(_KEY, told, at)
     except _ODD as error:
         yield Trouble(_KEY, f"this lexicon does not read: {error}", at)
     else:
-        lines = lines_of(file.read_text(encoding="utf-8"))
+        lines = lines_of(read_text(file, SETTINGS))
         for key, what in _of_wordings(own, packaged):
             yield Trouble(_KEY, what, f"{file}:{line_of(lines, key)}")
 

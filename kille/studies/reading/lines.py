@@ -17,6 +17,10 @@ Key = tuple[str | int, ...]
 """The names that lead to a value, and the numbers of the tables in a list."""
 
 
+_TRIED = 2_000_000
+"""How many characters are read to find where statements end."""
+
+
 def lines_of(text: str) -> Mapping[Key, int]:
     r"""The line of every key in a text that is TOML.
 
@@ -50,13 +54,20 @@ def line_of(lines: Mapping[Key, int], key: Key) -> int:
 
 
 def _statements(text: str) -> Iterator[tuple[int, str]]:
-    """The statements, each with its first line; a value may go on over several."""
-    began, so_far = 0, ""
+    """The statements, each with its first line; a value may go on over several.
+
+    Whether it ends is tried at each of its lines; of a text that takes too long so,
+    only the first statements are given.
+    """
+    began, so_far, tried = 0, "", 0
     for number, line in enumerate(text.replace("\r\n", "\n").split("\n"), start=1):
         if not so_far and (not line.strip() or line.lstrip().startswith("#")):
             continue
         began = began if so_far else number
         so_far = f"{so_far}\n{line}" if so_far else line.strip()
+        tried += len(so_far)
+        if tried > _TRIED:
+            return
         if _is_whole(so_far):
             yield began, so_far
             so_far = ""

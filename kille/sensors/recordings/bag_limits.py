@@ -1,0 +1,97 @@
+"""Limits for rosbags, which believes what a bag says of the sizes in it.
+
+It opens files by their paths, decompresses chunks by tables of its own, and reads
+databases by apsw: each of the three is given here in a form that refuses, with an
+`OSError`, what is larger than `ttr.limits.MESSAGE`.
+"""
+
+from __future__ import annotations
+
+import bz2
+import io
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, Any, Protocol
+
+import apsw
+from lz4.frame import LZ4FrameDecompressor
+from rosbags.rosbag1 import reader as rosbag1
+from rosbags.rosbag2 import storage_mcap as mcap
+
+from ttr.inputs import open_file
+from ttr.limits import BAG_UNPACKED, MESSAGE, SETTINGS
+
+__all__ = ["BagPath", "bounded", "check_unpacked"]
+
+zstd: Any = mcap.zstd  # type: ignore[attr-defined]
+"""Python's own, or what there is of it for older Pythons."""
+
+_PIECE = 1 << 20
+
+
+class BagPath(type(Path())):  # type: ignore[misc]
+    """A path whose file is read by pieces that are not too large."""
+
+    def open(self, mode: str = "r", *args: Any, **kwargs: Any) -> IO[Any]:
+        """The file, opened to be read."""
+        if "b" in mode:
+            return _Pieces(open_file(self))  # type: ignore[arg-type]
+        SETTINGS.check(self.stat().st_size)
+        return io.TextIOWrapper(open_file(self), encoding="utf-8")
+
+
+class _Pieces(io.BufferedReader):
+    """A file of which only so much is read at once, whatever is asked for."""
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        if size is not None:
+            MESSAGE.check(size)
+        return super().read(size)
+
+
+class _Decompressor(Protocol):
+    """What decompresses, up to a number of bytes."""
+
+    def decompress(self, data: bytes, /, *, max_length: int) -> bytes: ...
+
+
+def _unpacked(kind: Callable[[], _Decompressor], data: bytes) -> bytes:
+    """What is compressed in these bytes; `OSError` if it is too much."""
+    most = MESSAGE.allowed
+    found = kind().decompress(data, max_length=most + 1)
+    if len(found) > most:
+        raise MESSAGE.exceeded()
+    return found
+
+
+@contextmanager
+def bounded() -> Iterator[None]:
+    """While a bag is opened or read, apsw's databases have limits, too."""
+    rosbag1.decompressors["bz2"] = lambda data: _unpacked(bz2.BZ2Decompressor, data)
+    rosbag1.decompressors["lz4"] = lambda data: _unpacked(LZ4FrameDecompressor, data)
+    mcap.DECOMPRESSORS["lz4"] = lambda data, _: _unpacked(LZ4FrameDecompressor, data)
+    mcap.DECOMPRESSORS["zstd"] = lambda data, _: _unpacked(zstd.ZstdDecompressor, data)
+    apsw.connection_hooks.append(_limit)
+    try:
+        yield
+    finally:
+        apsw.connection_hooks.remove(_limit)
+
+
+def _limit(database: apsw.Connection) -> None:
+    """What is in the database runs nothing, and no value in it is too large."""
+    database.limit(apsw.SQLITE_LIMIT_LENGTH, MESSAGE.allowed)
+    database.config(apsw.SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0)
+    database.config(apsw.SQLITE_DBCONFIG_ENABLE_VIEW, 0)
+
+
+def check_unpacked(folder: Path) -> None:
+    """Refuses a bag of compressed files that would fill the disk when unpacked."""
+    for file in sorted(folder.glob("*.zstd")):
+        count, most = 0, BAG_UNPACKED.allowed
+        with open_file(file) as packed, zstd.open(packed, "rb") as opened:
+            while piece := opened.read(_PIECE):
+                count += len(piece)
+                if count > most:
+                    raise BAG_UNPACKED.exceeded()
