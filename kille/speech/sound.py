@@ -88,7 +88,7 @@ def read_wav(source: Path | bytes) -> Sound:
             return Sound(rate, b"".join(_pieces(file)))
     except OSError as error:
         raise SoundError(f"{name} cannot be read: {error.strerror}") from error
-    except (wave.Error, EOFError, ValueError) as error:
+    except (wave.Error, EOFError, ValueError, RuntimeError) as error:
         told = str(error) or "it is cut short"
         raise SoundError(
             f"{name} is not a WAV file that can be heard ({told}): make one with "
