@@ -76,11 +76,97 @@ def read(text: str, starts: Sequence[str]) -> Source:
     >>> read('start: A?' + chr(10) + 'A: /a/i', ["start"]).pattern("A")
     '(?i:a)'
     """
+    _check_ways(text)
     found = plainly(text, starts) or by_lark(text, starts)
     for name in starts:
         if not any(made.name == name for made in found.productions):
             raise GrammarError(f"the grammar has no rule {name}, with which it starts")
     return found
+
+
+# --- how much it is -------------------------------------------------------------------
+
+WAYS = 10_000
+"""In how many ways all rules may be made: each is written out, here and by Lark."""
+
+_OFTEN = 20
+"""How often a thing with several ways never stands: two ways are a million then."""
+
+_SIGNS = re.compile(
+    r"""(?P<skip>//[^\n]*)
+      | (?P<rule>^[ \t]*[?!]*(?P<called>_?[a-z][_a-z0-9]*)(?:\.-?\d+)?[ \t]*[:{])
+      | (?P<other>^[ \t]*[%_A-Z])
+      | (?P<item>"(?:\\.|[^"\\\n])*"i?|/(?!/)(?:\\.|[^/\\\n])*/[imslux]*|[_a-zA-Z]\w*)
+      | (?P<opening>[(\[])
+      | (?P<closing>[)\]])
+      | (?P<perhaps>[?*])
+      | (?P<times>~[ ]*(?P<least>\d{1,9})(?:[ ]*\.\.[ ]*(?P<most>\d{1,9}))?)
+      | (?P<alternative>\|)
+    """,
+    re.VERBOSE | re.MULTILINE,
+)
+
+
+def _check_ways(text: str) -> None:
+    """Refuses rules that can be made in too many ways, before they are written out.
+
+    The ways of what stands in a row are multiplied: twenty words, each of which may be
+    left out, are a million.
+    """
+    name, levels, whole = "", [_Ways()], 0
+    for found in _SIGNS.finditer(text):
+        match found.lastgroup:
+            case "rule" | "other":
+                whole += levels[0].all()
+                name, levels = found["called"] or "", [_Ways()]
+            case "item":
+                levels[-1].add(1)
+            case "opening":
+                levels.append(_Ways())
+            case "closing" if len(levels) > 1:
+                levels[-2].add(levels.pop().all() + (found[0] == "]"))
+            case "perhaps":
+                levels[-1].last += 1
+            case "times":
+                least = int(found["least"])
+                levels[-1].repeat(least, int(found["most"] or least))
+            case "alternative":
+                levels[-1].end()
+        if name and whole + max(it.all() for it in levels[-2:]) > WAYS:
+            raise GrammarError(
+                f"up to the rule {name}, the rules can be made in more than {WAYS:,} "
+                "ways: give their parts rules of their own"
+            )
+
+
+@dataclass
+class _Ways:
+    """The ways to make what is between two brackets, as far as it has been read."""
+
+    before: int = 0
+    row: int = 1
+    last: int = 1
+
+    def all(self) -> int:
+        """How many there are."""
+        return self.before + self.row * self.last
+
+    def add(self, ways: int) -> None:
+        """Goes on with something that can be made in so many ways."""
+        self.row, self.last = self.row * self.last, ways
+
+    def repeat(self, least: int, most: int) -> None:
+        """What was last stands several times."""
+        if self.last == 1:
+            self.last = max(1, most - least + 1)
+        elif most > _OFTEN:
+            self.last = WAYS + 1
+        else:
+            self.last = sum(self.last**it for it in range(least, most + 1))
+
+    def end(self) -> None:
+        """An alternative begins."""
+        self.before, self.row, self.last = self.all(), 1, 1
 
 
 # --- by Lark --------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from collections.abc import Callable, Iterator
@@ -80,7 +81,7 @@ def talk(
 
 def _check_apart(hear: str, say: str) -> None:
     """Writing what is said must not overwrite what is to be heard."""
-    if hear and Path(hear).resolve() == Path(say).resolve():
+    if hear and os.path.realpath(hear) == os.path.realpath(say):
         raise SoundError(f"{hear} is what is to be heard: give --say another file")
 
 

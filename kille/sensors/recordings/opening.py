@@ -72,6 +72,8 @@ def _open(name: str, path: Path, options: Options) -> Sensor:
     if path.exists():
         _refuse_empty(name, path)
         raise SensorError(f"{name}: unknown format; known are {KNOWN}")
+    if path.is_symlink():
+        raise SensorError(f"{name}: cannot be read (it is a link that leads nowhere)")
     return _open_scene(name, path, options)
 
 

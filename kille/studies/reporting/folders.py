@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -229,9 +230,11 @@ def _both(one: Path, other: Path, command: str, consent: Consent) -> Subject:
 
 def _called(one: Path, other: Path) -> tuple[str, str]:
     """What two folders are called: by their names, or by where they are."""
-    if one.resolve() == other.resolve():
+    if os.path.realpath(one) == os.path.realpath(other):
         raise StudyError([f"{one} and {other} are one folder: name two"])
-    names = [it.resolve().name.removesuffix(_USUAL) for it in (one, other)]
+    names = [
+        Path(os.path.realpath(it)).name.removesuffix(_USUAL) for it in (one, other)
+    ]
     return (names[0], names[1]) if names[0] != names[1] else (str(one), str(other))
 
 
