@@ -12,7 +12,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo talk test bench mutants oracles clean
+.PHONY: help demo talk test deep bench mutants oracles clean
 
 help: ## show these lines
 	@sed -n 's/^\([a-z]*\):[^#]*## /\1\t/p' Makefile | expand -t 10
@@ -29,6 +29,10 @@ test: $(SENSES) ## format, lint, types, import directions, then all tests and ex
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(SINGLE) $(BIN)/pytest -n auto --dist worksteal
+
+deep: $(SENSES) ## the tests that take too long for every day; not a part of test
+	HYPOTHESIS_PROFILE=$${HYPOTHESIS_PROFILE:-deep} $(SINGLE) \
+	    $(BIN)/pytest -n auto --dist worksteal -m deep
 
 bench: $(SENSES) ## measure how fast things are, on one thread
 	@for script in benchmarks/[!_]*.py; do \

@@ -11,6 +11,7 @@ import errno
 import io
 import json
 import os
+import re
 import stat
 import sys
 import tomllib
@@ -196,8 +197,15 @@ def parse_json(
 
 def parse_toml(text: str) -> dict[str, Any]:
     """What is in a text of TOML; `ValueError` for whatever is wrong with it."""
+    if _LONG_KEY.search(text):  # for which tomllib takes minutes
+        raise _too_deep()
     found: dict[str, Any] = _parsed(lambda: tomllib.loads(text))
     return found
+
+
+_PART = r"""(?: [\w-]++ | "[^"\n]*+" | '[^'\n]*+' ) [ \t]*+"""
+_LONG_KEY = re.compile(rf"(?<![\w-])(?: {_PART} \. [ \t]*+ ){{{DEPTH}}}", re.VERBOSE)
+"""A key of too many parts, `a.b.c`."""
 
 
 def _parsed(parse: Callable[[], Any]) -> Any:
