@@ -107,3 +107,28 @@ def test_what_is_not_plain_is_left_to_lark(text):
 def test_what_is_no_grammar_is_refused(text):
     with pytest.raises(GrammarError):
         Grammar(text).parse("a")
+
+
+MANY = {
+    "a row of alternatives": "x:" + " (A | B)" * 40,
+    "a row of what may be missing": "x:" + " A?" * 40,
+    "a row in brackets": "x:" + " [A]" * 40,
+    "a row of texts": "x:" + ' ("a" | "b")' * 40,
+    "what stands often": "x: (A | B)~1..999",
+    "what stands very often": "x: A~1..999999999",
+    "rules that are many together": "x: A\n"
+    + "".join(f"y{it}:" + " (A | B)" * 10 + "\n" for it in range(20)),
+}
+
+
+@pytest.mark.parametrize("rule", MANY.values(), ids=MANY)
+def test_a_rule_that_can_be_made_in_too_many_ways_is_refused(rule: str) -> None:
+    text = f"start: x\n{rule}\nA: /a/\nB: /b/\n"
+    with pytest.raises(GrammarError, match="can be made in more than 10,000 ways"):
+        read(text, ["start"])
+
+
+def test_alternatives_are_added_and_not_multiplied() -> None:
+    words = " | ".join(["A"] * 3000)
+    text = f"start: {words}\nA: /a/\n%ignore /(b|c)?(d|e)?/ // (A|B)?(A|B)?\n"
+    assert len(read(text, ["start"]).productions) == 1

@@ -409,3 +409,65 @@ def test_a_story_that_may_not_be_read(program: Run, fine: Path) -> None:
     outcome = program("replay", str(fine))
     assert outcome.code == 2
     assert "permission denied" in outcome.complaint
+
+
+# --- what is no input ----------------------------------------------------------------
+
+READING = {
+    ("replay", "FILE"),
+    ("talk", "--sensor", "FILE"),
+    ("talk", "--hear", "FILE"),
+    ("convert", "FILE", "out.bag"),
+    ("memory", "import", "FILE"),
+    ("experiment", "check", "FILE"),
+    ("experiment", "run", "FILE"),
+    ("evaluate", "objects", "FILE"),
+    ("evaluate", "relations", "FILE"),
+}
+
+
+@pytest.fixture
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is waited for longer than some hundredths of a second."""
+    monkeypatch.setenv("KILLE_LIMITS", "0.005")
+    monkeypatch.setenv("OPENCV_IO_MAX_IMAGE_PIXELS", "1000000")
+
+
+@pytest.mark.parametrize("kind", ["pipe", "loop", "device"])
+@pytest.mark.parametrize("words", sorted(READING), ids=" ".join)
+@pytest.mark.usefixtures("impatient")
+def test_what_is_no_file_is_refused_in_one_line(
+    kille: Run, tmp_path: Path, kind: str, words: tuple[str, ...]
+) -> None:
+    file = tmp_path / "file"
+    match kind:
+        case "pipe":
+            os.mkfifo(file)
+        case "loop":
+            file.symlink_to(file)
+        case "device":
+            file = Path("/dev/zero")
+    outcome = kille(*(str(file) if it == "FILE" else it for it in words))
+    assert outcome.code == 2
+    assert outcome.out == ""
+    assert outcome.complaint.startswith("kille: ")
+    assert "developers" not in outcome.complaint
+
+
+def test_a_line_without_end_ends_the_talk(kille: Run) -> None:
+    outcome = kille("talk", "--sensor", "synthetic:empty", typed="x" * 20_000)
+    assert outcome.code == 2
+    assert "it has more than 10,000 characters" in outcome.complaint
+
+
+def test_opencv_refuses_what_is_too_large_by_itself(tmp_path: Path) -> None:
+    picture = tmp_path / "large.ppm"
+    picture.write_bytes(b"P5 30000 30000 255\n" + bytes(99))
+    script = (
+        "import sys; from kille.interfaces.cli import main; main(['memory', 'list']);"
+        "import cv2; cv2.imread(sys.argv[1])"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", script, picture], capture_output=True, text=True
+    )
+    assert "pixels <= CV_IO_MAX_IMAGE_PIXELS" in run.stderr

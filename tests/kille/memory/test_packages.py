@@ -34,6 +34,7 @@ from kille.memory.importing import opened
 from kille.memory.merging import Merged
 from kille.memory.packages import PackageError
 from kille.scene import Configuration
+from ttr.limits import FACTOR, Limit
 
 from .conftest import ARRANGEMENTS, NAMES, SIGHTINGS, SURFACES, plain
 
@@ -593,3 +594,95 @@ def test_a_memory_that_fails_while_it_learns_is_as_it_was(
         with pytest.raises(Exception, match="disk is full"):
             memory.merge(package)
         assert (memory.dialogues(), memory.lessons()) == ((), ())
+
+
+# --- limits --------------------------------------------------------------------------
+
+
+def refused(path: Path) -> str:
+    with pytest.raises(PackageError) as caught, opened(path):
+        pass
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_a_file_of_a_package_is_no_larger_than_it_may_be(
+    tmp_path: Path, place: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / place
+    with Memory.transient() as memory:
+        dialogue = memory.begin_dialogue("2026-01-31T12:00")
+        memory.record_turn(Turn(dialogue, 1, "robot", "I see a thing. " * 99, "", ""))
+        export(memory, path)
+    with opened(path) as package:
+        assert len(package.turns) == 1
+    few = Limit(1000, "bytes")
+    monkeypatch.setattr("kille.memory.packages.MEMBER", few)
+    assert "and no more than 1 kB are read" in refused(path)
+
+
+def test_a_zip_holds_no_more_than_it_may_in_all(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "package.zip"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for number in range(3):
+            archive.writestr(f"{number}", bytes(500))
+    monkeypatch.setattr("kille.memory.packages.PACKAGE", Limit(1000, "bytes"))
+    assert "it has 1.5 kB, and no more than 1 kB are read" in refused(path)
+
+
+def test_a_file_that_unpacks_to_more_than_memory_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "package.zip"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("memory.json", bytes(65_000_000))
+    assert "it has 65 MB, and no more than 64 MB are read" in refused(path)
+
+
+@pytest.mark.parametrize("made", ["pipe", "loop", "device", "folder"])
+def test_what_is_no_file_is_no_part_of_a_package(
+    tmp_path: Path, made: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(FACTOR, "0.005")
+    part = tmp_path / "memory.json"
+    match made:
+        case "pipe":
+            os.mkfifo(part)
+        case "loop":
+            part.symlink_to(part)
+        case "device":
+            part.symlink_to("/dev/zero")
+        case "folder":
+            part.mkdir()
+    assert "cannot be read" in refused(tmp_path)
+
+
+def test_the_names_in_a_zip_lead_nowhere(tmp_path: Path) -> None:
+    path = tmp_path / "inner" / "package.zip"
+    path.parent.mkdir()
+    with Memory.transient() as memory:
+        memory.begin_dialogue("2026-01-31T12:00")
+        export(memory, path)
+    with zipfile.ZipFile(path, "a") as archive:
+        archive.writestr("../outside", "x")
+        link = zipfile.ZipInfo("link")
+        link.external_attr = 0o120777 << 16
+        archive.writestr(link, "/etc/passwd")
+    with opened(path) as package:
+        assert len(package.dialogues) == 1
+    assert [it.name for it in tmp_path.rglob("*")] == ["inner", "package.zip"]
+
+
+@pytest.mark.parametrize("line", [b"[" * 100_000, b'{"dialogue":' + b"9" * 6000 + b"}"])
+def test_lines_of_a_package_nest_and_count_only_so_far(
+    tmp_path: Path, line: bytes
+) -> None:
+    path = tmp_path / "package"
+    with Memory.transient() as memory:
+        export(memory, path)
+    manifest = json.loads((path / "memory.json").read_bytes())
+    (path / "dialogues.jsonl").write_bytes(line)
+    manifest["files"]["dialogues.jsonl"] = sha256(line).hexdigest()
+    (path / "memory.json").write_text(json.dumps(manifest))
+    assert "is damaged, or no exported memory" in refused(path)

@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.speech.sound import RATE, Sound, SoundError, WavFile, read_wav
+from ttr.limits import Limit
 
 
 def wav(samples: bytes, rate: int, width: int, channels: int) -> bytes:
@@ -63,3 +64,34 @@ def test_a_file_is_whole_after_each_sound(tmp_path: Path) -> None:
 def test_what_is_no_sound_is_told(junk: bytes) -> None:
     with pytest.raises(SoundError, match="is not a WAV file"):
         read_wav(junk)
+
+
+@pytest.mark.parametrize("rate", [1, 999, 10**6])
+def test_a_rate_that_nothing_is_recorded_at_is_refused(
+    tmp_path: Path, rate: int
+) -> None:
+    path = tmp_path / "a.wav"
+    with wave.open(str(path), "wb") as file:
+        file.setparams((1, 2, rate, 0, "NONE", ""))
+        file.writeframes(bytes(2000))
+    with pytest.raises(SoundError, match=f"it has {rate} samples a second"):
+        read_wav(path)
+
+
+def test_a_sound_is_no_longer_than_it_may_be(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "a.wav"
+    with wave.open(str(path), "wb") as file:
+        file.setparams((1, 2, RATE, 0, "NONE", ""))
+        file.writeframes(bytes(2 * RATE * 3))
+    assert read_wav(path).seconds == 3
+    monkeypatch.setattr("kille.speech.sound.SOUND", Limit(2, "seconds"))
+    with pytest.raises(SoundError, match="it has 3 seconds, and no more than 2"):
+        read_wav(path)
+
+
+def test_a_long_sound_keeps_its_length_at_another_rate() -> None:
+    seconds = 250
+    assert Sound(8_000, bytes(2 * 8_000 * seconds)).at(RATE).seconds == seconds
+    assert Sound(400_000, bytes(2)).at(RATE).samples == b""
