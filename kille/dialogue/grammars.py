@@ -202,7 +202,7 @@ def _production(
     name: str, symbols: tuple[Symbol, ...], alias: str | None, only_child: bool
 ) -> Production:
     """A rule of Lark's; its repetitions (`x*`) are turned to go from left to right."""
-    if name.startswith("__") and symbols[0].name == name:
+    if name.startswith("__") and symbols and symbols[0].name == name:
         symbols = (*symbols[1:], symbols[0])
     inlined = name.startswith("_") and not alias
     return Production(name, symbols, None if inlined else alias or name, only_child)
