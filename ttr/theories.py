@@ -126,7 +126,8 @@ class Expected:
 class Opening:
     """How a theory declares a game: all of it but the model in which it is played.
 
-    `start` is its first state, of `type`; `agenda` the path of what it plans.
+    `start` is its first state, of `type`; `agenda` the path of what it plans, `hears`
+    the types of the events that come from outside, where it says which.
     """
 
     name: str
@@ -135,6 +136,7 @@ class Opening:
     algorithm: Algorithm
     agenda: str | None = None
     span: Span | None = None
+    hears: tuple[TypeNode, ...] = ()
 
 
 def _nothing() -> Mapping[str, Object]:

@@ -20,7 +20,20 @@ THEORIES = sorted((ROOT / "grammars").glob("*.ttr")) + sorted(
 
 WORDS = (
     *("basic", "pred", "object", "given", "check", "rule", "strategy", "game", "open"),
-    *("in", "of", "on", "not", "fun", "list", "set", "Rec", "RecType", "RecType^1"),
+    *(
+        "in",
+        "of",
+        "on",
+        "acts",
+        "hears",
+        "not",
+        "fun",
+        "list",
+        "set",
+        "Rec",
+        "RecType",
+        "RecType^1",
+    ),
     *("A", "x", "x.y", ".x", "^.x", "^^.x.y", "_a", "f1", '"a b"', "'a'", '""', "1"),
     *("[", "]", "(", ")", "{", "}", "<", ">", ",", ":", ":=", "=", "~", "|", "||"),
     *("\\/", "/\\", "@", "+", "->", "<:", ".", "^", "\\", "# note\n", "\n", "é", "λ"),

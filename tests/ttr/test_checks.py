@@ -634,6 +634,14 @@ def test_own_moves_are_events():
     assert [fault.rule.name for fault in faults_of(heard)] == ["barked"]
 
 
+def test_events_that_are_heard_and_that_no_rule_takes():
+    hello, bye = rectype(e=hug("a")), rectype(e=run_("a"))
+    greet = made("greet", Phased, on=hello)
+    (fault,) = faults(greet, Phased, hears=[hello, bye], **AT_FIRST)
+    assert (fault.sort, fault.rule) == ("unheard", None)
+    assert fault.message == "the game hears events of [e : run(a)], which no rule takes"
+
+
 # --- rules that disagree -------------------------------------------------------------
 
 

@@ -8,7 +8,14 @@ from pathlib import Path
 import pytest
 
 from ttr.checking import check
-from ttr.errors import NoState, NotationError, TTRError, Unsupported, UpdateError
+from ttr.errors import (
+    NoState,
+    NotationError,
+    NotHeard,
+    TTRError,
+    Unsupported,
+    UpdateError,
+)
 from ttr.interactive.repl import is_complete, respond
 from ttr.interactive.sessions import Session
 from ttr.models import Model
@@ -222,6 +229,27 @@ def test_a_game_may_start_from_a_name_and_play_a_strategy() -> None:
     assert found.games["g"].algorithm is found.strategies["both"]
 
 
+def test_a_game_hears_what_it_says_it_hears() -> None:
+    found = board(
+        "rule take(s : State, e : Move) := Start\n"
+        "game g(Start : State, hears Move, Ind) := take\n"
+        "game h(Start : State, acts on plan, hears [m : Ind]) := take\n"
+    )
+    assert found.games["g"].hears == (found.Move, found.Ind)
+    assert found.games["h"].hears == (found.parse("[m : Ind]"),)
+    assert found.games["h"].agenda == "plan"
+    with pytest.raises(NotHeard):
+        found.games["h"].take(found.games["h"].begin(), found.Move)
+
+
+def test_a_type_may_be_called_as_a_word_of_games() -> None:
+    found = board(
+        "hears := [m : Ind]\nrule take(s : State, e : hears) := Start\n"
+        "game g(Start : State, hears hears) := take\n"
+    )
+    assert found.games["g"].hears == (found.hears,)
+
+
 def test_a_game_that_starts_from_no_state_is_told_with_its_place() -> None:
     found = board(
         "game g({spkr = 'c', addr = b, plan = [], in = {deep = a}} : State) := turn"
@@ -315,8 +343,30 @@ MISTAKES = {
     ),
     "game g(Start : State, act on plan) := turn": (
         23,
-        "expected acts on, found act",
+        "expected acts on or hears, found act",
         "did you mean acts?",
+    ),
+    "game g(Start : State, hear Move) := turn": (
+        23,
+        "expected acts on or hears, found hear",
+        "did you mean hears?",
+    ),
+    "game g(Start : State hears Move) := turn": (
+        22,
+        "expected a comma or ), found hears",
+        "a comma stands before hears",
+    ),
+    "game g(Start : State, hears Move, acts on plan) := turn": (
+        40,
+        "expected a comma or ), found on",
+        "acts on stands before hears",
+    ),
+    "game g(Start : State, hears) := turn": (28, "expected a type, found )", ""),
+    "game g(Start : State, hears Move,) := turn": (34, "expected a type, found )", ""),
+    "game g(Start : State, hears Moev) := turn": (
+        29,
+        "nothing is called Moev here",
+        "did you mean Move?",
     ),
     "game g(Start : State, acts on) := turn": (30, "expected a path, found )", ""),
     # names that are taken
@@ -752,6 +802,10 @@ def test_games_are_written_as_they_are_read() -> None:
     found = board("game g(Start : State, acts on plan) := maybe(both)")
     assert declaration(found, "g") == (
         f"game g({found.Start} : {SHAPE}, acts on plan) := maybe(all(turn, plan))"
+    )
+    again = board("game g(Start : State, acts on plan, hears Ind, Rec) := turn")
+    assert declaration(again, "g") == (
+        f"game g({again.Start} : {SHAPE}, acts on plan, hears Ind, Rec) := turn"
     )
     with pytest.raises(KeyError):
         declaration(found, "State")

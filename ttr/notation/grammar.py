@@ -291,9 +291,18 @@ class _Trees(Transformer_NonRecursive[Token, Any]):
         return self._at(trees.StrategyStatement, meta, *children)
 
     def game(self, meta: Meta, children: list[Any]) -> trees.GameStatement:
-        name, begin, base, *agenda, value = children
-        path = agenda[0] if agenda else None
-        return self._at(trees.GameStatement, meta, name, begin, base, path, value)
+        name, begin, base, *parts, value = children
+        path = next((one for one in parts if isinstance(one, Term)), None)
+        heard = next((one for one in parts if isinstance(one, tuple)), ())
+        return self._at(
+            trees.GameStatement, meta, name, begin, base, path, heard, value
+        )
+
+    def acting(self, meta: Meta, children: list[Term]) -> Term:
+        return children[0]
+
+    def hearing(self, meta: Meta, children: list[Term]) -> tuple[Term, ...]:
+        return tuple(children)
 
     def axiom(self, meta: Meta, children: list[Term]) -> trees.AxiomClaim:
         return self._at(trees.AxiomClaim, meta, *children)

@@ -108,6 +108,7 @@ _SIGNS = {
     "_OF": "of",
     "_WHERE": "where",
     "_ACTS": "acts on",
+    "_HEARS": "hears",
     "_ON": "on",
     "STRING": "a quoted name",
     "$END": "the end",
@@ -123,6 +124,7 @@ _OPERATOR = "_AND"
 _AFTER = (
     (r"(?s)^(strategy|game)\b.*:=$", "a rule or a strategy"),
     (r"(?s)^game\b.*\bacts\s+on$", "a path"),
+    (r"(?s)^game\b.*\bhears(\s[^:]*,)?$", "a type"),
     (r"(^|[^\w])(<:|<=|⊑|/\\|&|∧|\\/|\||∨|~|¬|->|→)$", "a type"),
     (r":=$", "a type or an object"),
     (r":$", "a type"),
@@ -193,7 +195,9 @@ _HINTS = (
     (r"^strategy\s+\w*\s*$", r"", _STRATEGY),
     (r"^game\s*\([^()]*$", r":", _GAME),
     (r"^game\s+\w+\s*$", r"", _GAME),
-    (r"(?s)^game\s+\w+\s*\(.*$", r"acts\b", "a comma stands before acts on"),
+    (r"(?s)^game\b.*\bhears\b.*,\s*acts\s*$", r"on\b", "acts on stands before hears"),
+    (r"(?s)^game\s+\w+\s*\(.*[^,\s]\s*$", r"acts\b", "a comma stands before acts on"),
+    (r"(?s)^game\s+\w+\s*\(.*[^,\s]\s*$", r"hears\b", "a comma stands before hears"),
     (r"^game\s+\w+\s*\([^:]*$", r"\)", _GAME),
     (r"(?s)^game\b.*\)\s*$", r"=|->|→", _GAME),
     (r"(\\|\bfun\s)\s*\w+\s*:[^:]*[^\W\d]\.\w[^:]*$", r"", _DOTTED),
@@ -236,7 +240,7 @@ def _hint(before: str, after: str) -> str:
 
 _WORDS = (
     (r"(?s)^rule\b.*[)\]'\"]\s*$", ("of", "where")),
-    (r"(?s)^game\b.*,\s*$", ("acts",)),
+    (r"(?s)^game\b.*,\s*$", ("acts", "hears")),
     (r"\bacts\s*$", ("on",)),
 )
 """What words stand behind what."""

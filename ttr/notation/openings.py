@@ -1,4 +1,4 @@
-"""Games as statements: `game name({next = []} : State, acts on next) := strategy`."""
+"""Games as statements: `game g({x = a} : S, acts on next, hears A, B) := strategy`."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ def opening_of(tree: GameStatement, reader: Reader) -> Opening:
     played = algorithm(tree.value, reader)
     agenda = _agenda(tree.agenda, state, reader) if tree.agenda else None
     span = reader.source.span(tree.begin)
-    return Opening(tree.name.text, state, start, played, agenda, span)
+    hears = tuple(reader.type(T, ()) for T in tree.hears)
+    return Opening(tree.name.text, state, start, played, agenda, span, hears)
 
 
 def _agenda(term: Term, state: RecordType, reader: Reader) -> str:
@@ -87,6 +88,7 @@ def opened(theory: Theory) -> Mapping[str, Game]:
                 one.algorithm,
                 model,
                 agenda=one.agenda,
+                hears=one.hears,
                 theory=theory,
             )
         except TTRError as error:

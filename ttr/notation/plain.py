@@ -36,7 +36,10 @@ from ttr.notation.trees import (
 __all__ = ["plain_statement"]
 
 _OTHERS = frozenset(
-    (*KEYWORDS, "acts", "error", "fun", "in", "not", "of", "on", "unknown", "where")
+    (
+        *(*KEYWORDS, "acts", "error", "fun", "hears", "in"),
+        *("not", "of", "on", "unknown", "where"),
+    )
 )
 """Words of the notation: what begins with them or has them in it is not plain."""
 

@@ -349,12 +349,13 @@ class StrategyStatement(Statement):
 
 @dataclass(frozen=True, slots=True)
 class GameStatement(Statement):
-    """game name(start : S, acts on agenda) := value."""
+    """game name(start : S, acts on agenda, hears A, B) := value."""
 
     name: Word
     begin: Term
     type: Term
     agenda: Term | None
+    hears: tuple[Term, ...]
     value: Term
 
 

@@ -106,7 +106,9 @@ def declaration(theory: Theory, name: str, fold: Fold = lambda value: value) -> 
 def _opening(game: Opening, fold: Fold) -> str:
     start, state = notation(fold(game.start)), notation(fold(game.type))
     acts = f", acts on {game.agenda}" if game.agenda else ""
-    return f"game {game.name}({start} : {state}{acts}) := {game.algorithm}"
+    types = ", ".join(notation(fold(T)) for T in game.hears)
+    hears = f", hears {types}" if types else ""
+    return f"game {game.name}({start} : {state}{acts}{hears}) := {game.algorithm}"
 
 
 def _folded(rule: Rule, fold: Fold) -> Rule:

@@ -17,7 +17,7 @@ from ttr.updates.checks.loops import endless
 from ttr.updates.checks.overlaps import disagreements
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.sorts import Fault
-from ttr.updates.checks.triggers import unset
+from ttr.updates.checks.triggers import unheard, unset
 from ttr.updates.checks.values import misfits
 from ttr.updates.rules import Rule
 
@@ -100,6 +100,7 @@ CHECKS = (
     misfits,
     dead,
     unset,
+    unheard,
     disagreements,
     endless,
 )

@@ -11,7 +11,14 @@ from ttr.updates.rules import Rule
 __all__ = ["Fault", "Severity", "Sort"]
 
 Sort: TypeAlias = Literal[
-    "missing", "unbound", "misfit", "dead", "disagreement", "unset", "endless"
+    "missing",
+    "unbound",
+    "misfit",
+    "dead",
+    "disagreement",
+    "unset",
+    "unheard",
+    "endless",
 ]
 """What kind of fault it is: see the explanation *What the checker sees*."""
 

@@ -14,7 +14,7 @@ from ttr.updates.checks.rulesets import Demand, RuleSet
 from ttr.updates.checks.sorts import Fault
 from ttr.updates.rules import Rule
 
-__all__ = ["sets", "unset"]
+__all__ = ["sets", "unheard", "unset"]
 
 
 def unset(rules: RuleSet) -> Iterator[Fault]:
@@ -123,6 +123,17 @@ def _brings(
 
 
 # --- events --------------------------------------------------------------------------
+
+
+def unheard(rules: RuleSet) -> Iterator[Fault]:
+    """The types of events that the game says it hears, and that no rule takes."""
+    taken = [rule.on for rule in rules.rules if rule.on is not None]
+    for heard in rules.hears:
+        if not any(rules.alike(heard, on) for on in taken):
+            message = f"the game hears events of {heard}, which no rule takes"
+            yield Fault(
+                None, "unheard", message, "write a rule for them, or leave it out"
+            )
 
 
 def _is_sent(rules: RuleSet, on: TypeNode, firing: list[Rule]) -> bool:
