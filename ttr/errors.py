@@ -9,6 +9,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 from ttr.escapes import columns, terminal_line, terminal_text
 
@@ -143,7 +144,12 @@ class TooLargeError(TTRError):
 
 
 class UpdateError(TTRError):
-    """A rule, a state or an event that an update cannot go on with."""
+    """A rule, a state or an event that an update cannot go on with.
+
+    `steps` are the rules that had been applied in the same turn, as far as is known.
+    """
+
+    steps: tuple[Any, ...] = ()
 
 
 class NoState(UpdateError):

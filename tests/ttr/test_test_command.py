@@ -49,7 +49,7 @@ def test_what_holds_is_told_with_what_was_covered(capsys):
     printed = capsys.readouterr().out
     assert "note      " in printed
     assert "1 of 1 rules applied" in printed
-    assert "not checked: P8 (no qud); P9 (no qud); P16 (no words)" in printed
+    assert "not checked: P8, P9, P26 (no qud)" in printed
     assert "talk: holds, 20 dialogues in " in printed
 
 
@@ -72,7 +72,8 @@ def test_the_report_for_machines(capsys):
     assert (talk["game"], talk["holds"], talk["broken"]) == ("talk", True, None)
     assert talk["coverage"]["rules"]["note"] > 50
     assert talk["coverage"]["dialogues"] == 30
-    assert talk["not_checked"] == ["P8", "P9", "P16"]
+    assert talk["not_checked"] == ["P8", "P9", "P23", "P24", "P16", "P26"]
+    assert talk["roles"] == {"commitments": "facts"}
     assert forget["holds"] is False
     assert forget["broken"]["property"] == "P10"
     assert forget["broken"]["turn"] == 2
@@ -88,7 +89,7 @@ def test_the_tutor_and_the_roles_beside_a_game_in_python(capsys):
     assert main(["test", "beside.py:forget", "--examples", "5"]) == 0
     printed = capsys.readouterr().out
     assert "0 of 1 rules applied" in printed  # the tutor is silent
-    assert "P10 (no commitments)" in printed
+    assert "P10, P22 (no commitments)" in printed
 
 
 def test_dialogues_begin_where_the_starts_beside_a_game_say(capsys, folder):
@@ -195,3 +196,56 @@ def test_the_bar_is_as_long_as_it_is_far():
     assert _bar(0, 10).startswith("░" * 30)
     assert _bar(5, 10) == "█" * 15 + "░" * 15 + " 5 of 10 dialogues"
     assert _bar(12, 10).startswith("█" * 30)
+
+
+ROUND = """
+    basic Ind
+    object a : Ind
+    pred ask(Ind), reply(Ind)
+    Ask   := [e : ask(a)]
+    Reply := [e : reply(a)]
+    Moves := list(RecType)
+    Board := [wishes : Moves]
+    rule asked(s : Board, e : Ask) := [wishes = [Reply] : Moves]
+    rule replied(s : Board, e : Reply) := [wishes = [Ask] : Moves]
+    game round({wishes = []} : Board, acts on wishes, hears Ask)
+        := first(asked, replied)
+"""
+
+
+def test_an_agenda_that_goes_round_is_told_with_its_rules(capsys, folder):
+    (folder / "round.ttr").write_text(ROUND)
+    assert main(["test", "round.ttr", "--examples", "5"]) == 1
+    printed = capsys.readouterr().out
+    assert "not empty after 100 moves in a turn: replied → asked → …" in printed
+    assert "asked         51  replied 50" in printed  # the turn that fails counts
+
+
+def test_what_plays_a_role_is_told_and_can_be_declared(capsys, folder):
+    text = GOOD.replace("facts", "words")
+    (folder / "words.ttr").write_text(text.replace("[e.w] + s.words", "[e.w]"))
+    assert main(["test", "words.ttr", "--examples", "20"]) == 0
+    assert "taken:" not in capsys.readouterr().out
+    declared = ["test", "words.ttr", "--examples", "20", "--role", "commitments=words"]
+    assert main(declared) == 1
+    printed = capsys.readouterr().out
+    assert printed.startswith("P10 commitments stay")
+    assert "taken: words as commitments; to change it: --role ROLE=PATH" in printed
+    assert main([*declared, "--role", "retracts=note"]) == 0
+
+
+def test_a_role_can_be_taken_from_a_field(capsys):
+    assert main(["test", "bad.ttr", "--examples", "20", "--role", "commitments="]) == 0
+    assert "P10, P22 (no commitments)" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("role", "told"),
+    [
+        ("king=facts", "a role is one of qud, commitments, "),
+        ("qud=fatcs", "did you mean facts?"),
+    ],
+)
+def test_a_role_that_is_none_is_told_in_a_line(role, told, capsys):
+    assert main(["test", "good.ttr", "--role", role]) == 2
+    assert told in capsys.readouterr().err

@@ -26,6 +26,7 @@ from ttr.errors import TTRError
 if TYPE_CHECKING:
     from ttr.consent import Consent
     from ttr.stories import Setting
+    from ttr.strategies.roles import Roles
     from ttr.testing import Coverage, Report
     from ttr.updates import Game
 
@@ -67,6 +68,15 @@ def add(commands: Commands) -> None:
     test.add_argument(
         "--seed", type=int, default=0, metavar="S", help="draws other dialogues"
     )
+    test.add_argument(
+        "--role",
+        type=_role,
+        action="append",
+        default=[],
+        metavar="ROLE=PATH",
+        help="what plays a role in the state, as qud=shared.issues; nothing does: "
+        "commitments=, rules that may: drops=reject,cancel",
+    )
     test.add_argument("--json", action="store_true", help="report for machines")
     add_allow(test)
     add_no_python(test)
@@ -79,6 +89,13 @@ def _count(text: str) -> int:
     return int(text)
 
 
+def _role(text: str) -> tuple[str, str]:
+    role, sign, path = text.partition("=")
+    if not sign or not role:
+        raise argparse.ArgumentTypeError(f"expected ROLE=PATH, found {text}")
+    return role, path
+
+
 def _test(options: argparse.Namespace) -> int:
     try:
         import ttr.testing  # noqa: F401
@@ -88,9 +105,13 @@ def _test(options: argparse.Namespace) -> int:
         places = _places(options.rules, options.game, consent_of(options))
     except TTRError as error:
         return complain(str(error))
+    try:
+        roles = [_roles(place.game, options.role) for place in places]
+    except TTRError as error:
+        return complain(str(error))
     outcomes = []
-    for place in places:
-        outcome = _outcome(place, options)
+    for place, played in zip(places, roles, strict=True):
+        outcome = _outcome(place, played, options)
         outcomes.append(outcome)
         if not options.json:
             say(outcome.told())
@@ -122,6 +143,17 @@ def _places(rules: str, game: str | None, consent: Consent) -> list[Setting]:
     return [game_named(f"{rules} {name}", consent) for name in names]
 
 
+def _roles(game: Game, declared: list[tuple[str, str]]) -> Roles | None:
+    """What plays which role: what stands beside the game, and what was declared."""
+    from ttr.strategies.roles import Roles
+    from ttr.testing.companions import roles_of
+
+    roles = roles_of(game)
+    if not declared:
+        return roles
+    return (roles or Roles.of(game.type)).declared(game.type, dict(declared))
+
+
 # --- testing one ---------------------------------------------------------------------
 
 
@@ -148,7 +180,8 @@ class _Outcome:
 
     def told(self) -> str:
         """For reading: what went wrong, and what was covered."""
-        parts = [self._wrong(), self.coverage.table(), self._skipped(), self._summary()]
+        known = "\n".join(filter(None, [self._roles(), self._skipped()]))
+        parts = [self._wrong(), self.coverage.table(), known, self._summary()]
         return "\n\n".join(filter(None, parts)) + "\n"
 
     def _wrong(self) -> str:
@@ -165,8 +198,19 @@ class _Outcome:
     def _skipped(self) -> str:
         if self.report is None or not self.report.skipped:
             return ""
-        told = [f"{one.name} (no {', '.join(no)})" for one, no in self.report.skipped]
+        lacking: dict[str, list[str]] = {}
+        for one, no in self.report.skipped:
+            lacking.setdefault(", ".join(no), []).append(one.name)
+        told = [f"{', '.join(names)} (no {no})" for no, names in lacking.items()]
         return f"not checked: {'; '.join(told)}"
+
+    def _roles(self) -> str:
+        """What was taken for what, and how to say it otherwise."""
+        paths = self.report.roles.paths if self.report is not None else {}
+        if not paths:
+            return ""
+        told = ", ".join(f"{path} as {role}" for role, path in paths.items())
+        return f"taken: {told}; to change it: --role ROLE=PATH"
 
     def _summary(self) -> str:
         name, count = self.place.game.name, self.coverage.dialogues
@@ -192,6 +236,7 @@ class _Outcome:
             facts["overall"] = [
                 {"property": one.name, "why": why} for one, why in report.overall
             ]
+            facts["roles"] = report.roles.paths
             facts["not_checked"] = [one.name for one, _ in report.skipped]
         return facts
 
@@ -211,16 +256,18 @@ def _broken(report: Report, place: Setting) -> dict[str, Any] | None:
     }
 
 
-def _outcome(place: Setting, options: argparse.Namespace) -> _Outcome:
+def _outcome(
+    place: Setting, roles: Roles | None, options: argparse.Namespace
+) -> _Outcome:
     from ttr.testing import Suite
-    from ttr.testing.companions import roles_of, starts_of, tutor_of
+    from ttr.testing.companions import starts_of, tutor_of
     from ttr.testing.processes import differing
 
     watch = _Watch(place.game, options.examples)
     suite = Suite(
         place.game,
         tutor_of(place.game),
-        roles=roles_of(place.game),
+        roles=roles,
         turns=options.turns,
         examples=options.examples,
         seed=options.seed,

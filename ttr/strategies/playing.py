@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Any
 
-from ttr.errors import NotHeard, TTRError
+from ttr.errors import NotHeard, TTRError, UpdateError
 from ttr.models import Model
 from ttr.strategies.snapshots import changed_since, copied, snapshot
 from ttr.syntax import Object, Record, TypeNode
@@ -41,6 +41,13 @@ class Trial:
     def steps(self) -> tuple[Step, ...]:
         """The rules that were applied."""
         return () if self.turn is None else self.turn.trace
+
+    @property
+    def applied(self) -> tuple[Step, ...]:
+        """The rules that were applied, also in a turn that came to no end."""
+        if isinstance(self.fault, UpdateError):
+            return self.fault.steps
+        return self.steps
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,6 +1,6 @@
 """Property tests of update rules: `check_rules` plays thousands of dialogues.
 
-Rules are tested by properties that any dialogue theory should have, P1 to P20, on
+Rules are tested by properties that any dialogue theory should have, P1 to P27, on
 dialogues that a state-aware tutor plays. What goes wrong is told with the shortest
 dialogue that shows it, as a story that reproduces it.
 

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from ttr.testing.agendas import DONE_ONCE
 from ttr.testing.dead import NO_DEAD_RULE
 from ttr.testing.discourse import COMMITMENTS_STAY, DOWNDATES_ONCE, QUD_DISCIPLINE
+from ttr.testing.flows import ANSWERED, EMPTIES
+from ttr.testing.grounding import AGREED_ONCE, SAID_FIRST
+from ttr.testing.hearing import NOTHING_DROPPED
 from ttr.testing.properties import Property
 from ttr.testing.repeating import CONFLUENT, DETERMINISTIC, REPLAYS
 from ttr.testing.soundness import (
@@ -13,9 +17,10 @@ from ttr.testing.soundness import (
     PURE,
     TERMINATES,
 )
+from ttr.testing.speakers import IN_TURN
 from ttr.testing.turns import EVENTS_ONCE, FRESH_ANSWERS, ROUND_TRIP, TAKES_TURNS
 
-__all__ = ["ALL", "OF_ONE_RULE"]
+__all__ = ["ALL", "OF_GAMES", "OF_ONE_RULE"]
 
 ALL: tuple[Property, ...] = (
     PURE,
@@ -28,14 +33,24 @@ ALL: tuple[Property, ...] = (
     QUD_DISCIPLINE,
     DOWNDATES_ONCE,
     COMMITMENTS_STAY,
+    SAID_FIRST,
+    AGREED_ONCE,
+    DONE_ONCE,
+    IN_TURN,
     FRESH_ANSWERS,
     TAKES_TURNS,
     ROUND_TRIP,
     EVENTS_ONCE,
     REPLAYS,
+    ANSWERED,
+    EMPTIES,
+    NOTHING_DROPPED,
     NO_DEAD_RULE,
 )
-"""Every property, P1 to P20."""
+"""Every property, P1 to P27."""
+
+OF_GAMES = (TAKES_TURNS, DONE_ONCE, IN_TURN, EMPTIES, ANSWERED, NOTHING_DROPPED)
+"""What is asked of games only: the states that they begin in are no others'."""
 
 OF_ONE_RULE = (PURE, KEEPS_TYPE, TERMINATES, NAMES_BOUND, NEVER_BREAKS, DETERMINISTIC)
 """What can be asked of a rule by itself."""

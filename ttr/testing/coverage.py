@@ -32,7 +32,7 @@ class Coverage:
         self.dialogues += 1
         self.turns += len(dialogue.trials)
         for trial in dialogue.trials:
-            names = [step.rule.name for step in trial.steps]
+            names = [step.rule.name for step in trial.applied]
             self.rules.update(names)
             self.pairs.update(pairwise(names))
 

@@ -65,7 +65,9 @@ def on_dialogues(
             try:
                 test(dialogue)
             except Exception as error:
-                return error
+                # What is shown is where the test fails, not who called it.
+                own = error.__traceback__
+                return error.with_traceback(own.tb_next if own else None)
             return None
 
         @wraps(test)
@@ -78,7 +80,7 @@ def on_dialogues(
             shown = story(broken.dialogue, title)
             told = f"The shortest dialogue found:\n\n{shown}"
             broken.why.add_note(terminal_text(told))
-            raise broken.why
+            raise broken.why from None
 
         # pytest takes the parameters of a test for fixtures: this one has none.
         del play_many.__dict__["__wrapped__"]

@@ -73,10 +73,12 @@ def machine(
         @invariant()
         def properties_hold(self) -> None:
             """What was played so far breaks no property."""
+            __tracebackhide__ = True
             for one in asked:
                 if breach := one.breach(self.dialogue, who):
                     shown = story(self.dialogue, str(one))
-                    raise AssertionError(terminal_text(f"{breach}\n\n{shown}"))
+                    told = terminal_text(f"{breach}\n\n{shown}")
+                    raise AssertionError(told) from None
 
     for number, T in enumerate(heard_by(game), start=1):
         setattr(Machine, f"event_{number}", rule(data=st.data())(_happening(T)))

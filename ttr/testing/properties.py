@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from ttr.errors import TTRError
 from ttr.strategies.playing import Dialogue
 from ttr.strategies.roles import Roles
 from ttr.testing.coverage import Coverage
+
+if TYPE_CHECKING:
+    from ttr.testing.flows import Flows, Seen
 
 __all__ = ["Breach", "Checked", "Property"]
 
@@ -22,8 +25,8 @@ class Property:
     """A property that update rules should have, checked on dialogues.
 
     `each` tells where one dialogue breaks it, `overall` whether many together do, by
-    what they covered. `needs` are the roles that a state must have for it to be
-    checked; `says` explains it in a line.
+    what they covered, and `across` by what came and went in them. `needs` are the roles
+    that a state must have for it to be checked; `says` explains it in a line.
     """
 
     name: str
@@ -31,6 +34,7 @@ class Property:
     says: str
     each: Callable[[Dialogue, Roles], Checked] | None = None
     overall: Callable[[Coverage], str] | None = None
+    across: Callable[[Flows], Iterator[Seen]] | None = None
     needs: tuple[str, ...] = ()
 
     def __str__(self) -> str:

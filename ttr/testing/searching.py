@@ -86,12 +86,13 @@ def search(
             found[:] = [Broken(dialogue, why)]
             raise _Stop
 
+    # What is found is made shorter when the exception is over, so that no failure that
+    # is raised then comes "during the handling of another".
     try:
         look()
     except _Stop:
-        return shortest(found[0], verdict)
+        pass
     except Flaky as error:
-        if found:
-            return shortest(found[0], verdict)
-        raise Unsteady(*seen) from error
-    return None
+        if not found:
+            raise Unsteady(*seen) from error
+    return shortest(found[0], verdict) if found else None

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from hypothesis import strategies as st
 
@@ -19,14 +19,14 @@ from ttr.strategies.roles import Roles
 from ttr.strategies.states import states
 from ttr.strategies.tutors import Speaker, Tutor
 from ttr.syntax import Record, RecordType, kind_of
-from ttr.testing.catalogue import ALL, OF_ONE_RULE
+from ttr.testing.catalogue import ALL, OF_GAMES, OF_ONE_RULE
 from ttr.testing.coverage import Coverage
+from ttr.testing.flows import Flows
 from ttr.testing.properties import Breach, Property, chosen
 from ttr.testing.repeating import DETERMINISTIC
 from ttr.testing.searching import DRAWN, DRAWN_AND_SHRUNK, Unsteady, how_many, search
 from ttr.testing.shortening import Broken
 from ttr.testing.telling import story
-from ttr.testing.turns import TAKES_TURNS
 from ttr.updates.algorithms import Algorithm, first
 from ttr.updates.checks import Fault, faults, faults_of
 from ttr.updates.games import Game
@@ -41,8 +41,9 @@ Starts = st.SearchStrategy[tuple[Record, Model]]
 class Report:
     """What came of testing: static faults, or the shortest dialogue that went wrong.
 
-    `coverage` is what the dialogues covered; `skipped` are the properties that nothing
-    in the state could be checked for, with the roles that nothing plays.
+    `coverage` is what the dialogues covered, `roles` what played which role; `skipped`
+    are the properties that nothing in the state could be checked for, with the roles
+    that nothing plays.
     """
 
     coverage: Coverage
@@ -50,6 +51,7 @@ class Report:
     broken: Broken[Breach] | None = None
     overall: tuple[tuple[Property, str], ...] = ()
     skipped: tuple[tuple[Property, tuple[str, ...]], ...] = ()
+    roles: Roles = field(default_factory=Roles)
 
     @property
     def holds(self) -> bool:
@@ -96,7 +98,7 @@ class Suite:
     def run(self) -> Report:
         """The static faults, or else what the dialogues came to."""
         if found := self.faults():
-            return Report(Coverage(self.game), found)
+            return Report(Coverage(self.game), found, roles=self._roles())
         return self.played()
 
     def faults(self) -> tuple[Fault, ...]:
@@ -112,6 +114,7 @@ class Suite:
         """What the dialogues came to, whatever the static checks say."""
         coverage = Coverage(self.game)
         roles = self._roles()
+        flows = Flows(self.game, roles)
 
         def verdict(dialogue: Dialogue) -> Breach | None:
             breaches = (one.breach(dialogue, roles) for one in self.properties)
@@ -119,6 +122,7 @@ class Suite:
 
         def counted(dialogue: Dialogue) -> Breach | None:
             coverage.add(dialogue)
+            flows.add(dialogue)
             if self.after_each is not None:
                 self.after_each(coverage)
             return verdict(dialogue)
@@ -135,20 +139,33 @@ class Suite:
             )
         except Unsteady as error:
             broken = Broken(error.dialogue, _unsteady(error))
+        if broken is None:
+            broken = next(self._across(flows), None)
         skipped = [(one, one.lacks(roles)) for one in self.properties]
         return Report(
             coverage,
             broken=broken,
             overall=() if broken else tuple(self._overall(coverage)),
             skipped=tuple((one, lacking) for one, lacking in skipped if lacking),
+            roles=roles,
         )
 
     def _roles(self) -> Roles:
         """The roles, with what the tutor may do."""
         roles = self.roles or Roles.of(self.game.type)
+        if roles.agenda is None and self.game.agenda is not None:
+            roles = replace(roles, agenda=self.game.agenda)
         if roles.acts or not isinstance(self.tutor, Tutor):
             return roles
         return replace(roles, acts=self.tutor.moves)
+
+    def _across(self, flows: Flows) -> Iterator[Broken[Breach]]:
+        """What the dialogues show together, with one of them."""
+        for one in self.properties:
+            if one.across is None or one.lacks(flows.roles):
+                continue
+            for seen in one.across(flows):
+                yield Broken(seen.dialogue, Breach(one, seen.turn, seen.why))
 
     def _overall(self, coverage: Coverage) -> Iterable[tuple[Property, str]]:
         for one in self.properties:
@@ -179,8 +196,9 @@ def check_rules(
     says or the Hypothesis profile, and each is checked for the properties. What fails
     is an `AssertionError` with its property, the reason, and the shortest dialogue
     that shows it, as a story. A list of rules is played as `first` of them, from
-    states drawn of the type, and is not asked for a way on from there (P14). The same
-    `seed` draws the same dialogues. Raises `TTRError` for what is no rule set.
+    states drawn of the type; then nothing is asked that only a game has, such as a way
+    on (P14), or that what is planned is made (P23). The same `seed` draws the same
+    dialogues. Raises `TTRError` for what is no rule set.
 
     >>> from ttr.constructors import rectype
     >>> from ttr.records import replace
@@ -202,11 +220,11 @@ def check_rules(
         suite = Suite(rules, tutor, found, roles, turns, examples, seed)
     else:
         game, starts = _bare(rules, type, model)
-        found = tuple(one for one in found if one is not TAKES_TURNS)
+        found = tuple(one for one in found if one not in OF_GAMES)
         suite = Suite(game, tutor, found, roles, turns, examples, seed, starts)
     report = suite.run()
     if not report.holds:
-        raise AssertionError(terminal_text(report.told()))
+        raise AssertionError(terminal_text(report.told())) from None
     return report
 
 

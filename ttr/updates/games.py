@@ -7,7 +7,7 @@ having made the move is taken by the rules like any other.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -172,20 +172,27 @@ class Game:
         happened, model = self._event(event, so_far.model)
         after = self._run(Run(so_far.state, model, ()), happened, None)
         said: list[Judgement] = []
+        after = self._acted(after, said)
+        return Turn(event, happened, tuple(said), after)
+
+    def _acted(self, after: Run, said: list[Judgement]) -> Run:
+        """The run after the moves on the agenda, which are added to those said."""
         while planned := self.planned(after.state):
             if len(said) >= MOVES:
-                raise Endless(f"the agenda is not empty after {MOVES} moves in a turn")
+                raise _endless(after)
             move, model = self._made(planned[0], after.model)
             ready = after._replace(model=model)
             following = self._run(ready, move, after.model)
             if len(following.trace) == len(after.trace):
-                raise Endless(
+                error = Endless(
                     f"no rule takes the move {planned[0]}, so it stays on the agenda",
                     hint="write a rule that takes it off when it has been made",
                 )
+                error.steps = after.trace
+                raise error
             said.append(self._judged(move, planned[0], model))
             after = following
-        return Turn(event, happened, tuple(said), after)
+        return after
 
     def play(self, events: Iterable[object]) -> tuple[Turn, ...]:
         """The turns of a dialogue from the start."""
@@ -288,6 +295,31 @@ class Game:
         if self.act is not None and not certainly(model.facts, move, T):
             return model.judge(move, T)
         return Judgement(move, T, CERTAIN, lambda: model.judge(move, T).why, model)
+
+
+def _endless(after: Run) -> Endless:
+    """That an agenda does not become empty, and which rules go round."""
+    circle = " → ".join(_circle([str(step.rule) for step in after.trace]))
+    error = Endless(
+        f"the agenda is not empty after {MOVES} moves in a turn: {circle} → …",
+        hint="let a rule take the last move off without planning another",
+    )
+    error.steps = after.trace
+    return error
+
+
+def _circle(names: Sequence[str]) -> Sequence[str]:
+    """The names that come again and again at the end; the last few, if none do.
+
+    >>> _circle(["a", "b", "c", "b", "c", "b", "c"])
+    ['b', 'c']
+    >>> _circle(["a", "b", "c"])
+    ['a', 'b', 'c']
+    """
+    for size in range(1, len(names) // 2 + 1):
+        if names[-size:] == names[-2 * size : -size]:
+            return names[-size:]
+    return names[-3:]
 
 
 def _shown(event: Object | NBest) -> str:

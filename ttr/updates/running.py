@@ -186,7 +186,11 @@ class _Player:
     def play(self, algorithm: Algorithm, so_far: Run) -> Run | None:
         match algorithm:
             case Rule():
-                return self._apply(algorithm, so_far)
+                try:
+                    return self._apply(algorithm, so_far)
+                except UpdateError as error:
+                    error.steps = error.steps or so_far.trace
+                    raise
             case First(parts):
                 for number in algorithm.sieve.left(so_far.state, so_far.model.facts):
                     after = self.play(parts[number], so_far)
@@ -259,18 +263,20 @@ class _Player:
         most = repeat.times or (ROUNDS if repeat.measure is None else inf)
         if rounds > most:
             last = ", ".join(str(step.rule) for step in before.trace[-3:])
-            raise Endless(
+            raise _endless(
                 f"a repetition did not end after {rounds - 1} rounds; the last rules: "
-                f"{last}"
+                f"{last}",
+                before,
             )
         if repeat.measure is None:
             return
         had, has = (_measured(repeat.measure, one.state) for one in (before, after))
         if not 0 <= has < had:
             named = repeat.measure if isinstance(repeat.measure, str) else "the measure"
-            raise Endless(
+            raise _endless(
                 f"{named} should get smaller each time {repeat.part} is repeated, but "
-                f"{after.trace[-1].rule} took it from {had} to {has}"
+                f"{after.trace[-1].rule} took it from {had} to {has}",
+                after,
             )
 
     def _refuse_return(self, before: Run, after: Run, seen: dict[Record, int]) -> None:
@@ -290,13 +296,15 @@ class _Player:
         steps = run.trace[seen[run.state] :]
         names = [str(step.rule) for step in steps]
         if len(names) == 1 and run.trace[-1].before == run.state:
-            raise Endless(
+            raise _endless(
                 f"{names[0]} is repeated without changing anything",
-                hint="let its precondition fail once its work is done",
+                run,
+                "let its precondition fail once its work is done",
             )
-        raise Endless(
+        raise _endless(
             f"a repetition goes in a circle: {' → '.join([*names, names[0]])}",
-            hint="let a precondition fail once the work is done",
+            run,
+            "let a precondition fail once the work is done",
         )
 
     # --- one rule ---
@@ -381,6 +389,13 @@ class _Player:
             check_state(after, self.type, model, f"after {rule}")
         if rule.gives is not None:
             check_state(after, rule.gives, model, f"after {rule}, by what it gives,")
+
+
+def _endless(message: str, run: Run, hint: str = "") -> Endless:
+    """That a repetition comes to no end, with the steps up to there."""
+    error = Endless(message, hint=hint)
+    error.steps = run.trace
+    return error
 
 
 def _measured(measure: Measure, state: Record) -> int:
