@@ -126,9 +126,14 @@ class Flows:
         before, after = items_at(step.before, path), items_at(step.after, path)
         if before is after or not isinstance(step.event, Record):
             return
-        who = speaker_of(step.event, step.model, agents_of(self.game))
+        # A rule that takes no event may put a question of its own: nobody asked it.
+        takes = step.rule.on is not None
+        agents = agents_of(self.game)
+        who = speaker_of(step.event, step.model, agents) if takes else None
+        said = [identity(one) for one in mentions(step.event, step.model)]
         for item in added(before, after):
-            if who is not None:
+            asked_by.pop(identity(item), None)
+            if who is not None and identity(item) in said:
                 asked_by[identity(item)] = who
         for item in added(after, before):
             asker = asked_by.get(identity(item))
@@ -136,7 +141,9 @@ class Flows:
                 self.own[who == asker] += 1
                 if who == asker:
                     self.own_example = _shorter(self.own_example, (dialogue, turn))
-            if step.rule.on is not None and isinstance(item, str):
+            if who is None and asker is not None:
+                self.own[False] += 1  # it may go without an answer
+            if takes and isinstance(item, str):
                 self._count_naming(item, step, (dialogue, turn))
 
     def _count_naming(self, item: str, step: Step, here: tuple[Dialogue, int]) -> None:
