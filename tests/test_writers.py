@@ -19,11 +19,13 @@ MODULES = sorted(
 
 WRITERS = {
     "ttr/commands/output.py": "what the commands of ttr print",
+    "ttr/inputs.py": "prompts",
+    "ttr/unforeseen.py": "the last line of a command that met what nobody foresaw",
     "ttr/testing/processes.py": "digests, read by the process that asked for them",
     "kille/interfaces/streams.py": "what the commands of kille complain of",
     "kille/interfaces/terminal.py": "what the commands of kille print",
     "kille/studies/persons/lines.py": "what people in a study are shown",
-    "kille/studies/running/local.py": "orders, through a pipe to a worker",
+    "kille/sensors/kinect/serving.py": "what it found when nobody is left to be told",
     "kille/experiments/fitting/codebook.py": "a tool that is run by hand",
     "kille/experiments/fitting/colour_words.py": "a tool that is run by hand",
     "kille/experiments/fitting/evidence.py": "a tool that is run by hand",

@@ -20,6 +20,7 @@ from selectors import EVENT_READ, DefaultSelector
 from time import monotonic
 from typing import Any, BinaryIO, TextIO
 
+from ttr.escapes import terminal_line
 from ttr.limits import LINE, PIPE, SILENCE, Limit
 
 __all__ = [
@@ -112,8 +113,8 @@ def ask_line(prompt: str, limit: Limit = LINE) -> str:
     if sys.stdin is None:
         raise EOFError
     if sys.stdin.isatty():
-        return input(prompt)
-    sys.stdout.write(prompt)
+        return input(terminal_line(prompt))
+    sys.stdout.write(terminal_line(prompt))
     sys.stdout.flush()
     line = read_line(sys.stdin, limit)
     if not line:

@@ -15,6 +15,8 @@ from contextlib import suppress
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 
+from ttr.escapes import terminal_line, terminal_text
+
 __all__ = ["DEBUG", "UNFORESEEN", "guarded", "report_unforeseen", "state_folder"]
 
 DEBUG = "KILLE_DEBUG"
@@ -47,8 +49,9 @@ def report_unforeseen(program: str, error: BaseException) -> int:
         sys.stdout.flush()
     with suppress(Exception):
         if os.environ.get(DEBUG):
-            sys.stderr.write(trace)
-        sys.stderr.write(f"{program}: {_line(program, error, _kept(program, trace))}\n")
+            sys.stderr.write(terminal_text(trace))
+        line = terminal_line(_line(program, error, _kept(program, trace)))
+        sys.stderr.write(f"{program}: {line}\n")
         sys.stderr.flush()
     return UNFORESEEN
 
@@ -74,7 +77,6 @@ def _line(program: str, error: BaseException, file: Path | None) -> str:
 def _shown(error: BaseException) -> str:
     """The kind of the error and its words, on one line."""
     said = " ".join(str(error).split())
-    said = "".join(sign if sign.isprintable() else "?" for sign in said)
     said = said if len(said) <= _SHOWN else f"{said[: _SHOWN - 1]}…"
     return f"{type(error).__name__}: {said}" if said else type(error).__name__
 

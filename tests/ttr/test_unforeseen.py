@@ -21,7 +21,7 @@ ERRORS = {
     ValueError("wrong\nvalue"): "ValueError: wrong value: that is a mistake in ",
     KeyError(): "KeyError: that is a mistake in ",
     UnicodeDecodeError("utf-8", b"\xff", 0, 1, "odd"): "UnicodeDecodeError: 'utf-8'",
-    OverflowError("\x1b[2J" + "x" * 999): "OverflowError: ?[2Jxxx",
+    OverflowError("\x1b[2J" + "x" * 999): r"OverflowError: \x1b[2Jxxx",
     OSError(5, "Input/output error"): "OSError: [Errno 5] Input/output error",
     MemoryError(): "there is not enough memory for this",
 }

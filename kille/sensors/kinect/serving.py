@@ -73,8 +73,12 @@ def _serve(channel: Channel, memory: mmap.mmap) -> None:
     finally:
         if kinects is not None:
             kinects.stop()
-        for remark in remarks.taken():
-            sys.stderr.write(f"{remark}\n")
+        left = remarks.taken()
+        if left:
+            # Imported here, as nothing else that this process does needs `ttr`.
+            from ttr.escapes import terminal_line
+
+            sys.stderr.writelines(f"{terminal_line(it)}\n" for it in left)
 
 
 def _begun(memory: mmap.mmap) -> tuple[_Kinects | None, Exception | None]:

@@ -11,7 +11,7 @@ from contextlib import suppress
 from importlib import import_module
 from typing import TypeAlias
 
-from ttr.escapes import terminal_line, terminal_text
+from ttr.escapes import terminal_text
 from ttr.inputs import ask_line
 from ttr.limits import UTTERANCE
 
@@ -68,7 +68,7 @@ def ready(text: str) -> None:
 def _line(told: str, prompt: str) -> str:
     if told:
         _show(told)
-    line = ask_line(terminal_line(prompt), UTTERANCE)
+    line = ask_line(prompt, UTTERANCE)
     if _NO_CHARACTER.search(line):
         raise _Garbled
     if not sys.stdin.isatty():  # what comes through a pipe is not on the screen yet
