@@ -158,9 +158,16 @@ def _through_pipe(opened: int) -> Iterator[bytes]:
     with DefaultSelector() as waiting:
         waiting.register(opened, EVENT_READ)
         while True:
-            patience = min(SILENCE.allowed, end - monotonic())
-            if patience <= 0 or not waiting.select(patience):
-                raise _NoFile("it is a pipe that does not say all it says in time")
+            patience = end - monotonic()
+            if patience <= 0:
+                raise _NoFile(
+                    f"it is a pipe that does not end within {PIPE.allowed} seconds"
+                )
+            if not waiting.select(min(SILENCE.allowed, patience)):
+                raise _NoFile(
+                    "it is a pipe into which nothing is written for "
+                    f"{SILENCE.allowed} seconds"
+                )
             try:
                 piece = os.read(opened, _PIECE)
             except BlockingIOError:  # it was read by somebody else meanwhile
