@@ -118,9 +118,9 @@ class Sighting:
 class Arrangement:
     """Two objects as they stood when the word for their relation was taught.
 
-    `target` and `landmark` are names of words; `configuration` says how the target
-    stands to the landmark. Raises ValueError for numbers that are not finite and for
-    names that are none.
+    `target` and `landmark` are names of words, or empty for a thing that has none;
+    `configuration` says how the target stands to the landmark. Raises ValueError for
+    numbers that are not finite and for names that are none.
     """
 
     sensor: str
@@ -133,8 +133,9 @@ class Arrangement:
     def __post_init__(self) -> None:
         numbers = _numbers(astuple(self.configuration))
         _require_finite("an arrangement", self.time, *numbers)
-        _require_word("a target", self.target)
-        _require_word("a landmark", self.landmark)
+        for what, name in (("target", self.target), ("landmark", self.landmark)):
+            if name != "":
+                _require_word(f"a {what}", name)
 
 
 @dataclass(frozen=True)

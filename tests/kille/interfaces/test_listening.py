@@ -85,6 +85,7 @@ KILLE = [
     Case(("memory", "show", "cup")),
     Case(("memory", "export", "exported.zip")),
     Case(("memory", "import", "exported.zip")),
+    Case(("memory", "check")),
     Case(("memory", "forget", "cup", "--yes")),
     Case(("evaluate", "objects", "pictures", "--protocol", "even-odd")),
     Case(("evaluate", "relations", "--method", "own.py:fail"), codes=(1,)),

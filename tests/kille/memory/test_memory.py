@@ -239,6 +239,18 @@ def test_a_lesson_that_fails_half_way_leaves_nothing(
         assert (memory.turns(), memory.words()) == ((), ())
 
 
+def test_where_a_thing_without_a_name_was_is_kept(
+    path: Path, said: Callable[[int], Turn]
+) -> None:
+    nameless = Arrangement("synthetic", 0.0, "", "car", Configuration((0.1, 0.0, 0.0)))
+    with Memory.open(path) as memory:
+        memory.begin_dialogue("now")
+        memory.learn_relation(said(1), "left", "left of", nameless)
+    with Memory.open(path) as memory:
+        (kept,) = memory.relations()
+        assert kept.seen == nameless
+
+
 def test_nothing_is_left_of_what_is_forgotten(
     path: Path, said: Callable[[int], Turn], seen: Sighting
 ) -> None:

@@ -454,8 +454,7 @@ def test_a_worker_that_is_killed_is_replaced_and_nothing_is_lost(
 
     def kill(it: Progress) -> None:
         if it.over % 100 == 50:
-            (forking,) = children(os.getpid())
-            os.kill(children(forking)[0], signal.SIGKILL)
+            os.kill(children(forking_process())[0], signal.SIGKILL)
 
     assert run(study, tmp_path, play, crew(2), kill).broken == 0
     assert [it.played for it in log.read(tmp_path)] == [
@@ -469,11 +468,22 @@ def test_workers_play_on_without_the_process_that_forked_them(tmp_path: Path) ->
 
     def kill(it: Progress) -> None:
         if it.over == 50:
-            forked.extend(children(os.getpid()))
+            forked.append(forking_process())
             os.kill(forked[0], signal.SIGKILL)
 
     assert run(study, tmp_path, play, crew(2), kill).played == 600
     assert not members(forked[0])
+
+
+def forking_process() -> int:
+    """The process that forks workers, among whatever else this one has begun."""
+    (found,) = [
+        process
+        for process in children(os.getpid())
+        if b"kille.studies.running.workers"
+        in Path(f"/proc/{process}/cmdline").read_bytes()
+    ]
+    return found
 
 
 def children(process: int) -> list[int]:
