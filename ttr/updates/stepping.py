@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from ttr.errors import UpdateError
 from ttr.models import Model
 from ttr.printing import notation
-from ttr.probability import CERTAIN
 from ttr.syntax import Object, Rec, Record, RecordType, TypeNode
 from ttr.updates.matching import found
 from ttr.updates.nbest import NBest, heard
@@ -67,7 +66,7 @@ def _failed(value: Object, T: TypeNode, model: Model) -> str:
     """The step at which a judgement fails, or nothing where it is certain."""
     why = model.judge(value, T).why
     failed = why.failure()
-    if why.p == CERTAIN or failed is None:
+    if failed is None:
         return ""
     where = f"{why.path()}: " if why.path() else ""
     return f"{where}{notation(failed.sit)} : {failed.type}, {failed.because}"

@@ -49,12 +49,12 @@ def _circles(rule: Rule, value: Object, role: str) -> Iterator[Fault]:
     around = next(filter(None, map(round_about, types)), ())
     if not around:
         return
-    told = " → ".join(around)
-    if around[1:] == around[:1]:
-        message = f"in the rule {rule} {around[0]} is set to itself: {told}"
+    (first, *others), told = around, " → ".join(around)
+    if others == [first]:
+        message = f"in the rule {rule} {first} is set to itself: {told}"
         hint = "call what where binds differently from the label"
     else:
         message = f"in the rule {rule} fields go in a circle: {told}"
         hint = "no witness of such a type can be made: let one field not be manifest"
-    span = place(rule, around[0].rpartition(".")[2], (), role)
+    span = place(rule, first.rpartition(".")[2], (), role)
     yield Fault(rule, "unbound", message, hint, span, "warning")

@@ -6,11 +6,10 @@ from collections import Counter
 from collections.abc import Iterator
 from itertools import chain
 
-from ttr.errors import TTRError
 from ttr.paths import escaping
 from ttr.printing import notation
 from ttr.probability import CERTAIN
-from ttr.syntax import Path, RecordType, Singleton, TypeNode, meet
+from ttr.syntax import Path, Singleton, TypeNode, meet
 from ttr.updates.algorithms import (
     Algorithm,
     All,
@@ -189,7 +188,7 @@ def _is_covered(rules: RuleSet, rule: Rule, case: Rule | None) -> bool:
         return True
     if not _event_covered(rules, rule, case) or not rules.alike(case.when, rule.when):
         return False
-    return rules.covers(case.when, _narrowed(rules, rule.when))
+    return rules.covers(case.when, meet(rules.type, rule.when))
 
 
 def _event_covered(rules: RuleSet, rule: Rule, case: Rule) -> bool:
@@ -200,11 +199,3 @@ def _event_covered(rules: RuleSet, rule: Rule, case: Rule) -> bool:
     if rule.on is case.on:
         return rule.p.hi <= case.p.hi
     return case.p.hi == CERTAIN.hi and rules.covers(case.on, rule.on)
-
-
-def _narrowed(rules: RuleSet, when: RecordType) -> TypeNode:
-    """A condition as a condition of states."""
-    try:
-        return meet(rules.type, when)
-    except TTRError:
-        return when

@@ -13,7 +13,7 @@ from ttr.updates.checks.layouts import Labels, Missing
 from ttr.updates.checks.places import place
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.sorts import Fault
-from ttr.updates.rules import EXTRAS, Body, Rule
+from ttr.updates.rules import Body, Rule
 
 __all__ = ["misread", "missing", "unbound"]
 
@@ -169,8 +169,6 @@ def unbound(rules: RuleSet) -> Iterator[Fault]:
                 yield _unbound(rule, access.variable, bound, span)
         for name, span in told.undefined:
             yield _unbound(rule, name, bound, span)
-        for name in sorted(rule.takes.difference(EXTRAS, rule.where or ())):
-            yield _unbound(rule, name, bound, place(rule, name))
 
 
 def _unbound(rule: Rule, name: str, bound: tuple[str, ...], span: Span | None) -> Fault:

@@ -97,13 +97,18 @@ def closed_labels(view: View) -> Labels | None:
         case Singleton(base, _):
             return closed_labels(base)
         case Meet(parts) | Join(parts):
-            found = [closed_labels(part) for part in parts]
-            return None if None in found else _joined(found)
+            return _joined(map(closed_labels, parts))
     return None
 
 
-def _joined(several: Iterable[Labels | None]) -> Labels:
-    return tuple(dict.fromkeys(label for some in several for label in some or ()))
+def _joined(several: Iterable[Labels | None]) -> Labels | None:
+    """The labels in any of several; None where one of these may have any label."""
+    joined: dict[str, None] = {}
+    for labels in several:
+        if labels is None:
+            return None
+        joined |= dict.fromkeys(labels)
+    return tuple(joined)
 
 
 def descend(
@@ -124,10 +129,8 @@ def descend(
 
 def _missing(views: Views, path: Labels) -> Views | Missing:
     types = [view for view in views if isinstance(view, TypeNode)]
-    closed = [closed_labels(view) for view in types]
-    if not closed or None in closed:
-        return ()
-    return Missing(path, _joined(closed))
+    closed = _joined(map(closed_labels, types))
+    return Missing(path, closed) if types and closed is not None else ()
 
 
 def along(view: View, path: Labels) -> Views:

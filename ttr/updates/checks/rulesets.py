@@ -113,10 +113,9 @@ class RuleSet:
     def brought(self, rule: Rule, write: Write) -> Views:
         """What a write brings to where it sets; nothing where that may be anything."""
         if write.term is None or not isinstance(write.term.value, Path):
-            told = write.term is not None and not escaping(write.term.value)
-            own = (write.term,) if told and write.term else ()
-            closed = write.type is not None and not escaping(write.type)
-            return own or ((write.type,) if closed and write.type else ())
+            if write.term is not None and not escaping(write.term.value):
+                return (write.term,)
+            return () if write.type is None else (write.type,)
         variable, *labels = write.term.value.labels
         found = self._led(rule, variable, tuple(labels))
         return () if isinstance(found, Missing) else found
@@ -217,9 +216,9 @@ class RuleSet:
         """
         match S, T:
             case Singleton(base, _), _:
-                return self.alike(base, T) and self._may_meet(S, T)
+                return self.alike(base, T) and self.together(S, T)
             case _, Singleton(base, _):
-                return self.alike(S, base) and self._may_meet(S, T)
+                return self.alike(S, base) and self.together(S, T)
             case RecordType(), RecordType():
                 shared = [label for label in S if label in T]
                 return all(self.alike(S[label], T[label]) for label in shared)
@@ -229,14 +228,10 @@ class RuleSet:
                 return self.covers(S, T) or self.covers(T, S)
         return True
 
-    def _may_meet(self, S: TypeNode, T: TypeNode) -> bool:
-        """Whether something may be of both, unless what is around them decides that."""
-        return bool(escaping(S) or escaping(T)) or self.together(S, T)
-
     def covers(self, wide: TypeNode, narrow: TypeNode) -> bool:
         """Whether what is of one type is surely of another."""
         return self.remembered(
-            (wide, narrow), lambda: _is_below(narrow, wide, self.model.theory)
+            (wide, narrow), lambda: subtype(narrow, wide, self.model.theory).yes
         )
 
     def remembered(self, question: object, answer: Callable[[], bool]) -> bool:
@@ -244,14 +239,6 @@ class RuleSet:
         if question not in self._answers:
             self._answers[question] = answer()
         return self._answers[question]
-
-
-def _is_below(narrow: TypeNode, wide: TypeNode, theory: Signature) -> bool:
-    """Whether one type surely is a subtype of another."""
-    try:
-        return subtype(narrow, wide, theory).yes
-    except TTRError:
-        return False
 
 
 def _impossible(T: TypeNode, theory: Signature) -> bool:

@@ -128,7 +128,7 @@ def _told(term: Term | None, view: View) -> str:
 def _way_out(rules: RuleSet, found: View, wanted: TypeNode) -> str:
     """What to do about a value that would fit if its meets were merged."""
     merged = Term(_merged(found.value)) if isinstance(found, Term) else found
-    if merged == found or misfit(rules, merged, wanted):
+    if misfit(rules, merged, wanted):
         return ""
     return "a meet of record types is none itself, merge(S, T) is"
 
@@ -165,11 +165,11 @@ def _lacking(r: Record, T: RecordType, at: Labels = ()) -> Iterator[Labels]:
 
 
 def declared(rules: RuleSet, path: Labels) -> TypeNode | None:
-    """What the type of states says of a place, where that needs nothing around it."""
+    """What the type of states says of a place."""
     T: TypeNode | None = rules.type
     for label in path:
         T = T.get(label) if isinstance(T, RecordType) else None
-    return None if T is None or escaping(T) else T
+    return T
 
 
 def views_of(T: TypeNode) -> tuple[View, ...]:
@@ -192,9 +192,7 @@ def misfit(rules: RuleSet, view: View, wanted: TypeNode) -> bool:
     match view.value, wanted:
         case tuple(elements), ListOf(T) | NonEmpty(T):
             return any(misfit(rules, Term(one), T) for one in elements)
-        case value, Basic():
-            return _is_of_others(rules, value, wanted)
-    return False
+    return isinstance(wanted, Basic) and _is_of_others(rules, view.value, wanted)
 
 
 def _is_of_others(rules: RuleSet, value: Object, wanted: Basic) -> bool:
