@@ -215,6 +215,56 @@ def test_types_that_an_effect_builds():
     ]
 
 
+def test_functions_are_followed_only_where_they_get_the_state():
+    @rule(when=Board)
+    def by_name(s):
+        return planned(board=s, what=1)
+
+    @rule(when=Board)
+    def unpacked(s):
+        return third_of(*PAIR, s)
+
+    @rule(when=Board)
+    def round_and_round(s):
+        return again(s)
+
+    found = messages(all_(by_name, unpacked, round_and_round))
+    assert found == ["the rule by_name replaces s.shared.pln, but s.shared has no pln"]
+
+
+PAIR = (1, 2)
+
+
+def third_of(one, other, board):
+    return replace(board, n=other.real)
+
+
+def again(board):
+    return again(board)
+
+
+def test_names_that_stand_for_others_are_followed_four_times():
+    @rule(when=Board)
+    def renamed(s):
+        one = replace(CHANGES["somehow"](s), m=1)
+        two = one
+        three = two
+        four = three
+        return four
+
+    assert messages(renamed) == ["the rule renamed replaces s.m, but s has no m"]
+
+
+def test_what_the_effect_asks_for_first_may_be_missing():
+    @rule(when=Board)
+    def asked(s):
+        if "hidden" in s.shared:
+            return replace(s, n=s.shared.hidden)
+        return s
+
+    assert messages(asked) == []
+
+
 def planned(board, what):
     return replace(board, {"shared.pln": what})
 
@@ -241,6 +291,69 @@ def test_each_path_that_is_missing():
         ),
     ]
     assert found[2].span.text.strip().startswith("@rule(when=Board, gives=")
+
+
+def test_a_path_of_a_binding_is_underlined_where_it_leads_nowhere():
+    @rule(when=Board, where=rectype(qdu=RecType @ outer.s.shared.qdu.first))
+    def drop(s, qdu):
+        return s
+
+    (fault,) = faults(drop, Board)
+    assert fault.message.endswith("but s.shared has no qdu")
+    assert fault.span.text[fault.span.column - 1 :].startswith("qdu=RecType")
+
+
+def test_what_nothing_binds_is_not_missing_too():
+    one = made("one", where=rectype(q=Ind @ outer.nobody.name))
+    assert messages(one) == ["the rule one uses nobody, which nothing binds"]
+
+
+def test_labels_that_are_known_from_several_types_or_from_an_object():
+    state = rectype(r=rectype(a=Ind) @ record(a="x"))
+
+    @rule(when=state)
+    def read(s):
+        return replace(s, {"r.a": s.r.b})
+
+    assert messages(read, state) == ["the rule read reads s.r.b, but s.r has no b"]
+    both = rectype(shared=rectype(qdu=Ind) & rectype(qud=ListOf(RecType)))
+    assert messages(made("both", both)) == [
+        "the rule both asks for shared.qdu, but shared has no qdu"
+    ]
+
+
+def test_a_place_that_is_set_to_anything_may_have_any_label():
+    @rule(when=Board)
+    def move(s):
+        return replace(s, {"shared.move": CHANGES["somehow"](s)})
+
+    @rule(when=Board)
+    def look(s):
+        return replace(s, agenda=(s.shared.move.question,))
+
+    assert messages(all_(move, look)) == []
+    assert len(messages(look)) == 1
+
+
+def test_the_variable_of_the_state_may_have_any_name():
+    theory = Theory.parse("""
+        basic Ind
+        Board := [x : [a : Ind]]
+        Event := [x : list(Ind)]
+        rule never(board : Board, event : Event)
+            where [q = board.x : list(Ind)] := Board
+        rule may(board : Board, event : Event)
+            where [q = event.x : list(Ind)] := Board
+    """)
+    assert sorts(theory.rules["never"], theory.Board) == ["dead"]
+    assert sorts(theory.rules["may"], theory.Board) == []
+
+
+def test_faults_without_a_place_of_their_own_are_shown_at_the_rule():
+    one = made("one", rectype(nn=Count))
+    (fault,) = faults(one, Board)
+    assert fault.span == one.span
+    assert fault.span.text[fault.span.column - 1 :].startswith("applies(s)")
 
 
 def test_paths_of_bindings_and_measures():
@@ -319,6 +432,57 @@ def test_values_of_wrong_types():
         "the rule wrong sets n to -1, which is no Count",
         "the rule wrong sets shared.facts to a, which is no list(Ind)",
         "the rule wrong sets agenda to [1, 2], which is no list(RecType)",
+    ]
+
+
+def test_promises_of_wrong_values():
+    promising = made("promising", gives=rectype(n=Count @ -1))
+    assert messages(promising, model=M) == [
+        "the rule promising promises to set n to -1, which is no Count"
+    ]
+
+
+def test_a_value_that_cannot_be_judged_is_left_alone():
+    def broken(n):
+        raise ValueError(n)
+
+    @rule(when=Board)
+    def count(s):
+        return replace(s, n=-1)
+
+    assert messages(count, model=Model().witnessed(Count, by=broken)) == []
+
+
+PLACES = """
+    basic Ind
+    object ann : Ind
+    pred p(Ind), q(Ind)
+    given d : q(ann)
+    Event := [n : [a : Ind]]
+    Board := [c : p(ann), e : Rec, l : list(Ind), r : [a : Ind],
+              u : [a : Ind] \\/ [b : Ind]]
+"""
+
+
+@pytest.mark.parametrize(
+    ("parameters", "body", "found"),
+    [
+        ("s : Board", "[r : list(Ind)]", ["something of list(Ind)"]),
+        ("s : Board", "[l = {} : Rec]", ["{}"]),
+        ("s : Board, e : Event", "[l = e.n : Rec]", ["something of [a : Ind]"]),
+        # inside, e is the label, not the event
+        ("s : Board, e : Event", "[e : [n : list(Ind)], l = e.n : list(Ind)]", []),
+        ("s : Board", "{c = s.c, e = s.e, l = [], r = s.r, u = {a = ann}}", []),
+        ("s : Board", "[r : [a : Ind, c : p(a)]]", []),
+        ("s : Board", "[c = d : p(ann)]", []),
+    ],
+)
+def test_what_a_rule_in_a_file_sets(parameters, body, found):
+    theory = Theory.parse(f"{PLACES}\n    rule r({parameters}) := {body}")
+    told = faults(theory.rules["r"], theory.Board, model=Model(theory))
+    assert [one.message.split(" to ")[1] for one in told if one.sort == "misfit"] == [
+        f"{what}, which is no {'[a : Ind]' if 'list' in what else 'list(Ind)'}"
+        for what in found
     ]
 
 
@@ -490,6 +654,7 @@ def made(name, when=Board, on=None, refuses=False, **options):
 
 
 ALWAYS, SOMETIMES = made("always"), made("sometimes", rectype(n=Count @ 0))
+LOW = made("low", on=Move, p=(0, 0.5))
 EMPTY = rectype(n=Count @ 0, agenda=ListOf(RecType) @ ())
 
 
@@ -519,11 +684,89 @@ EMPTY = rectype(n=Count @ 0, agenda=ListOf(RecType) @ ())
         (first(made("sure", on=Move), made("late", on=Move, p=0.5)), []),
         (first(made("unsure", on=Move, p=0.5), made("late", on=Move)), ["late"]),
         (first(made("low", on=Move, p=(0, 0.5)), made("late", on=Move)), []),
+        (first(LOW, made("late", on=Move, p=(0.2, 0.5))), ["late"]),
+        (first(LOW, made("late", on=Move, p=(0.2, 0.6))), []),
+        (first(repeat(ALWAYS, times=2), SOMETIMES), ["sometimes"]),
+        (first(repeat(SOMETIMES, times=2), ALWAYS), []),
     ],
     ids=str,
 )
 def test_cases_that_come_too_late(algorithm, never):
     assert [fault.rule.name for fault in faults(algorithm, Board)] == never
+
+
+def test_the_way_out_of_coming_too_late():
+    (fault,) = faults(first(ALWAYS, SOMETIMES), Board)
+    assert fault.hint == "put sometimes before always"
+    (fault,) = faults(first(maybe(ALWAYS), SOMETIMES), Board)
+    assert fault.hint == ""
+
+
+@rule(when=Board)
+def only_if(s):
+    if s.n:
+        return replace(s, n=0)
+
+
+@rule(when=Board)
+def by_helper(s):
+    return reset(s)
+
+
+@rule(when=Board)
+def by_helper_if(s):
+    return reset_if(s)
+
+
+@rule(when=Board)
+def by_cases(s):
+    match s.n:
+        case 0:
+            return s
+        case _:
+            return replace(s, n=0)
+
+
+@rule(when=Board)
+def by_some_cases(s):
+    match s.n:
+        case 0:
+            return s
+        case 1:
+            return replace(s, n=0)
+
+
+@rule(when=Board)
+def by_guarded_cases(s):
+    match s.n:
+        case 0:
+            return s
+        case _ if s.agenda:
+            return replace(s, n=0)
+
+
+def reset(board):
+    return replace(board, n=0)
+
+
+def reset_if(board):
+    return replace(board, n=0) if board.n else None
+
+
+@pytest.mark.parametrize(
+    ("one", "never"),
+    [
+        (only_if, []),
+        (by_helper, ["always"]),
+        (by_helper_if, []),
+        (by_cases, ["always"]),
+        (by_some_cases, []),
+        (by_guarded_cases, []),
+    ],
+    ids=str,
+)
+def test_a_rule_that_may_refuse_leaves_something_to_the_next(one, never):
+    assert [fault.rule.name for fault in faults(first(one, ALWAYS), Board)] == never
 
 
 def test_axioms_count():
@@ -583,6 +826,49 @@ def test_what_nothing_brings_about():
     assert faults(first(work, rest), Phased, model=P) == ()
 
 
+def test_what_is_set_elsewhere_or_to_anything():
+    @rule(when=IDLE)
+    def note(s):
+        return replace(s, before="done")
+
+    @rule(when=IDLE)
+    def vaguely(s):
+        return replace(s, phase=CHANGES["somehow"](s))
+
+    state = rectype(phase=Phase, before=Phase)
+    known = {"start": record(phase="idle", before="idle"), "model": P}
+    assert sorts(first(note, rest), state, **known) == ["unset"]
+    assert sorts(first(vaguely, rest), state, **known) == []
+
+
+def test_what_is_set_within_or_around_a_place():
+    state = rectype(r=Rec)
+    known = {"start": record(r=record(a="idle")), "model": P}
+    done = record(a="done")
+    whole = made("whole", rectype(r=Rec @ done))
+    inner = made("inner", rectype(r=rectype(a=Phase @ "done")))
+
+    @rule(when=state)
+    def within(s):
+        return replace(s, {"r.a": "done"})
+
+    @rule(when=state, on=rectype(x=rectype(b=Ind)))
+    def around(s, e):
+        return replace(s, r=e.x)
+
+    def waiting(*members):
+        found = faults(all_(*members), state, **known)
+        return [fault.rule.name for fault in found if fault.sort == "unset"]
+
+    assert waiting(whole, inner) == ["whole", "inner"]
+    assert waiting(within, whole, inner) == []
+    assert waiting(around, inner) == []
+
+
+def test_a_condition_that_asks_for_nothing_waits_for_nothing():
+    assert sorts(made("any", rectype()), Phased, start="idle") == ["misfit"]
+
+
 def test_what_is_copied_from_an_event_may_be_anything_of_its_type():
     @rule(when=IDLE, on=rectype(phase=Phase))
     def follow(s, e):
@@ -632,6 +918,34 @@ def test_own_moves_are_events():
         (theory.Hug,),
     )
     assert [fault.rule.name for fault in faults_of(heard)] == ["barked"]
+
+
+def test_rules_that_share_their_text_are_told_apart():
+    hello, bye = (rectype(e=hug(x)) for x in "ab")
+    greet, leave = (
+        made(name, Phased, on=on) for name, on in {"greet": hello, "leave": bye}.items()
+    )
+    assert greet.span == leave.span
+    assert unset(first(greet, leave), hears=[rectype(e=run_("a"))]) == [
+        "greet",
+        "leave",
+    ]
+
+
+def test_moves_that_are_planned_without_saying_which():
+    theory = Theory.parse("""
+        basic Ind
+        object a : Ind
+        pred hug(Ind), bark(Ind)
+        Hug := [e : hug(a)]
+        Bark := [e : bark(a)]
+        Board := [next : list(RecType)]
+        rule hugged(s : Board, e : Hug) := [next : list(RecType)]
+        rule barked(s : Board, e : Bark) := [next = [] : list(RecType)]
+        game dogs({next = []} : Board, acts on next, hears Hug)
+            := first(hugged, barked)
+    """)
+    assert faults_of(theory.games["dogs"]) == ()
 
 
 def test_events_that_are_heard_and_that_no_rule_takes():
@@ -689,6 +1003,72 @@ def test_rules_for_different_events_do_not_disagree():
     assert faults(by_class(greeted, left, order=["k"]), Phased) == ()
 
 
+KINDS = """
+    basic Ind, Thing, Animal, Dog
+    Dog <: Animal
+    object rex : Dog
+    object ann : Ind
+    State := [x : Thing, n : Ind, u : list(Ind) \\/ Rec]
+"""
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "disagree"),
+    [
+        ("x : Animal", "x : Dog", True),
+        ("x : Dog", "x : Animal", True),
+        ("x : Dog", "x : Ind", False),
+        ("x = rex : Dog", "x : Ind", False),
+        ("x : Ind", "x = rex : Dog", False),
+        ("x = rex : Dog", "x : Animal", True),
+        ("x : Thing, n = x : Thing", "x : Thing, n = rex : Thing", True),
+    ],
+)
+def test_rules_for_what_is_of_unrelated_types_do_not_disagree(one, other, disagree):
+    theory = Theory.parse(f"""{KINDS}
+    rule r1(s : [{one}]) of k := [n = ann : Ind]
+    rule r2(s : [{other}]) of k := [n = rex : Ind]
+    """)
+    algorithm = by_class(*theory.rules.values(), order=["k"])
+    found = sorts(algorithm, theory.State, model=Model(theory))
+    assert found.count("disagreement") == disagree
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "disagree"),
+    [
+        ("list(Ind)", "Rec", True),
+        ("list(Ind)", "list(Ind)", False),
+        ("list(Ind)", "nelist(Ind)", False),
+    ],
+)
+def test_rules_that_set_types_disagree_where_nothing_is_of_both(one, other, disagree):
+    theory = Theory.parse(f"""{KINDS}
+    rule r1(s : State) of k := [u : {one}]
+    rule r2(s : State) of k := [u : {other}]
+    """)
+    algorithm = by_class(*theory.rules.values(), order=["k"])
+    assert sorts(algorithm, theory.State) == ["disagreement"] * disagree
+
+
+def test_a_value_and_an_unknown_value_do_not_disagree():
+    @rule(when=Board, kind="k")
+    def known(s):
+        return replace(s, n=0)
+
+    @rule(when=Board, kind="k")
+    def unknown(s):
+        return replace(s, n=CHANGES["somehow"](s))
+
+    typed = Theory.parse("""
+        basic Count
+        rule typed(s : [n : Count]) of k := [n : Count]
+    """).rules["typed"]
+    for one in (known, typed):
+        assert sorts(by_class(one, unknown, order=["k"])) == []
+        assert sorts(by_class(unknown, one, order=["k"])) == []
+
+
 # --- repetitions ---------------------------------------------------------------------
 
 
@@ -722,6 +1102,35 @@ def test_taking_the_first_off_a_list_ends():
     drop, keep = theory.rules["drop"], theory.rules["keep"]
     assert faults(repeat(drop), theory.Board) == ()
     assert sorts(repeat(all_(drop, keep)), theory.Board) == ["endless"]
+
+
+@pytest.mark.parametrize(
+    ("what", "ends"),
+    [
+        ("rst(s.qud)", True),
+        ("rst(s.done)", False),
+        ("rst(e.qud)", False),
+        ("s.qud", False),
+    ],
+)
+def test_only_the_rest_of_the_list_itself_is_shorter(what, ends):
+    theory = Theory.parse(f"""
+        basic Ind
+        Board := [qud : list(Ind), done : list(Ind)]
+        rule drop(s : [qud : nelist(Ind), done : list(Ind)], e : [qud : list(Ind)])
+            := [qud = {what} : list(Ind)]
+    """)
+    found = sorts(repeat(theory.rules["drop"]), theory.Board)
+    assert found == ([] if ends else ["endless"])
+
+
+def test_a_long_repetition_is_named_by_its_first_rules():
+    members = [made(f"a_rule_with_a_long_name_{i}") for i in range(5)]
+    (fault,) = faults(repeat(all_(*members)), Board)
+    assert fault.message.startswith(
+        "the repetition of a_rule_with_a_long_name_0, a_rule_with_a_long_name_1, "
+        "a_rule_with_a_long_name_2, … need not end"
+    )
 
 
 # --- the report ----------------------------------------------------------------------
@@ -836,6 +1245,26 @@ def test_an_undefined_name_below_a_star_import(tmp_path):
     assert messages(names["fine"], names["Board"]) == []
     assert messages(names["lost"], names["Board"]) == [
         "the rule lost uses nobody, which nothing binds"
+    ]
+
+
+def test_an_undefined_name_is_told_once_where_it_is_used_first(tmp_path):
+    file = tmp_path / "undefined.py"
+    file.write_text(
+        "from ttr import Ind, rectype, replace\n"
+        "from ttr.updates import rule\n"
+        "Board = rectype(x=Ind)\n"
+        "@rule(when=Board)\n"
+        "def twice(s):\n"
+        "    later = lambda: nowhere\n"
+        "    return replace(s, x=[nobody, nobody, later()][0])\n"
+    )
+    names = {}
+    exec(compile(file.read_text(), str(file), "exec"), names)
+    found = faults(names["twice"], names["Board"])
+    assert [(one.message, one.span.line, one.span.column) for one in found] == [
+        ("the rule twice uses nobody, which nothing binds", 7, 26),
+        ("the rule twice uses nowhere, which nothing binds", 6, 21),
     ]
 
 
