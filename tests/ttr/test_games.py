@@ -10,6 +10,7 @@ from ttr import (
     ListOf,
     Model,
     NotHeard,
+    Rec,
     RecType,
     TTRError,
     UpdateError,
@@ -18,7 +19,7 @@ from ttr import (
     replace,
 )
 from ttr.probability import Degree
-from ttr.updates import Game, nbest, rule
+from ttr.updates import Game, maybe, nbest, rule
 
 M = Model().given("a", Ind).given("b", Ind).given("c", Ind)
 
@@ -49,6 +50,15 @@ def test_a_game_is_played_turn_by_turn():
     assert turns[-1].state == record(plan=[], heard=["a", "c"])
     assert [len(turn.trace) for turn in turns] == [2, 0, 2]
     assert turns[0].said[0].type is rectype(by=Ind @ "b")
+
+
+def test_a_turn_prints_what_happened():
+    event = nbest((record(by="a"), 0.5), (record(by="c"), 0.25))
+    sure, nothing, unsure = talk().play([{"by": "a"}, None, event])
+    assert str(sure).startswith("> {by = a}\nreply\n")
+    assert str(sure).endswith("\n< {by = b} : [by = b : Ind]")
+    assert str(nothing) == "> nothing"
+    assert str(unsure) == f"> {event}"
 
 
 def test_a_turn_that_fails_changes_nothing():
@@ -109,6 +119,12 @@ def test_what_a_turn_cannot_go_on_from():
     for events in (None, 5, "ab", record(by="a"), Act):
         with pytest.raises(UpdateError, match="events are a list of them, found"):
             talk().play(events)
+
+
+def test_an_agenda_that_is_a_record():
+    state = rectype(plan=Rec)
+    with pytest.raises(UpdateError, match="a list of types, but plan is the record"):
+        Game("talk", state, {"plan": {}}, maybe(reply), M, agenda="plan")
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from ttr.checking import check
+from ttr.display.folding import folding
 from ttr.errors import (
     NoState,
     NotationError,
@@ -784,6 +785,23 @@ def test_a_claim_of_a_rule_that_does_not_apply_says_why() -> None:
 
 
 # --- writing -------------------------------------------------------------------------
+
+
+def test_a_rule_is_shown_with_the_names_of_its_types() -> None:
+    found = board(
+        "Named := [name : Ind]\n"
+        "rule r(s : State, e : Move) where [who = s.in : Named]"
+        " := [spkr = who.name : Ind]\n"
+        "rule t(s : State) := State\n"
+    )
+    assert declaration(found, "r", folding(found, 0)) == (
+        "rule r(s : State, e : Move)\n"
+        "    where [who = s.in : Named]\n"
+        "    := [spkr = who.name : Ind]"
+    )
+    assert (
+        declaration(found, "t", folding(found, 0)) == "rule t(s : State)\n    := State"
+    )
 
 
 def test_a_python_rule_is_not_written() -> None:
