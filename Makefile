@@ -34,8 +34,11 @@ deep: $(SENSES) ## the tests that take too long for every day; not a part of tes
 	HYPOTHESIS_PROFILE=$${HYPOTHESIS_PROFILE:-deep} $(SINGLE) \
 	    $(BIN)/pytest -n auto --dist worksteal -m deep
 
+# Hours of hostile inputs and of kills are for whoever asks for them by name.
+BENCHMARKS := $(filter-out %/fuzz.py %kills.py,$(wildcard benchmarks/[!_]*.py))
+
 bench: $(SENSES) ## measure how fast things are, on one thread
-	@for script in benchmarks/[!_]*.py; do \
+	@for script in $(BENCHMARKS); do \
 	    echo "== $$script"; $(SINGLE) $(BIN)/python "$$script" || exit 1; \
 	done
 
