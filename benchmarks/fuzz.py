@@ -310,7 +310,7 @@ def _typed(folder: Path) -> Reader:
         sys.stdin = io.StringIO(data.decode("utf-8", "replace"))
         sys.stdout = io.StringIO()
         try:
-            _through_pipe(Session())
+            _through_pipe(Session(), sys.stdout.write)
         finally:
             sys.stdin, sys.stdout = stdin, stdout
 
