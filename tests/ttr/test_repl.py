@@ -685,3 +685,34 @@ def test_an_input_is_whole_whether_looked_at_by_line_or_at_once(text: str) -> No
     for line in text.split("\n"):
         pending = pending.after(line)
     assert pending.is_complete == is_complete(text)
+
+
+def test_what_is_said_already_is_not_worked_out_again(monkeypatch):
+    """A session that was piped in over and over took half a minute for 30 kB."""
+    said = ["basic Ind", "pred run(Ind), fall(Ind)", "fall(x) <: run(x)"]
+    said += ["Runner := [x : Ind, c : run(x)]"]
+    session = Session()
+    for line in said:
+        session = respond(session, line).session
+    assert len(session.entries) == 4
+
+    def again(*_):
+        raise AssertionError("the whole session is read again")
+
+    monkeypatch.setattr("ttr.interactive.sessions.theory_of_text", again)
+    for line in said:
+        reply = respond(session, line)
+        assert reply.text == ""
+        assert reply.session.entries == session.entries
+        assert reply.session.theory is session.theory
+
+
+def test_a_fact_is_said_again_and_a_name_changed_back():
+    session = Session()
+    for line in ["basic A, B", "T := A", "T := B", "T := A"]:
+        session = respond(session, line).session
+    assert str(session.theory.T) == "A"
+    for line in ["object a : A", "given a : A", "given a : A"]:
+        reply = respond(session, line)
+        assert "error" not in reply.text
+        session = reply.session

@@ -103,11 +103,23 @@ def declared(
         entries = (*session.entries, _entry(tree, source, Path(), session.consent))
         return _afresh(session, entries, _theory_of(session, entries)), frozenset()
     entry = _entry(tree, source, Path(), session.consent)
+    if _is_said_already(session, entry, tree):
+        return session, frozenset()
     again = _declared_again(session.theory, tree)
     if again or _gathered(session, entry):
         return _redeclared(session, entry, tree, source)
     theory = _after(session.theory, session.entries, tree, source)
     return _with(session, (*session.entries, entry), theory), frozenset()
+
+
+def _is_said_already(session: Session, entry: Entry, tree: Statement) -> bool:
+    """Is a statement in the session that the new one would only say once more?
+
+    A question is asked again. A fact or a chance may have another degree by now.
+    """
+    if isinstance(tree, trees.Question | trees.GivenFact | trees.GivenChance):
+        return False
+    return any(entry.text == one.text for one in session.entries)
 
 
 def _after(
