@@ -3,6 +3,8 @@
 What our grammars are made of - rules, groups, repetitions, aliases, terminals that are
 regular expressions - is read here, in a tenth of the time. For anything else, and for
 every mistake, Lark is asked. Law: where both can read a grammar, they find the same.
+
+Expressions are looked for by `regex`, which unlike `re` can be told how long to try.
 """
 
 from __future__ import annotations
@@ -11,9 +13,15 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
-from typing import NamedTuple, TypeAlias
+from math import prod
+from time import process_time
+from typing import Any, NamedTuple, TypeAlias
+
+import regex
 
 __all__ = [
+    "SECONDS",
+    "Expression",
     "GrammarError",
     "Production",
     "Source",
@@ -46,6 +54,29 @@ class Production:
     only_child: bool
 
 
+@dataclass(frozen=True)
+class Expression:
+    """A regular expression of a grammar, and what it is for."""
+
+    what: str
+    pattern: Any
+
+    def match(self, text: str, at: int, until: float) -> Any:
+        """What fits the text at a place, or None: a match, as those of `re`.
+
+        Raises `GrammarError` where that is not found until then, in seconds of
+        `process_time`: an expression may fit a text in more ways than can be tried.
+        """
+        left = max(0.0, until - process_time())
+        try:
+            return self.pattern.match(text, at, timeout=left)
+        except TimeoutError:
+            raise GrammarError(
+                f"{self.what} takes too long to look for, as it may fit the same text "
+                "in many ways"
+            ) from None
+
+
 class Source(NamedTuple):
     """A grammar: its productions, the regular expressions of its terminals.
 
@@ -56,25 +87,63 @@ class Source(NamedTuple):
     terminals: Mapping[str, Sequence[str]]
     ignored: Sequence[str]
 
-    def pattern(self, terminal: str) -> str:
-        """The regular expression of a terminal; `GrammarError` where it is none."""
-        try:
-            found = _together(self.terminals[terminal])
-            empty = re.compile(found).fullmatch("")
-        except re.error as mistake:
-            raise GrammarError(
-                f"the terminal {terminal} is no regular expression: {mistake}"
-            ) from mistake
-        if empty:
-            raise GrammarError(f"the terminal {terminal} may not be nothing at all")
+    def expression(self, terminal: str) -> Expression:
+        """The expression of a terminal; `GrammarError` where it is none."""
+        found = _expression(self.terminals[terminal], f"the terminal {terminal}")
+        nothing = found.match("", 0, process_time() + SECONDS)
+        if nothing:
+            raise GrammarError(f"{found.what} may not be nothing at all")
         return found
+
+    def between(self) -> Expression:
+        """The expression of what is skipped; `GrammarError` where it is none."""
+        return _expression(self.ignored, "what is ignored", "(?:{})*")
+
+
+SECONDS = 5.0
+"""How long expressions may be looked for in a sentence, in seconds of a core."""
+
+_LONGEST = 1_000_000
+"""Signs of an expression; `regex` writes repetitions out, in some 100 bytes a sign."""
+
+_COUNTS = re.compile(r"\{(\d*),?(\d*)\}")
+"""How often something is repeated, at least and at most."""
+
+
+def _expression(patterns: Sequence[str], what: str, as_: str = "{}") -> Expression:
+    """One expression for several.
+
+    `re` says first whether they are ones, since Lark reads grammars by it.
+    """
+    try:
+        for pattern in patterns:
+            re.compile(pattern)
+        found = _together(patterns)
+        if _length(found) <= _LONGEST:
+            return Expression(what, regex.compile(as_.format(found)))
+    except (re.error, regex.error, ValueError, OverflowError, RecursionError) as error:
+        told = f"{what} is no regular expression: {error}"
+        raise GrammarError(told) from error
+    raise GrammarError(
+        f"{what} has over {_LONGEST:,} signs, its repetitions written out"
+    )
+
+
+def _length(pattern: str) -> int:
+    """The signs of an expression, were all of it within each of its counts.
+
+    >>> _length("(ab{3}){2,10}")
+    390
+    """
+    counts = _COUNTS.findall(pattern)
+    return len(pattern) * prod(max(int(it or 1) for it in both) for both in counts)
 
 
 def read(text: str, starts: Sequence[str]) -> Source:
     """What can be reached from the start rules; `GrammarError` for what is no grammar.
 
-    >>> read('start: A?' + chr(10) + 'A: /a/i', ["start"]).pattern("A")
-    '(?i:a)'
+    >>> read('start: A?' + chr(10) + 'A: /a/i', ["start"]).terminals
+    {'A': ['(?i:a)']}
     """
     _check_ways(text)
     found = plainly(text, starts) or by_lark(text, starts)
@@ -181,6 +250,10 @@ def by_lark(text: str, starts: Sequence[str]) -> Source:
         found = Lark(text, parser=None, lexer="basic", start=list(starts))
     except LarkError as mistake:
         raise GrammarError(str(mistake)) from mistake
+    except RecursionError:
+        raise GrammarError("its brackets nest too deep to be read") from None
+    except (ValueError, OverflowError) as mistake:
+        raise GrammarError(f"it has a number that is too large: {mistake}") from mistake
     patterns = {it.name: [it.pattern.to_regexp()] for it in found.terminals}
     productions = [
         _production(
@@ -214,7 +287,7 @@ _TOKEN = re.compile(
     r"""(?P<skip>[ \t\r]+|//[^\n]*)
       | (?P<regexp>/(?!/)(?:\\.|[^/\\\n])*/[imslux]*)
       | (?P<name>(?:_?[a-z][_a-z0-9]*|_?[A-Z][_A-Z0-9]*)(?!\w))
-      | (?P<times>~[ ]*(?P<least>\d+)(?:[ ]*\.\.[ ]*(?P<most>\d+))?)
+      | (?P<times>~[ ]*(?P<least>\d{1,9})(?:[ ]*\.\.[ ]*(?P<most>\d{1,9}))?(?!\d))
       | (?P<mark>->|[|():*+]|[?](?![a-z_]))
       | (?P<ignore>%ignore\b)
       | (?P<end>\n\s*)
@@ -248,15 +321,16 @@ def plainly(text: str, starts: Sequence[str]) -> Source | None:
     """
     try:
         return _Reading(_tokens(text)).source(starts)
-    except _NotPlain:
+    except (_NotPlain, RecursionError):
         return None
 
 
 def _tokens(text: str) -> Iterator[_Token]:
     """The tokens; the end of a line counts where the next line goes on with no `|`."""
     at, ended = 0, False
-    for found in _TOKEN.finditer(text):
-        if found.start() != at:
+    while at < len(text):
+        found = _TOKEN.match(text, at)
+        if found is None:
             raise _NotPlain
         at, kind = found.end(), str(found.lastgroup)
         if kind == "skip":
@@ -273,8 +347,6 @@ def _tokens(text: str) -> Iterator[_Token]:
             yield _Token("times", token, (int(least), int(most or least)))
         else:
             yield _Token("mark" if kind == "mark" else kind, token)
-    if at != len(text):
-        raise _NotPlain
     yield _Token("end", "")
     yield _Token("stop", "")
 

@@ -11,11 +11,18 @@ without the left recursion.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from time import process_time
 from typing import NamedTuple
 
-from kille.dialogue.grammars import GrammarError, Production, Symbol, read
+from kille.dialogue.grammars import (
+    SECONDS,
+    Expression,
+    GrammarError,
+    Production,
+    Symbol,
+    read,
+)
 
 __all__ = ["Grammar", "GrammarError", "Tree", "Word", "parts", "words"]
 
@@ -51,9 +58,6 @@ def words(tree: Tree) -> list[Word]:
     return [child for child in tree.children if isinstance(child, Word)]
 
 
-Matcher = Callable[[str, int], re.Match[str] | None]
-"""Finds a terminal in a text, at a place."""
-
 Row = tuple[Tree | Word, ...]
 Found = Mapping[int, list[Row]]
 """Where a stretch can end, and the ways to read it so far."""
@@ -75,28 +79,38 @@ class Grammar:
     def __init__(self, source: str, *starts: str) -> None:
         self.starts = starts or ("start",)
         self._source = read(source, self.starts)
-        ignored = "|".join(self._source.ignored)
-        self._between = re.compile(f"(?:{ignored})*").match
-        self._matchers: dict[str, Matcher] = {}
+        self._between = self._source.between()
+        self._expressions: dict[str, Expression] = {}
         self._productions: dict[str, list[Production]] = {}
         for made in self._source.productions:
             self._productions.setdefault(made.name, []).append(made)
         self._refuse_left_recursion()
 
     def parse(self, text: str, start: str = "start") -> list[Tree]:
-        """Every way to read the whole text, those with the fewest parts first."""
+        """Every way to read the whole text, those with the fewest parts first.
+
+        Raises `GrammarError` where an expression takes too long to be looked for.
+        """
         if len(text.split()) > _MOST_WORDS:
             return []
         chart = _Chart(self, text)
         rows = chart.rule(start, chart.after(0)).get(len(text), [])
         return [tree for row in rows for tree in row if isinstance(tree, Tree)]
 
-    def matcher(self, terminal: str) -> Matcher:
+    def check_terminals(self) -> None:
+        """Raises `GrammarError` for a terminal that cannot be looked for.
+
+        Else it is raised where the terminal is first looked for, in the middle of a
+        dialogue.
+        """
+        for terminal in self._source.terminals:
+            self.expression(terminal)
+
+    def expression(self, terminal: str) -> Expression:
         """What finds a terminal; it is made when it is first looked for."""
-        known = self._matchers.get(terminal)
+        known = self._expressions.get(terminal)
         if known is None:
-            known = re.compile(self._source.pattern(terminal)).match
-            self._matchers[terminal] = known
+            known = self._expressions[terminal] = self._source.expression(terminal)
         return known
 
     def _refuse_left_recursion(self) -> None:
@@ -148,12 +162,13 @@ class _Chart:
     def __init__(self, grammar: Grammar, text: str) -> None:
         self._grammar = grammar
         self._text = text
+        self._until = process_time() + SECONDS
         self._rules: dict[tuple[str, int], Found] = {}
         self._terminals: dict[tuple[str, int], tuple[int, str] | None] = {}
 
     def after(self, at: int) -> int:
         """Where the next word begins."""
-        between = self._grammar._between(self._text, at)
+        between = self._grammar._between.match(self._text, at, self._until)
         return between.end() if between else at
 
     def rule(self, name: str, at: int) -> Found:
@@ -197,7 +212,8 @@ class _Chart:
         """Where the next word begins if here is this terminal, and its text."""
         key = (name, at)
         if key not in self._terminals:
-            found = self._grammar.matcher(name)(self._text, at)
+            expression = self._grammar.expression(name)
+            found = expression.match(self._text, at, self._until)
             self._terminals[key] = (
                 (self.after(found.end()), found.group()) if found else None
             )

@@ -83,7 +83,9 @@ def _others(theory: Theory) -> str:
 
 def _of_grammar(language: str, file: Path, texts: Iterable[str]) -> Iterator[Trouble]:
     try:
-        Grammar(grammar_text(language)).parse("a")
+        grammar = Grammar(grammar_text(language))
+        grammar.check_terminals()
+        grammar.parse("a")
     except (OSError, UnicodeDecodeError) as error:
         yield Trouble(_KEY, why_unread(file.name, error), f"{file}:1")
         return

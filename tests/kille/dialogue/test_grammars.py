@@ -46,7 +46,10 @@ def same(text, starts):
     assert productions(own) == productions(larks)
     used = {s.name for made in own.productions for s in made.symbols if s.is_term}
     assert used <= own.terminals.keys()
-    assert all(own.pattern(it) == larks.pattern(it) for it in used)
+    for it in used:
+        assert (
+            own.expression(it).pattern.pattern == larks.expression(it).pattern.pattern
+        )
     assert [*own.ignored] == [*larks.ignored]
 
 
@@ -132,3 +135,76 @@ def test_alternatives_are_added_and_not_multiplied() -> None:
     words = " | ".join(["A"] * 3000)
     text = f"start: {words}\nA: /a/\n%ignore /(b|c)?(d|e)?/ // (A|B)?(A|B)?\n"
     assert len(read(text, ["start"]).productions) == 1
+
+
+def test_a_long_text_that_is_not_plain_is_left_to_lark_at_once(monkeypatch) -> None:
+    """Looking for a token further on, at each place anew, would take minutes."""
+    seen: list[int] = []
+
+    class Watched:
+        def match(self, text: str, at: int) -> None:
+            seen.append(at)
+
+    monkeypatch.setattr("kille.dialogue.grammars._TOKEN", Watched())
+    assert plainly("x" * 100_000, ["start"]) is None
+    assert seen == [0]
+
+
+@pytest.mark.parametrize(
+    "rule", ["(A |)+", "( | b)+", "(A | | b)+", "(A | )+ b?", "(A | | | b)+"]
+)
+def test_a_repetition_of_perhaps_nothing_is_refused(rule: str) -> None:
+    with pytest.raises(GrammarError, match="begins with itself"):
+        Grammar(f"start: {rule}\nb: A\nA: /a/\n")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"start: A~{'9' * 6000}\nA: /a/",
+        f"start: A\nA.{'9' * 6000}: /a/",
+        f"start: A\nA: /a{{{'9' * 6000}}}/",
+        f"start: A\nA: /{'(' * 3000}a{')' * 3000}/",
+        f"start: {'(' * 3000}A{')' * 3000}\nA: /a/",
+        "start: A\nA: /a/\n%ignore /*/",
+        "start: A\nA: /a/\n%ignore /(/",
+    ],
+    ids=["times", "priority", "count", "groups", "brackets", "ignored", "open"],
+)
+def test_huge_numbers_and_deep_brackets_are_refused(text: str) -> None:
+    with pytest.raises(GrammarError):
+        Grammar(text).parse("a")
+
+
+@pytest.mark.parametrize("what", ["the terminal A", "what is ignored"])
+def test_an_expression_that_would_take_years_is_named(what, monkeypatch) -> None:
+    monkeypatch.setattr("kille.dialogue.parsing.SECONDS", 0.1)
+    slow = "/(a|aa)+$/"
+    a, skipped = (slow, "/ /") if what == "the terminal A" else ("/a/", slow)
+    grammar = Grammar(f"start: A\nA: {a}\n%ignore {skipped}\n")
+    with pytest.raises(GrammarError, match=f"^{what} takes too long to look for"):
+        grammar.parse("a" * 60 + "c")
+
+
+def test_all_that_a_sentence_is_looked_through_for_is_timed_together(
+    monkeypatch,
+) -> None:
+    """Each of a hundred terminals may take a little less than what is too long."""
+    monkeypatch.setattr("kille.dialogue.parsing.SECONDS", 0.0)
+    with pytest.raises(GrammarError, match=r"^what is ignored takes too long"):
+        Grammar("start: A\nA: /a/\n%ignore / /").parse("a")
+
+
+@pytest.mark.parametrize("counts", ["{9999}){9999}", "{999}){999}){999}"])
+def test_repetitions_that_fill_the_memory_are_refused(counts: str) -> None:
+    pattern = "(?:" * counts.count(")") + "a" + counts
+    for text in (f"A: /{pattern}/", f"A: /a/\n%ignore /{pattern}/"):
+        with pytest.raises(GrammarError, match="its repetitions written out"):
+            Grammar(f"start: A\n{text}").parse("a")
+
+
+def test_terminals_are_checked_before_a_dialogue_comes_to_them() -> None:
+    grammar = Grammar("start: A B\nA: /a/\nB: /(b/\n")
+    assert grammar.parse("x") == []
+    with pytest.raises(GrammarError, match="the terminal B is no regular expression"):
+        grammar.check_terminals()
