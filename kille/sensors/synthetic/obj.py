@@ -125,7 +125,7 @@ def _corners(
     try:
         numbers = [[corner.split("/")[:2] for corner in fan] for fan in fans]
         corners = np.array(numbers, np.int64)
-    except ValueError as error:
+    except (ValueError, OverflowError) as error:
         raise SensorError(
             f"{path}: an `f` line has no position/texture pairs"
         ) from error

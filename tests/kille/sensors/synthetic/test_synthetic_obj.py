@@ -76,6 +76,7 @@ def test_meshes_are_called_by_their_folder(tmp_path: Path) -> None:
     [
         (PLATE.format(face="1/1 2/2 9/3"), "names a vertex that is not there"),
         (PLATE.format(face="1/1 2/2 0/3"), "names a vertex that is not there"),
+        (PLATE.format(face=f"1/1 2/2 {'9' * 30}/3"), "position/texture"),
         (PLATE.format(face="1 2 3"), "its faces have no texture"),
         (PLATE.format(face="a/b c/d e/f"), "position/texture"),
         (PLATE.format(face="1/1 2/2"), "no `f` lines"),
