@@ -62,15 +62,19 @@ def test_a_mutant_is_found_by_playing(mutant):
     assert name
 
 
+MANY = pytest.param(25_000, marks=pytest.mark.deep)
+
+
+@pytest.mark.parametrize("dialogues", [100, MANY])
 @pytest.mark.parametrize("name", GAMES)
-def test_a_correct_game_is_left_alone(name):
+def test_a_correct_game_is_left_alone(name, dialogues):
     beside = GAMES[name]
     suite = Suite(
         beside.game,
         beside.tutor,
         properties=properties_of(name),
         roles=beside.roles,
-        examples=100,
+        examples=dialogues,
     )
     assert faults_of(beside.game) == ()
     assert suite.run().told() == ""
