@@ -11,6 +11,7 @@ from functools import lru_cache
 
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import value_at
+from kille.dialogue.parsing import GrammarError
 from kille.simulation.sayings import Phrase
 from kille.simulation.worlds import Thing
 from kille.studies.reading.troubles import Trouble
@@ -39,7 +40,12 @@ def _of_tutor(tutor: Named, study: Study, names: Names) -> Iterator[Trouble]:
         words = words_of(theory.language, tutor)
         for kind, name in _named(names):
             word = words.called(name)
-            heard = _heard(kind, word, language, theory.language)
+            try:
+                heard = _heard(kind, word, language, theory.language)
+            except GrammarError as error:
+                what = f"this grammar cannot be used for lessons in {shown(word)}"
+                yield Trouble(("theories", theory.name, "grammar"), f"{what}: {error}")
+                break
             if word not in heard:
                 key = ("tutors", tutor.name, "calls", name)
                 told = _told(word, name, next(iter(heard), ""))

@@ -97,6 +97,10 @@ def _of_grammar(language: str, file: Path, texts: Iterable[str]) -> Iterator[Tro
     for text in texts:
         try:
             understand(text, language)
+        except GrammarError as error:
+            told = f"this grammar cannot be used for “{text}”: {error}"
+            yield Trouble(_KEY, told, f"{file}:1")
+            return
         except (TTRError, *_ODD) as error:
             told = f"this grammar makes of “{text}” what tutor.ttr has no type for: "
             yield Trouble(_KEY, f"{told}{error}", f"{file}:1")

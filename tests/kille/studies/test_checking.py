@@ -366,6 +366,26 @@ def test_a_language_that_does_not_read_is_told_in_its_file(
     assert told in fault
 
 
+@pytest.mark.parametrize(
+    ("only", "told"),
+    [
+        ("", "mine/tutor.en.lark:1: this grammar cannot be used for “This is to the"),
+        ("(?=.*right)", 'study.toml:4: this grammar cannot be used for lessons in "'),
+    ],
+)
+def test_a_grammar_that_takes_years_for_a_sentence_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, only: str, told: str
+) -> None:
+    monkeypatch.setattr("kille.dialogue.parsing.SECONDS", 0.5)
+    (tmp_path / "mine").mkdir()
+    slow = rf"%ignore /{only}(?=([^q]|[^q][^q])+q)/"
+    own = f"{packaged('tutor.en.lark')}\n{slow}\n"
+    (tmp_path / "mine" / "tutor.en.lark").write_text(own, encoding="utf-8")
+    [fault] = found(tmp_path, "[theories.one]\ngrammar = 'mine'\n")
+    assert told in fault
+    assert "what is ignored takes too long to look for" in fault
+
+
 def test_a_swedish_grammar_is_tried_in_swedish(tmp_path: Path) -> None:
     (tmp_path / "mine").mkdir()
     source = packaged("tutor.sv.lark")
