@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
@@ -143,18 +144,16 @@ def _corners(
     return corners - 1
 
 
+def _named(lines: Iterable[str], key: str) -> list[str]:
+    """The files that lines with this key name."""
+    stripped = (line.strip() for line in lines)
+    return [line.removeprefix(key).strip() for line in stripped if line.startswith(key)]
+
+
 def _texture(path: Path, lines: list[str]) -> Colour:
     """The picture that the mesh's material file names."""
-    libraries = [
-        line.split(maxsplit=1)[1] for line in lines if line.startswith("mtllib ")
-    ]
-    materials = [_read(path.parent / name.strip()) for name in libraries]
-    maps = [
-        line.split(maxsplit=1)[1].strip()
-        for text in materials
-        for line in text.splitlines()
-        if line.strip().startswith("map_Kd ")
-    ]
+    materials = [_read(path.parent / name) for name in _named(lines, "mtllib ")]
+    maps = [name for text in materials for name in _named(text.splitlines(), "map_Kd ")]
     if not maps:
         raise SensorError(f"{path}: its material names no texture (`map_Kd`)")
     file = path.parent / maps[0]

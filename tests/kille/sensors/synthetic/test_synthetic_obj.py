@@ -84,6 +84,7 @@ def test_meshes_are_called_by_their_folder(tmp_path: Path) -> None:
         (PLATE.format(face="1/1 2/2 3/3").replace("0.2", "200"), "read in metres"),
         ("mtllib plate.mtl\n", "no usable `v`"),
         (PLATE.format(face="1/1 2/2 3/3").replace("mtllib", "#"), "names no texture"),
+        (PLATE.format(face="1/1 2/2 3/3").replace("plate.mtl", "\t"), "no texture"),
         (
             PLATE.format(face="1/1 2/2 3/3").replace("plate.mtl", "x.mtl"),
             "cannot be read",
