@@ -103,7 +103,7 @@ def read(folder: Path) -> Study:
 def _read(folder: Path, files: Sequence[str], reader: Any) -> Study:
     try:
         study: Study = reader(folder)
-    except (KeyError, ValueError, TypeError, UnicodeDecodeError, csv.Error) as error:
+    except (LookupError, ValueError, TypeError, ArithmeticError, csv.Error) as error:
         raise ExperimentError(
             f"{folder}: {' or '.join(files)} is not as expected "
             f"({type(error).__name__}: {error}); see where it was published"

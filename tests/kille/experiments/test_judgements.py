@@ -81,6 +81,10 @@ def test_a_broken_file_is_told_of(tmp_path: Path) -> None:
     (tmp_path / "logan_sadler.csv").write_text("preposition,dx_right\nleft,none\n")
     with pytest.raises(ExperimentError, match="not as expected"):
         read(tmp_path)
+    far = f"preposition,dx_right,dy_up,rating_1_9\nleft,{'9' * 400},0,5\n"
+    (tmp_path / "logan_sadler.csv").write_text(far)
+    with pytest.raises(ExperimentError, match="not as expected"):
+        read(tmp_path)
     (tmp_path / "logan_sadler.csv").write_text(
         "preposition,row,col,dx_right,dy_up,rating_1_9\n"
     )
