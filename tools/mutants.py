@@ -28,6 +28,7 @@ import sys
 import tempfile
 import threading
 import tomllib
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
@@ -43,6 +44,9 @@ from parso.python.tree import Keyword
 ROOT = Path(__file__).resolve().parent.parent
 TESTS = 20.0
 """Seconds of tests for one mutant: the quickest that reach the changed line."""
+
+UNCOUNTED = ("same", "invalid")
+"""Outcomes of what is no mutant."""
 
 Span = tuple[tuple[int, int], tuple[int, int]]
 
@@ -291,10 +295,20 @@ def copy_tree(folder: Path) -> None:
 # --- running -------------------------------------------------------------------------
 
 
+def is_python(code: str) -> bool:
+    """Can this be run at all? A star in a signature that became `<<` cannot."""
+    try:
+        compile(code, "<mutant>", "exec", dont_inherit=True)
+    except SyntaxError:
+        return False
+    return True
+
+
 def outcome(mutant: Mutant, folder: Path, reach: Reach) -> tuple[str, str]:
     """What became of a mutant, and its change as a diff.
 
-    killed, timeout (also killed), survived, or unreached: no test runs the line.
+    killed, timeout (also killed), survived, or unreached: no test runs the line. Not
+    counted is what is the same code, or invalid: no Python, which needs no test.
     """
     path = folder / mutant.file
     code = path.read_text()
@@ -308,6 +322,8 @@ def outcome(mutant: Mutant, folder: Path, reach: Reach) -> tuple[str, str]:
         )
         if line[:3] not in ("---", "+++")
     )
+    if not is_python(mutated):
+        return "invalid", diff
     tests = reach.tests(mutant)
     if not tests:
         return "unreached", diff
@@ -373,7 +389,7 @@ def run_all(
 def report(log: Path) -> None:
     """Prints the survivors and the score."""
     rows = [json.loads(line) for line in log.read_text().splitlines()]
-    rows = [row for row in rows if row["outcome"] != "same"]
+    rows = [row for row in rows if row["outcome"] not in UNCOUNTED]
     left = [row for row in rows if row["outcome"] in ("survived", "unreached")]
     for row in sorted(left, key=lambda row: (row["mutant"]["file"], row["diff"])):
         print(f"\n{row['outcome']}: {Mutant(**row['mutant'])}\n{row['diff']}", end="")
@@ -383,6 +399,7 @@ def report(log: Path) -> None:
 
 def main() -> None:
     """Reads the command line, tries the mutants, and reports."""
+    warnings.simplefilter("ignore", SyntaxWarning)  # of mutants, such as `1 is x`
     rooms = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]
     rooms = rooms["kille"]["rooms"]
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])

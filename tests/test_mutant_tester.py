@@ -1,0 +1,62 @@
+"""What the mutation tester takes for a mutant, and what it counts."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+pytest.importorskip("cosmic_ray", reason="kille[mutants] is not installed")
+TOOL = Path(__file__).resolve().parent.parent / "tools" / "mutants.py"
+
+CODE = """\
+def twice(number, *, start=0):
+    return start + 2 * number
+"""
+
+
+@pytest.fixture(scope="module")
+def mutants() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("mutants", TOOL)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module  # dataclasses look their module up
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_a_change_that_is_no_python_is_not_tested(
+    mutants: ModuleType, tmp_path: Path
+) -> None:
+    (tmp_path / "twice.py").write_text(CODE)
+    name, no_tests = "ReplaceBinaryOperator_Mul_LShift", mutants.Reach({}, {})
+    outcomes = {}
+    for (_, span), found in mutants.mutants_by_place("twice.py", CODE).items():
+        for mutant in found:
+            if mutant.operator == name:
+                outcomes[span[0]] = mutants.outcome(mutant, tmp_path, no_tests)[0]
+    assert outcomes == {(1, 18): "invalid", (2, 21): "unreached"}
+
+
+def test_only_mutants_are_counted(
+    mutants: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    place = {"file": "a.py", "operator": "o", "occurrence": 0, "line": 1}
+    outcomes = ("killed", "timeout", "survived", "unreached", "same", "invalid")
+    log = tmp_path / "log.jsonl"
+    log.write_text(
+        "".join(
+            json.dumps(
+                {"mutant": {**place, "last_line": 1}, "outcome": one, "diff": ""}
+            )
+            + "\n"
+            for one in outcomes
+        )
+    )
+    mutants.report(log)
+    assert capsys.readouterr().out.endswith("2 of 4 killed (50.0%)\n")
