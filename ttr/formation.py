@@ -174,7 +174,9 @@ def target(path: Path, T: RecordType) -> TypeNode:
             lacks = f"has no {label}" if is_record else "is no record type"
             raise IllFormed(
                 f"the path {_written(path)} leads nowhere: {_shown(here)} {lacks}",
-                hint=suggestion(label, labels) or _further_out(path, here),
+                hint=f"{label} is in some alternatives only"
+                if label in labels
+                else suggestion(label, labels) or _further_out(path, here),
             )
         here = field
     return here

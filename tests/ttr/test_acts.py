@@ -62,3 +62,10 @@ def test_acts_print_as_in_the_literature():
 def test_what_is_no_act():
     with pytest.raises(TTRError, match=r"an act is one of ttr\.acts, found"):
         performed("bark", M)
+
+
+def test_outcomes_print_what_was_answered():
+    found = performed(QuerySome(dog("fido")), M)
+    assert str(found) == "some : dog(fido)?   s1 : dog(fido)   p = 1"
+    nothing = performed(QuerySome(cat("fido")), M)
+    assert str(nothing) == "some : cat(fido)?   nothing known"

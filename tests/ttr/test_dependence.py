@@ -378,3 +378,13 @@ def test_any_one_of_many_objects_is_any():
     for number in range(1_001):
         M = M.given(f"o{number}", A)
     assert M.given("o1000", B, 0.1).chance(B, when=A).p == (0.1, 0.6)
+
+
+def test_evidence_of_another_type_changes_how_probable_each_value_is():
+    V = RandomVariable("V", A, B)
+    M = Model(Signature(exclusions=(Exclusion(A, B),)))
+    M = M.given("a", A, 0.2).given("a", B, 0.8)
+    M = M.given("a", C, 0.9, when=[("a", A)]).given("a", C, 0.3, when=[("a", ~A)])
+    assert V.judge(M, "a", A).p == pytest.approx((0.2, 0.2))
+    seen = V.judge(M, "a", A, when=[("a", C)])
+    assert seen.p == pytest.approx((0.18 / (0.18 + 0.24),) * 2)

@@ -109,3 +109,14 @@ def test_the_label_that_was_meant_comes_before_those_further_out():
     with pytest.raises(IllFormed) as caught:
         rectype(xy=Ind, c=dog(this.x))
     assert caught.value.hint == "did you mean xy?"
+
+
+def test_a_path_into_alternatives_leads_to_what_all_of_them_have():
+    either = rectype(a=Dog) | rectype(a=Image, b=Ind)
+    assert wellformed(rectype(x=either, y=Ind @ this.x.a)).yes
+    fits = r"needs Ind for x\.a, but that is of Dog \\/ Image"
+    with pytest.raises(IllFormed, match=fits):
+        rectype(x=either, c=dog(this.x.a))
+    with pytest.raises(IllFormed, match=r"has no b") as caught:
+        rectype(x=either, c=dog(this.x.b))
+    assert caught.value.hint == "b is in some alternatives only"

@@ -33,6 +33,7 @@ from ttr import (
 )
 from ttr.constructors import star
 from ttr.theories import Axiom, Given, Signature
+from ttr.witnesses import candidates
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 p = Pred("p", A)
@@ -478,3 +479,30 @@ def test_what_is_below_an_open_type_leaves_it_open():
 def test_something_empty_is_of_star_and_list():
     assert Model(Signature(opened=frozenset((A,)))).true(star(A)) == (1, 1)
     assert Model().true(ListOf(A)) == (1, 1)
+
+
+def test_what_an_application_gives_is_told_of_the_parts_of_an_object():
+    is_dog = fun(x=Ind)(dog(this.x))
+    M = Model().given("fido", Ind).given(("s",), ListOf(Application(is_dog, "fido")))
+    assert M.judge("s", dog("fido")).holds is True
+
+
+def test_an_argument_that_is_refused_is_refused_for_what_is_wrong_in_it():
+    barks = fun(r=rectype(x=Ind, n=rectype(c=dog(outer.x))))(dog(this.r.x))
+    M = Model().given("fido", Ind)
+    found = M.judge("s", Application(barks, record(x="fido", n=record(c="e"))))
+    assert str(found.why).endswith("is not in the field n.c: nothing says so)")
+
+
+def test_an_axiom_about_two_arguments_says_nothing_of_one():
+    ready = Pred("ready", (Ind,), (Ind, Ind))
+    able = Pred("able", Ind)
+    M = Model(Signature(axioms=(Axiom(ready(this.x), able(this.x)),)))
+    M = M.given("fido", Ind).given("bone", Ind)
+    assert M.given("s", ready("fido")).judge("s", able("fido")).holds is True
+    assert M.given("s", ready("fido", "bone")).judge("s", able("fido")).holds is False
+
+
+def test_what_certainly_is_not_of_a_type_is_no_candidate():
+    M = Model().given("a", A).given("b", A, 0).given("c", A, 0.5)
+    assert list(candidates(M.facts, A)) == ["a", "c"]

@@ -173,3 +173,8 @@ def test_what_strings_have_in_common_is_made_of_strings():
 def test_what_is_made_up_is_of_the_type(T):
     made, model = Model().create(T)
     assert model.judge(made, T).holds
+
+
+def test_what_is_not_of_two_types_of_events_is_an_event():
+    assert not is_of_strings(~(A & B))
+    assert events_of(Str(~(A & B), A)) == (~(A & B), A)

@@ -70,3 +70,9 @@ def test_what_cannot_be_subtracted_from_is_said():
 
 def test_subtraction_gives_a_supertype():
     assert subtract(PAIR, "e") >= PAIR
+
+
+def test_a_longer_path_goes_into_the_part_of_a_meet_that_has_it():
+    T = rectype(x=rectype(a=rectype(b=Ind, c=Ind)) & ~rectype(d=A))
+    without = rectype(x=rectype(a=rectype(c=Ind)) & ~rectype(d=A))
+    assert subtract(T, "x.a.b") is without
