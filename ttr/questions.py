@@ -322,7 +322,7 @@ def _plain(P: TypeNode) -> TypeNode:
     So [x = paris : City, e : dest_city(x)] is matched as [e : dest_city(paris)] is.
     """
     P = _merged(P)
-    if not isinstance(P, RecordType) or not any(map(escaping, P._types.values())):
+    if not isinstance(P, RecordType):
         return P
     fields: dict[str, TypeNode] = {}
     known: dict[str, Object] = {}

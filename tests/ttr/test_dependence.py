@@ -388,3 +388,9 @@ def test_evidence_of_another_type_changes_how_probable_each_value_is():
     assert V.judge(M, "a", A).p == pytest.approx((0.2, 0.2))
     seen = V.judge(M, "a", A, when=[("a", C)])
     assert seen.p == pytest.approx((0.18 / (0.18 + 0.24),) * 2)
+
+
+def test_bounds_of_a_chain_in_which_something_is_not_so():
+    M = Model().given("a", A, (0.5, 0.6)).given("b", B, (0.2, 0.4), when=[("a", A)])
+    found = M.judge(record(x="a", y="b"), rectype(x=A, y=~B)).p
+    assert found == pytest.approx((0.5 * (1 - 0.4), 0.6 * (1 - 0.2)))

@@ -16,6 +16,7 @@ from ttr import (
     this,
     wellformed,
 )
+from ttr.circles import in_order
 from ttr.theories import Axiom, Signature
 
 Dog, Image = Basic("Dog"), Basic("Image")
@@ -120,3 +121,10 @@ def test_a_path_into_alternatives_leads_to_what_all_of_them_have():
     with pytest.raises(IllFormed, match=r"has no b") as caught:
         rectype(x=either, c=dog(this.x.b))
     assert caught.value.hint == "b is in some alternatives only"
+
+
+def test_fields_are_in_order_where_each_depends_on_those_before_it():
+    inner = rectype(x=Ind, n=rectype(c=dog(outer.x)))
+    assert in_order(inner)
+    assert in_order(ListOf(rectype(x=Ind, y=Ind @ this.x)))
+    assert not in_order(rectype(x=Ind @ this.y, y=Ind @ this.x))

@@ -3,6 +3,7 @@
 import pytest
 
 from ttr import Basic, IllFormed, Negation, Unsupported, join, meet, rectype
+from ttr.cases import cases
 from ttr.normal_forms import join_normal_form, meet_normal_form
 
 A, B, C, D = map(Basic, "ABCD")
@@ -62,3 +63,10 @@ def test_only_types_have_normal_forms():
         meet_normal_form("A")
     with pytest.raises(IllFormed, match="expected a type"):
         join_normal_form("A")
+
+
+def test_cases_that_are_too_many_are_not_left_out():
+    several = [join(*(Basic(f"A{i}{j}") for j in range(9))) for i in range(4)]
+    assert len(cases(several[0])) == 9
+    assert cases(meet(*several)) is None
+    assert cases(A | meet(*several)) is None

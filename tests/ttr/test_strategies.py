@@ -23,6 +23,7 @@ from ttr import (
     Record,
     RecordType,
     Refused,
+    Singleton,
     Theory,
     TTRError,
     TypeNode,
@@ -211,3 +212,11 @@ def test_what_is_missing_is_said(monkeypatch):
     monkeypatch.setitem(sys.modules, "hypothesis", None)
     with pytest.raises(ImportError, match=r"pip install 'kille\[test\]'"):
         import ttr.strategies  # noqa: F401
+
+
+def test_fields_are_set_to_objects_and_to_other_fields():
+    T = tst.record_types(depth=0)
+    fields = [field for one in drawn(T, few) for _, field in one.fields]
+    set_to = Counter(type(one.value) for one in fields if isinstance(one, Singleton))
+    assert set_to[Path] >= 5
+    assert set_to[str] >= 5, set_to

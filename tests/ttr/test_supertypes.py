@@ -168,3 +168,12 @@ def test_only_types_have_supertypes():
 
 def test_a_join_of_many():
     assert common_supertype(join(A & C, B & C), C & Type) is C
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_functions_have_none_above_them_if_the_result_of_one_depends(turned):
+    fixed = Ind >> rectype(a=A, c=dog("fido"))
+    depends = Pi(x=Ind)(rectype(a=A, c=dog(outer.x)))
+    both = (depends, fixed) if turned else (fixed, depends)
+    with pytest.raises(IllFormed, match="have no common supertype"):
+        common_supertype(*both)

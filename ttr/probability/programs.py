@@ -52,7 +52,6 @@ def least(f: Row, g: Row, rows: Sequence[Row]) -> Fraction:
     table.minimise(table.missing)
     if table.missing[-1] != 0:
         raise Infeasible
-    table.drop_missing()
     table.minimise(table.cost)
     return Fraction(-table.cost[-1], table.divisor)
 
@@ -61,7 +60,9 @@ class _Table:
     """A simplex tableau of integers over one divisor (Edmonds 1967, Bareiss 1968).
 
     Columns are worlds, the slack of each row, what is missing of g · v = 1, and the
-    right-hand side. Bland's rule keeps it from going round in circles.
+    right-hand side, which is 0 but for g · v: so as long as something is missing of it,
+    that is more than nothing, and afterwards it is no longer in the basis. Bland's rule
+    keeps it from going round in circles.
     """
 
     def __init__(self, f: Row, g: Row, rows: Sequence[Row]) -> None:
@@ -94,17 +95,6 @@ class _Table:
             stuck = self.rows[number][-1] == 0
             self._pivot(number, column)
 
-    def drop_missing(self) -> None:
-        """Takes what is missing, which is nothing by now, out of the basis."""
-        artificial = self.columns
-        if artificial not in self.basis:
-            return
-        number = self.basis.index(artificial)
-        row = self.rows[number]
-        column = next((j for j in range(self.columns) if row[j] != 0), None)
-        if column is not None:
-            self._pivot(number, column)
-
     def _leaving(self, column: int) -> int:
         """The row whose basic column is the first to get to 0."""
         best = -1
@@ -123,8 +113,6 @@ class _Table:
     def _pivot(self, number: int, column: int) -> None:
         spend(1 + len(self.rows) * len(self.cost) // 8)
         row = self.rows[number]
-        if row[column] < 0:
-            row = self.rows[number] = [-x for x in row]
         by, old = row[column], self.divisor
         others = [one for i, one in enumerate(self.rows) if i != number]
         for one in (*others, self.cost, self.missing):
