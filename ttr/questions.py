@@ -24,7 +24,6 @@ from ttr.errors import TTRError
 from ttr.merging import merge
 from ttr.models import Model
 from ttr.objects import Unresolved
-from ttr.paths import escaping
 from ttr.substitution import grounded
 from ttr.syntax import (
     BOUND,
