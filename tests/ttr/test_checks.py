@@ -442,6 +442,13 @@ def test_promises_of_wrong_values():
     ]
 
 
+def test_a_promise_is_wrong_once_though_value_and_type_are():
+    both = made("both", gives=rectype(agenda=rectype(a=Ind) @ record(a="x")))
+    assert messages(both) == [
+        "the rule both promises to set agenda to {a = x}, which is no list(RecType)"
+    ]
+
+
 def test_a_value_that_cannot_be_judged_is_left_alone():
     def broken(n):
         raise ValueError(n)
@@ -511,6 +518,10 @@ def test_a_start_that_is_no_state():
         (rectype(n=Count @ -1), "it asks that n be -1, but n is of Count"),
         (rectype(shared=ListOf(Ind)), "it asks that shared be of list(Ind)"),
         (rectype(agenda=NonEmpty(RecType) @ ()), "nothing can be a state and of"),
+        (
+            rectype(agenda=(NonEmpty(RecType) @ ()) | (NonEmpty(Ind) @ ())),
+            "it asks that agenda be of",
+        ),
     ],
 )
 def test_impossible_conditions(condition, why):
@@ -709,6 +720,30 @@ def only_if(s):
 
 
 @rule(when=Board)
+def by_both_branches(s):
+    if s.n:
+        return replace(s, n=0)
+    else:
+        return s
+
+
+@rule(when=Board)
+def by_one_branch(s):
+    if s.n:
+        return replace(s, n=0)
+    else:
+        pass
+
+
+@rule(when=Board)
+def by_other_branch(s):
+    if s.n:
+        pass
+    else:
+        return s
+
+
+@rule(when=Board)
 def by_helper(s):
     return reset(s)
 
@@ -757,6 +792,9 @@ def reset_if(board):
     ("one", "never"),
     [
         (only_if, []),
+        (by_both_branches, ["always"]),
+        (by_one_branch, []),
+        (by_other_branch, []),
         (by_helper, ["always"]),
         (by_helper_if, []),
         (by_cases, ["always"]),
@@ -918,6 +956,40 @@ def test_own_moves_are_events():
         (theory.Hug,),
     )
     assert [fault.rule.name for fault in faults_of(heard)] == ["barked"]
+
+
+def test_own_moves_are_found_where_a_rule_sets_other_fields_too():
+    game = Theory.parse("""
+        basic Ind
+        object a : Ind
+        pred hug(Ind), run(Ind)
+        Hug := [e : hug(a)]
+        Run := [e : run(a)]
+        Board := [last : Rec, next : list(RecType)]
+        rule hugged(s : Board, e : Hug)
+            := [last = e : Rec, next = [Run] : list(RecType)]
+        rule ran(s : Board, e : Run) := [last = e : Rec, next = [] : list(RecType)]
+        game dogs({last = {}, next = []} : Board, acts on next, hears Hug)
+            := first(hugged, ran)
+    """).games["dogs"]
+    assert faults_of(game) == ()
+
+
+def test_own_moves_are_found_where_a_rule_sets_what_the_agenda_is_in():
+    game = Theory.parse("""
+        basic Ind
+        object a : Ind
+        pred hug(Ind), run(Ind)
+        Hug := [e : hug(a)]
+        Run := [e : run(a)]
+        Board := [mine : [next : list(RecType)]]
+        rule hugged(s : Board, e : Hug)
+            := [mine = {next = [Run]} : [next : list(RecType)]]
+        rule ran(s : Board, e : Run) := [mine : [next = [] : list(RecType)]]
+        game dogs({mine = {next = []}} : Board, acts on mine.next, hears Hug)
+            := first(hugged, ran)
+    """).games["dogs"]
+    assert faults_of(game) == ()
 
 
 def test_rules_that_share_their_text_are_told_apart():
@@ -1122,6 +1194,18 @@ def test_only_the_rest_of_the_list_itself_is_shorter(what, ends):
     """)
     found = sorts(repeat(theory.rules["drop"]), theory.Board)
     assert found == ([] if ends else ["endless"])
+
+
+def test_a_list_gets_shorter_whatever_becomes_of_other_fields():
+    theory = Theory.parse("""
+        basic Ind, Phase
+        object p0, p1 : Phase
+        Board := [qud : list(Ind), phase : Phase]
+        rule drop(s : [qud : nelist(Ind)]) := [qud = rst(s.qud) : list(Ind)]
+        rule mark(s : [phase = p0 : Phase]) := [phase = p1 : Phase]
+    """)
+    both = repeat(first(theory.rules["drop"], theory.rules["mark"]))
+    assert sorts(both, theory.Board, model=Model(theory)) == []
 
 
 def test_a_long_repetition_is_named_by_its_first_rules():
@@ -1344,3 +1428,46 @@ def test_a_type_that_a_witness_function_judges_may_have_lists():
     game = Theory.parse(BRACKETS).games["talk"]
     seeing = game.model.witnessed(game.theory.P, by=lambda a: True)
     assert faults_of(dataclasses.replace(game, model=seeing)) == ()
+
+
+WHOLE = """
+    basic Ind, P
+    object ann : Ind
+    object p0 : P
+    Board := [a : P, in : [b : P, c : [d : P]]]
+    rule whole(s : Board) := {a = p0, in = {b = ann, c = {d = ann}}}
+    rule part(s : Board) := {a = p0, in = {b = p0}}
+    game g({a = p0, in = {b = p0, c = {d = p0}}} : Board) := first(whole, part)
+"""
+
+
+def test_a_record_that_is_the_next_state_is_checked_field_by_field():
+    found = faults_of(Theory.parse(WHOLE).games["g"])
+    assert [one.message for one in found if one.sort == "misfit"] == [
+        "the rule whole sets in.b to ann, which is no P",
+        "the rule whole sets in.c.d to ann, which is no P",
+        "the state that the rule part gives has no in.c",
+    ]
+
+
+@pytest.mark.parametrize(
+    "now",
+    ["\ndef shy(s): return s.nowhere\n", "def shy(t): return t.nowhere\n"],
+    ids=["further down", "another parameter"],
+)
+def test_what_was_edited_since_it_was_loaded_is_not_read(tmp_path, now):
+    file = tmp_path / "edited.py"
+    file.write_text(now)
+    names = {}
+    exec(compile("def shy(s): return s.nowhere\n", str(file), "exec"), names)
+    assert messages(rule(when=Board)(names["shy"])) == []
+
+
+def test_what_is_as_it_was_loaded_is_read(tmp_path):
+    file = tmp_path / "same.py"
+    file.write_text("def shy(s): return s.nowhere\n")
+    names = {}
+    exec(compile(file.read_text(), str(file), "exec"), names)
+    assert messages(rule(when=Board)(names["shy"])) == [
+        "the rule shy reads s.nowhere, but s has no nowhere"
+    ]

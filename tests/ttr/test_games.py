@@ -145,3 +145,20 @@ def test_what_is_no_game(changes, message):
     with pytest.raises(TTRError) as caught:
         Game("talk", Talk, model=M, **options | changes)
     assert message in str(caught.value)
+
+
+def test_a_move_that_an_act_made_is_judged_to_be_of_what_was_planned():
+    def other(planned, model):
+        return record(by="b", loud="yes"), model
+
+    @rule(when=Talk, on=Rec)
+    def once(s, e):
+        planned = [] if s.heard else [rectype(by=Ind @ "c")]
+        return replace(s, plan=planned, heard=["a"])
+
+    for act, holds in (
+        (other, False),
+        (lambda planned, model: model.create(planned), True),
+    ):
+        (turn,) = talk(act=act, algorithm=once).play([{"by": "a"}])
+        assert [move.holds for move in turn.said] == [holds]

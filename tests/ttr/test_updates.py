@@ -864,3 +864,56 @@ def test_more_mistakes_are_named(message):
     with pytest.raises(UpdateError) as caught:
         MORE_MISTAKES[message]()
     assert message in str(caught.value)
+
+
+def test_where_nothing_of_a_basic_type_is_known_a_rule_waits():
+    @rule(when=Counter, where=rectype(one=Basic("Unheard")))
+    def found(s, one):
+        return replace(s, log=[one])
+
+    assert run(maybe(found), START, type=Counter, model=M).state == START
+
+
+@pytest.mark.parametrize(
+    ("on", "event"), [(Ind, record(of="a")), (rectype(of=Ind), "a")], ids=str
+)
+def test_what_is_of_another_form_is_not_probable_either(on, event):
+    @rule(when=Counter, on=on, p=0.3)
+    def takes(s, e):
+        return replace(s, n=5)
+
+    assert (
+        run(maybe(takes), START, events=[event], type=Counter, model=M).state == START
+    )
+
+
+def test_an_event_with_the_name_that_is_asked_for_is_taken_if_it_is_probable():
+    one = rectype(of=Ind @ "a", sure=Basic("Sure"))
+
+    @rule(when=Counter, on=one, p=0.3)
+    def takes(s, e):
+        return replace(s, n=5)
+
+    known = M.given("w", Basic("Sure"), 0.5)
+    event = record(of="a", sure="w")
+    assert (
+        run(maybe(takes), START, events=[event], type=Counter, model=known).state.n == 5
+    )
+    other = record(of="b", sure="w")
+    assert (
+        run(maybe(takes), START, events=[other], type=Counter, model=known).state.n == 0
+    )
+
+
+def test_what_several_rules_ask_of_a_state_is_judged_once():
+    asked = []
+
+    def odd(n):
+        asked.append(n)
+        return False
+
+    Odd = Basic("Odd")
+    never = [rule(when=rectype(n=Odd))(lambda s: s) for _ in range(3)]
+    known = M.witnessed(Odd, by=odd)
+    assert run(maybe(all_(*never)), START, type=Counter, model=known).trace == ()
+    assert asked == [0]

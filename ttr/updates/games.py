@@ -315,6 +315,8 @@ def _circle(names: Sequence[str]) -> Sequence[str]:
     ['b', 'c']
     >>> _circle(["a", "b", "c"])
     ['a', 'b', 'c']
+    >>> _circle(["a", "b", "c", "d"])
+    ['b', 'c', 'd']
     """
     for size in range(1, len(names) // 2 + 1):
         if names[-size:] == names[-2 * size : -size]:

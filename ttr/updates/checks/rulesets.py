@@ -128,7 +128,7 @@ class RuleSet:
         """What each variable of a rule is of."""
         state, *event = rule.names
         roots: dict[str, Views] = {state: (self.type, rule.when)}
-        if rule.on is not None and event:
+        if rule.on is not None:
             roots[event[0]] = (rule.on,)
         for label, field in rule.where.fields if rule.where else ():
             roots[label] = (field,)

@@ -60,8 +60,8 @@ class Source:
 
     def span(self, node: ast.expr | ast.keyword, last: int = 0) -> Span:
         """The place of an expression, or of as many characters at its end."""
-        line = node.end_lineno if last else node.lineno
-        text = linecache.getline(self.file, line or 0).rstrip("\n")
+        line = (last and node.end_lineno) or node.lineno
+        text = linecache.getline(self.file, line).rstrip("\n")
         start = _characters(text, node.col_offset)
         end = _characters(text, node.end_col_offset or 0)
         if last:
@@ -69,7 +69,7 @@ class Source:
         elif node.end_lineno != node.lineno:
             end = len(text)
         shown = text.replace("\t", " ")
-        return Span(self.file, line or 0, start + 1, max(1, end - start), shown)
+        return Span(self.file, line, start + 1, max(1, end - start), shown)
 
     def opening(self, node: ast.keyword, label: str) -> Span:
         """The place of the label that a keyword argument begins with."""
