@@ -1196,15 +1196,14 @@ def test_only_the_rest_of_the_list_itself_is_shorter(what, ends):
     assert found == ([] if ends else ["endless"])
 
 
-def test_a_list_gets_shorter_whatever_becomes_of_other_fields():
+def test_each_of_two_lists_gets_shorter_whatever_becomes_of_the_other():
     theory = Theory.parse("""
-        basic Ind, Phase
-        object p0, p1 : Phase
-        Board := [qud : list(Ind), phase : Phase]
+        basic Ind
+        Board := [qud : list(Ind), plan : list(Ind)]
         rule drop(s : [qud : nelist(Ind)]) := [qud = rst(s.qud) : list(Ind)]
-        rule mark(s : [phase = p0 : Phase]) := [phase = p1 : Phase]
+        rule go_on(s : [plan : nelist(Ind)]) := [plan = rst(s.plan) : list(Ind)]
     """)
-    both = repeat(first(theory.rules["drop"], theory.rules["mark"]))
+    both = repeat(first(theory.rules["drop"], theory.rules["go_on"]))
     assert sorts(both, theory.Board, model=Model(theory)) == []
 
 
