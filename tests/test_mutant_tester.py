@@ -21,7 +21,7 @@ def twice(number, *, start=0):
 
 @pytest.fixture(scope="module")
 def mutants() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("mutants", TOOL)
+    spec = importlib.util.spec_from_file_location("mutant_tester", TOOL)
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)

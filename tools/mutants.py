@@ -9,7 +9,7 @@ the tests that reach the changed line fails, quickest tests first.
     python tools/mutants.py memory --sample 300 --seed 0 --jobs 2
 
 Rooms, and what tests them, are listed in pyproject.toml, in [tool.kille.rooms]. Results
-are kept in mutants/ROOM-SEED.jsonl; the same command goes on where it was stopped.
+are kept in .mutants/ROOM-SEED.jsonl; the same command goes on where it was stopped.
 """
 
 from __future__ import annotations
@@ -414,7 +414,7 @@ def main() -> None:
         for pattern in room["sources"]
         for path in sorted(ROOT.glob(pattern))
     ]
-    log = ROOT / "mutants" / f"{chosen.room}-{chosen.seed}.jsonl"
+    log = ROOT / ".mutants" / f"{chosen.room}-{chosen.seed}.jsonl"
     log.parent.mkdir(exist_ok=True)
     log.touch()
     done = {
