@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ttr import Basic, Ind, ListOf, Model, Pred, Undecided, record, rectype, this
+from ttr.probability import All, AnyOf
 
 A = Basic("A")
 dog = Pred("dog", Ind)
@@ -100,3 +101,11 @@ def test_uncertain_judgements_in_order():
     why = M.judge(record(x="a", c="s"), Dog).why
     assert [step.type for step in why.uncertain()] == [Ind, dog("a")]
     assert list(Model().given("a", Ind).judge("a", Ind).why.uncertain()) == []
+
+
+def test_what_is_decided_rests_on_nothing_uncertain():
+    T = rectype(x=A, y=ListOf(Ind))
+    refuted = M.judge(record(x="b", y="a"), T).why
+    certain = M.judge(record(x="b", y=["a"]), rectype(y=ListOf(Ind))).why
+    assert [part.p for part in refuted.parts] == [(0.5, 0.5), (0, 0)]
+    assert (refuted.event(), certain.event()) == (AnyOf(()), All(()))

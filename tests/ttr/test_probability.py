@@ -20,6 +20,8 @@ from ttr.probability import (
     chance,
     degree,
 )
+from ttr.probability.dependence import Component
+from ttr.probability.polytopes import polytope
 
 
 @pytest.mark.parametrize(
@@ -202,3 +204,16 @@ def happens(event, truth):
             return all(happens(part, truth) for part in parts)
         case AnyOf(parts):
             return any(happens(part, truth) for part in parts)
+
+
+def test_of_what_is_too_large_a_part_around_what_is_asked_gives_bounds():
+    """Each of a chain of judgements entails the next; but the last two exclude."""
+    half, chain = Degree(0.5, 0.5), tuple(range(40))
+    links = tuple(pairwise(chain[:39]))
+    known = dict.fromkeys(chain, half)
+    whole = Component(chain, known, entailed=links, exclusive=((38, 39),))
+    found = polytope(whole, [3])
+    assert not found.exact
+    assert set(found.component.atoms) == set(found.cases[0]) < set(chain)
+    both = [degree(case[3] and case[20]) for case in found.cases]
+    assert found.share(both, {}) == half
