@@ -504,3 +504,9 @@ def test_a_text_may_be_as_broad_as_it_likes(text: str) -> None:
 def test_deep_types_are_read_and_printed() -> None:
     text = "[x : " * 99 + "list(A)" + "]" * 99
     assert str(KENNEL.parse(text)) == text
+
+
+@pytest.mark.parametrize("text", ["dog(x.a°)", "dog(^.a°)", "dog(.a°.b)"])
+def test_each_label_of_a_path_is_a_name(text):
+    with pytest.raises(NotationError, match="a° is no name: a name is letters, digit"):
+        KENNEL.parse(f"[x : [a : Ind], y : {text}]")

@@ -12,6 +12,7 @@ from ttr import (
     Pred,
     Rec,
     RecType,
+    Str,
     Type,
     Unsupported,
     fun,
@@ -209,3 +210,12 @@ def test_what_nests_too_deep_is_said_so():
         T = rectype(n=T)
     with pytest.raises(Unsupported, match="nests deeper than can be followed"):
         subtype(T, rectype(n=rectype(y=A)))
+
+
+def test_what_is_said_of_an_event_is_said_of_whatever_is_such_a_string():
+    nothing = rectype(x=Ind @ "a") & rectype(x=Ind @ "b")
+    for event in (nothing, A & ~A, ListOf(A) & rectype(x=A)):
+        answer = subtype(Str(event, B), C)
+        assert str(answer) == f"yes: nothing can be of {Str(event, B)}"
+    same = rectype(x=Ind, s=Str(rectype(y=Ind @ outer.x) & rectype(y=Ind @ "b"), B))
+    assert subtype(same, rectype(x=Ind @ "b")).yes
