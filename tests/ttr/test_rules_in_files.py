@@ -134,6 +134,9 @@ def test_an_uncertain_event_is_taken_if_it_is_probable_enough() -> None:
     assert why_not(one, state(), event, M) == (
         "an event of [act : Act, c : by(act, a)] is not as probable as [0.6, 1]"
     )
+    assert why_not(one, state(), record(act="hi", c="hi"), M) == (
+        "c: hi : by(hi, a), nothing says so; hi is of Act; c1 would do"
+    )
 
 
 def test_a_variable_hides_what_is_called_so_and_a_label_hides_a_variable() -> None:
