@@ -7,12 +7,13 @@ kille makes, and if its values are of the types that kille writes.
 
 from __future__ import annotations
 
+import os
 import re
 import sqlite3
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 
 __all__ = [
@@ -59,12 +60,11 @@ def super_journal(path: Path) -> bool:
 
     Journals do so that were written for several databases at once; ours never are.
     """
-    try:
-        with Path(f"{path}-journal").open("rb") as file:
-            file.seek(-len(_SUPER_JOURNAL), 2)
-            return file.read() == _SUPER_JOURNAL
-    except OSError:
-        return False
+    end = b""
+    with suppress(OSError), Path(f"{path}-journal").open("rb") as file:
+        file.seek(-len(_SUPER_JOURNAL), os.SEEK_END)
+        end = file.read()
+    return end == _SUPER_JOURNAL
 
 
 def schema_of(connection: sqlite3.Connection) -> Schema:

@@ -9,10 +9,10 @@ from __future__ import annotations
 import os
 import shutil
 import zipfile
-from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Protocol
 
 from kille.archives import check_sizes, opened_zip, read_member
 from kille.private import FILE_MODE, FOLDER_MODE, private
@@ -53,18 +53,16 @@ def damage_told(path: Path) -> Iterator[None]:
         ) from error
 
 
-class Reader(ABC):
+class Reader(Protocol):
     """The files of a package."""
 
-    @abstractmethod
     def read(self, name: str) -> bytes:
         """The content of a file. KeyError if there is none of this name."""
 
 
-class Writer(ABC):
+class Writer(Protocol):
     """Where the files of a package go."""
 
-    @abstractmethod
     def write(self, name: str, content: bytes) -> None:
         """Adds a file."""
 
@@ -111,7 +109,7 @@ def _failure_told(path: Path) -> Iterator[None]:
         ) from error
 
 
-class _FolderReader(Reader):
+class _FolderReader:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
@@ -122,7 +120,7 @@ class _FolderReader(Reader):
             raise KeyError(f"{name} is missing") from None
 
 
-class _ZipReader(Reader):
+class _ZipReader:
     def __init__(self, opened: zipfile.ZipFile) -> None:
         self._opened = opened
 
@@ -130,7 +128,7 @@ class _ZipReader(Reader):
         return read_member(self._opened, name, MEMBER)
 
 
-class _FolderWriter(Writer):
+class _FolderWriter:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         folder.mkdir(FOLDER_MODE, parents=True)
@@ -142,7 +140,7 @@ class _FolderWriter(Writer):
             file.write(content)
 
 
-class _ZipWriter(Writer):
+class _ZipWriter:
     def __init__(self, opened: zipfile.ZipFile) -> None:
         self._opened = opened
 

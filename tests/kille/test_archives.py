@@ -73,6 +73,15 @@ def test_an_array_by_columns_is_read_as_it_was() -> None:
     )
 
 
+def test_an_array_with_a_long_head_is_read() -> None:
+    """NumPy writes the second version where the first has not enough room."""
+    made = io.BytesIO()
+    told = {"descr": "|u1", "fortran_order": False, "shape": (3,)}
+    np.lib.format.write_array_header_2_0(made, told)
+    found = read_arrays(zipped(("a.npy", made.getvalue() + b"abc")))
+    assert found["a"].tobytes() == b"abc"
+
+
 TOO_MUCH: dict[str, Callable[[], object]] = {
     "zeros that are well compressed": lambda: read_arrays(
         zipped(("a.npy", head((10**7,)) + bytes(10**7))), FEW

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kille.memory import Arrangement, Picture, Scan, Sighting
+from kille.memory import Arrangement, Picture, Scan, Sighting, Turn, Word
+from kille.memory.lessons import has_same_content, lesson_of
 from kille.scene import Configuration, Point
 
 DESCRIPTORS = np.zeros((4, 128), np.uint8)
@@ -78,3 +79,22 @@ def test_bytes_that_are_no_picture_are_refused(picture: Picture) -> None:
         replace(crop, depth=b"")
     with pytest.raises(ValueError, match="must be a JPEG or PNG picture"):
         replace(crop, colour=b"GIF89a")
+
+
+def test_a_word_is_as_long_as_any_sentence_and_no_longer() -> None:
+    for length in (1, 1000):
+        assert len(Word("a" * length, "a", "object").name) == length
+    for length in (0, 1001):
+        with pytest.raises(ValueError, match="1 to 1000 characters"):
+            Word("a" * length, "a", "object")
+
+
+def test_what_a_thing_is_and_where_it_is_are_not_the_same() -> None:
+    word, turn = Word("left", "left", "relation"), Turn(1, 1, "tutor", "It.", "", "now")
+    views = (
+        Sighting("synthetic", 0.0, (), None),
+        Arrangement("synthetic", 0.0, "cup", "car", Configuration((0.1, 0.0, 0.0))),
+    )
+    lessons = [lesson_of(1, word, turn, seen, holds=True) for seen in views]
+    same = [[has_same_content(a, b) for b in lessons] for a in lessons]
+    assert same == [[True, False], [False, True]]

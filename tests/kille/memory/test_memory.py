@@ -346,3 +346,76 @@ def test_a_lesson_that_is_not_there_has_neither_content_nor_picture() -> None:
         assert memory.picture(3) is None
         with pytest.raises(NoSuchLessonError, match="no lesson 3"):
             memory.lesson(3)
+
+
+def test_an_article_is_that_of_the_word_of_this_kind(
+    said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    """An orange is orange; no adjective has an article because a noun has one."""
+    with Memory.transient() as memory:
+        memory.begin_dialogue("now")
+        memory.learn_attribute(said(1), "orange", "orange", seen)
+        memory.learn_object(said(2), "orange", "orange", seen, article="an")
+        memory.learn_object(said(3), "cup", "cup", seen)
+        assert memory.words() == (
+            Word("orange", "orange", "attribute"),
+            Word("orange", "orange", "object", "an"),
+            Word("cup", "cup", "object"),
+        )
+
+
+# --- all or nothing ------------------------------------------------------------------
+
+
+def test_what_is_kept_together_is_on_disk_at_the_end_alone(
+    path: Path, said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    with Memory.open(path) as memory, Memory.reading(path) as reader:
+        memory.begin_dialogue("now")
+        with memory.together():
+            memory.learn_object(said(1), "cup", "cup", seen)
+            with memory.together():
+                memory.learn_object(said(2), "mug", "mug", seen)
+            assert len(memory.lessons()) == 2
+            assert reader.lessons() == ()
+        assert [it.word.name for it in reader.lessons()] == ["cup", "mug"]
+        memory.learn_object(said(3), "jug", "jug", seen)
+        assert len(reader.lessons()) == 3
+
+
+def learn_and_fail(memory: Memory, turn: Turn, seen: Sighting) -> None:
+    """Have something fail after a lesson and a dialogue that belong with it."""
+    with memory.together():
+        memory.learn_object(turn, "mug", "mug", seen)
+        memory.begin_dialogue("later")
+        raise ZeroDivisionError
+
+
+def test_what_fails_together_never_happened(
+    path: Path, said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    with Memory.open(path) as memory:
+        memory.begin_dialogue("now")
+        with pytest.raises(ZeroDivisionError):
+            learn_and_fail(memory, said(1), seen)
+        assert (memory.lessons(), memory.turns()) == ((), ())
+        assert len(memory.dialogues()) == 1
+        memory.learn_object(said(2), "cup", "cup", seen)
+    with Memory.reading(path) as reader:
+        assert [it.word.name for it in reader.lessons()] == ["cup"]
+
+
+def test_a_part_that_fails_is_undone_and_the_rest_is_kept(
+    path: Path, said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    with Memory.open(path) as memory:
+        memory.begin_dialogue("now")
+        with memory.together():
+            memory.learn_object(said(1), "cup", "cup", seen)
+            with pytest.raises(ZeroDivisionError):
+                learn_and_fail(memory, said(2), seen)
+            with pytest.raises(NoSuchLessonError):
+                memory.forget(9)
+            memory.learn_object(said(3), "jug", "jug", seen)
+    with Memory.reading(path) as reader:
+        assert [it.word.name for it in reader.lessons()] == ["cup", "jug"]

@@ -416,6 +416,7 @@ def rewritten(
         ("turns.jsonl", {"dialogue": 7}),
         ("turns.jsonl", {"dialogue": True}),
         ("turns.jsonl", {"number": 2}),
+        ("turns.jsonl", {"number": 2**53 + 1}),
         ("turns.jsonl", {"number": 2**63}),
         ("turns.jsonl", {"text": None}),
         ("turns.jsonl", {"text": "\ud800"}),
@@ -466,6 +467,8 @@ def test_numbers_that_no_memory_can_keep_are_refused(folder: Path, bad: str) -> 
         {"viewed": 1},
         {"others": [[1]]},
         {"others": [3]},
+        {"others": {}},
+        {"others": ""},
         {"target_size": "large"},
         {"heading": {}},
         {"contact": True},
@@ -491,6 +494,18 @@ def test_files_that_we_do_not_know_are_passed_over(folder: Path) -> None:
     )
     with opened(folder) as package:
         assert len(list(package.lessons())) == 2
+
+
+def test_whole_numbers_that_every_program_reads_are_kept(folder: Path) -> None:
+    rewritten(folder, "turns.jsonl", lambda line: line.update(number=2**53))
+    with opened(folder) as package:
+        assert 2**53 in {it.number for it in package.turns}
+
+
+def test_another_format_is_named(folder: Path) -> None:
+    manifest = json.loads((folder / "memory.json").read_text())
+    (folder / "memory.json").write_text(json.dumps(manifest | {"format": "diary"}))
+    assert "its format is diary" in refusal(folder)
 
 
 def test_a_newer_format_is_named(folder: Path) -> None:

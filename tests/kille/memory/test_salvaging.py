@@ -33,7 +33,15 @@ from kille.scene import Configuration, Point
 
 from .test_files import taught
 from .test_schema import assert_kept, of_version_1, of_version_2
-from .test_trust import FORGETFUL, PARTS, ROWS, change, modes
+from .test_trust import (
+    FORGETFUL,
+    PARTS,
+    ROWS,
+    change,
+    modes,
+    name_in_journal,
+    redefine,
+)
 
 LESSONS = 12
 
@@ -133,6 +141,38 @@ def test_any_bytes_have_rows_or_none(content: bytes, more: bytes, at: int) -> No
         rows_in(head + content[:at] + more + content[at:])
 
 
+# The length of the row, its key, the length of its head, the type of its value: a byte.
+SECOND = bytes([3, 2, 2, 1, 78])
+
+
+def rows_of_three(folder: Path, harm: bytes) -> tuple[list[object], int]:
+    """Which of the rows 77, 78 and 79 are read where the second is another, and how
+    many are not."""
+    path = folder / "three.db"
+    with closing(sqlite3.connect(path)) as connection:
+        connection.execute("CREATE TABLE any (a)")
+        connection.execute("INSERT INTO any VALUES (77), (78), (79)")
+        connection.commit()
+    content = path.read_bytes()
+    assert content.count(SECOND) == 1
+    found = rows_in(content.replace(SECOND, harm))
+    return [it.values[0] for it in found.tables["any"]], found.unreadable
+
+
+@pytest.mark.parametrize(
+    "harm",
+    [
+        pytest.param(bytes([3, 2, 2, 10, 78]), id="a type that SQLite never writes"),
+        pytest.param(bytes([3, 2, 2, 11, 78]), id="another that it never writes"),
+        pytest.param(bytes([3, 2, 2, 2, 78]), id="a value that is cut off"),
+        pytest.param(bytes([3, 2, 9, 1, 78]), id="a head longer than the row"),
+        pytest.param(bytes([3, 2, 2, 8, 78]), id="more than its value"),
+    ],
+)
+def test_a_row_that_is_broken_costs_no_other(tmp_path: Path, harm: bytes) -> None:
+    assert rows_of_three(tmp_path, harm) == ([77, 79], 1)
+
+
 # --- saving --------------------------------------------------------------------------
 
 
@@ -226,6 +266,34 @@ def test_leaves_below_a_broken_page_are_found(table: str, path: Path) -> None:
         assert all(has_same_content(found[key], expected[key]) for key in found)
     else:
         assert found.keys() <= expected.keys()
+
+
+def test_each_broken_page_is_counted_once(path: Path) -> None:
+    teach(path)
+    for number, table in enumerate(("turns", "arrangements"), 1):
+        overwrite(path, pages_of(path, table))
+        assert rows_in(path.read_bytes()).unreadable == number
+    done, _ = saved_from(path)
+    assert "2 rows or pages that cannot be read" in done.losses
+
+
+@pytest.mark.parametrize("count", [0, 4095, 2**32 - 1])
+def test_what_is_said_of_free_pages_leads_to_no_crash(path: Path, count: int) -> None:
+    """A list of free pages is a chain of pages, each with a count of pages that is
+    believed as far as the page goes."""
+    teach(path, 40)
+    with Memory.open(path) as memory:
+        for key in range(20, 40):
+            memory.forget(key)
+    content = path.read_bytes()
+    trunk = int.from_bytes(content[32:36], "big")
+    assert trunk > 0
+    overwrite(path, trunk, content[32:36] + count.to_bytes(4, "big") + bytes(16376))
+    overwrite(path, pages_of(path, "turns"))
+    found = rows_in(path.read_bytes())
+    lessons = {it.key for it in found.tables["lessons"]}
+    assert lessons == {*range(1, 20), 40, 41} - {4}
+    assert found.unreadable == 1
 
 
 def test_lessons_without_their_turns_are_kept(path: Path) -> None:
@@ -323,6 +391,42 @@ def test_a_name_that_was_made_bytes_is_text_again(
     assert found[1].word.name == "cup"
 
 
+def test_a_letter_that_was_overwritten_is_a_gap(path: Path) -> None:
+    teach(path)
+    change(path, "UPDATE lessons SET surface = cast(x'63ff70' AS TEXT) WHERE id = 1")
+    done, found = saved_from(path)
+    assert found[1].word.surface == "c\N{REPLACEMENT CHARACTER}p"
+    assert done.losses == ()
+
+
+def test_a_name_that_was_made_a_number_is_lost_and_told_of(path: Path) -> None:
+    teach(path)
+    redefine(path, "lessons", "name TEXT", "name BLOB")
+    change(path, "UPDATE lessons SET name = 5 WHERE id = 1")
+    done, found = saved_from(path)
+    assert found.keys() == set(range(2, LESSONS + 2)) - {4}
+    assert done.losses == (
+        "1 row or pages that cannot be read",
+        "lesson 1: what was seen is left, but not what word it taught",
+    )
+
+
+def test_a_journal_that_names_another_file_is_told_of_and_not_obeyed(
+    path: Path, tmp_path: Path
+) -> None:
+    teach(path)
+    named = tmp_path / "precious"
+    named.write_text("precious")
+    sound = tmp_path / "sound.db"
+    shutil.copy(path, sound)
+    name_in_journal(path, named)
+    health = check(path)
+    assert health.faults == ("it has a journal beside it that kille never writes",)
+    assert health.amount is None
+    assert_saved_whole(path, sound)
+    assert named.read_text() == "precious"
+
+
 def test_memories_of_older_versions_are_saved(path: Path) -> None:
     for make in (of_version_1, of_version_2):
         path = path.with_name(f"{make.__name__}.db")
@@ -378,6 +482,14 @@ def test_a_memory_that_others_may_open_is_sound_but_noted(path: Path) -> None:
     health = check(path)
     assert health.faults == ()
     assert "others on this machine may open it (mode 644)" in health.notes[0]
+
+
+def test_what_is_wrong_is_said_once(path: Path) -> None:
+    teach(path)
+    redefine(path, "lessons", "surface TEXT NOT NULL", "surface TEXT         ")
+    change(path, "UPDATE lessons SET surface = NULL WHERE id = 2")
+    redefine(path, "lessons", "surface TEXT         ", "surface TEXT NOT NULL")
+    assert check(path).faults == ("its pages: NULL value in lessons.surface",)
 
 
 @pytest.mark.parametrize("kept", [0.1, 0.5, 0.99])

@@ -179,6 +179,18 @@ def test_a_file_of_the_first_version_keeps_everything(path: Path) -> None:
         assert memory.learn_object(turn, "cup", "cup", seen) == 8
 
 
+@pytest.mark.parametrize("length", [-0.01, -0.02])
+def test_a_length_that_no_thing_has_is_not_brought_up_to_date(
+    path: Path, length: float
+) -> None:
+    of_version_1(path)
+    with closing(sqlite3.connect(path)) as connection:
+        connection.execute("UPDATE sightings SET breadth = ?", (length,))
+        connection.commit()
+    with Memory.open(path) as memory:
+        assert [set(it.seen.traits) for it in memory.objects()] == [{"colour"}, set()]
+
+
 def test_a_file_of_an_older_version_is_read_without_being_changed(path: Path) -> None:
     of_version_1(path)
     before = path.read_bytes()

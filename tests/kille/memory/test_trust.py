@@ -48,6 +48,18 @@ def redefine(path: Path, table: str, old: str, new: str) -> None:
     )
 
 
+def name_in_journal(path: Path, named: Path) -> Path:
+    """Put a journal beside a memory that has SQLite delete another file."""
+    name = os.fsencode(named)
+    journal = path.with_name(f"{path.name}-journal")
+    head = bytes.fromhex("d9d505f920a163d7") + bytes(4 * 5)
+    tail = len(name).to_bytes(4, "big") + sum(name).to_bytes(4, "big")
+    tail += bytes.fromhex("d9d505f920a163d7")
+    place = (0x40000000 // 16384 + 1).to_bytes(4, "big")
+    journal.write_bytes(head.ljust(512, b"\0") + place + name + tail)
+    return journal
+
+
 FORGETFUL = """
     CREATE TRIGGER forgetful AFTER INSERT ON lessons
     BEGIN DELETE FROM lessons; END
@@ -302,13 +314,7 @@ def test_a_journal_that_names_another_file_is_refused(
     Memory.open(path).close()
     named = tmp_path / "precious"
     named.write_text("precious")
-    name = os.fsencode(named)
-    journal = path.with_name(f"{path.name}-journal")
-    head = bytes.fromhex("d9d505f920a163d7") + bytes(4 * 5)
-    tail = len(name).to_bytes(4, "big") + sum(name).to_bytes(4, "big")
-    tail += bytes.fromhex("d9d505f920a163d7")
-    place = (0x40000000 // 16384 + 1).to_bytes(4, "big")
-    journal.write_bytes(head.ljust(512, b"\0") + place + name + tail)
+    journal = name_in_journal(path, named)
     assert "a journal beside it" in refusal(opening, path)
     assert named.read_text() == "precious"
     assert journal.exists()
