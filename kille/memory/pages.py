@@ -161,9 +161,9 @@ class _File:
         if length > min(LARGEST_VALUE, len(self._content)):
             raise BrokenPage
         inside = self._bytes_inside(length)
-        payload = page[at : at + inside]
-        if len(payload) < inside or at + inside > self._usable:
+        if at + inside > self._usable:
             raise BrokenPage
+        payload = page[at : at + inside]
         if inside < length:
             following = int.from_bytes(page[at + inside : at + inside + 4], "big")
             payload += self._overflow(following, length - inside)

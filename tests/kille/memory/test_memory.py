@@ -364,6 +364,30 @@ def test_an_article_is_that_of_the_word_of_this_kind(
         )
 
 
+def test_a_lesson_holds_unless_it_is_said_not_to(
+    said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    there = Arrangement("synthetic", 0.0, "", "car", Configuration((0.1, 0.0, 0.0)))
+    with Memory.transient() as memory:
+        memory.begin_dialogue("now")
+        memory.learn_object(said(1), "cup", "cup", seen)
+        memory.learn_attribute(said(2), "red", "red", seen)
+        memory.learn_relation(said(3), "left", "left of", there)
+        assert [it.holds for it in memory.lessons()] == [True] * 3
+
+
+def test_the_lessons_in_which_a_word_holds_are_counted(
+    said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    with Memory.transient() as memory:
+        memory.begin_dialogue("now")
+        for number, holds in enumerate((True, False, True)):
+            memory.learn_object(said(number), "cup", "cup", seen, holds=holds)
+        memory.learn_attribute(said(3), "cup", "cup", seen)
+        memory.learn_object(said(4), "mug", "mug", seen, holds=False)
+        assert memory.counts() == {("object", "cup"): 2, ("attribute", "cup"): 1}
+
+
 # --- all or nothing ------------------------------------------------------------------
 
 

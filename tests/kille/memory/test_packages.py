@@ -403,11 +403,23 @@ def rewritten(
     first, *rest = (folder / name).read_text("utf-8").split("\n")
     line = json.loads(first)
     change(line)
-    text = "\n".join([reword(json.dumps(line)), *rest])
+    relist(folder, name, "\n".join([reword(json.dumps(line)), *rest]))
+
+
+def relist(folder: Path, name: str, text: str) -> None:
+    """Put another list into a package, checksum and all."""
     (folder / name).write_text(text, "utf-8")
     manifest = json.loads((folder / "memory.json").read_text())
     manifest["files"][name] = sha256(text.encode()).hexdigest()
     (folder / "memory.json").write_text(json.dumps(manifest))
+
+
+@pytest.mark.parametrize("what", ["dialogue", "turn", "lesson"])
+def test_nothing_is_in_a_package_twice(folder: Path, what: str) -> None:
+    name = f"{what}s.jsonl"
+    lines = (folder / name).read_text("utf-8").split("\n")[:-1]
+    relist(folder, name, "\n".join([*lines, lines[-1]]))
+    assert f"a {what} is there twice" in refusal(folder)
 
 
 @pytest.mark.parametrize(
@@ -521,11 +533,9 @@ def test_a_package_of_the_first_version_is_read(folder: Path) -> None:
     for line in lines:
         del line["article"], line["holds"]
     text = "".join(f"{json.dumps(line)}\n" for line in lines)
-    listed.write_text(text, "utf-8")
+    relist(folder, "lessons.jsonl", text)
     manifest = json.loads((folder / "memory.json").read_text())
-    manifest["files"]["lessons.jsonl"] = sha256(text.encode()).hexdigest()
-    manifest["version"] = 1
-    (folder / "memory.json").write_text(json.dumps(manifest))
+    (folder / "memory.json").write_text(json.dumps(manifest | {"version": 1}))
     with opened(folder) as package, Memory.transient() as memory:
         memory.merge(package)
         assert all(it.holds and it.word.article == "" for it in memory.lessons())

@@ -8,6 +8,7 @@ import sqlite3
 import tempfile
 from collections.abc import Callable
 from contextlib import closing
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +27,7 @@ from kille.memory import (
     Turn,
 )
 from kille.memory.checking import check
+from kille.memory.exporting import Amount
 from kille.memory.lessons import has_same_content
 from kille.memory.pages import rows_in
 from kille.memory.salvaging import Salvage, salvage
@@ -107,19 +109,35 @@ VALUES = (
 )
 
 
+@cache
+def empty(size: int, reserved: int) -> bytes:
+    """A database whose pages have this size, with bytes reserved at their ends."""
+    with closing(sqlite3.connect(":memory:")) as connection:
+        connection.execute(f"PRAGMA page_size = {size}")
+        connection.execute("VACUUM")
+        content = bytearray(connection.serialize())
+    content[20] = reserved
+    # Where the cells of the first page begin.
+    content[105:107] = ((size - reserved) % 65536).to_bytes(2, "big")
+    return bytes(content)
+
+
 @given(
     rows=st.lists(st.tuples(VALUES, VALUES, VALUES), max_size=60),
     keys=st.integers(-(2**40), 2**40),
     size=st.sampled_from([512, 1024, 4096, 65536]),
+    reserved=st.sampled_from([0, 1, 32]),
 )
-@example(rows=[(bytes(n), None, None) for n in range(440, 560)], keys=0, size=512)
+@example([(bytes(n), None, None) for n in range(440, 560)], 0, 512, 0)
+@example([(bytes(n), None, None) for n in range(400, 560)], 0, 512, 32)
 def test_rows_are_read_from_pages_as_sqlite_reads_them(
-    rows: list[tuple[object, ...]], keys: int, size: int
+    rows: list[tuple[object, ...]], keys: int, size: int, reserved: int
 ) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "any.db"
+        path.write_bytes(empty(size, reserved))
         with closing(sqlite3.connect(path)) as connection:
-            connection.execute(f"PRAGMA page_size = {size}")
+            connection.execute("PRAGMA synchronous = OFF")
             connection.execute("CREATE TABLE any (a, b, c)")
             for number, row in enumerate(rows):
                 connection.execute(
@@ -180,6 +198,30 @@ def test_a_sound_memory_is_sound_and_saved_whole(path: Path) -> None:
     teach(path)
     assert check(path).faults == ()
     assert_saved_whole(path, path)
+
+
+def test_it_is_said_how_much_a_sound_memory_holds(path: Path) -> None:
+    path.parent.mkdir()
+    path.touch()
+    assert check(path).amount == Amount(0, 0, 0)
+    with Memory.open(path) as memory:
+        memory.begin_dialogue("the day before")
+    assert check(path).amount == Amount(1, 0, 0)
+    path.unlink()
+    teach(path)
+    assert check(path).amount == Amount(LESSONS, LESSONS + 1, LESSONS)
+
+
+@pytest.mark.parametrize("make", [of_version_1, of_version_2])
+def test_a_memory_of_an_older_version_is_looked_through(
+    make: Callable[[Path], None], path: Path
+) -> None:
+    make(path)
+    before = path.read_bytes()
+    assert check(path).faults == ()
+    assert path.read_bytes() == before
+    change(path, "UPDATE scans SET points = x'00'")
+    assert [it[:25] for it in check(path).faults] == ["lesson 2 cannot be read: "]
 
 
 @pytest.fixture(scope="module")
@@ -482,6 +524,9 @@ def test_a_memory_that_others_may_open_is_sound_but_noted(path: Path) -> None:
     health = check(path)
     assert health.faults == ()
     assert "others on this machine may open it (mode 644)" in health.notes[0]
+    for bit in range(6):
+        path.chmod(0o600 | 1 << bit)
+        assert len(check(path).notes) == 1
 
 
 def test_what_is_wrong_is_said_once(path: Path) -> None:
