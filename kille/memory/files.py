@@ -137,11 +137,11 @@ def _make_file(path: Path) -> None:
 
 
 def _connect(path: Path, mode: Mode) -> sqlite3.Connection:
-    if os.path.exists(path) and not os.path.isfile(path):
+    if not os.path.isfile(path):
         raise MemoryFileError(
             f"{path} is a folder or a device: name a file with --memory"
         )
-    if os.path.exists(path) and 0 < os.path.getsize(path) < SMALLEST_DATABASE_BYTES:
+    if 0 < os.path.getsize(path) < SMALLEST_DATABASE_BYTES:
         raise MemoryFileError(explanation(str(path), sqlite3.SQLITE_NOTADB))
     if super_journal(path):
         raise untrusted(str(path), STRANGE_JOURNAL)

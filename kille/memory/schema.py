@@ -230,8 +230,8 @@ def part_faults(connection: sqlite3.Connection) -> Iterator[str]:
     ['no index scans_by_lesson']
     """
     found = version(connection)
-    first = 1 if _pragma(connection, "application_id") else 0
-    if found not in range(first, VERSION + 1):
+    is_marked = _pragma(connection, "application_id") == APPLICATION_ID
+    if is_marked and found not in range(1, VERSION + 1):
         yield f"the version {found}, which no kille writes"
         return
     yield from schema_faults(connection, _parts(found))

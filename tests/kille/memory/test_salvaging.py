@@ -191,6 +191,34 @@ def test_a_row_that_is_broken_costs_no_other(tmp_path: Path, harm: bytes) -> Non
     assert rows_of_three(tmp_path, harm) == ([77, 79], 1)
 
 
+def test_what_was_put_aside_is_no_row_any_more(tmp_path: Path) -> None:
+    """Pages that were put aside keep what was in them, unless it is overwritten."""
+    path = tmp_path / "deleted.db"
+    path.write_bytes(empty(512, 0))
+    with closing(sqlite3.connect(path)) as connection:
+        connection.execute("PRAGMA secure_delete = OFF")
+        for table in ("kept", "broken", "gone"):
+            connection.execute(f"CREATE TABLE {table} (a)")
+        gone = [(b"forgotten" + bytes(300),)] * 200
+        connection.executemany("INSERT INTO gone VALUES (?)", gone)
+        connection.execute("INSERT INTO kept VALUES ('kept')")
+        connection.execute("DROP TABLE gone")
+        connection.commit()
+        (root,) = connection.execute(
+            "SELECT rootpage FROM sqlite_master WHERE name = 'broken'"
+        ).fetchone()
+        (free,) = connection.execute("PRAGMA freelist_count").fetchone()
+    content = bytearray(path.read_bytes())
+    assert free > 126, "they are told by more than one page"
+    assert b"forgotten" in content
+    content[(root - 1) * 512 : root * 512] = b"\xff" * 512
+    found = rows_in(bytes(content))
+    assert [it.values for it in found.tables["kept"]] == [("kept",)]
+    assert (found.strays, found.unreadable) == ([], 1)
+    content[32:36] = bytes(4)
+    assert len(rows_in(bytes(content)).strays) > 100, "nothing says that they are free"
+
+
 # --- saving --------------------------------------------------------------------------
 
 

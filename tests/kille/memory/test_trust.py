@@ -20,6 +20,7 @@ from kille.memory import (
     Turn,
     schema,
 )
+from kille.memory.checking import check
 from kille.memory.exporting import export
 
 from .test_files import refusal, taught
@@ -206,6 +207,35 @@ def test_a_memory_has_the_values_that_kille_writes(
     before = path.read_bytes()
     assert ROWS[harm] in refusal(opening, path)
     assert path.read_bytes() == before
+
+
+def number(lesson: int) -> str:
+    """The statements that give the only lesson another number."""
+    tables = ("sightings", "scans", "traits", "pictures", "crops")
+    return f"UPDATE lessons SET id = {lesson};" + ";".join(
+        f"UPDATE {table} SET lesson = {lesson}" for table in tables
+    )
+
+
+@OPENINGS
+@pytest.mark.parametrize(("last", "beyond"), [(0, -1), (2**62, 2**62 + 1)])
+def test_lessons_are_numbered_so_far_and_no_farther(
+    opening: Callable[[Path], MemoryReader],
+    last: int,
+    beyond: int,
+    path: Path,
+    said: Callable[[int], Turn],
+    seen: Sighting,
+) -> None:
+    taught(path, said(1), seen)
+    change(path, f"{number(last)}; UPDATE sqlite_sequence SET seq = {last}")
+    with opening(path) as memory:
+        assert memory.lesson(last).word.name == "cup"
+    change(path, number(beyond))
+    refusal(opening, path)
+    assert "it has lessons with numbers that kille never gives" in check(path).faults
+    change(path, f"{number(last)}; UPDATE sqlite_sequence SET seq = {beyond}")
+    assert "a wrong count of all lessons ever" in refusal(opening, path)
 
 
 @pytest.mark.parametrize(
