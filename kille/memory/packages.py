@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Protocol
 
 from kille.archives import check_sizes, opened_zip, read_member
+from kille.databases import shown
 from kille.private import FILE_MODE, FOLDER_MODE, private
 from ttr.inputs import read_bytes
 from ttr.limits import MEMBER, PACKAGE
@@ -207,5 +208,4 @@ def _remove(path: Path) -> None:
 
 
 def _reason(error: Exception) -> str:
-    text = " ".join(str(error.args[0] if error.args else error).split())
-    return text if len(text) <= 80 else f"{text[:77]}..."
+    return shown(" ".join(str(error.args[0] if error.args else error).split()))

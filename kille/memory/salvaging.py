@@ -233,7 +233,8 @@ def _mend(tables: sqlite3.Connection) -> Iterator[str]:
     """Give every row what it needs to be of use, or take it away."""
     numbers = (0, schema.LARGEST_KEY)
     outside = "FROM lessons WHERE id NOT BETWEEN ? AND ?"
-    for key, name in tables.execute(f"SELECT id, name {outside}", numbers).fetchall():
+    strange = tables.execute(f"SELECT id, name {outside}", numbers).fetchall()
+    for key, name in strange:
         yield f"lesson {key} ({shown(name)}) has a number that kille never gives"
     tables.execute(f"DELETE {outside}", numbers)
     tables.execute(
@@ -261,7 +262,7 @@ def _mend(tables: sqlite3.Connection) -> Iterator[str]:
             gone = f"FROM {table} WHERE lesson NOT IN (SELECT id FROM lessons)"
             orphans |= {key for (key,) in tables.execute(f"SELECT lesson {gone}")}
             tables.execute(f"DELETE {gone}")
-    for key in sorted(orphans - {key for key, _ in unseen}):
+    for key in sorted(orphans - {key for key, _ in (*strange, *unseen)}):
         yield f"lesson {key}: what was seen is left, but not what word it taught"
 
 

@@ -8,7 +8,7 @@ from contextlib import closing
 
 import pytest
 
-from kille.databases import row_faults
+from kille.databases import row_faults, shown
 
 TABLES = """
     CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL);
@@ -58,3 +58,10 @@ def test_a_value_that_kille_never_writes_is_a_fault(
 ) -> None:
     database.executescript(harm)
     assert list(row_faults(database)) == [fault]
+
+
+def test_a_name_is_shown_on_a_line_of_its_size() -> None:
+    for name in ("", "cup", "boîte", 60 * "a"):
+        assert shown(name) == name
+    assert shown(61 * "a") == 60 * "a" + "..."
+    assert shown("cup\n\x1b[31m") == r"cup\n\x1b[31m"

@@ -54,6 +54,13 @@ def test_a_closed_memory_is_one_file(
     assert [file.name for file in path.parent.iterdir()] == ["memory.db"]
 
 
+def test_the_folders_of_a_memory_are_made(tmp_path: Path) -> None:
+    path = tmp_path / "new" / "robots" / "memory.db"
+    Memory.open(path).close()
+    Memory.open(path).close()
+    assert path.is_file()
+
+
 def test_an_odd_name_is_just_a_name(tmp_path: Path) -> None:
     path = tmp_path / "mein gedächtnis?mode=ro#1%41.db"
     Memory.open(path).close()

@@ -459,6 +459,15 @@ def test_what_no_memory_could_hold_is_refused(
     assert "is damaged" in refusal(folder)
 
 
+def test_what_a_package_says_is_told_in_short(folder: Path) -> None:
+    kind = "verb\n\x1b[31m" * 99
+    rewritten(folder, "lessons.jsonl", lambda line: line.update(kind=kind))
+    line = refusal(folder)
+    assert "(there are no lessons of the kind verb" in line
+    assert line.isprintable()
+    assert len(line) < len(str(folder)) + 200
+
+
 @pytest.mark.parametrize("bad", ["1e999", "-1e999", "1" + 400 * "0"])
 def test_numbers_that_no_memory_can_keep_are_refused(folder: Path, bad: str) -> None:
     def change(line: dict) -> None:

@@ -43,6 +43,7 @@ from .test_trust import (
     modes,
     name_in_journal,
     redefine,
+    renumbered,
 )
 
 LESSONS = 12
@@ -459,6 +460,27 @@ def test_a_name_that_was_made_bytes_is_text_again(
     change(path, "UPDATE lessons SET name = CAST(name AS BLOB)")
     _, found = saved_from(path)
     assert found[1].word.name == "cup"
+
+
+@pytest.mark.parametrize("key", [-1, 2**62 + 1])
+def test_a_lesson_with_a_number_that_none_has_is_told_of(
+    key: int, path: Path, said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    taught(path, said(1), seen)
+    change(path, renumbered(key))
+    done, found = saved_from(path)
+    assert found == {}
+    assert done.losses == (f"lesson {key} (cup) has a number that kille never gives",)
+
+
+@pytest.mark.parametrize("key", [0, 2**62])
+def test_the_first_and_the_last_number_are_saved(
+    key: int, path: Path, said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    taught(path, said(1), seen)
+    change(path, f"{renumbered(key)}; UPDATE sqlite_sequence SET seq = {key}")
+    done, found = saved_from(path)
+    assert (done.losses, set(found)) == ((), {key})
 
 
 def test_a_letter_that_was_overwritten_is_a_gap(path: Path) -> None:

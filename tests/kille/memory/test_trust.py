@@ -209,7 +209,7 @@ def test_a_memory_has_the_values_that_kille_writes(
     assert path.read_bytes() == before
 
 
-def number(lesson: int) -> str:
+def renumbered(lesson: int) -> str:
     """The statements that give the only lesson another number."""
     tables = ("sightings", "scans", "traits", "pictures", "crops")
     return f"UPDATE lessons SET id = {lesson};" + ";".join(
@@ -228,13 +228,13 @@ def test_lessons_are_numbered_so_far_and_no_farther(
     seen: Sighting,
 ) -> None:
     taught(path, said(1), seen)
-    change(path, f"{number(last)}; UPDATE sqlite_sequence SET seq = {last}")
+    change(path, f"{renumbered(last)}; UPDATE sqlite_sequence SET seq = {last}")
     with opening(path) as memory:
         assert memory.lesson(last).word.name == "cup"
-    change(path, number(beyond))
+    change(path, renumbered(beyond))
     refusal(opening, path)
     assert "it has lessons with numbers that kille never gives" in check(path).faults
-    change(path, f"{number(last)}; UPDATE sqlite_sequence SET seq = {beyond}")
+    change(path, f"{renumbered(last)}; UPDATE sqlite_sequence SET seq = {beyond}")
     assert "a wrong count of all lessons ever" in refusal(opening, path)
 
 
@@ -374,6 +374,8 @@ def test_a_lesson_that_does_not_come_back_is_not_learned(
         "UPDATE sightings SET x = 1",
         "UPDATE scans SET points = zeroblob(length(points))",
         "UPDATE scans SET descriptors = zeroblob(length(descriptors))",
+        "UPDATE scans SET points = x'00'",
+        "UPDATE crops SET intrinsics = '[1]'",
         "DELETE FROM scans WHERE id = 2",
         "DELETE FROM traits WHERE cue = 'size'",
         "UPDATE traits SET cue = 'sizes' WHERE cue = 'size'",
