@@ -13,7 +13,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from kille.archives import Damaged, check_sizes, opened_zip, read_arrays, read_member
+from kille.archives import (
+    Damaged,
+    check_sizes,
+    opened_zip,
+    read_arrays,
+    read_head,
+    read_member,
+)
 from ttr.limits import DIRECTORY, Limit, TooMuch
 
 FEW = Limit(1000, "bytes")
@@ -130,6 +137,13 @@ DAMAGED = {
 def test_what_does_not_fit_is_damaged(content: bytes) -> None:
     with pytest.raises(Damaged):
         read_arrays(content, FEW)
+
+
+@pytest.mark.parametrize("shape", [(-1,), (3, -1), (-2, -3)])
+def test_a_head_with_a_shape_below_zero_is_damaged(shape: tuple[int, ...]) -> None:
+    with pytest.raises(Damaged, match="the shape of an array cannot be"):
+        read_head(io.BytesIO(head(shape)))
+    assert read_head(io.BytesIO(head((0, 3)))).size == 0
 
 
 def test_no_more_is_unpacked_than_the_list_says() -> None:
