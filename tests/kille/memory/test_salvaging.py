@@ -220,6 +220,14 @@ def test_what_was_put_aside_is_no_row_any_more(tmp_path: Path) -> None:
     assert len(rows_in(bytes(content)).strays) > 100, "nothing says that they are free"
 
 
+def test_more_is_not_reserved_than_sqlite_ever_does(path: Path) -> None:
+    teach(path)
+    content = bytearray(path.read_bytes())
+    sound = rows_in(bytes(content))
+    content[20] = 255
+    assert rows_in(bytes(content)) == sound
+
+
 # --- saving --------------------------------------------------------------------------
 
 
