@@ -6,7 +6,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kille.memory import Arrangement, Picture, Scan, Sighting, Turn, Word
+from kille.memory import (
+    Arrangement,
+    ObjectLesson,
+    Picture,
+    RelationLesson,
+    Scan,
+    Sighting,
+    Turn,
+    Word,
+)
 from kille.memory.lessons import has_same_content, lesson_of
 from kille.scene import Configuration, Point
 
@@ -96,5 +105,6 @@ def test_what_a_thing_is_and_where_it_is_are_not_the_same() -> None:
         Arrangement("synthetic", 0.0, "cup", "car", Configuration((0.1, 0.0, 0.0))),
     )
     lessons = [lesson_of(1, word, turn, seen, holds=True) for seen in views]
+    assert [type(it) for it in lessons] == [ObjectLesson, RelationLesson]
     same = [[has_same_content(a, b) for b in lessons] for a in lessons]
     assert same == [[True, False], [False, True]]
