@@ -19,13 +19,13 @@ from pathlib import Path
 __all__ = [
     "LARGEST_VALUE",
     "Schema",
+    "has_strange_journal",
     "made_by",
     "restrict",
     "row_faults",
     "schema_faults",
     "schema_of",
     "shown",
-    "super_journal",
 ]
 
 LARGEST_VALUE = 2**27
@@ -55,13 +55,17 @@ def restrict(connection: sqlite3.Connection) -> None:
         connection.setconfig(sqlite3.SQLITE_DBCONFIG_ENABLE_VIEW, False)
 
 
-def super_journal(path: Path) -> bool:
-    """Does the journal beside a file name another file, which SQLite would delete?
+def has_strange_journal(path: Path) -> bool:
+    """Is the journal beside a file one that ours never have?
 
-    Journals do so that were written for several databases at once; ours never are.
+    SQLite waits for a pipe without end, and deletes the file that a journal names. Only
+    journals that were written for several databases at once name one.
     """
+    journal = Path(f"{path}-journal")
+    if os.path.lexists(journal) and not journal.is_file():
+        return True
     end = b""
-    with suppress(OSError), Path(f"{path}-journal").open("rb") as file:
+    with suppress(OSError), journal.open("rb") as file:
         file.seek(-len(_SUPER_JOURNAL), os.SEEK_END)
         end = file.read()
     return end == _SUPER_JOURNAL

@@ -10,7 +10,7 @@ from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
-from kille.databases import shown, super_journal
+from kille.databases import has_strange_journal, shown
 from kille.memory import files, reading, schema
 from kille.memory.errors import DAMAGE, STRANGE_JOURNAL, explained, primary_code
 from kille.memory.exporting import Amount
@@ -39,7 +39,7 @@ def check(path: Path) -> Health:
     Raises MemoryFileError if there is no file, or it is not a memory of this or an
     earlier kille.
     """
-    if super_journal(path):
+    if path.is_file() and has_strange_journal(path):
         return Health((f"it has {STRANGE_JOURNAL}",), tuple(_notes(path)), None)
     amount: Amount | None = None
     faults: list[str] = []

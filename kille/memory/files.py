@@ -14,7 +14,7 @@ from typing import Literal
 
 from platformdirs import user_data_dir
 
-from kille.databases import restrict, super_journal
+from kille.databases import has_strange_journal, restrict
 from kille.memory import schema
 from kille.memory.errors import (
     ELSEWHERE,
@@ -143,7 +143,7 @@ def _connect(path: Path, mode: Mode) -> sqlite3.Connection:
         )
     if 0 < os.path.getsize(path) < SMALLEST_DATABASE_BYTES:
         raise MemoryFileError(explanation(str(path), sqlite3.SQLITE_NOTADB))
-    if super_journal(path):
+    if has_strange_journal(path):
         raise untrusted(str(path), STRANGE_JOURNAL)
     connection = sqlite3.connect(
         f"{path.absolute().as_uri()}?{mode}",

@@ -18,7 +18,7 @@ from mmap import ACCESS_READ, mmap
 from pathlib import Path
 from typing import NamedTuple
 
-from kille.databases import restrict, shown, super_journal
+from kille.databases import has_strange_journal, restrict, shown
 from kille.memory import reading, schema
 from kille.memory.errors import ELSEWHERE, MemoryFileError, explained
 from kille.memory.lessons import Dialogue, ObjectLesson, RelationLesson, Turn
@@ -104,7 +104,9 @@ def _copy(path: Path, folder: Path) -> Path:
     try:
         before = [_stamp(it) for it in files]
         for ending, file in zip(("", *_BESIDE), files, strict=True):
-            if file.is_file() and not (ending == "-journal" and super_journal(path)):
+            if file.is_file() and not (
+                ending == "-journal" and has_strange_journal(path)
+            ):
                 shutil.copyfile(file, f"{copy}{ending}")
         after = [_stamp(it) for it in files]
     except OSError as error:

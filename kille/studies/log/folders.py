@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from errno import ENOSPC
 from pathlib import Path
 
-from kille.databases import restrict, super_journal
+from kille.databases import has_strange_journal, restrict
 from kille.private import private
 from kille.studies.log.outcomes import RunError
 
@@ -49,7 +49,7 @@ def locked(folder: Path) -> Iterator[None]:
 
 def connected(path: Path, mode: str = "mode=rw") -> sqlite3.Connection:
     """A connection to a file. RunError for a journal that kille never writes."""
-    if super_journal(path):
+    if has_strange_journal(path):
         raise RunError(
             f"{path} has a journal beside it that kille never writes: take it away"
         )

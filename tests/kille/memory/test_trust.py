@@ -350,6 +350,27 @@ def test_a_journal_that_names_another_file_is_refused(
     assert journal.exists()
 
 
+@OPENINGS
+@pytest.mark.parametrize("made", ["pipe", "loop", "folder"])
+def test_a_journal_that_is_no_file_is_refused(
+    opening: Callable[[Path], object], made: str, path: Path
+) -> None:
+    """SQLite would wait for the pipe for ever."""
+    Memory.open(path).close()
+    journal = path.with_name(f"{path.name}-journal")
+    match made:
+        case "pipe":
+            os.mkfifo(journal)
+        case "loop":
+            journal.symlink_to(journal)
+        case "folder":
+            journal.mkdir()
+    assert "a journal beside it that kille never writes" in refusal(opening, path)
+    assert check(path).faults == ("it has a journal beside it that kille never writes",)
+    path.unlink()
+    assert "does not exist" in refusal(check, path)
+
+
 def test_a_lesson_that_does_not_come_back_is_not_learned(
     path: Path, said: Callable[[int], Turn], seen: Sighting
 ) -> None:
