@@ -152,6 +152,15 @@ def test_no_more_is_unpacked_than_the_list_says() -> None:
         read_member(archive, "a", FEW)
 
 
+def test_what_is_in_a_zip_may_be_larger_than_its_list(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("kille.archives._Bounded.limit", Limit(10_000, DIRECTORY.unit))
+    data = zipped(("a", bytes(20_000)), way=zipfile.ZIP_STORED)
+    with opened_zip(data) as archive:
+        assert read_member(archive, "a", Limit(20_000, "bytes")) == bytes(20_000)
+
+
 def test_a_list_without_end_is_not_read(monkeypatch: pytest.MonkeyPatch) -> None:
     data = zipped(*((f"{it}", b"") for it in range(300)))
     monkeypatch.setattr("kille.archives._Bounded.limit", Limit(10_000, DIRECTORY.unit))

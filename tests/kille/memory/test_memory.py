@@ -9,6 +9,7 @@ from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import settings
 from hypothesis import strategies as st
@@ -344,8 +345,22 @@ def test_two_words_for_one_thing_and_one_word_for_two(
 def test_a_lesson_that_is_not_there_has_neither_content_nor_picture() -> None:
     with Memory.transient() as memory:
         assert memory.picture(3) is None
-        with pytest.raises(NoSuchLessonError, match="no lesson 3"):
-            memory.lesson(3)
+        for question in (memory.lesson, memory.told):
+            with pytest.raises(NoSuchLessonError, match="no lesson 3"):
+                question(3)
+
+
+def test_points_without_depth_are_learned(
+    said: Callable[[int], Turn], seen: Sighting
+) -> None:
+    points = seen.scans[0].points.copy()
+    points[3] = np.nan
+    seen = replace(seen, scans=(replace(seen.scans[0], points=points),))
+    with Memory.transient() as memory:
+        memory.begin_dialogue("now")
+        memory.learn_object(said(1), "cup", "cup", seen)
+        (kept,) = memory.objects()
+        assert plain(kept.seen) == plain(seen)
 
 
 def test_an_article_is_that_of_the_word_of_this_kind(

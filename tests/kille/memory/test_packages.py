@@ -592,6 +592,25 @@ def test_a_link_goes_on_leading_where_it_leads(tmp_path: Path, seen: Sighting) -
         assert len(list(package.lessons())) == 2
 
 
+@pytest.mark.skipif(os.name != "posix", reason="names are not put on disk elsewhere")
+@pytest.mark.parametrize("place", PLACES)
+def test_the_name_of_a_package_is_on_disk_when_it_is_there(
+    tmp_path: Path, seen: Sighting, place: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    on_disk: list[list[str]] = []
+    fsync = os.fsync
+
+    def watched(opened: int) -> None:
+        fsync(opened)
+        if os.path.samestat(os.fstat(opened), os.stat(tmp_path)):
+            on_disk.append(os.listdir(tmp_path))
+
+    monkeypatch.setattr(os, "fsync", watched)
+    with small_memory(seen) as memory:
+        export(memory, tmp_path / place)
+    assert on_disk == [[place]]
+
+
 def test_an_older_export_is_replaced_wholly_or_not_at_all(
     tmp_path: Path, seen: Sighting, monkeypatch: pytest.MonkeyPatch
 ) -> None:

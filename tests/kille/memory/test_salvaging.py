@@ -29,7 +29,7 @@ from kille.memory import (
 from kille.memory.checking import check
 from kille.memory.exporting import Amount
 from kille.memory.lessons import has_same_content
-from kille.memory.pages import rows_in
+from kille.memory.pages import page_size, rows_in
 from kille.memory.salvaging import Salvage, salvage
 from kille.scene import Configuration, Point
 
@@ -218,6 +218,16 @@ def test_what_was_put_aside_is_no_row_any_more(tmp_path: Path) -> None:
     assert (found.strays, found.unreadable) == ([], 1)
     content[32:36] = bytes(4)
     assert len(rows_in(bytes(content)).strays) > 100, "nothing says that they are free"
+
+
+@pytest.mark.parametrize("size", [0, 1, 512, 16384])
+def test_a_beginning_that_is_lost_says_no_size(path: Path, size: int) -> None:
+    teach(path)
+    content = path.read_bytes()
+    sound = {it.key for it in rows_in(content).tables["lessons"]}
+    lost = bytes(16) + size.to_bytes(2, "big") + content[18:]
+    assert page_size(lost) is None
+    assert sound <= {it.key for it in rows_in(lost).strays}
 
 
 def test_more_is_not_reserved_than_sqlite_ever_does(path: Path) -> None:
@@ -552,6 +562,13 @@ def test_what_waits_in_the_log_of_a_killed_program_is_saved(
             shutil.copy(path.with_name(name), killed.parent)
     _, found = saved_from(killed)
     assert [it.word.name for it in found.values()] == ["cup"]
+
+
+def test_a_dialogue_in_which_nothing_was_said_is_saved(path: Path) -> None:
+    with Memory.open(path) as memory:
+        memory.begin_dialogue("now")
+    done, found = saved_from(path)
+    assert (done.saved.dialogues, done.losses, found) == (1, (), {})
 
 
 def test_nothing_is_written_over(path: Path) -> None:
