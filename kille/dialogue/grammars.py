@@ -267,7 +267,7 @@ def by_lark(text: str, starts: Sequence[str]) -> Source:
         )
         for rule in found.rules
     ]
-    ignored = [patterns[name][0] for name in found.ignore_tokens]
+    ignored = [it for name in found.ignore_tokens for it in patterns[name]]
     return Source(productions, patterns, ignored)
 
 
@@ -277,8 +277,8 @@ def _production(
     """A rule of Lark's; its repetitions (`x*`) are turned to go from left to right."""
     if name.startswith("__") and symbols and symbols[0].name == name:
         symbols = (*symbols[1:], symbols[0])
-    inlined = name.startswith("_") and not alias
-    return Production(name, symbols, None if inlined else alias or name, only_child)
+    made = None if name.startswith("_") else alias or name
+    return Production(name, symbols, made, only_child)
 
 
 # --- by ourselves ---------------------------------------------------------------------

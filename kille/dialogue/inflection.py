@@ -35,7 +35,7 @@ class Inflection:
     complements: frozenset[str] = frozenset()
     article: str = ""
     """The article of the words that have these endings; "" if any has them."""
-    _regained: Mapping[str, tuple[str, ...]] = field(init=False, repr=False)
+    _regained: Mapping[str, tuple[str, ...]] = field(init=False)
 
     def __post_init__(self) -> None:
         regained: dict[str, tuple[str, ...]] = {}

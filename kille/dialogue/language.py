@@ -94,7 +94,6 @@ class Sentence:
     readings: tuple[Utterance, ...]
 
 
-@lru_cache(_REMEMBERED)
 def understand(text: str, language: str = "en") -> tuple[Sentence, ...]:
     """What a tutor's text says, move by move.
 

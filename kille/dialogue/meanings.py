@@ -110,8 +110,6 @@ def set_to(T: RecordType, **fields: TypeNode) -> RecordType:
 
 def _is_set(field: TypeNode, to: TypeNode) -> bool:
     """Whether a field is only set to an object, by which paths fit as they did."""
-    if to is field:
-        return True
     base = _unset(to)
     return base is _unset(field) and escaping(base) == escaping(to) == escaping(field)
 

@@ -84,4 +84,4 @@ def slip(form: str, word: str) -> str | None:
 def nearest_sentence(text: str, sentences: Iterable[str]) -> str | None:
     """The sentence that is most like a text, if one is much like it."""
     near = difflib.get_close_matches(text, list(sentences), n=1, cutoff=_ALIKE)
-    return near[0] if near else None
+    return next(iter(near), None)

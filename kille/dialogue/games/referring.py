@@ -50,8 +50,10 @@ UNANSWERED = unanswered(named("Heard"))
 @rule(when=UNANSWERED)
 def refer(s: Record, *, model: Model) -> Record | None:
     """The tutor talks of things in view: the one way to take it that fits is meant."""
-    readings = _readings(s, model)
-    return about(s, readings[0].content) if len(readings) == 1 else None
+    match _readings(s, model):
+        case [meant]:
+            return about(s, meant.content)
+    return None
 
 
 @rule(when=UNANSWERED)

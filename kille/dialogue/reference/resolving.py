@@ -150,7 +150,7 @@ def things_in(content: RecordType) -> list[str]:
 
 
 def contents(s: Record, model: Model, content: RecordType) -> Sequence[Reading]:
-    """The ways in which the phrases of a content can be set, the most probable first.
+    """The ways in which the phrases of a content can be set to things in view.
 
     Two phrases are set to two things. Ways of no probability are left out.
     """
@@ -161,17 +161,16 @@ def contents(s: Record, model: Model, content: RecordType) -> Sequence[Reading]:
         [
             (label, fit)
             for x, fit in judging.fits(phrase, _spoken_of(s, phrase)).items()
-            if fit.p > 0.0 and x not in taken
+            if x not in taken
         ]
         for label in open_
         for phrase in (phrase_at(content, label),)
     ]
-    readings = [
+    return [
         Reading(s, content, fits)
         for fits in product(*choices)
         if len({fit.things[0] for _, fit in fits}) == len(fits)
     ]
-    return sorted(readings, key=lambda it: -it.p)
 
 
 def _spoken_of(s: Record, phrase: RecordType) -> Sequence[str] | None:
@@ -228,8 +227,12 @@ def denoted(s: Record, readings: Iterable[Reading]) -> list[Reading]:
     for label in PARTS:
         things = {it.things[label] for it in meant if label in it.things}
         latest = just_mentioned(s, things)
-        if latest is not None and not _chooses(phrase_at(meant[0].open, label)):
-            meant = [it for it in meant if it.things[label] == latest]
+        if latest is not None:
+            meant = [
+                it
+                for it in meant
+                if it.things[label] == latest or _chooses(phrase_at(it.open, label))
+            ]
     return meant
 
 

@@ -140,6 +140,15 @@ def test_two_phrases_are_two_things() -> None:
     assert meant("The book is near the book.") == []
 
 
+def test_if_nothing_is_likely_red_the_one_that_might_be_is_meant() -> None:
+    text, perhaps = "Where is the red cup?", {("is_red", "o1"): 0.1}
+    one = {("cup", "o1"): 0.9} | perhaps
+    assert meant(text, one) == [["o1"]]
+    assert meant(text, one | {("cup", "o2"): 0.9, ("is_red", "o2"): 0.01}) == [["o1"]]
+    assert meant(text, one | {("cup", "o2"): 0.9, ("is_red", "o2"): 0.1}) == []
+    assert meant(text, {("cup", "o1"): 0.1, ("is_red", "o1"): 0.9}) == []
+
+
 # --- what the talk is about ----------------------------------------------------------
 
 
@@ -325,6 +334,19 @@ def test_the_shortest_description() -> None:
     assert described("o3") == "book"
 
 
+def test_a_landmark_is_described_where_its_noun_is_not_enough() -> None:
+    known = {
+        **{("cup", x): 0.9 for x in ("o1", "o2")},
+        **{("book", x): 0.9 for x in ("o3", "o4")},
+        **{("near", "o1", "o3"): 0.9, ("near", "o2", "o4"): 0.9},
+        **{("is_red", "o3"): 0.9, ("is_big", "o4"): 0.9},
+    }
+    for x, words in {"o1": "cup near red book", "o2": "cup near big book"}.items():
+        found = describe(*scene(known, things=4), x)
+        assert found is not None
+        assert " ".join(sign.form for sign in found.signs) == words
+
+
 def test_told_only_from_some() -> None:
     assert described("o2", among=["o2", "o3"]) == "cup"
 
@@ -346,6 +368,7 @@ def test_what_describes_a_thing_resolves_to_it(drawn: tuple[Record, Model]) -> N
         if found is None:
             continue
         content = rectype(look=theory()["Look"], target=found.phrase)
-        best, *others = contents(s, model, content)
-        assert [it.things for it in fitting(s, [best, *others])] == [{"target": x}]
-        assert all(it.p < best.p for it in others)
+        readings = contents(s, model, content)
+        [best] = fitting(s, readings)
+        assert best.things == {"target": x}
+        assert all(it.p < best.p for it in readings if it is not best)
