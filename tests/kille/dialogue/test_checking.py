@@ -32,6 +32,7 @@ COLOURS: dict[str, Any] = {
         (0.6, 0.31, "Probably this is a cup."),
         (0.5, 0.45, "Probably this is a cup."),
         (0.05, 0.9, "No, I think this is a mug."),
+        (0.25, 0.9, "I do not know."),
         (0.05, 0.3, "No, this is not a cup."),
         (0.1, 0.1, "No, this is not a cup."),
         (0.3, 0.2, "I do not know."),
@@ -203,6 +204,12 @@ VIEW: dict[str, Any] = {
 )
 def test_it_says_what_is_in_view(scene: Make, text: str, answer: str) -> None:
     assert scene(**VIEW).hear(text) == answer
+
+
+def test_what_it_is_surest_of_comes_first(scene: Make) -> None:
+    known = {("apple", "o1"): 0.7, ("book", "o2"): 0.9}
+    robot = scene(2, nouns=("apple", "book"), known=known)
+    assert robot.hear("What do you see?") == "I see a book and an apple."
 
 
 def test_in_an_empty_view_there_is_nothing(scene: Make) -> None:

@@ -7,6 +7,9 @@ from typing import Any
 
 import pytest
 
+from kille.dialogue.reference import things_in
+from ttr import replace
+
 Scenes = Callable[..., Any]
 
 KNOWN = {
@@ -77,6 +80,13 @@ def test_a_lesson_waits_for_the_answer(table: Any) -> None:
     assert str(lesson.content["landmark"]["x"]) == "Ind@o3"
 
 
+def test_what_was_chosen_for_one_phrase_is_not_what_the_other_means(table: Any) -> None:
+    assert table.hear("The cup is behind the cup.") == WHICH
+    assert "behind" in table.hear("The red one.")
+    (lesson,) = table.state.private.lessons
+    assert things_in(lesson.content) == ["o1", "o2"]
+
+
 def test_what_was_chosen_is_what_is_talked_about(table: Any) -> None:
     table.hear("Where is the cup?")
     table.hear("The blue one.")
@@ -114,6 +124,18 @@ def test_neither(table: Any, answer: str) -> None:
     assert table.acts(answer) == ["resign"]
     assert table.state.shared.qud == ()
     assert table.acts("The red one.") == ["what_about"]
+
+
+def test_who_is_thanked_still_knows_what_the_talk_is_about(table: Any) -> None:
+    table.hear("What is the blue cup?")
+    assert table.hear("Thank you.") == "You are welcome."
+    assert table.hear("Where is the cup?") == RIGHT
+
+
+def test_what_the_tutor_turns_to_is_what_the_talk_is_about(table: Any) -> None:
+    table.hear("What is the red cup?")
+    table._take(replace(table.seen("Glance"), {"view.focus": ("o2",)}))
+    assert table.hear("Where is the cup?") == RIGHT
 
 
 def test_something_else_drops_the_question(table: Any) -> None:

@@ -139,6 +139,13 @@ def test_only_the_thing_that_is_meant_is_corrected(scene: Callable[..., Any]) ->
     assert taught(two.state) == ["blue", "green"]
 
 
+def test_only_what_is_said_of_the_same_is_corrected(table: Any) -> None:
+    table.hear("This is blue.")
+    table.hear("This is a mug.")
+    assert table.hear("No, it is red.") == "OK, this is red, not blue."
+    assert taught(table.state) == ["mug", "red"]
+
+
 def test_what_is_rejected_is_unlearned(table: Any) -> None:
     table.hear("This is a mug.")
     assert table.hear("This is not a mug.") == "OK, this is not a mug."

@@ -115,6 +115,16 @@ def test_another_game_leaves_it_open(table: Any) -> None:
     assert table.hear("Where is the red cup?") == WHOSE
 
 
+def test_what_faces_no_way_is_stood_beside_as_the_viewer_sees_it(scene: Scenes) -> None:
+    known = {**KNOWN, ("to_the_right_of", "o2", "o1"): 0.9}
+    relations = ["to the right of", *WORDS["relations"]]
+    robot = scene(3, known=known, **{**WORDS, "relations": relations})
+    robot.hear("The car faces left.")
+    robot.hear("From the car.")
+    assert robot.state.shared.frame == "landmark"
+    assert robot.hear("Where is the car?") == "The car is to the right of the cup."
+
+
 def test_asked_for_every_lesson_of_a_relation(table: Any) -> None:
     assert table.hear("The red cup is near the car.") == WHOSE
     assert table.state.private.lessons == ()
@@ -194,3 +204,11 @@ def test_what_was_denied_of_a_place_is_denied_in_the_other_perspective(
     (lesson,) = robot.state.private.lessons
     assert predicate_at(denied(lesson.content), "rel").name == "to_the_left_of"
     assert value_at(lesson.content, "frame") == "faces_left"
+
+
+def test_whose_is_asked_by_the_best_word_of_many(scene: Scenes) -> None:
+    """To both the worst one is the same."""
+    words = {**WORDS, "relations": ["to the left of", "in front of", "under"]}
+    robot = scene(3, known=KNOWN, **words)
+    robot.hear("The car faces left.")
+    assert robot.hear("Where is the red cup?") == WHOSE

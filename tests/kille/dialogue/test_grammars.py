@@ -116,6 +116,7 @@ MANY = {
     "a row of alternatives": "x:" + " (A | B)" * 40,
     "a row of what may be missing": "x:" + " A?" * 40,
     "a row in brackets": "x:" + " [A]" * 40,
+    "a row within brackets": "x: (" + " A?" * 14 + " | B)",
     "a row of texts": "x:" + ' ("a" | "b")' * 40,
     "what stands often": "x: (A | B)~1..999",
     "what stands very often": "x: A~1..999999999",

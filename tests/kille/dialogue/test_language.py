@@ -12,8 +12,16 @@ from hypothesis import strategies as st
 
 from kille.dialogue.language import LANGUAGES, Sentence, understand
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import adjective, named, noun, predicate_at, word_of
+from kille.dialogue.meanings import (
+    adjective,
+    named,
+    noun,
+    predicate_at,
+    set_to,
+    word_of,
+)
 from kille.dialogue.parsing import Grammar, GrammarError
+from ttr import IllFormed, Ind, Pred, rectype, this
 
 MOVES = {
     "en": {
@@ -104,6 +112,17 @@ def test_ambiguity_is_kept_the_simplest_way_first() -> None:
         [("teddy", ""), ("bear", "")],
     ]
     assert forms("Var är boken?", "sv") == [[("bok", "en")], [("boke", "en")]]
+
+
+def test_setting_a_field_gives_the_record_type_that_has_it() -> None:
+    dog = Pred("dog", Ind)
+    T = rectype(x=Ind, c=dog(this.x))
+    assert set_to(T, x=Ind @ "o1") is rectype(x=Ind @ "o1", c=dog(this.x))
+    assert set_to(T, a=Ind, d=dog(this.y), y=Ind) is rectype(
+        a=Ind, x=Ind, y=Ind, c=dog(this.x), d=dog(this.y)
+    )
+    with pytest.raises(IllFormed, match="leads nowhere"):
+        set_to(T, c=dog(this.z))
 
 
 @pytest.mark.parametrize("text", ["left of", "on the left of", "to the left of"])

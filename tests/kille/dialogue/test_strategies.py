@@ -23,7 +23,7 @@ from kille.dialogue.strategies import (
     threshold,
 )
 from kille.dialogue.strategies import _data as shipped
-from ttr import record
+from ttr import record, replace
 
 Make = Callable[..., Any]
 
@@ -220,6 +220,13 @@ def test_what_comes_into_view_is_the_tutors_to_name(scene: Make) -> None:
     assert robot.hear("A cup.") == "OK, I learned a cup."
 
 
+def test_of_two_things_that_are_shown_to_it_it_asks_how_they_stand(scene: Make) -> None:
+    """Also as they come into view: neither has to be named."""
+    robot = scene(**KNOWING, known=TWO)
+    assert robot.look(kept=[]) == ["ask_relation"]
+    assert robot.look(kept=["o1"]) == []
+
+
 def test_who_is_not_answered_asks_about_nothing_else(scene: Make) -> None:
     robot = scene(things=2)
     assert robot.look() == ["ask_thing"]
@@ -304,3 +311,30 @@ def test_examples_of_earlier_dialogues_count(scene: Callable[..., Any]) -> None:
     one = scene(nouns=["cup"], taught=before, wording="four")
     assert one.hear("This is a cup.") == "I am learning cup."
     assert one.hear("This is a cup.") == "I am updating my systems on cup."
+
+
+def test_what_never_or_always_is_worth_more_has_no_threshold_between() -> None:
+    low, high = Stake(0.0, 0.0), Stake(1.0, 1.0)
+    assert threshold(low, high) > 1.0
+    assert threshold(high, low) == threshold(low, low) == 0.0
+
+
+def test_who_names_two_is_not_taken_at_its_word_by_a_yes(scene: Make) -> None:
+    """It asks which, even where a yes to what it is sure of teaches it nothing."""
+    known = {("cup", "o1"): 0.55, ("mug", "o1"): 0.5}
+    robot = scene(nouns=("cup", "mug"), known=known)
+    eager = replace(robot.state, {"private.strategy.yes_below": 0.5})
+    robot.now = robot.now._replace(state=eager)
+    assert robot.acts("What is this?") == ["hedge_name"]
+    assert robot.acts("Yes.") == ["ask_which"]
+
+
+def test_what_a_no_to_two_teaches_goes_by_the_likelier_one(scene: Make) -> None:
+    known = {("cup", "o1"): 0.55, ("mug", "o1"): 0.4}
+    for below, lessons in ((0.5, 0), (0.6, 2)):
+        robot = scene(nouns=("cup", "mug"), known=known)
+        wary = replace(robot.state, {"private.strategy.no_below": below})
+        robot.now = robot.now._replace(state=wary)
+        assert robot.acts("What is this?") == ["hedge_name"]
+        assert robot.acts("No.") == ["ask_again"]
+        assert len(robot.state.private.lessons) == lessons
