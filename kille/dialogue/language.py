@@ -21,6 +21,7 @@ from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.meanings import (
     CLAIMS,
     kind_in,
+    merge_of,
     named,
     placed,
     set_to,
@@ -32,7 +33,7 @@ from kille.dialogue.meanings import (
 from kille.dialogue.parsing import Grammar, Tree, Word, parts, words
 from kille.dialogue.sources import source
 from kille.dialogue.transcribing import CLOSELY, LOOSELY, robot_rules
-from ttr import Rec, Record, RecordType, RecType, TypeNode, merge, rectype
+from ttr import Rec, Record, RecordType, RecType, TypeNode, rectype
 
 __all__ = [
     "LANGUAGES",
@@ -212,7 +213,7 @@ class _Reader:
         for meant in _by_rank([self._meanings(part) for part in parts(tree)]):
             together: RecordType = Rec
             for _, meaning in meant:
-                together = _merged(together, meaning)
+                together = merge_of(together, meaning)
             ways.append((tuple(it for signs, _ in meant for it in signs), together))
         return ways
 
@@ -226,7 +227,7 @@ class _Reader:
             return [((it,), placed(it, name)) for it in self._signs(tree, name)]
         together = self._together(tree)
         if name in theory().names:
-            return [(signs, _merged(named(name), T)) for signs, T in together]
+            return [(signs, merge_of(named(name), T)) for signs, T in together]
         return [(signs, rectype({tree.rule: T})) for signs, T in together]
 
     def _signs(self, tree: Tree, name: str) -> Iterator[Record]:
@@ -278,7 +279,7 @@ def _apart(all_of_it: RecordType) -> tuple[RecordType, RecordType]:
             if k not in CLAIMS and not _is_described(rival.get(k))
         }
     )
-    return content, _merged(same, rival)
+    return content, merge_of(same, rival)
 
 
 def _is_described(part: TypeNode | None) -> bool:
@@ -290,11 +291,3 @@ def _is_described(part: TypeNode | None) -> bool:
 def _type_name(rule: str) -> str:
     """The name that a rule's type has in the theory: ask_name, AskName."""
     return "".join(part.capitalize() for part in rule.split("_"))
-
-
-@lru_cache(4096)
-def _merged(S: RecordType, T: RecordType) -> RecordType:
-    merged = merge(S, T)
-    if not isinstance(merged, RecordType):
-        raise TypeError(f"meanings of utterances are record types, but found {merged}")
-    return merged

@@ -42,6 +42,7 @@ __all__ = [
     "kind_in",
     "meaning_in",
     "mentions",
+    "merge_of",
     "named",
     "noun",
     "placed",
@@ -89,10 +90,19 @@ def spoken(speaking: str, move: str) -> RecordType:
     >>> greeted <= named("Heard"), greeted <= named("Greet")
     (True, True)
     """
-    both = merge(named(speaking), named(move))
-    if not isinstance(both, RecordType):
-        raise TypeError(f"{speaking} and {move} of tutor.ttr do not go together")
-    return both
+    return merge_of(named(speaking), named(move))
+
+
+@lru_cache(16384)
+def merge_of(S: RecordType, T: RecordType) -> RecordType:
+    """The merge of two record types, which is a record type.
+
+    >>> print(merge_of(noun("cup").meaning, adjective("red").meaning))
+    [look : Look, x : Ind, a : is_red(x, look), c : cup(x, look)]
+    """
+    merged = merge(S, T)
+    assert isinstance(merged, RecordType)
+    return merged
 
 
 def set_to(T: RecordType, **fields: TypeNode) -> RecordType:

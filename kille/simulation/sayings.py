@@ -14,12 +14,12 @@ from itertools import islice, permutations
 from string import Formatter
 
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import denied, named, placed
+from kille.dialogue.meanings import denied, merge_of, named, placed
 from kille.dialogue.reference import meant_by
 from kille.dialogue.wording import tell
 from kille.simulation.vocabulary import vocabulary
 from kille.simulation.worlds import World
-from ttr import Rec, Record, RecordType, merge, record, rectype
+from ttr import Rec, Record, RecordType, record, rectype
 
 __all__ = [
     "NOTHING",
@@ -72,7 +72,7 @@ class Phrase:
     def meaning(self) -> RecordType:
         """What it means."""
         meant = meant_by(self.signs) if self.signs else rectype()
-        return _merged(meant, named(self.talk)) if self.talk else meant
+        return merge_of(meant, named(self.talk)) if self.talk else meant
 
 
 NOTHING, THIS = Phrase(), Phrase("This")
@@ -100,7 +100,7 @@ class Claim:
         }
         sign = self.sign
         said = named("Asked") if sign is None else placed(sign, TEMPLATES[sign.kind])
-        content = _merged(said, rectype(parts))
+        content = merge_of(said, rectype(parts))
         return denied(content) if self.denies else content
 
     @property
@@ -211,13 +211,13 @@ def _facing(language: str, world: World) -> Iterator[Matter]:
         front = world.thing(x).front or "left"
         for phrase in phrases_of(language, world, x):
             faces = named(f"Faces{front.capitalize()}")
-            content = _merged(faces, rectype(target=phrase.meaning))
+            content = merge_of(faces, rectype(target=phrase.meaning))
             yield Matter(content, phrase.signs)
 
 
 def _perspective(phrase: Phrase) -> Matter:
     """That places are meant as this thing sees them."""
-    content = _merged(named("ByLandmark"), rectype(landmark=phrase.meaning))
+    content = merge_of(named("ByLandmark"), rectype(landmark=phrase.meaning))
     return Matter(content, phrase.signs)
 
 
@@ -295,10 +295,3 @@ def _phrases(language: str, world: World) -> Iterator[Phrase]:
         if where is not None:
             nouns = known.noun_of(world, x), known.noun_of(world, y)
             yield Phrase("", (nouns[0], where, nouns[1]))
-
-
-@lru_cache(16384)
-def _merged(S: RecordType, T: RecordType) -> RecordType:
-    merged = merge(S, T)
-    assert isinstance(merged, RecordType)
-    return merged

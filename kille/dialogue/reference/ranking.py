@@ -9,10 +9,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import reduce
 
-from kille.dialogue.meanings import named, placed
+from kille.dialogue.meanings import merge_of, named, placed
 from kille.dialogue.reference.parts import Part, put_together, taken_apart
 from kille.dialogue.reference.resolving import Judging
-from ttr import Model, Record, RecordType, merge, rectype
+from ttr import Model, Record, RecordType, rectype
 
 __all__ = ["meant_by", "ranking", "said_by"]
 
@@ -62,12 +62,6 @@ def meant_by(words: Iterable[Record]) -> RecordType:
         if sign.kind == "relation":
             beside = placed(sign, "Nearby")
             landmark = rectype(landmark=meant_by(words[i + 1 :]))
-            return reduce(_merged, [named("Beside"), beside, landmark], phrase)
-        phrase = _merged(phrase, sign.meaning)
+            return reduce(merge_of, [named("Beside"), beside, landmark], phrase)
+        phrase = merge_of(phrase, sign.meaning)
     return phrase
-
-
-def _merged(S: RecordType, T: RecordType) -> RecordType:
-    merged = merge(S, T)
-    assert isinstance(merged, RecordType)
-    return merged
