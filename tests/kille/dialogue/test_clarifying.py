@@ -71,6 +71,12 @@ def test_options_are_the_move_made_specific(table: Any) -> None:
     assert {it.text for it in asked} == {"Where is the cup?"}
 
 
+def test_what_is_not_there_is_not_pointed_at(scene: Scenes) -> None:
+    known = {("cup", "o1"): 0.9, ("book", "o2"): 0.9}
+    robot = scene(2, nouns=["cup", "book"], known=known)
+    assert robot.hear("Where is this book?") == "I do not see a book here."
+
+
 def test_a_lesson_waits_for_the_answer(table: Any) -> None:
     assert table.hear("The cup is near the book.") == WHICH
     assert table.state.private.lessons == ()

@@ -202,6 +202,25 @@ def test_the_words_that_are_known(table: Any) -> None:
     ]
 
 
+def test_what_it_knows_best_comes_first_and_what_nobody_taught_has_no_count(
+    scene: Callable[..., Any],
+) -> None:
+    lessons = {"book": 0.0, "cup": 1.0, "mug": 3.0}
+
+    def act(planned: TypeNode, model: Model) -> tuple[Record, Model]:
+        move, model = model.create(planned)
+        counted = [
+            record(sign=it, lessons=lessons[it.form], confused=[])
+            for it in move.recalls
+        ]
+        return replace(move, {"recalled": counted}), model
+
+    one = scene(nouns=lessons, act=act)
+    assert one.hear("What do you know?") == (
+        "I know these words for things: mug (3 lessons), cup (one lesson) and book."
+    )
+
+
 def test_who_knows_no_word_says_so(scene: Callable[..., Any]) -> None:
     one = scene(colours=[])
     assert one.hear("What words do you know?") == "I do not know any words yet."
