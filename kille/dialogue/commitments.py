@@ -71,6 +71,12 @@ def same(claim: RecordType, other: RecordType) -> bool:
     >>> cup = set_at(placed(noun("cup"), "Naming"), "target.x", "o1")
     >>> same(cup, set_at(cup, "look", "look2")), same(cup, denied(cup))
     (True, False)
+
+    What claims nothing says nothing that is the same.
+
+    >>> from kille.dialogue.meanings import named
+    >>> same(named("Asked"), named("Asked"))
+    False
     """
     label = kind_of(claim)
     return (

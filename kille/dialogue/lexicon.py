@@ -106,8 +106,6 @@ class Lexicon:
 
     def with_examples(self, wording: str) -> str:
         """A wording with what the tutor may say in place of {examples}."""
-        if "{examples}" not in wording:
-            return wording
         return wording.replace("{examples}", "\n  ".join(self.examples))
 
     def main_form(self, form: str) -> str:

@@ -8,7 +8,7 @@ checked, tested and changed by themselves.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import lru_cache, partial
+from functools import partial
 
 from kille.dialogue.games import TUTORING
 from kille.dialogue.language import Sentence, understand
@@ -65,7 +65,6 @@ def tutoring(
     )
 
 
-@lru_cache(1024)
 def hear(text: str, language: str = "en") -> RecordType | NBest | None:
     """The event of saying this, or None if it is not understood.
 

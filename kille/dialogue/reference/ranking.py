@@ -47,7 +47,7 @@ def said_by(words: Sequence[Record]) -> Part:
     return put_together(phrase, replace(nearby, landmark=said_by(words[at + 1 :])))
 
 
-def meant_by(words: Iterable[Record]) -> RecordType:
+def meant_by(words: Sequence[Record]) -> RecordType:
     """The type of a phrase of these words: the merge of what they mean.
 
     What follows a relation is said of what the thing stands beside.
@@ -57,7 +57,6 @@ def meant_by(words: Iterable[Record]) -> RecordType:
     [look : Look, x : Ind, a : is_red(x, look), c : cup(x, look)]
     """
     phrase = named("Phrase")
-    words = list(words)
     for i, sign in enumerate(words):
         if sign.kind == "relation":
             beside = placed(sign, "Nearby")

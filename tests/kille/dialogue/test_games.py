@@ -211,6 +211,12 @@ def test_a_thing_is_not_placed_beside_what_is_called_the_same(scene: Make) -> No
     assert robot.hear("Visa mig den första boken.") == "Det här är boken: #1."
 
 
+def test_a_thing_is_not_placed_beside_what_is_hardly_known(scene: Make) -> None:
+    known = {("book", "o1"): 0.9, ("box", "o2"): 0.1, ("near", "o1", "o2"): 0.9}
+    robot = scene(2, nouns=("book", "box"), relations=("near",), known=known)
+    assert robot.acts(ASKING) == ["need_landmark"]
+
+
 def test_what_is_alone_stands_nowhere(scene: Make) -> None:
     robot = scene(things=1, nouns=("book",), known=TWO)
     assert robot.acts(ASKING) == ["need_landmark"]

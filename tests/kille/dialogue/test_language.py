@@ -18,6 +18,7 @@ from kille.dialogue.meanings import (
     noun,
     predicate_at,
     set_to,
+    theory,
     word_of,
 )
 from kille.dialogue.parsing import Grammar, GrammarError
@@ -123,6 +124,8 @@ def test_setting_a_field_gives_the_record_type_that_has_it() -> None:
     )
     with pytest.raises(IllFormed, match="leads nowhere"):
         set_to(T, c=dog(this.z))
+    with pytest.raises(IllFormed):
+        set_to(T, x=theory()["Text"])
 
 
 @pytest.mark.parametrize("text", ["left of", "on the left of", "to the left of"])

@@ -8,10 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import noun, theory, word_of
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
 from kille.dialogue.typos import is_slip, nearest, slip
+from kille.dialogue.wording import did_not_understand
 from ttr import record
 
 WORDS = ("cup", "book")
@@ -65,6 +67,20 @@ def test_a_word_of_its_own_is_not_questioned() -> None:
     said, nouns = talk(["This is a cap.", "This is a mug."])
     assert said == ["OK, I learned a cap.", "OK, I learned a mug."]
     assert nouns == ["cup", "book", "cap", "mug"]
+
+
+@pytest.mark.parametrize(
+    ("text", "like"),
+    [
+        ("What colour this?", 'You could say "What colour is this?";'),
+        ("Where is your book?", 'You could say "Where is the book?";'),
+        ("What sees you?", '"Help" lists'),
+    ],
+)
+def test_what_is_not_understood_is_answered_by_what_is_like_it(
+    text: str, like: str
+) -> None:
+    assert like in did_not_understand(lexicon(), text)
 
 
 def test_what_is_asked_for_is_nearly_known() -> None:
