@@ -334,6 +334,24 @@ def test_the_shortest_description() -> None:
     assert described("o3") == "book"
 
 
+def test_a_description_has_as_many_words_as_it_takes() -> None:
+    cups = {("cup", x): 0.9 for x in ("o1", "o2", "o3")}
+    both = cups | {("is_red", "o1"): 0.9, ("is_big", "o1"): 0.8}
+    assert described("o1", both) == "red cup"
+    both |= {("is_red", "o2"): 0.9, ("is_big", "o3"): 0.8}
+    assert described("o1", both) == "red big cup"
+    where = {
+        **{("cup", x): 0.9 for x in ("o1", "o2")},
+        **{("book", "o3"): 0.9, ("near", "o1", "o3"): 0.9},
+        **{("is_red", x): 0.9 for x in ("o1", "o2", "o3")},
+    }
+    assert described("o1", where) == "cup near book"
+    four = where | {("cup", "o4"): 0.9, ("near", "o4", "o3"): 0.9}
+    found = describe(*scene(four, things=4), "o1")
+    assert found is not None
+    assert " ".join(sign.form for sign in found.signs) == "red cup near book"
+
+
 def test_a_landmark_is_described_where_its_noun_is_not_enough() -> None:
     known = {
         **{("cup", x): 0.9 for x in ("o1", "o2")},
