@@ -265,6 +265,13 @@ def told(one: Any, texts: Sequence[str]) -> Any:
     return one
 
 
+def test_what_was_taught_in_an_earlier_look_is_unlearned(table: Any) -> None:
+    told(table, ["This is a mug.", "This is not a mug."])
+    assert taught(table.state) == []
+    told(table, ["This is not a cup.", "This is a cup."])
+    assert taught(table.state) == ["cup"]
+
+
 @given(st.lists(SAID, max_size=8))
 def test_no_two_lessons_about_a_thing_contradict_each_other(
     scene: Callable[..., Any], texts: list[str]
