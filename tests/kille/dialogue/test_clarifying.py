@@ -77,6 +77,19 @@ def test_what_is_not_there_is_not_pointed_at(scene: Scenes) -> None:
     assert robot.hear("Where is this book?") == "I do not see a book here."
 
 
+def test_of_several_adjectives_it_says_which_one_it_does_not_know(table: Any) -> None:
+    answer = table.hear("Where is the big striped cup?")
+    assert answer == table.hear("Where is the striped cup?")
+    assert '"striped"' in answer
+
+
+def test_a_word_is_known_though_nothing_in_view_is_called_so(scene: Scenes) -> None:
+    robot = scene(1)
+    assert robot.acts("Where is the mug?") == ["unknown_noun"]
+    assert robot.acts("This is a mug.") == ["learned"]
+    assert robot.acts("Where is the mug?") == ["see_no_such"]
+
+
 def test_a_lesson_waits_for_the_answer(table: Any) -> None:
     assert table.hear("The cup is near the book.") == WHICH
     assert table.state.private.lessons == ()
