@@ -32,7 +32,7 @@ test: $(SENSES) ## format, lint, types, import directions, then all tests and ex
 
 deep: $(SENSES) ## the tests that take too long for every day; not a part of test
 	HYPOTHESIS_PROFILE=$${HYPOTHESIS_PROFILE:-deep} $(SINGLE) \
-	    $(BIN)/pytest -n auto --dist worksteal -m deep
+	    $(BIN)/pytest -n auto --dist worksteal -m deep -o faulthandler_timeout=0
 
 # Hours of hostile inputs and of kills are for whoever asks for them by name.
 BENCHMARKS := $(filter-out %/fuzz.py %kills.py,$(wildcard benchmarks/[!_]*.py))
