@@ -18,11 +18,10 @@ from random import Random
 from kille.interfaces.experiment.crews import choose_crew
 from kille.interfaces.terminal import console
 from kille.studies.log import Broken, Finished, Outcome, RunError
-from kille.studies.log.outcomes import Play
+from kille.studies.log.outcomes import Play, PlayAll
 from kille.studies.persons.lines import ready
 from kille.studies.protocols import CHANGING, successor, tasks
 from kille.studies.running import Crew, Scheduler, alone
-from kille.studies.running.crews import PlayAll
 from kille.studies.scenes import opened
 from kille.studies.study import PERSON, Run, Study
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
@@ -13,10 +13,12 @@ from kille.studies.played import Played
 from kille.studies.study import Run, Study
 
 __all__ = [
+    "DEADLY",
     "Broken",
     "Finished",
     "Outcome",
     "Play",
+    "PlayAll",
     "RunError",
     "broken",
     "outcome",
@@ -56,6 +58,12 @@ class Broken(NamedTuple):
 
 
 Outcome: TypeAlias = Finished | Broken
+
+PlayAll: TypeAlias = Callable[[Sequence[Run]], Generator[Outcome, None, None]]
+"""Plays many dialogues; what became of them, as they end."""
+
+DEADLY = "every worker that played it died: is there memory enough?"
+"""Why a dialogue is broken that nobody lived through."""
 
 
 def outcome(study: Study, run: Run, play: Play) -> Outcome:

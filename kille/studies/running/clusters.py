@@ -28,8 +28,15 @@ from distributed import Client, Future, KilledWorker
 from distributed.client import ClosedClientError
 from distributed.security import Security
 
-from kille.studies.log.outcomes import Broken, Outcome, Play, RunError, outcome
-from kille.studies.running.crews import DEADLY, PlayAll
+from kille.studies.log.outcomes import (
+    DEADLY,
+    Broken,
+    Outcome,
+    Play,
+    PlayAll,
+    RunError,
+    outcome,
+)
 from kille.studies.running.schedulers import Scheduler
 from kille.studies.running.threads import one_thread
 from kille.studies.study import Run, Study

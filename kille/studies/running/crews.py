@@ -13,18 +13,14 @@ from functools import partial
 from importlib.util import find_spec
 from typing import TypeAlias
 
-from kille.studies.log.outcomes import Outcome, Play, RunError, outcome
+from kille.studies.log.outcomes import Outcome, Play, PlayAll, RunError, outcome
 from kille.studies.running.schedulers import Scheduler
 from kille.studies.running.threads import one_thread
 from kille.studies.study import Run, Study
 
-__all__ = ["DEADLY", "MISSING", "Crew", "PlayAll", "alone", "cores", "crew", "playing"]
+__all__ = ["MISSING", "Crew", "alone", "cores", "crew", "playing"]
 
 MISSING = "Dask is not installed: pip install 'kille[cluster]'"
-DEADLY = "every worker that played it died: is there memory enough?"
-
-PlayAll: TypeAlias = Callable[[Sequence[Run]], Generator[Outcome, None, None]]
-"""Plays many dialogues; what became of them, as they end."""
 
 Crew: TypeAlias = Callable[[Study, Play], AbstractContextManager[PlayAll]]
 """Those who play a study, as long as they are needed."""

@@ -24,8 +24,7 @@ from typing import Self
 
 from joblib import wrap_non_picklable_objects
 
-from kille.studies.log.outcomes import Broken, Outcome, Play, RunError
-from kille.studies.running.crews import DEADLY, PlayAll
+from kille.studies.log.outcomes import DEADLY, Broken, Outcome, Play, PlayAll, RunError
 from kille.studies.running.threads import READ_WHEN_LOADED
 from kille.studies.running.workers import READY
 from kille.studies.study import Run, Study

@@ -1,0 +1,50 @@
+"""Operations declared on the ground floor, and provided by the floor that does them.
+
+`str(T)`, `S <= T` and `T._repr_html_()` each stand for one thing that needs far more
+than the class they are written on. The class declares the operation; the module that
+does the work provides it, so that imports go one way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import update_wrapper
+from typing import Generic, ParamSpec, TypeVar
+
+__all__ = ["Hook", "hook"]
+
+P = ParamSpec("P")
+R = TypeVar("R")
+F = TypeVar("F", bound=Callable[..., object])
+
+
+class Hook(Generic[P, R]):
+    """An operation that a module above provides: `operation.provided_by(function)`."""
+
+    def __init__(self, declaration: Callable[P, R]) -> None:
+        update_wrapper(self, declaration)
+        self._function: Callable[P, R] = declaration
+
+    def provided_by(self, function: Callable[P, R]) -> Callable[P, R]:
+        """Has this function do it from now on; as a decorator it leaves it as it is."""
+        self._function = function
+        return function
+
+    def __call__(self, *args: P.args, **named: P.kwargs) -> R:
+        """What the function that does it gives."""
+        return self._function(*args, **named)
+
+
+def hook(declaration: Callable[P, R]) -> Hook[P, R]:
+    """Declares an operation; the body of the function is never run.
+
+    >>> @hook
+    ... def double(n: int) -> int:
+    ...     raise NotImplementedError
+    >>> @double.provided_by
+    ... def _twice(n: int) -> int:
+    ...     return 2 * n
+    >>> double(4)
+    8
+    """
+    return Hook(declaration)
