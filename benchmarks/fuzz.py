@@ -267,7 +267,7 @@ def _texts(pattern: str, most: int = 40_000) -> list[bytes]:
 
 def _theory(folder: Path) -> Reader:
     from ttr.errors import TTRError
-    from ttr.notation.loading import theory_of_file
+    from ttr.theories import theory_of_file
 
     seeds = [*_texts("tests/theories/*.ttr"), *_texts("examples/**/*.ttr")]
     return Reader(seeds, _file(folder, "a.ttr", theory_of_file), (TTRError,))

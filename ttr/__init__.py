@@ -7,9 +7,11 @@ objects are judged to be of which types; `judge`, `perceive` and `create` ask it
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ttr import updates
+from ttr import counters as counters  # provides counterexamples
+from ttr import notebooks, updates
 from ttr.budgets import budget
 from ttr.constructors import Pi, fun, rectype
 from ttr.errors import (
@@ -176,6 +178,17 @@ _LATER = {
     "load": "ttr.theories",
     "parse": "ttr.notation.reader",
 }
+
+
+def _render(form: str, value: object) -> str:
+    from ttr import render
+
+    drawn: str = getattr(render, form)(value)
+    return drawn
+
+
+notebooks.as_html.provided_by(partial(_render, "html"))
+notebooks.as_latex.provided_by(partial(_render, "latex"))
 
 
 def __getattr__(name: str) -> Any:

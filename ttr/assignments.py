@@ -28,8 +28,8 @@ from ttr.probability import (
     complement,
     degree,
 )
+from ttr.signature import Signature
 from ttr.syntax import Basic, Object, Pred, PType, TypeNode, identity
-from ttr.theories import Signature
 
 __all__ = ["Assignment", "Atom", "Head", "WitnessFunction", "head"]
 

@@ -7,8 +7,8 @@ from itertools import product
 from typing import cast
 
 from ttr.paths import replace_paths
+from ttr.signature import Axiom, Exclusion, Signature
 from ttr.syntax import Basic, Object, Path, Pred, PType, identity
-from ttr.theories import Axiom, Exclusion, Signature
 
 __all__ = ["above", "below", "excluding", "match_schema", "uppers"]
 

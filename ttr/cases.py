@@ -13,8 +13,8 @@ from itertools import chain, product
 from math import prod
 
 from ttr.budgets import spend
-from ttr.constructors import ordered
 from ttr.errors import Unsupported
+from ttr.forms import ordered
 from ttr.normal_forms import inwards, meet_normal_form
 from ttr.strings.forms import is_of_strings
 from ttr.syntax import (

@@ -10,6 +10,7 @@ from ttr.budgets import SharedPurse, one_of_several, purse_of_several
 from ttr.circles import circle
 from ttr.errors import Span, TooLargeError, TTRError, Undecided
 from ttr.merging import amerge, merge
+from ttr.models import model_of
 from ttr.printing import notation
 from ttr.queries import (
     Creates,
@@ -26,9 +27,10 @@ from ttr.queries import (
 )
 from ttr.records import differences
 from ttr.reports import Failure, Report
+from ttr.signature import Interval
 from ttr.subtyping import subtype
 from ttr.syntax import TypeNode, identity, kind_of
-from ttr.theories import Interval, Theory
+from ttr.theories import Theory
 from ttr.updates.checks import Fault, faults_alone, faults_of
 from ttr.updates.rules import Rule
 from ttr.updates.stepping import stepped
@@ -36,7 +38,7 @@ from ttr.updates.stepping import stepped
 if TYPE_CHECKING:
     from ttr.models import Model
 
-__all__ = ["asked", "check", "model_of"]
+__all__ = ["asked", "check"]
 
 TOLERANCE = 1e-9
 """How far two probabilities may be apart and still count as the same number."""
@@ -94,21 +96,6 @@ def _faults(theory: Theory, rules: list[Rule]) -> tuple[Fault, ...]:
 
 def _is_own(span: Span | None, theory: Theory) -> bool:
     return span is not None and span.source == theory.source
-
-
-def model_of(theory: Theory, purse: SharedPurse | None = None) -> Model:
-    """The model of just the givens; an error tells which of them it was."""
-    from ttr.models import Model
-
-    model = Model(replace(theory, givens=()))
-    purse = purse or purse_of_several(len(theory.givens))
-    for given in theory.givens:
-        try:
-            with one_of_several(purse):
-                model = model.stated(given)
-        except TTRError as error:
-            raise error.at(given.span) if given.span else error from None
-    return model
 
 
 def _answered(

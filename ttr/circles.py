@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
 
 from ttr.budgets import spend
-from ttr.constructors import ordered
+from ttr.forms import ordered
 from ttr.paths import escaping, occurring, rebuilt
 from ttr.syntax import Object, RecordType, Singleton, TypeNode
 

@@ -7,9 +7,9 @@ from ttr.printing import notation
 from ttr.probability import CERTAIN, Degree, complement
 from ttr.probability.degrees import ordered
 from ttr.propositions import borne_out, claim, probabilistic_claim
+from ttr.signature import Signature
 from ttr.subtyping import Answer, subtype
 from ttr.syntax import Basic, Object, PType, TypeNode, freeze, identity
-from ttr.theories import Signature
 
 __all__ = ["entails", "equivalent"]
 

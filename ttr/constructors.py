@@ -3,33 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING
 
-from ttr.budgets import spend
 from ttr.errors import IllFormed
+from ttr.formation import checked, checked_binder
+from ttr.forms import ordered
 from ttr.objects import check_label, labelled
-from ttr.paths import escaping, moved, replace_paths
+from ttr.paths import replace_paths
 from ttr.syntax import (
     BOUND,
     Function,
     FunType,
     Object,
     Path,
-    Plus,
     RecordType,
-    Str,
     TypeNode,
     as_type,
     freeze,
-    join,
     kind_of,
 )
 
 if TYPE_CHECKING:
-    from ttr.theories import Signature
+    from ttr.signature import Signature
 
-__all__ = ["Pi", "fun", "function_type", "ordered", "rectype", "star"]
+__all__ = ["Pi", "fun", "rectype"]
 
 
 def rectype(
@@ -54,54 +51,12 @@ def rectype(
     ttr.errors.IllFormed: the path y leads nowhere: [c : dog(.y), x : Ind] has no y
     help: outer.y, written ^.y, is the y one record further out
     """
-    from ttr.formation import checked
-
     given = labelled("rectype", fields, labels)
     for label, T in given.items():
         check_label(label)
         if not isinstance(T, TypeNode):
             raise IllFormed(f"the field {label} needs a type, found {kind_of(T)}")
     return checked(RecordType(ordered(given)), theory)
-
-
-def ordered(fields: Mapping[str, TypeNode]) -> tuple[tuple[str, TypeNode], ...]:
-    """The fields by (depth of dependency, label); those on or behind a cycle last."""
-    spend(len(fields))
-    waits: dict[str, int] = {}
-    needed_by: dict[str, list[str]] = {}
-    for label, T in fields.items():
-        needs = {path.labels[0] for path in escaping(T) if path.up == 0}
-        needs &= fields.keys()
-        waits[label] = len(needs)
-        for need in needs:
-            needed_by.setdefault(need, []).append(label)
-    ready = [(0, label) for label, count in waits.items() if count == 0]
-    heapify(ready)
-    order: list[str] = []
-    while ready:
-        depth, label = heappop(ready)
-        order.append(label)
-        for waiting in needed_by.get(label, ()):
-            waits[waiting] -= 1
-            if waits[waiting] == 0:
-                heappush(ready, (depth + 1, waiting))
-    order += sorted(fields.keys() - order)
-    return tuple((label, fields[label]) for label in order)
-
-
-# --- strings -------------------------------------------------------------------------
-
-
-def star(T: TypeNode, /) -> TypeNode:
-    """T*, the strings that are none or more strings or events of T in a row.
-
-    Source: Fernando 2007.
-
-    >>> from ttr.syntax import Ind
-    >>> print(star(Ind))
-    plus(Ind) \\/ str()
-    """
-    return join(Str(), Plus(T))
 
 
 # --- functions -----------------------------------------------------------------------
@@ -131,8 +86,6 @@ def fun(
     name, domain = _variable("fun", variable, named)
 
     def of(body: object) -> Function:
-        from ttr.formation import checked_binder
-
         found = Function(domain, _bound(name, freeze(body)), name)
         return checked_binder(found, theory)
 
@@ -154,22 +107,10 @@ def Pi(
     name, domain = _variable("Pi", variable, named)
 
     def of(result: TypeNode) -> FunType:
-        from ttr.formation import checked_binder
-
         found = FunType(domain, _bound(name, as_type(result)), name)
         return checked_binder(found, theory)
 
     return of
-
-
-def function_type(domain: TypeNode, result: TypeNode) -> FunType:
-    """(S → T), the functions from S to T.
-
-    >>> from ttr.syntax import Ind, Type
-    >>> print(function_type(Ind, Type))
-    (Ind -> Type)
-    """
-    return FunType(domain, moved(result, 1))
 
 
 def _variable(

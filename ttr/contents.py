@@ -17,6 +17,7 @@ from ttr.paths import moved, replace_paths
 from ttr.quantifiers.thresholds import Thresholds
 from ttr.quantifiers.truth import truth
 from ttr.quantifiers.truths import Truth
+from ttr.signature import Signature
 from ttr.subtyping import subtype
 from ttr.syntax import (
     BOUND,
@@ -29,7 +30,6 @@ from ttr.syntax import (
     as_type,
     kind_of,
 )
-from ttr.theories import Signature
 
 __all__ = ["apply", "content", "in_context", "strong", "weak"]
 

@@ -18,11 +18,11 @@ from ttr.objects import Unresolved
 from ttr.paths import replace_paths
 from ttr.places import ITSELF, elements
 from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.signature import Signature
 from ttr.strings.forms import is_of_strings
 from ttr.substitution import along
-from ttr.subtyping import Refutation
+from ttr.subtyping import Refutation, counterexample
 from ttr.syntax import Object, Path, RecordType, TypeNode, meet
-from ttr.theories import Signature
 
 __all__ = ["counter", "witness"]
 
@@ -30,6 +30,7 @@ SIZES = (1, 0, 2)
 """How many elements lists and sets have in what is tried: one shows the most."""
 
 
+@counterexample.provided_by
 def counter(refutation: Refutation) -> Judgement | None:
     """A judgement of a witness of S that is not of T; None where none was made up."""
     T, theory = refutation.T, refutation.theory

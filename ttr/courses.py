@@ -12,10 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from ttr.budgets import within_budget
-from ttr.constructors import star
 from ttr.dividing import events_in_words
 from ttr.errors import Unexpected, Unsupported
 from ttr.following import Following, followed_from
+from ttr.forms import star
 from ttr.models import Model, as_model
 from ttr.paths import escaping
 from ttr.printing import notation

@@ -14,10 +14,10 @@ from ttr.certainty import certainly
 from ttr.circles import circle
 from ttr.errors import Refused, TTRError
 from ttr.hypothetical import Hypothetical
-from ttr.judging import derivation, reduced, stands
+from ttr.judging import derivation, made_up, reduced, stands
 from ttr.merging import merge
 from ttr.objects import Unresolved
-from ttr.paths import escaping, moved, parts, replace_paths
+from ttr.paths import escaping, mentions, moved, replace_paths
 from ttr.places import ITSELF, step
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED
@@ -144,6 +144,7 @@ def _told_fields(facts: Assignment, sit: Record, T: RecordType) -> Assignment:
     return facts
 
 
+@made_up.provided_by
 def created(facts: Assignment, T: TypeNode, size: int = 0) -> tuple[Object, Assignment]:
     """A fresh witness of T, and the assignment that has it.
 
@@ -158,30 +159,9 @@ def created(facts: Assignment, T: TypeNode, size: int = 0) -> tuple[Object, Assi
         if settled is T:
             raise
         sit, facts = _Making(size).one(facts, settled)
-    if _denies(T):
+    if mentions(T, Negation):
         _check(facts, sit, T)
     return sit, facts
-
-
-def _denies(value: Object) -> bool:
-    """Whether a negation stands in the value."""
-    if type(value) is str:
-        return False
-    if isinstance(value, Negation):
-        return True
-    if not isinstance(value, TypeNode):
-        return _denies_inside(value)
-    try:
-        return value._denies
-    except AttributeError:
-        found = _denies_inside(value)
-    object.__setattr__(value, "_denies", found)
-    return found
-
-
-def _denies_inside(value: Object) -> bool:
-    same, inner = parts(value)
-    return any(map(_denies, same)) or any(map(_denies, inner))
 
 
 def _settled(T: TypeNode) -> TypeNode:

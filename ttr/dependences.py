@@ -25,8 +25,8 @@ from ttr.probability import (
     Not,
     feasible,
 )
+from ttr.signature import Signature
 from ttr.syntax import Object, identity
-from ttr.theories import Signature
 
 __all__ = ["check_together", "contradiction", "dependence"]
 

@@ -22,6 +22,7 @@ from ttr.levels import why_outside
 from ttr.paths import escaping, replace_paths
 from ttr.places import ITSELF, element, elements, event, instantiated, step, unpacked
 from ttr.printing import notation
+from ttr.signature import Signature
 from ttr.strings.automata import automaton, automaton_above
 from ttr.strings.forms import events_of, is_of_strings, is_regular
 from ttr.strings.inclusion import Inclusion, included
@@ -54,7 +55,6 @@ from ttr.syntax import (
     join,
     meet,
 )
-from ttr.theories import Signature
 
 __all__ = ["Finding", "Question"]
 

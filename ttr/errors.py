@@ -16,6 +16,7 @@ from ttr.escapes import columns, terminal_line, terminal_text
 __all__ = [
     "Endless",
     "IllFormed",
+    "Mistakes",
     "NoState",
     "NotHeard",
     "NotationError",
@@ -117,6 +118,22 @@ def _rebuild(
 
 class NotationError(TTRError):
     """A text that is no notation: what was expected there and what was found."""
+
+
+class Mistakes(NotationError):
+    """Several mistakes in one theory; `errors` are they, in the order of the text."""
+
+    errors: tuple[TTRError, ...] = ()
+
+    @classmethod
+    def of(cls, errors: tuple[TTRError, ...]) -> Mistakes:
+        """The mistakes as one error."""
+        told = cls(f"{len(errors)} mistakes\n\n" + "\n\n".join(map(str, errors)))
+        told.errors = errors
+        return told
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Mistakes.of, (self.errors,)
 
 
 class IllFormed(TTRError):

@@ -14,6 +14,7 @@ from ttr.circles import circle
 from ttr.errors import IllFormed, suggestion
 from ttr.paths import escaping, parts
 from ttr.printing import notation
+from ttr.signature import Signature, signature_of
 from ttr.subtyping import Answer, subtype
 from ttr.syntax import (
     BOUND,
@@ -32,7 +33,6 @@ from ttr.syntax import (
     join,
     meet,
 )
-from ttr.theories import Signature, signature_of
 
 __all__ = ["checked", "checked_binder", "checked_within", "target", "wellformed"]
 

@@ -8,16 +8,31 @@ from __future__ import annotations
 
 import inspect
 import struct
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import update_wrapper
 from threading import RLock
-from typing import TYPE_CHECKING, Any, dataclass_transform
+from typing import TYPE_CHECKING, Any, TypeVar, dataclass_transform
 from weakref import ref
 
 from ttr.budgets import Spent, open_purse, within_budget
-from ttr.display.notebooks import Drawn
 from ttr.errors import IllFormed, TTRError
+from ttr.hooks import hook
+from ttr.notebooks import Drawn
 
-__all__ = ["Node", "identity", "node"]
+__all__ = ["Node", "as_notation", "as_python", "cache_on_node", "identity", "node"]
+
+
+@hook
+def as_notation(value: object) -> str:
+    """The value in one line, as on the blackboard: `ttr.printing.notation`."""
+    raise NotImplementedError
+
+
+@hook
+def as_python(value: object) -> str:
+    """The value as Python that evaluates back: `ttr.printing.python`."""
+    raise NotImplementedError
 
 
 class _Entry(ref):  # type: ignore[type-arg]
@@ -100,8 +115,9 @@ def _kept_from_deleting(_: Node, name: str) -> None:
 class Node(Drawn, metaclass=_Interning):
     """An interned value: it prints as notation, and its repr as Python."""
 
-    __slots__ = ("__weakref__",)
+    __slots__ = ("__weakref__", "_cache")
     __match_args__: tuple[str, ...] = ()
+    _cache: dict[object, Any]
 
     @staticmethod
     def _normal(*args: Any) -> tuple[Any, ...]:
@@ -115,15 +131,11 @@ class Node(Drawn, metaclass=_Interning):
 
     @within_budget
     def __str__(self) -> str:
-        from ttr.printing import notation
-
-        return notation(self)
+        return as_notation(self)
 
     @within_budget
     def __repr__(self) -> str:
-        from ttr.printing import python
-
-        return python(self)
+        return as_python(self)
 
     def __copy__(self) -> Node:
         return self
@@ -133,6 +145,29 @@ class Node(Drawn, metaclass=_Interning):
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), tuple(getattr(self, name) for name in self.__match_args__)
+
+
+_N = TypeVar("_N", bound=Node)
+_R = TypeVar("_R")
+
+
+def cache_on_node(function: Callable[[_N], _R]) -> Callable[[_N], _R]:
+    """Has what a function finds of a node kept on the node, as long as that lives.
+
+    A node never changes, so neither does what is found of it.
+    """
+
+    def cached(node: _N) -> _R:
+        try:
+            return node._cache[function]  # type: ignore[no-any-return]
+        except AttributeError:
+            object.__setattr__(node, "_cache", {})
+        except KeyError:
+            pass
+        found = node._cache[function] = function(node)
+        return found
+
+    return update_wrapper(cached, function)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -8,8 +8,8 @@ from functools import cached_property
 from itertools import islice
 from typing import TYPE_CHECKING, Literal, TypeAlias, assert_never
 
-from ttr.display.notebooks import Drawn
 from ttr.errors import Undecided
+from ttr.notebooks import Drawn
 from ttr.printing import notation
 from ttr.probability import (
     CERTAIN,

@@ -16,11 +16,12 @@ from ttr.dependences import dependence
 from ttr.dividing import Dividing, events_in_words, stopped
 from ttr.entailment import Question
 from ttr.errors import Refused
+from ttr.hooks import hook
 from ttr.judgements import How, Why, together
 from ttr.levels import why_outside
 from ttr.links import Atom, Claim
 from ttr.objects import Missing, Unresolved
-from ttr.paths import escaping, parts, rebuilt
+from ttr.paths import escaping, mentions, rebuilt
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.reckoning import reckoned, reckoning
@@ -59,6 +60,12 @@ __all__ = ["claims_of", "derivation", "reduced", "stands"]
 
 TRIED = 100
 """How many known objects a function is tried on."""
+
+
+@hook
+def made_up(facts: Assignment, T: TypeNode, size: int = 0) -> tuple[Object, Assignment]:
+    """A witness that is made up, and the facts that make it one: `ttr.creating`."""
+    raise NotImplementedError
 
 
 def derivation(facts: Assignment, sit: Object, T: TypeNode, around: Around = ()) -> Why:
@@ -247,14 +254,12 @@ class _Derivation:
 
     def _arguments(self, domain: TypeNode) -> Iterator[tuple[Object, Assignment]]:
         """Objects of a domain to try: some that are known, and made-up ones."""
-        from ttr.creating import created
-
         if isinstance(domain, Basic | PType):
             for x in islice(self._facts.witnesses(domain), TRIED):
                 yield x, self._facts
         for case, size in product(cases(domain) or (domain,), (1, 0, 2)):
             with suppress(Refused):
-                yield created(self._facts, case, size)
+                yield made_up(self._facts, case, size)
 
     def applied(self, sit: Function, T: FunType, x: Object) -> list[Why]:
         """Is the object of the function's domain, and what it gives of the result?"""
@@ -344,7 +349,7 @@ def reduced(facts: Assignment, value: Object) -> Object:
     what is applied is no function.
     """
     spend()
-    if not _applies(value):
+    if not mentions(value, Application):
         return value
     value = rebuilt(value, lambda part, _: reduced(facts, part))
     if not isinstance(value, Application) or escaping(value):
@@ -392,25 +397,4 @@ def stands(T: TypeNode) -> bool:
     >>> stands(Ind @ "a"), stands(Ind @ this.x)
     (True, False)
     """
-    return not _applies(T) and not escaping(T)
-
-
-def _applies(value: Object) -> bool:
-    """Whether an application stands in the value."""
-    if type(value) is str:
-        return False
-    if isinstance(value, Application):
-        return True
-    if not isinstance(value, TypeNode):
-        return _applies_inside(value)
-    try:
-        return value._applies
-    except AttributeError:
-        found = _applies_inside(value)
-    object.__setattr__(value, "_applies", found)
-    return found
-
-
-def _applies_inside(value: Object) -> bool:
-    same, inner = parts(value)
-    return any(map(_applies, same)) or any(map(_applies, inner))
+    return not mentions(T, Application) and not escaping(T)

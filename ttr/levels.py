@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+from ttr.interning import cache_on_node
 from ttr.paths import parts
 from ttr.syntax import Object, RecordType, TypeNode, Universe
 
@@ -36,14 +39,7 @@ def level_of(value: Object) -> int:
     >>> level_of(Ind), level_of(RecType), level_of(rectype(T=Universe("Type", 1)))
     (0, 1, 2)
     """
-    if not isinstance(value, TypeNode):
-        return _level(value)
-    try:
-        return value._level
-    except AttributeError:
-        found = _level(value)
-    object.__setattr__(value, "_level", found)
-    return found
+    return _of_type(value) if isinstance(value, TypeNode) else _level(value)
 
 
 def _level(value: Object) -> int:
@@ -53,3 +49,6 @@ def _level(value: Object) -> int:
         return 0
     same, inner = parts(value)
     return max(map(level_of, (*same, *inner)), default=0)
+
+
+_of_type: Callable[[TypeNode], int] = cache_on_node(_level)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from ttr.budgets import spend, within_budget
 from ttr.constructors import rectype
 from ttr.errors import TTRError
+from ttr.signature import Signature, signature_of
 from ttr.subtyping import subtype
 from ttr.syntax import Record, RecordType, Singleton, TypeNode, as_type, identity, meet
-from ttr.theories import Signature, signature_of
 
 __all__ = ["amerge", "merge", "singleton_type"]
 

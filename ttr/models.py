@@ -8,12 +8,13 @@ of them changes the model: what is new is in the model they give back.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Protocol, TypeAlias, cast
 
 from immutables import Map
 
 from ttr.assignments import Assignment, WitnessFunction
-from ttr.budgets import within_budget
+from ttr.budgets import SharedPurse, one_of_several, purse_of_several, within_budget
 from ttr.conditioning import (
     conditional,
     expected,
@@ -32,6 +33,7 @@ from ttr.perceiving import filled
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
 from ttr.propositions import borne_out, claim, probabilistic_claim
+from ttr.signature import Expected, Given, Signature
 from ttr.syntax import (
     Application,
     Basic,
@@ -48,10 +50,9 @@ from ttr.syntax import (
     freeze,
     kind_of,
 )
-from ttr.theories import Expected, Given, Signature
 from ttr.witnesses import witnesses
 
-__all__ = ["Conditions", "Model", "as_model", "conditions"]
+__all__ = ["Conditions", "Model", "as_model", "conditions", "model_of"]
 
 
 _EMPTY: tuple[Object, ...] = ((), FiniteSet(), EventString())
@@ -531,3 +532,16 @@ def _closed(sit: object, T: object) -> tuple[Object, TypeNode]:
                 f"{notation(value)} has paths that lead nowhere, so nothing is judged"
             )
     return sit, kind
+
+
+def model_of(theory: Signature, purse: SharedPurse | None = None) -> Model:
+    """The model of just the givens; an error tells which of them it was."""
+    model = Model(replace(theory, givens=()))
+    purse = purse or purse_of_several(len(theory.givens))
+    for given in theory.givens:
+        try:
+            with one_of_several(purse):
+                model = model.stated(given)
+        except TTRError as error:
+            raise error.at(given.span) if given.span else error from None
+    return model

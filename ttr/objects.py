@@ -14,9 +14,10 @@ from types import NoneType
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from ttr.budgets import spend, within_budget
-from ttr.display.notebooks import Drawn
 from ttr.errors import IllFormed, TTRError
-from ttr.interning import Node, identity, node
+from ttr.hooks import hook
+from ttr.interning import Node, as_notation, as_python, identity, node
+from ttr.notebooks import Drawn
 
 __all__ = [
     "BOUND",
@@ -106,6 +107,18 @@ class Missing(Node):
     """What a record has where it lacks a label: no object at all."""
 
 
+class Applied:
+    """What stands for what a function gives: `ttr.syntax.Application`."""
+
+    __slots__ = ()
+
+
+@hook
+def as_application(function: object, *args: object) -> Any:
+    """f(a), as written: `ttr.syntax.applied`."""
+    raise NotImplementedError
+
+
 class PathTo:
     """Writes paths as Python attributes: `this.x`, `outer.x`, `this["bg.x"]`."""
 
@@ -131,9 +144,7 @@ class PathTo:
     def __call__(self, *args: Any) -> Any:
         """`outer(2)` is two scopes out; `this.f(a)` applies what a path leads to."""
         if self._labels:
-            from ttr.syntax import applied
-
-            return applied(self._path(), *args)
+            return as_application(self._path(), *args)
         if self._up == 0 or len(args) != 1:
             raise IllFormed("only outer can be called, as in outer(2).x")
         if type(args[0]) is not int or args[0] < 1:
@@ -149,9 +160,7 @@ class PathTo:
         return concat(other, self)
 
     def __repr__(self) -> str:
-        from ttr.printing import python
-
-        return python(Path(self._up, self._labels))
+        return as_python(Path(self._up, self._labels))
 
     def _path(self) -> Path:
         """The path written so far; raises `IllFormed` where it has no label."""
@@ -330,9 +339,7 @@ def _is_operation(value: Object, name: str) -> bool:
 
 def _stays(value: Object) -> bool:
     """Whether what an object is depends on what a path or an application leads to."""
-    from ttr.syntax import Application
-
-    return isinstance(value, Path | Operation | Application)
+    return isinstance(value, Path | Operation | Applied)
 
 
 def in_print(value: object) -> tuple[str, str]:
@@ -421,15 +428,11 @@ class Record(Drawn):
 
     @within_budget
     def __str__(self) -> str:
-        from ttr.printing import notation
-
-        return notation(self)
+        return as_notation(self)
 
     @within_budget
     def __repr__(self) -> str:
-        from ttr.printing import python
-
-        return python(self)
+        return as_python(self)
 
     def __reduce__(self) -> tuple[object, ...]:
         return Record, (self._fields,)

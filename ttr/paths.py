@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 
 from ttr.budgets import spend
+from ttr.interning import cache_on_node
 from ttr.objects import Unresolved, concat, fst, rst
 from ttr.syntax import (
     Application,
@@ -37,7 +38,15 @@ from ttr.syntax import (
     meet,
 )
 
-__all__ = ["escaping", "moved", "occurring", "parts", "rebuilt", "replace_paths"]
+__all__ = [
+    "escaping",
+    "mentions",
+    "moved",
+    "occurring",
+    "parts",
+    "rebuilt",
+    "replace_paths",
+]
 
 Parts = tuple[Object, ...]
 
@@ -145,6 +154,33 @@ def occurring(values: Iterable[Object]) -> Iterator[Object]:
             waiting += (T for arity in value.arities for T in arity)
 
 
+def mentions(value: Object, kind: type[TypeNode]) -> bool:
+    """Does a type of this kind stand in the value, or is it one?
+
+    >>> from ttr.syntax import Ind
+    >>> mentions(ListOf(~Ind), Negation), mentions(ListOf(Ind), Negation)
+    (True, False)
+    """
+    return kind in _kinds(value)
+
+
+def _kinds(value: Object) -> frozenset[type]:
+    """The kinds of the types in a value, in it too."""
+    if type(value) is str:
+        return _NO_KINDS
+    return _kinds_in(value) if isinstance(value, TypeNode) else _kinds_of(value)
+
+
+def _kinds_of(value: Object) -> frozenset[type]:
+    same, inner = parts(value)
+    return frozenset((type(value),)).union(*map(_kinds, same), *map(_kinds, inner))
+
+
+_kinds_in: Callable[[TypeNode], frozenset[type]] = cache_on_node(_kinds_of)
+
+_NO_KINDS: frozenset[type] = frozenset()
+
+
 # --- paths that lead out -------------------------------------------------------------
 
 
@@ -161,16 +197,11 @@ def escaping(value: Object) -> frozenset[Path]:
     if type(value) is str:
         return _NONE
     if not isinstance(value, TypeNode):
-        return frozenset((value,)) if isinstance(value, Path) else _found(value)
-    try:
-        return value._escaping
-    except AttributeError:
-        found = _found(value)
-    object.__setattr__(value, "_escaping", found)
-    return found
+        return frozenset((value,)) if isinstance(value, Path) else _in_parts(value)
+    return _of_type(value)
 
 
-def _found(value: Object) -> frozenset[Path]:
+def _in_parts(value: Object) -> frozenset[Path]:
     same, inner = parts(value)
     found = frozenset[Path]().union(*map(escaping, same)) if same else _NONE
     if inner:
@@ -178,6 +209,8 @@ def _found(value: Object) -> frozenset[Path]:
         found |= {Path(path.up - 1, path.labels) for path in further if path.up > 0}
     return found
 
+
+_of_type: Callable[[TypeNode], frozenset[Path]] = cache_on_node(_in_parts)
 
 _NONE: frozenset[Path] = frozenset()
 

@@ -21,6 +21,7 @@ from ttr.brackets import (
 )
 from ttr.budgets import spend
 from ttr.escapes import json_text
+from ttr.interning import as_notation, as_python
 from ttr.objects import Missing
 from ttr.paths import occurring, replace_paths
 from ttr.paths import parts as contents
@@ -397,3 +398,7 @@ def _python_path(up: int, labels: tuple[str, ...]) -> str:
     if any(keyword.iskeyword(label) for label in labels):
         return f"{start}[{'.'.join(labels)!r}]"
     return ".".join([start, *labels])
+
+
+as_notation.provided_by(notation)
+as_python.provided_by(python)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from ttr.errors import Span, TTRError
+from ttr.signature import Interval
 from ttr.syntax import Object, TypeNode
-from ttr.theories import Interval
 from ttr.updates.rules import Rule
 
 __all__ = [

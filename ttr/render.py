@@ -11,15 +11,15 @@ from ttr.display.drawing import drawn, drawn_derivation
 from ttr.display.folding import folding
 from ttr.display.layout import Layout, Line, Sign, Step, Word, laid_out
 from ttr.display.markup import marked_up, marked_up_derivation
-from ttr.display.notebooks import Drawn
 from ttr.display.typesetting import typeset, typeset_derivation
 from ttr.errors import IllFormed
 from ttr.interning import Node
 from ttr.judgements import Judgement, Why, mark
+from ttr.notebooks import Drawn
 from ttr.syntax import Object, Record, freeze
 
 if TYPE_CHECKING:
-    from ttr.theories import Signature
+    from ttr.signature import Signature
 
 __all__ = ["box", "html", "latex"]
 

@@ -15,16 +15,19 @@ from ttr.cases import cases
 from ttr.circles import in_order
 from ttr.entailment import Finding, Question
 from ttr.errors import TooLargeError
+from ttr.hooks import hook
 from ttr.hypothetical import Assumption
 from ttr.interning import Node
 from ttr.paths import occurring
 from ttr.places import ITSELF
+from ttr.signature import Signature, signature_of
 from ttr.syntax import (
     Basic,
     EventString,
     FiniteSet,
     ListOf,
     Meet,
+    Negation,
     Object,
     Path,
     Pred,
@@ -34,9 +37,9 @@ from ttr.syntax import (
     TypeNode,
     Universe,
     as_type,
+    is_subtype,
     meet,
 )
-from ttr.theories import Signature, signature_of
 
 if TYPE_CHECKING:
     from ttr.judgements import Judgement
@@ -52,6 +55,12 @@ class Refutation:
     T: TypeNode
     theory: Signature
     assumed: tuple[Assumption, ...] = ()
+
+
+@hook
+def counterexample(refutation: Refutation) -> Judgement | None:
+    """A judgement that speaks against S ⊑ T: `ttr.counters.counter`."""
+    raise NotImplementedError
 
 
 @dataclass(frozen=True)
@@ -88,11 +97,9 @@ class Answer:
         >>> print(subtype(rectype(x=Ind), rectype(x=Ind, y=Ind)).counter)
         {x = a1} : [x : Ind, y : Ind]   p = 0
         """
-        from ttr.counters import counter
-
         if self._refutation is None or not self.no:
             return None
-        return counter(self._refutation)
+        return counterexample(self._refutation)
 
     def __bool__(self) -> bool:
         raise TypeError("an answer is yes, no or unknown: ask for .yes or .no")
@@ -207,8 +214,6 @@ def consistent(*types: TypeNode, theory: Signature | None = None) -> Answer:
     >>> consistent(Ind, Basic("Event")).yes
     True
     """
-    from ttr.counters import witness
-
     T = meet(*types)
     signature = signature_of(theory)
     open_cases = [
@@ -219,7 +224,10 @@ def consistent(*types: TypeNode, theory: Signature | None = None) -> Answer:
     if not open_cases:
         return Answer("no", f"nothing can be of {T}")
     for case in open_cases:
-        found = witness(case, signature)
+        found = counterexample(Refutation(case, Negation(case), signature))
         if found is not None:
             return Answer("yes", f"some assignment has {found.sit} of {T}")
     return Answer("unknown", f"no witness of {T} could be made up")
+
+
+is_subtype.provided_by(lambda S, T: subtype(S, T).yes)

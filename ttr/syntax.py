@@ -15,9 +15,11 @@ from typing import TYPE_CHECKING, NoReturn
 
 from ttr.budgets import within_budget
 from ttr.errors import IllFormed
+from ttr.hooks import hook
 from ttr.interning import Node, identity, node
 from ttr.objects import (
     BOUND,
+    Applied,
     EventString,
     FiniteSet,
     Object,
@@ -25,6 +27,7 @@ from ttr.objects import (
     Path,
     PathTo,
     Record,
+    as_application,
     check_label,
     concat,
     freeze,
@@ -77,6 +80,18 @@ __all__ = [
 ]
 
 
+@hook
+def is_subtype(S: TypeNode, T: TypeNode, /) -> bool:
+    """S ⊑ T: `ttr.subtyping.subtype`."""
+    raise NotImplementedError
+
+
+@hook
+def as_function_type(domain: TypeNode, result: TypeNode, /) -> TypeNode:
+    """(S → T): `ttr.forms.function_type`."""
+    raise NotImplementedError
+
+
 class TypeNode(Node):
     """A type, with the signs of the notation as operators.
 
@@ -84,19 +99,10 @@ class TypeNode(Node):
     functions from S to T, `T @ a` a singleton; `S <= T` asks for subtyping.
     """
 
-    __slots__ = ("_applies", "_denies", "_escaping", "_level")
-
-    # What was worked out of it once, by `ttr.paths`, `ttr.judging`, `ttr.creating` and
-    # `ttr.levels`.
-    _applies: bool
-    _denies: bool
-    _escaping: frozenset[Path]
-    _level: int
+    __slots__ = ()
 
     def __le__(self, other: object) -> bool:
-        from ttr.subtyping import subtype
-
-        return subtype(self, as_type(other)).yes
+        return is_subtype(self, as_type(other))
 
     def __ge__(self, other: object) -> bool:
         return as_type(other) <= self
@@ -111,9 +117,7 @@ class TypeNode(Node):
         return Negation(self)
 
     def __rshift__(self, other: object) -> TypeNode:
-        from ttr.constructors import function_type
-
-        return function_type(self, as_type(other))
+        return as_function_type(self, as_type(other))
 
     def __matmul__(self, value: object) -> TypeNode:
         return Singleton(self, freeze(value))
@@ -392,7 +396,7 @@ class Function(_Binder):
 
 
 @node
-class Application(TypeNode):
+class Application(Applied, TypeNode):
     """f(a): what a function gives for an argument, a type or any other object."""
 
     function: Object
@@ -417,6 +421,9 @@ def applied(function: object, *args: object) -> Application:
     for arg in args:
         function = Application(function, arg)
     return function  # type: ignore[return-value]
+
+
+as_application.provided_by(applied)
 
 
 # --- records and predicates ----------------------------------------------------------

@@ -7,25 +7,25 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING, Any, Protocol, overload
+from typing import TYPE_CHECKING, Protocol, overload
 
-from immutables import Map
-
-from ttr.consent import Consent
-from ttr.errors import IllFormed, NotationError, Span, TTRError, suggestion
-from ttr.escapes import json_text
-from ttr.paths import occurring
-from ttr.syntax import (
-    Basic,
-    Object,
-    Path,
-    Pred,
-    PType,
-    Record,
-    RecordType,
-    TypeNode,
-    kind_of,
+from ttr.consent import OWN_FOLDER, Consent
+from ttr.errors import IllFormed, Mistakes, TTRError, suggestion
+from ttr.notation.drafts import Draft
+from ttr.notation.loading import draft_of_file, draft_of_text
+from ttr.notation.openings import opened
+from ttr.notation.reader import read
+from ttr.signature import (
+    Axiom,
+    Exclusion,
+    Expected,
+    Given,
+    Interval,
+    Opening,
+    Signature,
+    signature_of,
 )
+from ttr.syntax import Basic, Object, Pred, kind_of
 
 if TYPE_CHECKING:
     from ttr.queries import Check
@@ -43,160 +43,12 @@ __all__ = [
     "Opening",
     "Signature",
     "Theory",
+    "theory_of_draft",
     "load",
     "signature_of",
+    "theory_of_file",
+    "theory_of_text",
 ]
-
-Interval = tuple[float, float]
-"""An interval of probability [lo, hi] with 0 <= lo <= hi <= 1."""
-
-
-@dataclass(frozen=True)
-class Axiom:
-    """A declared subtyping S <: T; paths in it are schematic variables.
-
-    `right(x, y) <: left(y, x)` says that every situation in which x is right of y is
-    one in which y is left of x, whatever x and y are.
-    """
-
-    lower: Basic | PType
-    upper: Basic | PType
-
-    def __str__(self) -> str:
-        return f"{_schema(self.lower)} <: {_schema(self.upper)}"
-
-
-@dataclass(frozen=True)
-class Exclusion:
-    """A declared S <: ~T: nothing is of both; paths in it are schematic variables.
-
-    `dog(x) <: ~cat(x)` says that no situation makes x a dog and a cat.
-    """
-
-    left: Basic | PType
-    right: Basic | PType
-
-    def __str__(self) -> str:
-        return f"{_schema(self.left)} <: ~{_schema(self.right)}"
-
-
-def _schema(T: Basic | PType) -> str:
-    """The type with its variables bare and the names of objects quoted."""
-    if isinstance(T, Basic):
-        return T.name
-    return f"{T.pred.name}({', '.join(map(_schematic, T.args))})"
-
-
-def _schematic(arg: Object) -> str:
-    from ttr.printing import notation
-
-    match arg:
-        case Path(_, labels):
-            return labels[0]
-        case str():
-            return json_text(arg)
-    return notation(arg)
-
-
-@dataclass(frozen=True)
-class Given:
-    """A judgement a theory starts from: a : T with a probability.
-
-    Where `when` names other judgements, it is the probability if they hold.
-    """
-
-    sit: Object
-    type: TypeNode
-    p: Interval = (1.0, 1.0)
-    span: Span | None = None
-    when: tuple[tuple[Object, TypeNode], ...] = ()
-
-
-@dataclass(frozen=True)
-class Expected:
-    """p(T || S₁, …): how probably whatever is of the conditions is of T, too."""
-
-    type: TypeNode
-    when: tuple[TypeNode, ...]
-    p: Interval
-    span: Span | None = None
-
-
-@dataclass(frozen=True)
-class Opening:
-    """How a theory declares a game: all of it but the model in which it is played.
-
-    `start` is its first state, of `type`; `agenda` the path of what it plans, `hears`
-    the types of the events that come from outside, where it says which.
-    """
-
-    name: str
-    type: RecordType
-    start: Record
-    algorithm: Algorithm
-    agenda: str | None = None
-    span: Span | None = None
-    hears: tuple[TypeNode, ...] = ()
-
-
-def _nothing() -> Mapping[str, Object]:
-    return Map()
-
-
-@dataclass(frozen=True, eq=False)
-class Signature:
-    """What models and subtyping need of a theory: axioms, open types, judgements."""
-
-    axioms: tuple[Axiom, ...] = ()
-    opened: frozenset[Basic | Pred] = frozenset()
-    givens: tuple[Given | Expected, ...] = ()
-    definitions: Mapping[str, Object] = field(default_factory=_nothing)
-    exclusions: tuple[Exclusion, ...] = ()
-
-    @cached_property
-    def _memo(self) -> dict[object, Any]:
-        """What follows from the axioms, once it was worked out (`ttr.axioms`)."""
-        return {}
-
-    @cached_property
-    def related(self) -> frozenset[Basic | Pred]:
-        """The basic types and predicates that an axiom or an exclusion is about."""
-        axioms = [T for one in self.axioms for T in (one.lower, one.upper)]
-        exclusions = [T for one in self.exclusions for T in (one.left, one.right)]
-        types = (*axioms, *exclusions)
-        return frozenset(T if isinstance(T, Basic) else T.pred for T in types)
-
-    def __post_init__(self) -> None:
-        if not isinstance(self.axioms, tuple):
-            raise IllFormed(
-                f"a theory is made of a tuple of axioms, found {kind_of(self.axioms)}",
-                hint="to read a text, write Theory.parse(text)",
-            )
-
-
-def signature_of(theory: object) -> Signature:
-    """The theory, or the empty one for None; raises `IllFormed` for what is none."""
-    if theory is None:
-        return Signature()
-    if not isinstance(theory, Signature):
-        raise IllFormed(f"expected a theory, found {kind_of(theory)}")
-    return theory
-
-
-class Mistakes(NotationError):
-    """Several mistakes in one theory; `errors` are they, in the order of the text."""
-
-    errors: tuple[TTRError, ...] = ()
-
-    @classmethod
-    def of(cls, errors: tuple[TTRError, ...]) -> Mistakes:
-        """The mistakes as one error."""
-        told = cls(f"{len(errors)} mistakes\n\n" + "\n\n".join(map(str, errors)))
-        told.errors = errors
-        return told
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return Mistakes.of, (self.errors,)
 
 
 class _ReadTheory(Protocol):
@@ -223,7 +75,7 @@ class _Parse:
     ) -> _ReadTheory | Callable[[str], Object]:
         if theory is None:
             return _parse_theory
-        return lambda text: _parse_term(theory, text)
+        return lambda text: read(text, theory)
 
 
 def _parse_theory(text: str, source: str = "<text>") -> Theory:
@@ -232,31 +84,7 @@ def _parse_theory(text: str, source: str = "<text>") -> Theory:
     An `import` in it is relative to the working directory, and of what lies there or
     below.
     """
-    from ttr.notation.loading import theory_of_text
-
     return theory_of_text(text, source)
-
-
-def _parse_term(theory: Theory, text: str) -> Object:
-    """The type or object that a text stands for in the theory."""
-    from ttr.notation.reader import read
-
-    return read(text, theory)
-
-
-def load(
-    path: str | os.PathLike[str], *, allow: Iterable[str | os.PathLike[str]] = ()
-) -> Theory:
-    """The theory in a file; raises `TTRError` where it cannot be read.
-
-    An `import` in it is relative to the file, and of what lies in the file's folder or
-    below; `allow` names other folders from which may be imported, too.
-    """
-    from ttr.notation.loading import theory_of_file
-
-    if not isinstance(path, str | os.PathLike):
-        raise TTRError(f"load takes the path of a file, found {kind_of(path)}")
-    return theory_of_file(FilePath(path), Consent.of(allow))
 
 
 @dataclass(frozen=True, eq=False)
@@ -303,18 +131,7 @@ class Theory(Signature):
         >>> sorted(Theory.of(Pred("dog", Ind)("fido")).names)
         ['Ind', 'dog', 'fido']
         """
-        basics: dict[str, Basic] = {}
-        predicates: dict[str, Pred] = {}
-        objects: set[str] = set()
-        for value in occurring(values):
-            match value:
-                case Basic(name):
-                    basics[name] = value
-                case Pred(name, _):
-                    _same_predicate(predicates.setdefault(name, value), value)
-                case str():
-                    objects.add(value)
-        return cls(basics=basics, predicates=predicates, objects=frozenset(objects))
+        return theory_of_draft(Draft.of_values(*values))
 
     @property
     def signature(self) -> Signature:
@@ -330,8 +147,6 @@ class Theory(Signature):
         Raises `TTRError` where the givens contradict one another, or where the start of
         a game is not of its type.
         """
-        from ttr.notation.openings import opened
-
         return opened(self)
 
     @property
@@ -380,8 +195,56 @@ class Theory(Signature):
         return f"<Theory {self.source}: {', '.join(sorted(self.names))}>"
 
 
-def _same_predicate(known: Pred, found: Pred) -> None:
-    if known is not found:
-        raise IllFormed(
-            f"two predicates are called {known.name}: {known!r} and {found!r}"
-        )
+# --- reading --------------------------------------------------------------------------
+
+
+def load(
+    path: str | os.PathLike[str], *, allow: Iterable[str | os.PathLike[str]] = ()
+) -> Theory:
+    """The theory in a file; raises `TTRError` where it cannot be read.
+
+    An `import` in it is relative to the file, and of what lies in the file's folder or
+    below; `allow` names other folders from which may be imported, too.
+    """
+    if not isinstance(path, str | os.PathLike):
+        raise TTRError(f"load takes the path of a file, found {kind_of(path)}")
+    return theory_of_file(FilePath(path), Consent.of(allow))
+
+
+def theory_of_text(
+    text: str, source: str = "<text>", consent: Consent | None = None
+) -> Theory:
+    """The theory that a text declares; an import is relative to the working directory.
+
+    It imports what lies there or below, or else what there is consent to. Raises the
+    mistake in it, or `Mistakes` where there are several.
+    """
+    return theory_of_draft(draft_of_text(text, source, consent))
+
+
+def theory_of_file(path: FilePath, consent: Consent = OWN_FOLDER) -> Theory:
+    """The theory in a file; raises `Unreadable`, the mistake in it, or `Mistakes`.
+
+    It, and what it imports, may import what lies in its folder or below; other folders
+    with the user's consent.
+    """
+    return theory_of_draft(draft_of_file(path, consent))
+
+
+def theory_of_draft(draft: Draft) -> Theory:
+    """The theory that has been read; the draft may go on without changing it."""
+    return Theory(
+        axioms=tuple(draft.axioms),
+        exclusions=tuple(draft.exclusions),
+        opened=frozenset(draft.opened),
+        givens=tuple(draft.givens),
+        definitions=dict(draft.definitions),
+        basics=dict(draft.basics),
+        predicates=dict(draft.predicates),
+        objects=frozenset(draft.objects),
+        checks=tuple(draft.checks),
+        source=draft.source,
+        rules=dict(draft.rules),
+        strategies=dict(draft.strategies),
+        openings=dict(draft.openings),
+    )

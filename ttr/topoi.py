@@ -20,6 +20,7 @@ from ttr.possibilities.modality import ModalAnswer
 from ttr.printing import notation
 from ttr.probability import REFUTED, Degree
 from ttr.reshaping.functions import fix, restrict
+from ttr.signature import Signature
 from ttr.substitution import grounded
 from ttr.subtyping import Answer, consistent, subtype
 from ttr.syntax import (
@@ -32,7 +33,6 @@ from ttr.syntax import (
     kind_of,
     record,
 )
-from ttr.theories import Signature
 
 __all__ = [
     "Topos",

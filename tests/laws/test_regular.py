@@ -19,8 +19,8 @@ from ttr import (
     Theory,
     subtype,
 )
-from ttr.constructors import star
 from ttr.courses import begun
+from ttr.forms import star
 from ttr.strings.forms import is_of_strings
 
 A, B = Basic("A"), Basic("B")

@@ -3,7 +3,7 @@
 import pytest
 
 from ttr import Basic, EventString, Model, Plus, Str, Unsupported, join, subtype
-from ttr.constructors import star
+from ttr.forms import star
 from ttr.strings.automata import automaton, automaton_above
 
 A, B, C = map(Basic, "ABC")

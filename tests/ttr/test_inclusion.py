@@ -3,7 +3,7 @@
 import pytest
 
 from ttr import Basic, Pred, RecordType, Str, Theory, rectype, subtype, this
-from ttr.constructors import star
+from ttr.forms import star
 from ttr.strings.automata import automaton
 from ttr.strings.inclusion import included
 from ttr.syntax import Ind, ListOf, Plus

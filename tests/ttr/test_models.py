@@ -31,7 +31,7 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.constructors import star
+from ttr.forms import star
 from ttr.theories import Axiom, Given, Signature
 from ttr.witnesses import candidates
 

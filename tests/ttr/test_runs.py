@@ -3,7 +3,7 @@
 from itertools import islice
 
 from ttr import Basic, Plus, Str
-from ttr.constructors import star
+from ttr.forms import star
 from ttr.strings.automata import automaton
 from ttr.strings.runs import Stop, a_way, all_ways, covers, shortest
 

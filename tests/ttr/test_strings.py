@@ -14,7 +14,7 @@ from ttr import (
     join,
     rectype,
 )
-from ttr.constructors import star
+from ttr.forms import star
 from ttr.strings.forms import (
     alternatives,
     events_of,

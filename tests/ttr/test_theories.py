@@ -23,7 +23,7 @@ from ttr.notation.trees import Part, Source
 from ttr.subtyping import subtype
 from ttr.syntax import Basic, Ind, Pred, this
 from ttr.syntax import Path as LabelPath
-from ttr.theories import Axiom, Mistakes, Theory, load
+from ttr.theories import Axiom, Mistakes, Theory, load, theory_of_draft
 
 NAMES = """
 basic Ind, Image
@@ -431,17 +431,17 @@ def test_a_mistake_in_a_statement_adds_nothing_of_it() -> None:
         source = Source(text)
         with pytest.raises(TTRError):
             Declaring(draft, source).declare(statement(source, 0, len(text)))
-    left, before = draft.finished(), theory("")
+    left, before = theory_of_draft(draft), theory("")
     assert left.names == before.names
     assert (left.givens, left.axioms, left.opened, left.checks) == ((), (), set(), ())
 
 
 def test_a_finished_theory_does_not_follow_its_draft() -> None:
     draft = Draft.of(theory("Dog := [x : Ind, c : dog(x)]"))
-    kennel = draft.finished()
+    kennel = theory_of_draft(draft)
     source = Source("Cat := [y : Ind]")
     Declaring(draft, source).declare(statement(source, 0, len(source.text)))
-    assert "Cat" in draft.finished().names - kennel.names
+    assert "Cat" in theory_of_draft(draft).names - kennel.names
 
 
 # --- slips ---------------------------------------------------------------------------

@@ -23,7 +23,7 @@ from ttr.syntax import (
 )
 
 if TYPE_CHECKING:
-    from ttr.theories import Signature
+    from ttr.signature import Signature
 
 __all__ = ["folding"]
 

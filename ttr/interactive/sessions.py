@@ -25,7 +25,6 @@ from ttr.models import Model
 from ttr.notation import trees
 from ttr.notation.drafts import Draft
 from ttr.notation.grammar import blocks, statement
-from ttr.notation.loading import theory_of_file, theory_of_text
 from ttr.notation.statements import Declaring, mentioned
 from ttr.notation.strategies import gathered
 from ttr.notation.trees import Source, Statement
@@ -34,7 +33,15 @@ from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.subtyping import Answer
 from ttr.syntax import Basic, Object, PType, TypeNode
-from ttr.theories import Expected, Given, Mistakes, Theory
+from ttr.theories import (
+    Expected,
+    Given,
+    Mistakes,
+    Theory,
+    theory_of_draft,
+    theory_of_file,
+    theory_of_text,
+)
 
 __all__ = ["Answered", "Entry", "Session", "created", "declared", "loaded", "saved"]
 
@@ -129,7 +136,7 @@ def _after(
     draft = Draft.of(theory)
     draft.settled.update(*(one.rests_on for one in entries))
     Declaring(draft, source).declare(tree)
-    return draft.finished()
+    return theory_of_draft(draft)
 
 
 def _entry(tree: Statement, source: Source, folder: Path, consent: Consent) -> Entry:

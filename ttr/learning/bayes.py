@@ -19,8 +19,8 @@ from ttr.learning.features import Features, features_of, seen, types_of
 from ttr.learning.smoothing import NO_SMOOTHING, Smoothing, as_smoothing
 from ttr.learning.taught import Taught
 from ttr.probability import UNKNOWN, Degree
+from ttr.signature import Signature, signature_of
 from ttr.syntax import TypeNode, kind_of
-from ttr.theories import Signature, signature_of
 
 __all__ = ["NaiveBayes", "posterior"]
 

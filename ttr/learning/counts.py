@@ -24,6 +24,7 @@ from ttr.paths import escaping
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.propositions import judged, probabilistic, probabilistic_claim
+from ttr.signature import Signature, signature_of
 from ttr.subtyping import consistent, subtype
 from ttr.syntax import (
     Negation,
@@ -33,7 +34,6 @@ from ttr.syntax import (
     as_type,
     identity,
 )
-from ttr.theories import Signature, signature_of
 
 __all__ = ["NO_THEORY", "Counts", "Weight"]
 

@@ -9,9 +9,9 @@ from ttr.budgets import within_budget
 from ttr.errors import IllFormed, Refused
 from ttr.merging import merge
 from ttr.paths import escaping
+from ttr.signature import Signature
 from ttr.subtyping import consistent, subtype
 from ttr.syntax import Meet, RecordType, TypeNode, as_type, kind_of
-from ttr.theories import Signature
 
 __all__ = ["Features", "feature_types", "features_of", "seen", "types_of"]
 

@@ -18,8 +18,8 @@ from ttr.learning.evidence import NO_EVIDENCE, Evidence
 from ttr.learning.features import Features, features_of, seen
 from ttr.learning.fitting import Example, fitted, logistic
 from ttr.learning.taught import Taught
+from ttr.signature import Signature, signature_of
 from ttr.syntax import TypeNode
-from ttr.theories import Signature, signature_of
 
 __all__ = ["LogOdds"]
 

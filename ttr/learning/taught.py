@@ -10,7 +10,7 @@ from ttr.syntax import TypeNode
 
 if TYPE_CHECKING:
     from ttr.learning.evidence import Evidence, Key
-    from ttr.theories import Signature
+    from ttr.signature import Signature
 
 __all__ = ["Taught"]
 

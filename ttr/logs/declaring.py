@@ -7,12 +7,11 @@ from dataclasses import dataclass, field, replace
 
 from ttr.consent import Consent
 from ttr.errors import TTRError
-from ttr.notation.loading import theory_of_text
 from ttr.notation.reader import read
 from ttr.paths import occurring
 from ttr.printing import notation
 from ttr.syntax import Object, Pred
-from ttr.theories import Theory
+from ttr.theories import Theory, theory_of_text
 
 __all__ = ["Declared"]
 

@@ -9,8 +9,8 @@ from ttr.constructors import fun
 from ttr.errors import IllFormed
 from ttr.notation.trees import Field, Fields, Part, Term
 from ttr.paths import replace_paths
+from ttr.signature import Signature
 from ttr.syntax import Object, Path, RecordType, TypeNode
-from ttr.theories import Signature
 
 __all__ = ["culprit", "misfit", "refused"]
 

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Set
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
+from ttr.errors import IllFormed
+from ttr.paths import occurring
 from ttr.queries import Check
+from ttr.signature import Axiom, Exclusion, Expected, Given, Opening, Signature
 from ttr.syntax import Basic, Object, Pred
-from ttr.theories import Axiom, Exclusion, Expected, Given, Opening, Signature, Theory
 from ttr.updates.algorithms import Algorithm
 from ttr.updates.rules import Rule
+
+if TYPE_CHECKING:
+    from ttr.theories import Theory
 
 __all__ = ["Draft", "Names", "is_declared", "meaning"]
 
@@ -107,6 +112,23 @@ class Draft:
             openings=dict(theory.openings),
         )
 
+    @classmethod
+    def of_values(cls, *values: object) -> Draft:
+        """A draft that declares everything that occurs in the values, and no more.
+
+        Raises `IllFormed` where two predicates of one name occur.
+        """
+        draft = cls()
+        for value in occurring(values):
+            match value:
+                case Basic(name):
+                    draft.basics[name] = value
+                case Pred(name, _):
+                    _same_predicate(draft.predicates.setdefault(name, value), value)
+                case str():
+                    draft.objects.add(value)
+        return draft
+
     @property
     def names(self) -> frozenset[str]:
         """Every name declared so far."""
@@ -120,20 +142,9 @@ class Draft:
         """The axioms: nothing else says whether a type is well-formed."""
         return Signature(tuple(self.axioms), exclusions=tuple(self.exclusions))
 
-    def finished(self) -> Theory:
-        """The theory that has been read; the draft may go on without changing it."""
-        return Theory(
-            axioms=tuple(self.axioms),
-            exclusions=tuple(self.exclusions),
-            opened=frozenset(self.opened),
-            givens=tuple(self.givens),
-            definitions=dict(self.definitions),
-            basics=dict(self.basics),
-            predicates=dict(self.predicates),
-            objects=frozenset(self.objects),
-            checks=tuple(self.checks),
-            source=self.source,
-            rules=dict(self.rules),
-            strategies=dict(self.strategies),
-            openings=dict(self.openings),
+
+def _same_predicate(known: Pred, found: Pred) -> None:
+    if known is not found:
+        raise IllFormed(
+            f"two predicates are called {known.name}: {known!r} and {found!r}"
         )

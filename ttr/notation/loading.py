@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ttr.budgets import SharedPurse, one_of_several, purse_of_several
 from ttr.consent import OWN_FOLDER, Consent, NotAllowed, check_called
-from ttr.errors import NotationError, Span, TooLargeError, TTRError
+from ttr.errors import Mistakes, NotationError, Span, TooLargeError, TTRError
 from ttr.files import why_unread
 from ttr.inputs import read_text
 from ttr.interning import identity
@@ -24,9 +24,9 @@ from ttr.notation.plain import plain_statement
 from ttr.notation.scanning import blocks, vetted
 from ttr.notation.statements import Declaring, mentioned
 from ttr.notation.trees import Part, Source, Statement
-from ttr.theories import Mistakes, Theory
+from ttr.syntax import Object
 
-__all__ = ["Unreadable", "theory_of_file", "theory_of_text"]
+__all__ = ["Unreadable", "draft_of_file", "draft_of_text"]
 
 IMPORTS = 50
 """How long a chain of files may be that import one another."""
@@ -39,10 +39,10 @@ class Unreadable(TTRError):
     """A file that is not there, or is no text."""
 
 
-def theory_of_text(
+def draft_of_text(
     text: str, source: str = "<text>", consent: Consent | None = None
-) -> Theory:
-    """The theory that a text declares; an import is relative to the working directory.
+) -> Draft:
+    """What a text declares of a theory; an import is relative to the working directory.
 
     It imports what lies there or below, or else what there is consent to. Raises the
     mistake in it, or `Mistakes` where there are several.
@@ -51,30 +51,30 @@ def theory_of_text(
     return _sound(_Files(allowed, {}).read(Source.of(text, source), Path(), ()))
 
 
-def theory_of_file(path: Path, consent: Consent = OWN_FOLDER) -> Theory:
-    """The theory in a file; raises `Unreadable`, the mistake in it, or `Mistakes`.
+def draft_of_file(path: Path, consent: Consent = OWN_FOLDER) -> Draft:
+    """What a file declares of a theory.
 
     It, and what it imports, may import what lies in its folder or below; other folders
-    with the user's consent.
+    with the user's consent. Raises `Unreadable`, the mistake in it, or `Mistakes`.
     """
     return _sound(_Files(consent.adding(path.parent), {}).file(path, ()))
 
 
 @dataclass(frozen=True)
 class _Reading:
-    """What has been read: the theory, and the mistakes in it.
+    """What has been read of a theory, and the mistakes in it.
 
     `spoilt` are the names that should have been declared.
     """
 
-    theory: Theory
+    draft: Draft
     spoilt: frozenset[str] = frozenset()
     mistakes: tuple[TTRError, ...] = ()
 
 
-def _sound(reading: _Reading) -> Theory:
+def _sound(reading: _Reading) -> Draft:
     if not reading.mistakes:
-        return reading.theory
+        return reading.draft
     if len(reading.mistakes) == 1:
         raise reading.mistakes[0]
     raise Mistakes.of(reading.mistakes)
@@ -116,7 +116,7 @@ class _Files:
         try:
             vetted(source)
         except NotationError as error:
-            return _Reading(Theory(source=source.name), mistakes=(error,))
+            return _Reading(Draft(source.name), mistakes=(error,))
         places = list(blocks(source.text))
         self.purse.allow(len(places))
         later: dict[str, int] = {}
@@ -132,7 +132,7 @@ class _Files:
             file.go_on(start, end)
             if file.is_refused:
                 break
-        return _Reading(draft.finished(), frozenset(file.spoilt), tuple(file.mistakes))
+        return _Reading(draft, frozenset(file.spoilt), tuple(file.mistakes))
 
 
 def _contents(path: Path) -> tuple[Path, str]:
@@ -248,12 +248,12 @@ class _File:
             found = self.files.imported(path, tree.path, self.chain)
         except TTRError as error:
             raise error.at(span) from None
-        _join(self.declaring.draft, found.theory, span)
+        _join(self.declaring.draft, found.draft, span)
         self.spoilt |= found.spoilt
         self.mistakes += [one for one in found.mistakes if one not in self.mistakes]
 
 
-def _join(mine: Draft, other: Theory, span: Span) -> None:
+def _join(mine: Draft, other: Draft, span: Span) -> None:
     """Adds what another theory declares, but for its checks.
 
     Raises `NotationError` where a name means something else in the other.
@@ -270,8 +270,8 @@ def _join(mine: Draft, other: Theory, span: Span) -> None:
     mine.openings.update(other.openings)
     mine.objects |= other.objects
     mine.opened |= other.opened
-    mine.axioms.update(dict.fromkeys(other.axioms))
-    mine.exclusions.update(dict.fromkeys(other.exclusions))
+    mine.axioms.update(other.axioms)
+    mine.exclusions.update(other.exclusions)
     known = set(mine.givens)  # a fact imported twice is one fact
     mine.givens += [given for given in other.givens if given not in known]
     mine.settled.update(other.predicates)
@@ -282,4 +282,4 @@ def _meaning(theory: Names, name: str) -> object:
     for kind in (theory.rules, theory.strategies, theory.openings):
         if name in kind:
             return kind[name]
-    return name if name in theory.objects else (Theory, identity(meaning(theory, name)))
+    return name if name in theory.objects else (Object, identity(meaning(theory, name)))

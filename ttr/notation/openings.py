@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
-from ttr.checking import model_of
 from ttr.errors import IllFormed, TTRError
 from ttr.formation import target
+from ttr.models import model_of
 from ttr.notation.reader import Reader
 from ttr.notation.rules import record_type
 from ttr.notation.strategies import algorithm
 from ttr.notation.trees import GameStatement, Name, Term
+from ttr.signature import Opening
 from ttr.syntax import ListOf, NonEmpty, Path, Record, RecordType, Singleton, TypeNode
-from ttr.theories import Opening, Theory
 from ttr.updates.games import Game
+
+if TYPE_CHECKING:
+    from ttr.theories import Theory
 
 __all__ = ["opened", "opening_of"]
 

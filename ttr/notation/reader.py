@@ -21,11 +21,12 @@ from dataclasses import dataclass, field
 from typing import Any, NoReturn, TypeVar
 
 from ttr.budgets import within_budget
-from ttr.constructors import Pi, fun, function_type, rectype, star
+from ttr.constructors import Pi, fun, rectype
 from ttr.errors import IllFormed, NotationError, TTRError, suggestion
+from ttr.forms import function_type, star
 from ttr.merging import amerge, merge
 from ttr.notation.culprits import culprit, misfit, refused
-from ttr.notation.drafts import Names, is_declared, meaning
+from ttr.notation.drafts import Draft, Names, is_declared, meaning
 from ttr.notation.misreadings import shown
 from ttr.notation.trees import (
     Abstraction,
@@ -54,6 +55,7 @@ from ttr.notation.trees import Application as Call
 from ttr.objects import Unresolved, check_label, concat, fst, rst
 from ttr.printing import RESERVED, Scope
 from ttr.probability import degree
+from ttr.signature import Interval, Signature
 from ttr.substitution import along
 from ttr.syntax import (
     BOUND,
@@ -85,7 +87,6 @@ from ttr.syntax import (
     kind_of,
     meet,
 )
-from ttr.theories import Interval, Signature, Theory
 
 __all__ = ["LOGICAL", "Reader", "parse", "read"]
 
@@ -131,7 +132,7 @@ def parse(text: str, using: Iterable[object] = ()) -> Object:
     >>> parse("list(Ind)", using=[Ind]) is ListOf(Ind)
     True
     """
-    return read(text, Theory.of(*_listed(using)))
+    return read(text, Draft.of_values(*_listed(using)))
 
 
 def _listed(using: Iterable[object]) -> tuple[object, ...]:
@@ -146,7 +147,7 @@ def _listed(using: Iterable[object]) -> tuple[object, ...]:
 
 
 @within_budget
-def read(text: str, theory: Theory, source: str = "<text>") -> Object:
+def read(text: str, theory: Names, source: str = "<text>") -> Object:
     """The type or object that a text stands for in a theory; else `NotationError`."""
     from ttr.notation import grammar
 

@@ -26,8 +26,8 @@ from ttr.notation.trees import (
 )
 from ttr.paths import escaping
 from ttr.printing import RESERVED
+from ttr.signature import Axiom, Exclusion, Expected, Given
 from ttr.syntax import Basic, Object, Path, Pred, PType
-from ttr.theories import Axiom, Exclusion, Expected, Given
 
 __all__ = ["Declaring", "mentioned"]
 

@@ -2,9 +2,10 @@ r"""Interpretations, λr:bg. [c : p(r.x)]: what type a word gives a situation.""
 
 from __future__ import annotations
 
-from ttr.constructors import fun, ordered
+from ttr.constructors import fun
 from ttr.errors import IllFormed
 from ttr.formation import checked
+from ttr.forms import ordered
 from ttr.paths import replace_paths
 from ttr.perceptual.arguments import shown
 from ttr.syntax import BOUND, Function, Path, PType, RecordType, kind_of

@@ -7,8 +7,8 @@ from functools import partial
 from typing import Any, TypeVar
 
 from ttr.budgets import spend, within_budget
-from ttr.constructors import ordered
 from ttr.errors import IllFormed
+from ttr.forms import ordered
 from ttr.objects import check_label
 from ttr.paths import replace_paths
 from ttr.reshaping.addresses import Address, absolute, nearest, written

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import cast
 
 from ttr.budgets import within_budget
-from ttr.constructors import ordered
 from ttr.errors import IllFormed
 from ttr.formation import checked, checked_binder
+from ttr.forms import ordered
 from ttr.merging import merge
 from ttr.paths import replace_paths
+from ttr.signature import Signature
 from ttr.syntax import (
     BOUND,
     Function,
@@ -19,7 +20,6 @@ from ttr.syntax import (
     as_type,
     kind_of,
 )
-from ttr.theories import Signature
 
 __all__ = ["fix", "restrict"]
 

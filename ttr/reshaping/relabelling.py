@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import overload
 
 from ttr.budgets import spend, within_budget
-from ttr.constructors import ordered
 from ttr.errors import IllFormed, suggestion
+from ttr.forms import ordered
 from ttr.objects import check_label, labelled
 from ttr.paths import replace_paths
 from ttr.reshaping.addresses import Address, address, written

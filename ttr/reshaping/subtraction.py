@@ -6,13 +6,13 @@ from collections.abc import Iterable
 from typing import TypeVar
 
 from ttr.budgets import spend, within_budget
-from ttr.constructors import ordered
 from ttr.errors import IllFormed, suggestion
 from ttr.formation import checked
+from ttr.forms import ordered
 from ttr.paths import occurring
 from ttr.reshaping.addresses import Address, address, written
+from ttr.signature import Signature
 from ttr.syntax import Meet, Object, Record, RecordType, TypeNode, kind_of, meet
-from ttr.theories import Signature
 
 __all__ = ["subtract"]
 

@@ -14,14 +14,16 @@ from typing import TypeAlias
 
 from ttr.axioms import above
 from ttr.budgets import spend, within_budget
-from ttr.constructors import function_type, ordered, rectype
+from ttr.constructors import rectype
 from ttr.errors import IllFormed
+from ttr.forms import function_type, ordered
 from ttr.hypothetical import Hypothetical
 from ttr.merging import merge
 from ttr.objects import in_print
 from ttr.paths import escaping, moved, parts, rebuilt, replace_paths
 from ttr.places import ITSELF, step
 from ttr.reshaping.addresses import nearest
+from ttr.signature import Signature
 from ttr.strings.forms import is_of_strings
 from ttr.subtyping import subtype
 from ttr.syntax import (
@@ -44,7 +46,6 @@ from ttr.syntax import (
     identity,
     meet,
 )
-from ttr.theories import Signature
 
 __all__ = ["common_supertype"]
 

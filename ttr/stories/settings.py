@@ -13,11 +13,11 @@ from ttr.consent import OWN_FOLDER, Consent, NotAllowed, check_called
 from ttr.errors import TTRError, suggestion
 from ttr.models import Model
 from ttr.modules import run_named
-from ttr.notation.loading import Unreadable, theory_of_file
+from ttr.notation.loading import Unreadable
 from ttr.notation.reader import read
 from ttr.stories.reading import StoryError
 from ttr.syntax import Basic, Object, Rec, TypeNode, Universe
-from ttr.theories import Theory
+from ttr.theories import Theory, theory_of_file
 from ttr.updates import Game
 
 __all__ = ["Setting", "check_named", "named_by_user", "python_in", "setting"]

@@ -15,8 +15,8 @@ from contextlib import suppress
 from typing import NamedTuple, TypeAlias
 
 from ttr.budgets import spend
-from ttr.constructors import star
 from ttr.errors import Unsupported
+from ttr.forms import star
 from ttr.strings.forms import alternatives, is_of_strings, is_regular, regular_above
 from ttr.strings.stepping import Automaton, Edge, Edges, combined, too_large, trimmed
 from ttr.syntax import Join, Meet, Negation, Plus, Str, TypeNode

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from ttr.budgets import within_budget
 from ttr.certainty import certainly
@@ -27,13 +27,15 @@ from ttr.syntax import (
     freeze,
     kind_of,
 )
-from ttr.theories import Theory
 from ttr.updates.algorithms import Algorithm, checked, rules_of
 from ttr.updates.failing import failing, in_short
 from ttr.updates.nbest import NBest
 from ttr.updates.rules import Rule
 from ttr.updates.running import Run, Step, continued
 from ttr.updates.states import check_state
+
+if TYPE_CHECKING:
+    from ttr.theories import Theory
 
 __all__ = ["Act", "Game", "Turn"]
 

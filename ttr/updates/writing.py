@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ttr.errors import Unsupported
 from ttr.escapes import json_text
 from ttr.printing import RESERVED, as_object, notation
 from ttr.probability import CERTAIN, Degree
+from ttr.signature import Opening
 from ttr.syntax import Object
-from ttr.theories import Opening, Theory
 from ttr.updates.rules import Body, Rule
+
+if TYPE_CHECKING:
+    from ttr.theories import Theory
 
 __all__ = ["declaration", "written"]
 
@@ -87,6 +90,7 @@ def declaration(theory: Theory, name: str, fold: Fold = lambda value: value) -> 
 
     Raises `KeyError` where the name is none of them.
 
+    >>> from ttr.theories import Theory
     >>> theory = Theory.parse('''
     ...     basic Ind
     ...     S := [l : list(Ind)]

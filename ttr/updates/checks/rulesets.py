@@ -15,6 +15,7 @@ from ttr.errors import TTRError
 from ttr.models import Model
 from ttr.paths import escaping, occurring
 from ttr.probability import REFUTED
+from ttr.signature import Signature
 from ttr.subtyping import subtype
 from ttr.syntax import (
     Basic,
@@ -29,7 +30,6 @@ from ttr.syntax import (
     TypeNode,
     meet,
 )
-from ttr.theories import Signature
 from ttr.updates.algorithms import Algorithm, rules_of
 from ttr.updates.checks.accounting import account
 from ttr.updates.checks.accounts import Account, Write
