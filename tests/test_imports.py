@@ -6,6 +6,7 @@ import ast
 import subprocess
 import sys
 from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -40,6 +41,44 @@ def test_the_theory_needs_no_numerics() -> None:
 @pytest.mark.parametrize("module", ["kille", "kille.memory", "kille.scene"])
 def test_what_does_not_see_loads_no_eyes(module: str) -> None:
     assert imported(f"import {module}").isdisjoint({"cv2", "sklearn", "scipy"})
+
+
+def imports(tree: ast.Module, known: set[str]) -> Iterator[str]:
+    """What a module imports of the known ones, inside functions too.
+
+    What only types ask for is left out.
+    """
+    waiting: list[ast.AST] = [tree]
+    while waiting:
+        match waiting.pop():
+            case ast.If(test=ast.Name("TYPE_CHECKING"), orelse=orelse):
+                waiting += orelse
+            case ast.Import(names=names):
+                yield from (it.name for it in names if it.name in known)
+            case ast.ImportFrom(module=str(source), names=names):
+                inner = {f"{source}.{it.name}" for it in names} & known
+                yield from inner
+                if source in known and len(inner) < len(names):
+                    yield source
+            case node:
+                waiting += ast.iter_child_nodes(node)
+
+
+@pytest.mark.parametrize("package", ["ttr", "kille"])
+def test_no_module_imports_itself_by_way_of_others(package: str) -> None:
+    files = {
+        ".".join(file.relative_to(ROOT).with_suffix("").parts): file
+        for file in sorted((ROOT / package).rglob("*.py"))
+    }
+    files = {name.removesuffix(".__init__"): file for name, file in files.items()}
+    graph = {
+        name: {*imports(ast.parse(file.read_text("utf-8")), {*files})} - {name}
+        for name, file in files.items()
+    }
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        pytest.fail(" imports ".join(error.args[1][::-1]))
 
 
 def unsafe_uses(tree: ast.Module) -> Iterator[str]:

@@ -35,6 +35,7 @@ from ttr.quantifiers.extensions import (
 )
 from ttr.quantifiers.splitting import Case, Split, split
 from ttr.quantifiers.thresholds import Threshold, Thresholds, thresholds_of
+from ttr.quantifiers.truth import truth_of_quantified
 from ttr.quantifiers.truths import SHOWN, Atoms, Truth
 from ttr.syntax import (
     FiniteSet,
@@ -205,6 +206,11 @@ def settle(
         each = members.items()
         others = {key: member(M, Q, one.sit, chosen) for key, one in each}
     return _counted(quantified, split(members, others), chosen)
+
+
+@truth_of_quantified.provided_by
+def _truth(M: Model, T: PType, thresholds: Thresholds) -> Truth:
+    return settle(M, T, thresholds).truth
 
 
 def _domain(P: Property) -> object:

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from ttr.budgets import spend, within_budget
 from ttr.errors import IllFormed, Refused, Unsupported
+from ttr.hooks import hook
 from ttr.judgements import Why
 from ttr.models import Model, as_model
 from ttr.objects import Missing, Unresolved
@@ -56,6 +57,12 @@ It is not `~T`, which whatever is not of T is of.
 """
 
 
+@hook
+def truth_of_quantified(M: Model, T: PType, thresholds: Thresholds) -> Truth:
+    """How certain a quantified type is, which asks this of its parts: `settle`."""
+    raise NotImplementedError
+
+
 @within_budget
 def truth(M: Model, T: TypeNode, thresholds: Thresholds | None = None) -> Truth:
     """How certain it is that something is of T, by what M has been told.
@@ -87,9 +94,7 @@ class _Truths:
         spend()
         match T:
             case PType() if determiner_of(T) is not None:
-                from ttr.quantifiers.quantifications import settle
-
-                return settle(self._M, T, self._thresholds).truth
+                return truth_of_quantified(self._M, T, self._thresholds)
             case PType(pred, (TypeNode() as denied,)) if pred is absent:
                 return self._absent(T, denied)
             case Basic() | PType():
