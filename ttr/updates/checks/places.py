@@ -38,7 +38,7 @@ def _in_text(rule: Rule, label: str, path: Labels, role: str) -> Span | None:
     dotted = r"\s*\.\s*".join(map(re.escape, path))
     field, word = rf"\b{label}(?=\s*[:=])", rf"\b{label}\b"
     plain = re.sub(r"#.*", _blank, rule.text)
-    starts = (0,) if role else (plain.index(":="), 0)
+    starts = (0,) if role else (plain.rindex(":="), 0)
     for pattern in (rf"(?<![\w.]){dotted}\b", field, word)[not path :]:
         for start in starts:
             found = re.compile(pattern).search(plain, start)
