@@ -460,6 +460,18 @@ def test_a_value_that_cannot_be_judged_is_left_alone():
     assert messages(count, model=Model().witnessed(Count, by=broken)) == []
 
 
+@pytest.mark.parametrize("quote", ["'", '"'])
+def test_what_is_quoted_in_a_rule_is_no_place_and_no_comment(quote):
+    board = Theory.parse(f"""
+    basic Ind
+    Board := [spkr : Ind]
+    rule turn(s : Board) {quote}No # 1 := hearer{quote} := [hearer = s.spkr : Ind]
+    """)
+    [fault] = faults(board.rules["turn"], board.Board)
+    assert fault.span is not None
+    assert fault.span.text[fault.span.column - 1 :].startswith("hearer = s.spkr")
+
+
 PLACES = """
     basic Ind
     object ann : Ind

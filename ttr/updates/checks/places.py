@@ -37,7 +37,7 @@ def _in_text(rule: Rule, label: str, path: Labels, role: str) -> Span | None:
         return None
     dotted = r"\s*\.\s*".join(map(re.escape, path))
     field, word = rf"\b{label}(?=\s*[:=])", rf"\b{label}\b"
-    plain = re.sub(r"#.*", _blank, rule.text)
+    plain = _QUOTED.sub(_blank, rule.text)
     starts = (0,) if role else (plain.rindex(":="), 0)
     for pattern in (rf"(?<![\w.]){dotted}\b", field, word)[not path :]:
         for start in starts:
@@ -45,6 +45,10 @@ def _in_text(rule: Rule, label: str, path: Labels, role: str) -> Span | None:
             if found:
                 return _within(rule, rule.span, found.end() - len(label), found.end())
     return None
+
+
+_QUOTED = re.compile(r"""(["'])(?:\\.|(?!\1)[^\\\n])*\1|#.*""")
+"""What says nothing of the state: words in quotes, and comments."""
 
 
 def _blank(found: re.Match[str]) -> str:
