@@ -112,7 +112,11 @@ class Assignment:
 
         It is quick: where nothing was said of it and nothing else tells, it cannot.
         """
-        if pred in self.functions or pred in self.opened or pred in self.theory.related:
+        if (
+            pred in self.functions
+            or pred in self.opened
+            or pred in self.theory.axiom_heads
+        ):
             return True
         told = self.known.get(identity(sit))
         return told is not None and any(head(T) is pred for T in told)
@@ -143,7 +147,7 @@ class Assignment:
 
     def seen_types(self) -> list[Basic]:
         """The basic types that witness functions judge, and axioms are about."""
-        related = self.theory.related
+        related = self.theory.axiom_heads
         return [T for T in self.functions if isinstance(T, Basic) and T in related]
 
     def is_told(self, sit: Object, T: Atom) -> bool:
@@ -307,7 +311,7 @@ class Assignment:
 
     def _bounds(self, facts: Facts, sit: Object, T: Atom) -> tuple[Bound, Bound]:
         """How probable a : T is at least and at most, and by which axiom."""
-        if head(T) not in self.theory.related:
+        if head(T) not in self.theory.axiom_heads:
             return _NO_LOWER, _NO_UPPER
         return self._bound_below(facts, sit, T), self._bound_above(facts, sit, T)
 

@@ -14,7 +14,7 @@ from math import prod
 
 from ttr.budgets import spend
 from ttr.errors import Unsupported
-from ttr.forms import ordered
+from ttr.forms import order_fields
 from ttr.normal_forms import inwards, meet_normal_form
 from ttr.strings.forms import is_of_strings
 from ttr.syntax import (
@@ -92,7 +92,7 @@ def cases(T: TypeNode) -> tuple[TypeNode, ...] | None:
 
 
 def _fields(labels: Iterable[str], *types: TypeNode) -> RecordType:
-    return RecordType(ordered(dict(zip(labels, types, strict=True))))
+    return RecordType(order_fields(dict(zip(labels, types, strict=True))))
 
 
 def _chosen(

@@ -226,7 +226,7 @@ def _grounds(facts: Assignment, basics: tuple[Basic, ...]) -> Grounds:
 
 def _alone(facts: Assignment, basics: tuple[Basic, ...]) -> bool:
     """Whether nothing but what was told and seen says what is of these types."""
-    return facts.theory.related.isdisjoint(basics)
+    return facts.theory.axiom_heads.isdisjoint(basics)
 
 
 @lru_cache(4096)

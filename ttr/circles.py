@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
 
 from ttr.budgets import spend
-from ttr.forms import ordered
+from ttr.forms import order_fields
 from ttr.paths import escaping, occurring, rebuilt
 from ttr.syntax import Object, RecordType, Singleton, TypeNode
 
@@ -101,7 +101,7 @@ def _without_circles(value: Object) -> Object:
         if isinstance(field, Singleton) and not needs <= fields.keys():
             field = field.base
         fields[label] = field
-    return RecordType(ordered(fields))
+    return RecordType(order_fields(fields))
 
 
 def _leaves(T: TypeNode, at: Address) -> Iterator[tuple[Address, TypeNode]]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ttr.errors import IllFormed
 from ttr.formation import checked, checked_binder
-from ttr.forms import ordered
+from ttr.forms import order_fields
 from ttr.objects import check_label, labelled
 from ttr.paths import replace_paths
 from ttr.syntax import (
@@ -56,7 +56,7 @@ def rectype(
         check_label(label)
         if not isinstance(T, TypeNode):
             raise IllFormed(f"the field {label} needs a type, found {kind_of(T)}")
-    return checked(RecordType(ordered(given)), theory)
+    return checked(RecordType(order_fields(given)), theory)
 
 
 # --- functions -----------------------------------------------------------------------

@@ -116,7 +116,7 @@ class Sieve:
 
     def _untold(self, facts: Assignment) -> frozenset[Pred]:
         """Those that may be true of anything, be it told or not."""
-        by = facts.functions, facts.opened, facts.theory.related
+        by = facts.functions, facts.opened, facts.theory.axiom_heads
         known, found = self._open
         if not known or not all(map(is_, known, by)):
             found = frozenset(P for P in self._every if any(P in one for one in by))

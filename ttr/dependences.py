@@ -78,7 +78,7 @@ def dependence(facts: Assignment, asked: Mapping[Claim, Degree]) -> Dependence:
 
 def _untold(facts: Assignment, linked: _Linked) -> dict[Claim, None]:
     """The claims of which only axioms say anything, in a fixed order."""
-    heads = facts.theory.related
+    heads = facts.theory.axiom_heads
     targets = {claim for one in linked.said for claim in one.claims()}
     together = {key for group in linked.unknown for key in group}
     found = [
@@ -176,7 +176,7 @@ def _tells(facts: Assignment, claim: Claim) -> bool:
     parents = [
         frozenset(on.key for on, _ in one.condition) for one in facts.links.of(claim)
     ]
-    return len(set(parents)) > 1 or head(claim.type) in facts.theory.related
+    return len(set(parents)) > 1 or head(claim.type) in facts.theory.axiom_heads
 
 
 # --- what axioms link ---
@@ -188,7 +188,7 @@ def _relatives(facts: Assignment, claims: Iterable[Claim]) -> tuple[list[Claim],
     And whether that is all. What is certain is left out: axioms say of each claim by
     itself what follows.
     """
-    heads = facts.theory.related
+    heads = facts.theory.axiom_heads
     subject = [claim for claim in claims if head(claim.type) in heads]
     found: list[Claim] = []
     whole = True
@@ -222,7 +222,7 @@ def _is_related(theory: Signature, S: Atom, T: Atom) -> bool:
 
 
 def _entailed(facts: Assignment, claims: Iterable[Claim]) -> Iterator[tuple[Key, Key]]:
-    heads = facts.theory.related
+    heads = facts.theory.axiom_heads
     for mine in _by_object(claims).values():
         types = [claim for claim in mine if head(claim.type) in heads]
         for one, other in permutations(types, 2):

@@ -9,10 +9,10 @@ from ttr.budgets import spend
 from ttr.paths import escaping, moved
 from ttr.syntax import FunType, Plus, Str, TypeNode, as_function_type, join
 
-__all__ = ["function_type", "ordered", "star"]
+__all__ = ["function_type", "order_fields", "star"]
 
 
-def ordered(fields: Mapping[str, TypeNode]) -> tuple[tuple[str, TypeNode], ...]:
+def order_fields(fields: Mapping[str, TypeNode]) -> tuple[tuple[str, TypeNode], ...]:
     """The fields by (depth of dependency, label); those on or behind a cycle last."""
     spend(len(fields))
     waits: dict[str, int] = {}

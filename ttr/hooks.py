@@ -15,7 +15,6 @@ __all__ = ["Hook", "hook"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
-F = TypeVar("F", bound=Callable[..., object])
 
 
 class Hook(Generic[P, R]):

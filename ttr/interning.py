@@ -157,7 +157,7 @@ def cache_on_node(function: Callable[[_N], _R]) -> Callable[[_N], _R]:
     A node never changes, so neither does what is found of it.
     """
 
-    def cached(node: _N) -> _R:
+    def look_up(node: _N) -> _R:
         try:
             return node._cache[function]  # type: ignore[no-any-return]
         except AttributeError:
@@ -167,7 +167,7 @@ def cache_on_node(function: Callable[[_N], _R]) -> Callable[[_N], _R]:
         found = node._cache[function] = function(node)
         return found
 
-    return update_wrapper(cached, function)
+    return update_wrapper(look_up, function)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -148,7 +148,7 @@ class Signature:
         return {}
 
     @cached_property
-    def related(self) -> frozenset[Basic | Pred]:
+    def axiom_heads(self) -> frozenset[Basic | Pred]:
         """The basic types and predicates that an axiom or an exclusion is about."""
         axioms = [T for one in self.axioms for T in (one.lower, one.upper)]
         exclusions = [T for one in self.exclusions for T in (one.left, one.right)]

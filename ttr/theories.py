@@ -14,7 +14,7 @@ from ttr.errors import IllFormed, Mistakes, TTRError, suggestion
 from ttr.notation.drafts import Draft
 from ttr.notation.loading import draft_of_file, draft_of_text
 from ttr.notation.openings import opened
-from ttr.notation.reader import read
+from ttr.notation.reader import read_term
 from ttr.signature import (
     Axiom,
     Exclusion,
@@ -75,7 +75,7 @@ class _Parse:
     ) -> _ReadTheory | Callable[[str], Object]:
         if theory is None:
             return _parse_theory
-        return lambda text: read(text, theory)
+        return lambda text: read_term(text, theory)
 
 
 def _parse_theory(text: str, source: str = "<text>") -> Theory:

@@ -221,14 +221,14 @@ def test_functions_are_followed_only_where_they_get_the_state():
         return planned(board=s, what=1)
 
     @rule(when=Board)
-    def unpacked(s):
+    def unpack(s):
         return third_of(*PAIR, s)
 
     @rule(when=Board)
     def round_and_round(s):
         return again(s)
 
-    found = messages(all_(by_name, unpacked, round_and_round))
+    found = messages(all_(by_name, unpack, round_and_round))
     assert found == ["the rule by_name replaces s.shared.pln, but s.shared has no pln"]
 
 
@@ -245,14 +245,16 @@ def again(board):
 
 def test_names_that_stand_for_others_are_followed_four_times():
     @rule(when=Board)
-    def renamed(s):
+    def use_other_name(s):
         one = replace(CHANGES["somehow"](s), m=1)
         two = one
         three = two
         four = three
         return four
 
-    assert messages(renamed) == ["the rule renamed replaces s.m, but s has no m"]
+    assert messages(use_other_name) == [
+        "the rule use_other_name replaces s.m, but s has no m"
+    ]
 
 
 def test_what_the_effect_asks_for_first_may_be_missing():
@@ -906,13 +908,13 @@ def test_what_is_set_within_or_around_a_place():
     def around(s, e):
         return replace(s, r=e.x)
 
-    def waiting(*members):
+    def those_waited_for(*members):
         found = faults(all_(*members), state, **known)
         return [fault.rule.name for fault in found if fault.sort == "unset"]
 
-    assert waiting(whole, inner) == ["whole", "inner"]
-    assert waiting(within, whole, inner) == []
-    assert waiting(around, inner) == []
+    assert those_waited_for(whole, inner) == ["whole", "inner"]
+    assert those_waited_for(within, whole, inner) == []
+    assert those_waited_for(around, inner) == []
 
 
 def test_a_condition_that_asks_for_nothing_waits_for_nothing():

@@ -16,7 +16,7 @@ from ttr.notation import trees
 from ttr.notation.grammar import statement, vetted
 from ttr.notation.openings import opened
 from ttr.notation.questions import Asking
-from ttr.notation.reader import Reader, read
+from ttr.notation.reader import Reader, read_term
 from ttr.notation.trees import Application, Name, Source, Statement
 from ttr.printing import notation
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
@@ -65,7 +65,7 @@ def answered(session: Session, text: str) -> Reply:
 @within_budget
 def term(session: Session, text: str) -> Object:
     """The type or object a text stands for, with its applications worked out."""
-    return session.model.reduced(read(text, session.theory, INPUT))
+    return session.model.reduced(read_term(text, session.theory, INPUT))
 
 
 def changes(names: Iterable[str]) -> str:

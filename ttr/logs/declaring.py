@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from ttr.consent import Consent
 from ttr.errors import TTRError
-from ttr.notation.reader import read
+from ttr.notation.reader import read_term
 from ttr.paths import occurring
 from ttr.printing import notation
 from ttr.syntax import Object, Pred
@@ -50,7 +50,7 @@ class Declared:
 
     def read(self, text: str, source: str) -> Object:
         """The value that a text stands for."""
-        return read(text, self.theory, source)
+        return read_term(text, self.theory, source)
 
     def reads_back(self, value: Object) -> bool:
         """Whether the value has a notation from which it can be had again."""

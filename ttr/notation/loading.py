@@ -24,7 +24,6 @@ from ttr.notation.plain import plain_statement
 from ttr.notation.scanning import blocks, vetted
 from ttr.notation.statements import Declaring, mentioned
 from ttr.notation.trees import Part, Source, Statement
-from ttr.syntax import Object
 
 __all__ = ["Unreadable", "draft_of_file", "draft_of_text"]
 
@@ -282,4 +281,4 @@ def _meaning(theory: Names, name: str) -> object:
     for kind in (theory.rules, theory.strategies, theory.openings):
         if name in kind:
             return kind[name]
-    return name if name in theory.objects else (Object, identity(meaning(theory, name)))
+    return name if name in theory.objects else ("", identity(meaning(theory, name)))

@@ -88,7 +88,7 @@ from ttr.syntax import (
     meet,
 )
 
-__all__ = ["LOGICAL", "Reader", "parse", "read"]
+__all__ = ["LOGICAL", "Reader", "parse", "read_term"]
 
 LOGICAL: Mapping[str, TypeNode] = {"Type": Type, "RecType": RecType, "Rec": Rec}
 """The types that every theory has."""
@@ -132,7 +132,7 @@ def parse(text: str, using: Iterable[object] = ()) -> Object:
     >>> parse("list(Ind)", using=[Ind]) is ListOf(Ind)
     True
     """
-    return read(text, Draft.of_values(*_listed(using)))
+    return read_term(text, Draft.of_values(*_listed(using)))
 
 
 def _listed(using: Iterable[object]) -> tuple[object, ...]:
@@ -147,7 +147,7 @@ def _listed(using: Iterable[object]) -> tuple[object, ...]:
 
 
 @within_budget
-def read(text: str, theory: Names, source: str = "<text>") -> Object:
+def read_term(text: str, theory: Names, source: str = "<text>") -> Object:
     """The type or object that a text stands for in a theory; else `NotationError`."""
     from ttr.notation import grammar
 

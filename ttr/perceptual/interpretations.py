@@ -5,7 +5,7 @@ from __future__ import annotations
 from ttr.constructors import fun
 from ttr.errors import IllFormed
 from ttr.formation import checked
-from ttr.forms import ordered
+from ttr.forms import order_fields
 from ttr.paths import replace_paths
 from ttr.perceptual.arguments import shown
 from ttr.syntax import BOUND, Function, Path, PType, RecordType, kind_of
@@ -42,7 +42,9 @@ def interpretation(T: RecordType, label: str) -> Function:
             f"an interpretation is of a record type with a ptype at {shown(label)}, "
             f"found {found}"
         )
-    bg = checked(RecordType(ordered({k: S for k, S in T.fields if k != label})), None)
+    bg = checked(
+        RecordType(order_fields({k: S for k, S in T.fields if k != label})), None
+    )
     return fun(r=bg)(RecordType(((label, replace_paths(claim, _into_the_situation)),)))
 
 

@@ -74,7 +74,7 @@ def _atom(M: Model, sit: object, T: TypeNode) -> Hashable:
     """
     if M.facts.links:
         return "linked"
-    if isinstance(T, Basic | PType) and head(T) in M.theory.related:
+    if isinstance(T, Basic | PType) and head(T) in M.theory.axiom_heads:
         return sit, frozenset(T.args) if isinstance(T, PType) else "related"
     return sit, T
 

@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 from ttr.budgets import spend, within_budget
 from ttr.errors import IllFormed
-from ttr.forms import ordered
+from ttr.forms import order_fields
 from ttr.objects import check_label
 from ttr.paths import replace_paths
 from ttr.reshaping.addresses import Address, absolute, nearest, written
@@ -58,7 +58,7 @@ def _flat_type(T: RecordType, sep: str) -> RecordType:
     for at, field in leaves.items():
         follow = partial(_flat_path, at=at, leaves=leaves, sep=sep)
         fields[_joined(at, sep)] = replace_paths(field, follow)
-    return RecordType(ordered(fields))
+    return RecordType(order_fields(fields))
 
 
 def _leaves(T: RecordType, at: Address) -> Iterator[tuple[Address, TypeNode]]:
@@ -215,7 +215,7 @@ def _record(tree: _Tree) -> Record:
 def _record_type(tree: _Tree) -> RecordType:
     spend()
     return RecordType(
-        ordered(
+        order_fields(
             {k: _record_type(v) if isinstance(v, dict) else v for k, v in tree.items()}
         )
     )

@@ -7,7 +7,7 @@ from typing import cast
 from ttr.budgets import within_budget
 from ttr.errors import IllFormed
 from ttr.formation import checked, checked_binder
-from ttr.forms import ordered
+from ttr.forms import order_fields
 from ttr.merging import merge
 from ttr.paths import replace_paths
 from ttr.signature import Signature
@@ -90,4 +90,4 @@ def _from_the_record(body: RecordType, variable: str) -> RecordType:
             )
         return Path(0, path.labels[1:])
 
-    return RecordType(ordered({k: replace_paths(T, at) for k, T in body.fields}))
+    return RecordType(order_fields({k: replace_paths(T, at) for k, T in body.fields}))

@@ -8,7 +8,7 @@ from typing import overload
 
 from ttr.budgets import spend, within_budget
 from ttr.errors import IllFormed, suggestion
-from ttr.forms import ordered
+from ttr.forms import order_fields
 from ttr.objects import check_label, labelled
 from ttr.paths import replace_paths
 from ttr.reshaping.addresses import Address, address, written
@@ -133,7 +133,7 @@ def _record_type(
         renaming.new(label): _type(inside, renaming.at(label), scopes, (*where, label))
         for label, inside in T.fields
     }
-    return RecordType(ordered(fields))
+    return RecordType(order_fields(fields))
 
 
 def _type(

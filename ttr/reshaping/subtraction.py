@@ -8,7 +8,7 @@ from typing import TypeVar
 from ttr.budgets import spend, within_budget
 from ttr.errors import IllFormed, suggestion
 from ttr.formation import checked
-from ttr.forms import ordered
+from ttr.forms import order_fields
 from ttr.paths import occurring
 from ttr.reshaping.addresses import Address, address, written
 from ttr.signature import Signature
@@ -63,7 +63,7 @@ def _without(T: RecordType, labels: Address, around: Address) -> RecordType:
         fields[label] = _inside_without(fields[label], tuple(rest), here)
     else:
         del fields[label]
-    return RecordType(ordered(fields))
+    return RecordType(order_fields(fields))
 
 
 def _inside_without(T: TypeNode, labels: Address, at: Address) -> TypeNode:

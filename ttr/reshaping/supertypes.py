@@ -16,7 +16,7 @@ from ttr.axioms import above
 from ttr.budgets import spend, within_budget
 from ttr.constructors import rectype
 from ttr.errors import IllFormed
-from ttr.forms import function_type, ordered
+from ttr.forms import function_type, order_fields
 from ttr.hypothetical import Hypothetical
 from ttr.merging import merge
 from ttr.objects import in_print
@@ -208,7 +208,7 @@ class _Both:
                 fields[label] = found
             elif self._is_kept(inner):
                 self.paths[self._terms(inner)].remove(inner)
-        return RecordType(ordered(fields))
+        return RecordType(order_fields(fields))
 
     def _value(self, place: Path) -> Object:
         """What a field is set to on both sides, if that is worth saying; else _APART.

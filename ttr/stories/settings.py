@@ -14,7 +14,7 @@ from ttr.errors import TTRError, suggestion
 from ttr.models import Model
 from ttr.modules import run_named
 from ttr.notation.loading import Unreadable
-from ttr.notation.reader import read
+from ttr.notation.reader import read_term
 from ttr.stories.reading import StoryError
 from ttr.syntax import Basic, Object, Rec, TypeNode, Universe
 from ttr.theories import Theory, theory_of_file
@@ -56,7 +56,7 @@ class Setting:
         """The type or object that a text stands for, among what the model knows."""
         known = (name for name in model.facts.known if isinstance(name, str))
         names = self.theory.objects.union(known)
-        value = read(text, replace(self.theory, objects=names), source)
+        value = read_term(text, replace(self.theory, objects=names), source)
         return model.reduced(value)
 
 

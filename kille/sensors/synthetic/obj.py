@@ -144,7 +144,7 @@ def _corners(
     return corners - 1
 
 
-def _named(lines: Iterable[str], key: str) -> list[str]:
+def _file_names(lines: Iterable[str], key: str) -> list[str]:
     """The files that lines with this key name."""
     stripped = (line.strip() for line in lines)
     return [line.removeprefix(key).strip() for line in stripped if line.startswith(key)]
@@ -152,8 +152,10 @@ def _named(lines: Iterable[str], key: str) -> list[str]:
 
 def _texture(path: Path, lines: list[str]) -> Colour:
     """The picture that the mesh's material file names."""
-    materials = [_read(path.parent / name) for name in _named(lines, "mtllib ")]
-    maps = [name for text in materials for name in _named(text.splitlines(), "map_Kd ")]
+    materials = [_read(path.parent / name) for name in _file_names(lines, "mtllib ")]
+    maps = [
+        name for text in materials for name in _file_names(text.splitlines(), "map_Kd ")
+    ]
     if not maps:
         raise SensorError(f"{path}: its material names no texture (`map_Kd`)")
     file = path.parent / maps[0]

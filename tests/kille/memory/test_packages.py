@@ -600,12 +600,12 @@ def test_the_name_of_a_package_is_on_disk_when_it_is_there(
     on_disk: list[list[str]] = []
     fsync = os.fsync
 
-    def watched(opened: int) -> None:
+    def watch(opened: int) -> None:
         fsync(opened)
         if os.path.samestat(os.fstat(opened), os.stat(tmp_path)):
             on_disk.append(os.listdir(tmp_path))
 
-    monkeypatch.setattr(os, "fsync", watched)
+    monkeypatch.setattr(os, "fsync", watch)
     with small_memory(seen) as memory:
         export(memory, tmp_path / place)
     assert on_disk == [[place]]

@@ -43,7 +43,7 @@ from .test_trust import (
     modes,
     name_in_journal,
     redefine,
-    renumbered,
+    renumber,
 )
 
 LESSONS = 12
@@ -485,7 +485,7 @@ def test_a_lesson_with_a_number_that_none_has_is_told_of(
     key: int, path: Path, said: Callable[[int], Turn], seen: Sighting
 ) -> None:
     taught(path, said(1), seen)
-    change(path, renumbered(key))
+    change(path, renumber(key))
     done, found = saved_from(path)
     assert found == {}
     assert done.losses == (f"lesson {key} (cup) has a number that kille never gives",)
@@ -496,7 +496,7 @@ def test_the_first_and_the_last_number_are_saved(
     key: int, path: Path, said: Callable[[int], Turn], seen: Sighting
 ) -> None:
     taught(path, said(1), seen)
-    change(path, f"{renumbered(key)}; UPDATE sqlite_sequence SET seq = {key}")
+    change(path, f"{renumber(key)}; UPDATE sqlite_sequence SET seq = {key}")
     done, found = saved_from(path)
     assert (done.losses, set(found)) == ((), {key})
 

@@ -209,7 +209,7 @@ def test_a_memory_has_the_values_that_kille_writes(
     assert path.read_bytes() == before
 
 
-def renumbered(lesson: int) -> str:
+def renumber(lesson: int) -> str:
     """The statements that give the only lesson another number."""
     tables = ("sightings", "scans", "traits", "pictures", "crops")
     return f"UPDATE lessons SET id = {lesson};" + ";".join(
@@ -228,13 +228,13 @@ def test_lessons_are_numbered_so_far_and_no_farther(
     seen: Sighting,
 ) -> None:
     taught(path, said(1), seen)
-    change(path, f"{renumbered(last)}; UPDATE sqlite_sequence SET seq = {last}")
+    change(path, f"{renumber(last)}; UPDATE sqlite_sequence SET seq = {last}")
     with opening(path) as memory:
         assert memory.lesson(last).word.name == "cup"
-    change(path, renumbered(beyond))
+    change(path, renumber(beyond))
     refusal(opening, path)
     assert "it has lessons with numbers that kille never gives" in check(path).faults
-    change(path, f"{renumbered(last)}; UPDATE sqlite_sequence SET seq = {beyond}")
+    change(path, f"{renumber(last)}; UPDATE sqlite_sequence SET seq = {beyond}")
     assert "a wrong count of all lessons ever" in refusal(opening, path)
 
 
