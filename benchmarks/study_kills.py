@@ -249,6 +249,10 @@ def on_terminal(outcome: Outcome) -> None:
         print(f"\r{outcome.kills} killed", end="", file=sys.stderr, flush=True)
 
 
+def _interrupt(_number: int, _frame: object) -> NoReturn:
+    raise KeyboardInterrupt
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--kills", type=int, default=1000, metavar="N")
@@ -256,8 +260,10 @@ def main() -> int:
     parser.add_argument("--json", action="store_true", help="print JSON, one object")
     options = parser.parse_args()
     cv2.setNumThreads(1)
+    for number in (signal.SIGINT, signal.SIGTERM):  # a background job ignores SIGINT
+        signal.signal(number, _interrupt)
     outcome = Outcome()
-    with suppress(KeyboardInterrupt):  # then it is told what came of it so far
+    with suppress(KeyboardInterrupt):  # then it prints what came of it so far
         kill_often(options.kills, options.seed, outcome)
     facts = asdict(outcome) | {"holds": outcome.holds}
     if options.json:

@@ -32,6 +32,7 @@ import kille
 import ttr
 from kille import Agent, Memory
 from kille.sensors.sources import open_sensor
+from ttr.aliases import Alias
 from ttr.learning import Counts, LogOdds
 from ttr.possibilities import modal_system
 from ttr.variables import RandomVariable
@@ -255,7 +256,14 @@ def first_column(row: str) -> list[str]:
 
 
 def public(value: object) -> set[str]:
-    return {name for name in dir(value) if not name.startswith("_")}
+    """The public names of a value, without those that it had before."""
+    former = {
+        name
+        for owner in type(value).__mro__
+        for name, what in vars(owner).items()
+        if isinstance(what, Alias)
+    }
+    return {name for name in dir(value) if not name.startswith("_")} - former
 
 
 def rules() -> dict[str, set[str]]:

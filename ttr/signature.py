@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from immutables import Map
 
+from ttr.aliases import Alias
 from ttr.errors import IllFormed, Span
 from ttr.escapes import json_text
 from ttr.interning import as_notation
@@ -154,6 +155,8 @@ class Signature:
         exclusions = [T for one in self.exclusions for T in (one.left, one.right)]
         types = (*axioms, *exclusions)
         return frozenset(T if isinstance(T, Basic) else T.pred for T in types)
+
+    related = Alias("axiom_heads")
 
     def __post_init__(self) -> None:
         if not isinstance(self.axioms, tuple):

@@ -23,3 +23,9 @@ def test_every_public_name_is_documented():
 def test_a_name_that_is_not_there():
     with pytest.raises(AttributeError, match="'ttr' has no attribute 'nonesuch'"):
         _ = ttr.nonesuch
+
+
+def test_a_name_that_something_had_before_warns_and_works():
+    theory = ttr.Theory()
+    with pytest.warns(DeprecationWarning, match="Theory.related is now .*axiom_heads"):
+        assert theory.related == theory.axiom_heads
