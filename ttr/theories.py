@@ -13,6 +13,7 @@ from ttr.consent import OWN_FOLDER, Consent
 from ttr.errors import IllFormed, Mistakes, TTRError, suggestion
 from ttr.notation.drafts import Draft
 from ttr.notation.loading import draft_of_file, draft_of_text
+from ttr.notation.names import vocabulary_of
 from ttr.notation.openings import opened
 from ttr.notation.reader import read_term
 from ttr.signature import (
@@ -131,7 +132,12 @@ class Theory(Signature):
         >>> sorted(Theory.of(Pred("dog", Ind)("fido")).names)
         ['Ind', 'dog', 'fido']
         """
-        return theory_of_draft(Draft.of_values(*values))
+        said = vocabulary_of(*values)
+        return cls(
+            basics=said.basics,
+            predicates=said.predicates,
+            objects=frozenset(said.objects),
+        )
 
     @property
     def signature(self) -> Signature:

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
-from ttr.errors import IllFormed
-from ttr.paths import occurring
 from ttr.queries import Check
 from ttr.signature import Axiom, Exclusion, Expected, Given, Opening, Signature
 from ttr.syntax import Basic, Object, Pred
@@ -17,55 +14,7 @@ from ttr.updates.rules import Rule
 if TYPE_CHECKING:
     from ttr.theories import Theory
 
-__all__ = ["Draft", "Names", "is_declared", "meaning"]
-
-
-class Names(Protocol):
-    """What a reader asks of a theory, finished or not."""
-
-    @property
-    def basics(self) -> Mapping[str, Basic]: ...  # noqa: D102
-
-    @property
-    def predicates(self) -> Mapping[str, Pred]: ...  # noqa: D102
-
-    @property
-    def definitions(self) -> Mapping[str, Object]: ...  # noqa: D102
-
-    @property
-    def objects(self) -> Set[str]: ...  # noqa: D102
-
-    @property
-    def rules(self) -> Mapping[str, Rule]: ...  # noqa: D102
-
-    @property
-    def strategies(self) -> Mapping[str, Algorithm]: ...  # noqa: D102
-
-    @property
-    def openings(self) -> Mapping[str, Opening]: ...  # noqa: D102
-
-    @property
-    def names(self) -> frozenset[str]:
-        """Every name, listed: to ask for one of them there is `is_declared`."""
-
-    @property
-    def signature(self) -> Signature:
-        """What subtyping needs, with the axioms."""
-
-
-def is_declared(theory: Names, name: str) -> bool:
-    """Whether a name is among those of a theory, without listing them all."""
-    terms = (theory.objects, theory.definitions, theory.basics, theory.predicates)
-    played = (theory.rules, theory.strategies, theory.openings)
-    return any(name in kind for kind in (*terms, *played))
-
-
-def meaning(theory: Names, name: str) -> Object | None:
-    """What a name is defined or declared as, if it is no object."""
-    for kind in (theory.definitions, theory.basics, theory.predicates):
-        if name in kind:
-            return kind[name]
-    return None
+__all__ = ["Draft"]
 
 
 @dataclass(eq=False)
@@ -112,23 +61,6 @@ class Draft:
             openings=dict(theory.openings),
         )
 
-    @classmethod
-    def of_values(cls, *values: object) -> Draft:
-        """A draft that declares everything that occurs in the values, and no more.
-
-        Raises `IllFormed` where two predicates of one name occur.
-        """
-        draft = cls()
-        for value in occurring(values):
-            match value:
-                case Basic(name):
-                    draft.basics[name] = value
-                case Pred(name, _):
-                    _same_predicate(draft.predicates.setdefault(name, value), value)
-                case str():
-                    draft.objects.add(value)
-        return draft
-
     @property
     def names(self) -> frozenset[str]:
         """Every name declared so far."""
@@ -141,10 +73,3 @@ class Draft:
     def signature(self) -> Signature:
         """The axioms: nothing else says whether a type is well-formed."""
         return Signature(tuple(self.axioms), exclusions=tuple(self.exclusions))
-
-
-def _same_predicate(known: Pred, found: Pred) -> None:
-    if known is not found:
-        raise IllFormed(
-            f"two predicates are called {known.name}: {known!r} and {found!r}"
-        )

@@ -19,7 +19,8 @@ from ttr.inputs import read_text
 from ttr.interning import identity
 from ttr.limits import THEORY
 from ttr.notation import trees
-from ttr.notation.drafts import Draft, Names, is_declared, meaning
+from ttr.notation.drafts import Draft
+from ttr.notation.names import Names, is_declared, meaning
 from ttr.notation.plain import plain_statement
 from ttr.notation.scanning import blocks, vetted
 from ttr.notation.statements import Declaring, mentioned

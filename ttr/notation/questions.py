@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ttr.errors import IllFormed, TTRError
 from ttr.notation import trees
-from ttr.notation.drafts import is_declared
+from ttr.notation.names import is_declared
 from ttr.notation.reader import Reader
 from ttr.notation.trees import Application, Name, Term
 from ttr.objects import Unresolved

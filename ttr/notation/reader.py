@@ -26,8 +26,8 @@ from ttr.errors import IllFormed, NotationError, TTRError, suggestion
 from ttr.forms import function_type, star
 from ttr.merging import amerge, merge
 from ttr.notation.culprits import culprit, misfit, refused
-from ttr.notation.drafts import Draft, Names, is_declared, meaning
 from ttr.notation.misreadings import shown
+from ttr.notation.names import Names, is_declared, meaning, vocabulary_of
 from ttr.notation.trees import (
     Abstraction,
     Arrow,
@@ -132,7 +132,7 @@ def parse(text: str, using: Iterable[object] = ()) -> Object:
     >>> parse("list(Ind)", using=[Ind]) is ListOf(Ind)
     True
     """
-    return read_term(text, Draft.of_values(*_listed(using)))
+    return read_term(text, vocabulary_of(*_listed(using)))
 
 
 def _listed(using: Iterable[object]) -> tuple[object, ...]:

@@ -8,7 +8,8 @@ from functools import cached_property
 
 from ttr.errors import suggestion
 from ttr.notation import trees
-from ttr.notation.drafts import Draft, is_declared
+from ttr.notation.drafts import Draft
+from ttr.notation.names import is_declared
 from ttr.notation.openings import opening_of
 from ttr.notation.questions import Asking
 from ttr.notation.reader import LOGICAL, Reader

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import NoReturn
 
 from ttr.errors import TTRError, suggestion
-from ttr.notation.drafts import is_declared
 from ttr.notation.misreadings import shown
+from ttr.notation.names import is_declared
 from ttr.notation.reader import Reader
 from ttr.notation.scanning import DEPTH
 from ttr.notation.trees import Application, Literal, Name, Part, Term, inside
