@@ -146,7 +146,7 @@ def measured(text: str, steps: str | None) -> tuple[int, float, float, str]:
         file = Path(folder, "large.ttr")
         file.write_text(text, encoding="utf-8")
         more = ["--steps", steps] if steps else []
-        command = [sys.executable, "-m", "ttr.cli", "check", str(file), *more]
+        command = [sys.executable, "-m", "ttr.cli.main", "check", str(file), *more]
         said = Path(folder, "said")
         with (
             said.open("w") as output,

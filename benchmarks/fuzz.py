@@ -267,23 +267,23 @@ def _texts(pattern: str, most: int = 40_000) -> list[bytes]:
 
 def _theory(folder: Path) -> Reader:
     from ttr.errors import TTRError
-    from ttr.theories import theory_of_file
+    from ttr.theories.theory import theory_of_file
 
     seeds = [*_texts("tests/theories/*.ttr"), *_texts("examples/**/*.ttr")]
     return Reader(seeds, _file(folder, "a.ttr", theory_of_file), (TTRError,))
 
 
 def _stories(folder: Path) -> Reader:
-    from ttr.stories import StoryError, read_stories
+    from ttr.dialogues.stories import StoryError, read_stories
 
     seeds = [*_texts("tests/**/*.dlg"), *_texts("examples/**/*.dlg")]
     return Reader(seeds, _file(folder, "a.dlg", read_stories), (StoryError,))
 
 
 def _log(folder: Path) -> Reader:
-    from ttr.cli import main
+    from ttr.cli.main import main
+    from ttr.dialogues.logs import read_logs
     from ttr.errors import TTRError
-    from ttr.logs import read_logs
 
     log = folder / "made.jsonl"
     with open(os.devnull, "w") as nothing:
@@ -301,9 +301,9 @@ def _log(folder: Path) -> Reader:
 
 
 def _typed(folder: Path) -> Reader:
-    from ttr.interactive.sessions import Session
-    from ttr.interactive.terminal import _through_pipe
-    from ttr.limits import TooMuch
+    from ttr.cli.session.sessions import Session
+    from ttr.cli.session.terminal import _through_pipe
+    from ttr.safety.limits import TooMuch
 
     def read(data: bytes) -> None:
         stdin, stdout = sys.stdin, sys.stdout
@@ -318,7 +318,7 @@ def _typed(folder: Path) -> Reader:
 
 
 def _fracas(folder: Path) -> Reader:
-    from ttr.fragment.fracas import Unreadable, problems
+    from ttr.semantics.fragment.fracas import Unreadable, problems
 
     seed = (
         b'<?xml version="1.0"?><!DOCTYPE a SYSTEM "a.dtd"><fracas-problems>'

@@ -268,7 +268,7 @@ def times() -> list[Row]:
     """Starting up, and turns with and without seeing, in milliseconds."""
     rows = [
         _timed(f"{module} --help", lambda module=module: _help_of(module), 9)
-        for module in ("kille.interfaces.cli", "ttr.cli")
+        for module in ("kille.interfaces.cli", "ttr.cli.main")
     ]
     with Agent("synthetic:empty?seed=7") as robot:
         for word in OBJECTS:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
-from ttr.stories import read_stories, setting
+from ttr.dialogues.stories import read_stories, setting
 
 STORIES = Path(__file__).resolve().parent.parent / "examples" / "travel" / "travel.dlg"
 

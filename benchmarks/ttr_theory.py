@@ -41,9 +41,16 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.perceptual import Perceptron, RealVector, meaning
-from ttr.quantifiers import Determiner, Extension, every, most, quantify, settle
-from ttr.theories import Axiom, Exclusion, Signature
+from ttr.semantics.perceptual import Perceptron, RealVector, meaning
+from ttr.semantics.quantifiers import (
+    Determiner,
+    Extension,
+    every,
+    most,
+    quantify,
+    settle,
+)
+from ttr.theories.theory import Axiom, Exclusion, Signature
 
 FIELDS = (5, 20, 80, 320)
 p, q = Pred("p", Ind), Pred("q", Ind)

@@ -38,7 +38,7 @@ from kille.dialogue.meanings import noun, theory, word_of
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
 from ttr import Ind, ListOf, Model, load, record, rectype
-from ttr.stories import Setting, play, read_stories
+from ttr.dialogues.stories import Setting, play, read_stories
 from ttr.updates import Body, Game, Rule, Run, all_, first, run
 from ttr.updates.checks import faults
 

@@ -16,7 +16,7 @@ from ttr import (
     subtype,
     this,
 )
-from ttr.theories import Axiom, Signature
+from ttr.theories.theory import Axiom, Signature
 
 Ind = Basic("Ind")
 dog, puppy, run = Pred("dog", Ind), Pred("puppy", Ind), Pred("run", Ind)

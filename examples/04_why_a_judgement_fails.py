@@ -4,7 +4,7 @@ Run it with `python examples/04_why_a_judgement_fails.py`, and read along.
 """
 
 from ttr import Basic, Model, Pred, Refused, Undecided, latex, record, rectype, this
-from ttr.theories import Signature
+from ttr.theories.theory import Signature
 
 Ind = Basic("Ind")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

@@ -10,7 +10,7 @@ import sys
 from itertools import pairwise
 
 from ttr import Ind, Model, Pred, box, fun, outer, record, rectype, this
-from ttr.perceptual import (
+from ttr.semantics.perceptual import (
     GradedPerceptron,
     Perceptron,
     RealVector,

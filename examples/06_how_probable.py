@@ -7,7 +7,7 @@ picture, `… 06_how_probable.py degrees.png`, it draws the record with its degr
 import sys
 
 from ttr import Ind, Model, Pred, Theory, TTRError, record, rectype, this
-from ttr.variables import RandomVariable
+from ttr.semantics.random_variables import RandomVariable
 
 boy, dog, hug = Pred("boy", Ind), Pred("dog", Ind), Pred("hug", Ind, Ind)
 BoyHugsDog = rectype(

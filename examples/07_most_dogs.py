@@ -4,9 +4,9 @@ Run it with `python examples/07_most_dogs.py`, and read along.
 """
 
 from ttr import Ind, Model, Pred, fun, outer, record, rectype, this
-from ttr.contents import content, strong, weak
-from ttr.fragment import english, follows, picked_up, understand
-from ttr.quantifiers import (
+from ttr.semantics.fragment import english, follows, picked_up, understand
+from ttr.semantics.parametric_content import content, strong, weak
+from ttr.semantics.quantifiers import (
     Thresholds,
     Undefined,
     antecedents,

@@ -4,8 +4,8 @@ Run it with `python examples/08_what_comes_next.py`, and read along.
 """
 
 from ttr import Basic, EventString, Model, Plus, Pred, Str, subtype
-from ttr.courses import begun, star
 from ttr.errors import Unexpected
+from ttr.semantics.string_prediction import begun, star
 
 Ind = Basic("Ind")
 pick_up, throw = Pred("pick_up", Ind, Ind), Pred("throw", Ind, Ind)

@@ -6,8 +6,8 @@ Run it with `python examples/09_a_game_of_fetch.py`, and read along in `fetch.tt
 from pathlib import Path
 
 from ttr import UpdateError, load
-from ttr.acts import Create, Query, performed
-from ttr.encounters import Participant, meeting
+from ttr.dialogues.encounters import Participant, meeting
+from ttr.judging.type_acts import Create, Query, performed
 from ttr.updates import run
 
 # The theory says what there is, what happens, what an information state is, and by what

@@ -16,7 +16,7 @@ from ttr import (
     rectype,
     replace,
 )
-from ttr.questions import (
+from ttr.semantics.questions import (
     Question,
     combine,
     downdate,
@@ -30,7 +30,7 @@ from ttr.updates.checks import faults_of
 
 # What is on the board: the questions under discussion, the maximal one first, what
 # somebody claimed, and what is agreed on. There are boards to begin from in
-# `ttr.gameboards`: Cooper's, Ginzburg's and Larsson's.
+# `ttr.semantics.gameboards`: Cooper's, Ginzburg's and Larsson's.
 
 Board = rectype(qud=ListOf(Question), claimed=ListOf(RecType), agreed=ListOf(RecType))
 Ask = rectype(spkr=Ind, question=Question)

@@ -7,7 +7,7 @@ Run it with `python examples/11_test_your_theory.py`. It needs hypothesis:
 from pathlib import Path
 
 from ttr import Model, Theory, record, replace
-from ttr.stories import setting
+from ttr.dialogues.stories import setting
 from ttr.testing import Property, Roles, Suite, Tutor, check_rules
 from ttr.updates import Game, first, rule
 

@@ -34,8 +34,8 @@ from kille.witness import Witnesses, thing
 from kille.words import Vocabulary
 from ttr import Judgement, Model, Record, RecType, Singleton, TTRError, record
 from ttr.errors import UpdateError
-from ttr.perceptual import Meaning, Speaker
 from ttr.probability import CERTAIN
+from ttr.semantics.perceptual import Meaning, Speaker
 from ttr.updates import Game, Run, Step
 
 __all__ = ["Agent"]

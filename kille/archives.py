@@ -20,8 +20,8 @@ from typing import IO, Any, BinaryIO, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ttr.inputs import open_file
-from ttr.limits import ARRAYS, DIRECTORY, Limit
+from ttr.safety.inputs import open_file
+from ttr.safety.limits import ARRAYS, DIRECTORY, Limit
 
 __all__ = [
     "Damaged",

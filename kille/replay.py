@@ -13,9 +13,17 @@ from kille.dialogue.meanings import theory
 from kille.memory import Memory
 from kille.sensors.sensor import SensorError
 from ttr import TTRError, TypeNode
+from ttr.dialogues.stories import (
+    SILENCE,
+    Line,
+    Mismatch,
+    Story,
+    alternatives,
+    failing,
+    fits,
+)
 from ttr.errors import UpdateError
 from ttr.probability import CERTAIN
-from ttr.stories import SILENCE, Line, Mismatch, Story, alternatives, failing, fits
 
 __all__ = ["Echo", "play"]
 

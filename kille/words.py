@@ -17,7 +17,7 @@ from kille.perception.relations import RelationMemory
 from kille.scene import Configuration
 from kille.witness import Witnesses
 from ttr import Path, PType, Record
-from ttr.perceptual import (
+from ttr.semantics.perceptual import (
     ByLearner,
     Meaning,
     Speaker,

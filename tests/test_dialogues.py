@@ -11,7 +11,7 @@ import pytest
 
 from kille.dialogue.meanings import named
 from kille.replay import play
-from ttr.stories import Story, read_stories
+from ttr.dialogues.stories import Story, read_stories
 
 FOLDER = Path(__file__).parent / "dialogues"
 

@@ -33,14 +33,14 @@ import ttr
 from kille import Agent, Memory
 from kille.sensors.sources import open_sensor
 from ttr.aliases import Alias
-from ttr.learning import Counts, LogOdds
-from ttr.possibilities import modal_system
-from ttr.variables import RandomVariable
+from ttr.semantics.learning import Counts, LogOdds
+from ttr.semantics.modality import modal_system
+from ttr.semantics.random_variables import RandomVariable
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 SAME = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
-PROGRAMS = {"kille": "kille.interfaces.cli", "ttr": "ttr.cli"}
+PROGRAMS = {"kille": "kille.interfaces.cli", "ttr": "ttr.cli.main"}
 RUNS = PROGRAMS | {"pytest": "pytest"}
 
 
@@ -268,13 +268,13 @@ def public(value: object) -> set[str]:
 
 def rules() -> dict[str, set[str]]:
     """The public names of what is done with single rules."""
-    named = ("ttr.updates.stepping", "ttr.updates.writing")
+    named = ("ttr.updates.rule_application", "ttr.updates.rule_notation")
     return {name: set(importlib.import_module(name).__all__) for name in named}
 
 
 def playing() -> dict[str, set[str]]:
     """The public names of games, of acts and of those who act."""
-    named = ("ttr.acts", "ttr.encounters", "ttr.updates.checks")
+    named = ("ttr.judging.type_acts", "ttr.dialogues.encounters", "ttr.updates.checks")
     found = {name: set(importlib.import_module(name).__all__) for name in named}
     door = ttr.load(ROOT / "tests" / "games" / "door.ttr").games
     return found | {"ttr.updates.Game": public(*door.values())}
@@ -282,49 +282,49 @@ def playing() -> dict[str, set[str]]:
 
 def dialogues() -> dict[str, set[str]]:
     """The public names of stories, logs and transcripts."""
-    named = ("ttr.stories", "ttr.logs", "ttr.transcripts")
+    named = ("ttr.dialogues.stories", "ttr.dialogues.logs", "ttr.dialogues.transcripts")
     return {name: set(importlib.import_module(name).__all__) for name in named}
 
 
 def gameboards() -> dict[str, set[str]]:
     """The public names of questions and of the boards of the literature."""
-    boards = [f"ttr.gameboards.{name}" for name in ("cooper", "kos", "ibis")]
-    named = ("ttr.questions", *boards)
+    boards = [f"ttr.semantics.gameboards.{name}" for name in ("cooper", "kos", "ibis")]
+    named = ("ttr.semantics.questions", *boards)
     return {name: set(importlib.import_module(name).__all__) for name in named}
 
 
 def property_tests() -> dict[str, set[str]]:
     """The public names of property tests; what both modules have is told once."""
-    strategies = importlib.import_module("ttr.strategies")
+    strategies = importlib.import_module("ttr.testing.strategies")
     tests = importlib.import_module("ttr.testing")
     return {
-        "ttr.strategies": set(strategies.__all__),
+        "ttr.testing.strategies": set(strategies.__all__),
         "ttr.testing": set(tests.__all__) - set(strategies.__all__),
     }
 
 
 def strings() -> dict[str, set[str]]:
     """The public names of courses of strings of events."""
-    courses = importlib.import_module("ttr.courses")
+    courses = importlib.import_module("ttr.semantics.string_prediction")
     begun = courses.begun(ttr.Plus(ttr.Ind), ttr.Model())
     return {
-        "ttr.courses": set(courses.__all__),
-        "ttr.courses.Course": public(begun),
+        "ttr.semantics.string_prediction": set(courses.__all__),
+        "ttr.semantics.string_prediction.Course": public(begun),
     }
 
 
 def test_the_python_reference_names_what_is_public() -> None:
     described = tables(ROOT / "docs" / "reference" / "python.md")
-    perceptual = importlib.import_module("ttr.perceptual")
+    perceptual = importlib.import_module("ttr.semantics.perceptual")
     with Agent(sensor="synthetic:empty") as robot, Memory.transient() as memory:
         robot.do("show cup")
         robot.hear("This is a cup.")
         expected = {
             "ttr": set(ttr.__all__),
             "ttr.updates": set(importlib.import_module("ttr.updates").__all__),
-            "ttr.perceptual": set(perceptual.__all__),
-            "ttr.perceptual.Meaning": public(robot.meaning("cup")),
-            "ttr.perceptual.Speaker": public(robot.words()),
+            "ttr.semantics.perceptual": set(perceptual.__all__),
+            "ttr.semantics.perceptual.Meaning": public(robot.meaning("cup")),
+            "ttr.semantics.perceptual.Speaker": public(robot.words()),
             **probability(),
             **modality_and_learning(),
             **quantification(),
@@ -428,36 +428,43 @@ def has_protocol(module: str) -> bool:
 
 def probability() -> dict[str, set[str]]:
     """The public names of the modules on probability."""
-    named = ("ttr.probability", "ttr.variables")
+    named = ("ttr.probability", "ttr.semantics.random_variables")
     found = {name: set(importlib.import_module(name).__all__) for name in named}
     variable = RandomVariable("V", ttr.Ind, ttr.Rec)
-    return found | {"ttr.variables.RandomVariable": public(variable)}
+    return found | {"ttr.semantics.random_variables.RandomVariable": public(variable)}
 
 
 def quantification() -> dict[str, set[str]]:
     """The public names of the modules on quantifiers and what is built on them."""
-    from ttr.quantifiers import every, settle
+    from ttr.semantics.quantifiers import every, settle
 
-    modules = ("quantifiers", "contents", "fragment")
-    named = [f"ttr.{module}" for module in modules]
+    modules = ("quantifiers", "parametric_content", "fragment")
+    named = [f"ttr.semantics.{module}" for module in modules]
     found = {name: set(importlib.import_module(name).__all__) for name in named}
     counted = settle(ttr.Model(), every(ttr.Ind, ttr.Ind))
-    return found | {"ttr.quantifiers.Quantification": public(counted)}
+    return found | {"ttr.semantics.quantifiers.Quantification": public(counted)}
 
 
 def modality_and_learning() -> dict[str, set[str]]:
     """The public names of the modules on possibilities, propositions and learning."""
-    modules = ("possibilities", "topoi", "stratifying", "propositions", "claims")
-    named = [f"ttr.{module}" for module in (*modules, "learning")]
+    modules = (
+        "semantics.modality",
+        "semantics.topoi",
+        "semantics.propositional_entailment",
+        "semantics.learning",
+        "building.level_inference",
+        "judging.propositions",
+    )
+    named = [f"ttr.{module}" for module in modules]
     found = {name: set(importlib.import_module(name).__all__) for name in named}
     w = modal_system(w=ttr.Model())
     necessary = w.restrictive.necessary(ttr.Ind)
     return found | {
-        "ttr.possibilities.ModalSystem": public(w),
-        "ttr.possibilities.Notion": public(w.restrictive),
-        "ttr.possibilities.ModalAnswer": public(necessary),
-        "ttr.learning.Counts": public(Counts()),
-        "ttr.learning.LogOdds": public(LogOdds((ttr.Ind,))),
+        "ttr.semantics.modality.ModalSystem": public(w),
+        "ttr.semantics.modality.Notion": public(w.restrictive),
+        "ttr.semantics.modality.ModalAnswer": public(necessary),
+        "ttr.semantics.learning.Counts": public(Counts()),
+        "ttr.semantics.learning.LogOdds": public(LogOdds((ttr.Ind,))),
     }
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from ttr.stories import Story, play, read_stories
+from ttr.dialogues.stories import Story, play, read_stories
 
 ROOT = Path(__file__).parent.parent
 FOLDERS = (ROOT / "tests" / "games", ROOT / "examples")

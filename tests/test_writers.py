@@ -18,10 +18,10 @@ MODULES = sorted(
 )
 
 WRITERS = {
-    "ttr/commands/output.py": "what the commands of ttr print",
-    "ttr/inputs.py": "prompts",
-    "ttr/unforeseen.py": "the last line of a command that met what nobody foresaw",
-    "ttr/testing/processes.py": "digests, read by the process that asked for them",
+    "ttr/cli/commands/output.py": "what the commands of ttr print",
+    "ttr/safety/inputs.py": "prompts",
+    "ttr/safety/unforeseen_errors.py": "the error that nobody foresaw",
+    "ttr/testing/hash_seeds.py": "digests, read by the process that asked for them",
     "kille/interfaces/streams.py": "what the commands of kille complain of",
     "kille/interfaces/terminal.py": "what the commands of kille print",
     "kille/studies/persons/lines.py": "what people in a study are shown",

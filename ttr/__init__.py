@@ -10,10 +10,17 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ttr import counters as counters  # provides counterexamples
-from ttr import notebooks, updates
-from ttr.budgets import budget
-from ttr.constructors import Pi, fun, rectype
+from ttr import updates
+from ttr.building.constructors import Pi, fun, rectype
+from ttr.building.flattening import flatten, unflatten
+from ttr.building.formation import wellformed
+from ttr.building.functions import fix, restrict
+from ttr.building.generalisation import common_supertype
+from ttr.building.merging import amerge, merge
+from ttr.building.relabelling import relabel
+from ttr.building.subtraction import subtract
+from ttr.computing.normal_forms import join_normal_form, meet_normal_form
+from ttr.computing.subtyping import Answer, consistent, subtype
 from ttr.errors import (
     Endless,
     IllFormed,
@@ -29,22 +36,16 @@ from ttr.errors import (
     Unsupported,
     UpdateError,
 )
-from ttr.formation import wellformed
-from ttr.judgements import Judgement, Why
-from ttr.merging import amerge, merge
-from ttr.models import Model
-from ttr.normal_forms import join_normal_form, meet_normal_form
-from ttr.objects import concat, fst, rst
+from ttr.judging import counterexamples as counterexamples  # provides a hook
+from ttr.judging.judgements import Judgement, Why
+from ttr.judging.models import Model
+from ttr.judging.propositions import proposition
 from ttr.probability import Degree
-from ttr.propositions import proposition
-from ttr.records import replace
-from ttr.reshaping.flattening import flatten, unflatten
-from ttr.reshaping.functions import fix, restrict
-from ttr.reshaping.relabelling import relabel
-from ttr.reshaping.subtraction import subtract
-from ttr.reshaping.supertypes import common_supertype
-from ttr.subtyping import Answer, consistent, subtype
-from ttr.syntax import (
+from ttr.safety.budgets import budget
+from ttr.types import notebooks
+from ttr.types.objects import concat, fst, rst
+from ttr.types.records import replace
+from ttr.types.syntax import (
     Application,
     Basic,
     EventString,
@@ -80,10 +81,10 @@ from ttr.syntax import (
 )
 
 if TYPE_CHECKING:
-    from ttr.checking import check
+    from ttr.display.render import box, html, latex
     from ttr.notation.reader import parse
-    from ttr.render import box, html, latex
-    from ttr.theories import Theory, load
+    from ttr.theories.checking import check
+    from ttr.theories.theory import Theory, load
 
 __all__ = [
     "Answer",
@@ -170,18 +171,18 @@ __all__ = [
 ]
 
 _LATER = {
-    "Theory": "ttr.theories",
-    "box": "ttr.render",
-    "check": "ttr.checking",
-    "html": "ttr.render",
-    "latex": "ttr.render",
-    "load": "ttr.theories",
+    "Theory": "ttr.theories.theory",
+    "box": "ttr.display.render",
+    "check": "ttr.theories.checking",
+    "html": "ttr.display.render",
+    "latex": "ttr.display.render",
+    "load": "ttr.theories.theory",
     "parse": "ttr.notation.reader",
 }
 
 
 def _render(form: str, value: object) -> str:
-    from ttr import render
+    from ttr.display import render
 
     drawn: str = getattr(render, form)(value)
     return drawn

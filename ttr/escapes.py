@@ -10,7 +10,7 @@ compute what begins with `=`. There is one function for each place:
 - `csv_line` for tables that spreadsheets open;
 - `json_text` for JSON and for the quoted names of the notation.
 
-For LaTeX there is `latex_text` of `ttr.display.typesetting`, which knows the letters.
+For LaTeX there is `latex_text` of `ttr.display.latex`, which knows the letters.
 
 What cannot be seen is written as Python would: `\x1b`, `\u202e`. These are the control
 characters (C0, DEL, C1), lone surrogates, separators of lines and paragraphs, the

@@ -21,7 +21,7 @@ from kille.simulation.perceiving import seen
 from kille.simulation.playing import simulated
 from kille.simulation.worlds import Thing, World
 from ttr import Record
-from ttr.records import differences
+from ttr.types.records import differences
 from ttr.updates import Game, Run, Turn
 
 DIALOGUES = Path(__file__).with_suffix(".toml")

@@ -9,11 +9,11 @@ from functools import cache
 from travel import book, game
 
 from ttr import Model, Record, rectype
-from ttr.gameboards.ibis import utterance
-from ttr.gameboards.ibis.terms import USR, Program, content_of
-from ttr.questions import relevant, resolves, top
-from ttr.syntax import Object, PType
+from ttr.semantics.gameboards.ibis import utterance
+from ttr.semantics.gameboards.ibis.moves import USR, Program, content_of
+from ttr.semantics.questions import relevant, resolves, top
 from ttr.testing import Roles, Tutor
+from ttr.types.syntax import Object, PType
 
 PHRASES = {
     move: " ".join(words) for words, move in reversed(list(book.phrases.items()))

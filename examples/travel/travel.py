@@ -8,9 +8,9 @@ import tomllib
 from pathlib import Path
 
 from ttr import Model, load, rectype
-from ttr.gameboards.ibis import Domain, PhraseBook
-from ttr.gameboards.ibis import game as ibis
-from ttr.questions import asked_of
+from ttr.semantics.gameboards.ibis import Domain, PhraseBook
+from ttr.semantics.gameboards.ibis import game as ibis
+from ttr.semantics.questions import asked_of
 
 # The sorts, the questions, the plans and what is on sale are a theory. Numbers are
 # prices, and the objects of the theory are of their sorts.

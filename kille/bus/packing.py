@@ -14,7 +14,7 @@ import numpy as np
 
 from kille.archives import read_arrays
 from kille.bus.messages import Bundle, BusError
-from ttr.inputs import parse_json
+from ttr.safety.inputs import parse_json
 
 __all__ = ["facts_in", "packed", "unpacked", "written"]
 

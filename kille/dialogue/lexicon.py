@@ -14,7 +14,7 @@ from typing import Any
 from kille.dialogue.inflection import Articles, Inflection
 from kille.dialogue.sources import source
 from ttr import Record
-from ttr.inputs import parse_toml
+from ttr.safety.inputs import parse_toml
 
 __all__ = ["Lexicon", "Style", "lexicon"]
 

@@ -29,8 +29,8 @@ from ttr import (
     record,
     rectype,
 )
-from ttr.paths import escaping
-from ttr.syntax import Object
+from ttr.types.paths import escaping
+from ttr.types.syntax import Object
 
 __all__ = [
     "CLAIMS",

@@ -17,7 +17,7 @@ from kille.dialogue.meanings import (
 )
 from kille.dialogue.reference.perspectives import front_of
 from ttr import Rec, Record, RecordType, RecType, TypeNode, record, rectype, replace
-from ttr.syntax import Object
+from ttr.types.syntax import Object
 
 __all__ = [
     "answering",

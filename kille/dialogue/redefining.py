@@ -13,9 +13,9 @@ from collections.abc import Mapping
 from importlib.resources import files
 
 from ttr import Theory, TTRError
-from ttr.consent import check_called
 from ttr.errors import suggestion
-from ttr.theories import load
+from ttr.safety.consent import check_called
+from ttr.theories.theory import load
 
 __all__ = ["ALLOWED", "VARIABLE", "redefined", "types_of"]
 

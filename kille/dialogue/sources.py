@@ -9,8 +9,8 @@ from __future__ import annotations
 from importlib.resources import files
 from pathlib import Path, PurePath
 
-from ttr.inputs import read_text
-from ttr.limits import SETTINGS
+from ttr.safety.inputs import read_text
+from ttr.safety.limits import SETTINGS
 
 __all__ = ["FILES", "language_in", "plain", "source"]
 

@@ -18,8 +18,8 @@ from typing import Any, TypeAlias
 
 from kille.experiments.results import ExperimentError
 from kille.perception.learners import check_degrees
-from ttr.consent import Consent, NotAllowed
-from ttr.modules import run_named
+from ttr.safety.consent import Consent, NotAllowed
+from ttr.safety.python_files import run_named
 
 __all__ = ["Make", "Methods", "MethodFailed", "candidates"]
 

@@ -20,8 +20,8 @@ import numpy as np
 from kille.experiments.results import ExperimentError
 from kille.perception.relations.bounds import Bounds, hold
 from kille.scene import Configuration, Direction
-from ttr.inputs import parse_json, read_text
-from ttr.limits import TABLE
+from ttr.safety.inputs import parse_json, read_text
+from ttr.safety.limits import TABLE
 
 __all__ = ["Choice", "Judged", "Study", "read"]
 

@@ -33,8 +33,8 @@ from kille.sensors.captures import (
     read_scenes,
     read_sequence,
 )
-from ttr.inputs import parse_json, read_text
-from ttr.limits import TABLE
+from ttr.safety.inputs import parse_json, read_text
+from ttr.safety.limits import TABLE
 
 __all__ = ["Capture", "Score", "captures", "regions", "score"]
 

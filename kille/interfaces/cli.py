@@ -46,7 +46,7 @@ def command() -> NoReturn:
 def _unforeseen_in_thread(told: threading.ExceptHookArgs) -> None:
     """What a thread met is one line, too; the command goes on without the thread."""
     if told.exc_value is not None and not isinstance(told.exc_value, SystemExit):
-        from ttr.unforeseen import report_unforeseen
+        from ttr.safety.unforeseen_errors import report_unforeseen
 
         report_unforeseen("kille", told.exc_value)
 
@@ -65,7 +65,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return PIPE_CLOSED
     except Exception as error:
         if not isinstance(error, OSError) or error.errno != ENOSPC:
-            from ttr.unforeseen import report_unforeseen
+            from ttr.safety.unforeseen_errors import report_unforeseen
 
             return report_unforeseen("kille", error)
         drop_output()
@@ -91,7 +91,7 @@ def _limit_pictures() -> None:
 
     Sizes are read before that, too, but by another reader of the same headers.
     """
-    from ttr.limits import PICTURE
+    from ttr.safety.limits import PICTURE
 
     os.environ.setdefault("OPENCV_IO_MAX_IMAGE_PIXELS", str(PICTURE.allowed))
 
@@ -583,7 +583,7 @@ def _evaluate(options: argparse.Namespace) -> int:
 
 def _experiment_check(options: argparse.Namespace) -> int:
     from kille.interfaces.experiment.checking import check_files
-    from ttr.commands.consenting import consent_of
+    from ttr.cli.commands.consent_options import consent_of
 
     return check_files(options.files, consent_of(options))
 
@@ -606,7 +606,7 @@ def _request(options: argparse.Namespace) -> Request:
     """By whom a study is to be played, and what it may run."""
     from kille.interfaces.experiment.crews import scheduler_from
     from kille.interfaces.experiment.running import Request
-    from ttr.commands.consenting import consent_of
+    from ttr.cli.commands.consent_options import consent_of
 
     return Request(
         options.workers,
@@ -633,7 +633,7 @@ def _experiment_replay(options: argparse.Namespace) -> int:
 def _experiment_report(options: argparse.Namespace) -> int:
     from kille.interfaces.experiment.logs import consent_to
     from kille.interfaces.experiment.reporting import report
-    from ttr.commands.consenting import consent_of
+    from ttr.cli.commands.consent_options import consent_of
 
     consent = consent_to(consent_of(options), options.trust)
     return report(options.folder, _command(options), consent)
@@ -642,7 +642,7 @@ def _experiment_report(options: argparse.Namespace) -> int:
 def _experiment_compare(options: argparse.Namespace) -> int:
     from kille.interfaces.experiment.logs import consent_to
     from kille.interfaces.experiment.reporting import compare
-    from ttr.commands.consenting import consent_of
+    from ttr.cli.commands.consent_options import consent_of
 
     consent, command = consent_to(consent_of(options), options.trust), _command(options)
     return compare(options.one, options.other, options.report, command, consent)

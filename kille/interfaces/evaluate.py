@@ -33,7 +33,7 @@ from kille.interfaces.grids import print_table
 from kille.interfaces.terminal import FAILED, FINE, complain, console, print_json
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
-from ttr.files import check_outputs, why_unread, write_whole
+from ttr.safety.files import check_outputs, why_unread, write_whole
 
 __all__ = ["Request", "as_json", "as_tables", "evaluate"]
 

@@ -20,8 +20,8 @@ from kille.memory import MemoryFileError
 from kille.replay import Echo, play
 from kille.sensors.sensor import SensorError
 from ttr import TTRError
-from ttr.files import check_outputs, write_whole
-from ttr.stories import Outcome, Story, facts, junit, read_stories, summary
+from ttr.dialogues.stories import Outcome, Story, facts, junit, read_stories, summary
+from ttr.safety.files import check_outputs, write_whole
 
 __all__ = ["as_json", "in_brief", "in_full", "replay"]
 

@@ -11,8 +11,8 @@ from kille.bus import Asking, Bus, BusError, Facts
 from kille.interfaces.ros import Opening
 from kille.interfaces.terminal import FINE, complain, console
 from kille.nodes.topics import CALLS, STAGE
-from ttr.inputs import ask_line
-from ttr.limits import UTTERANCE, TooMuch
+from ttr.safety.inputs import ask_line
+from ttr.safety.limits import UTTERANCE, TooMuch
 
 __all__ = ["talk_over", "talk_as_node"]
 

@@ -18,10 +18,10 @@ from ttr import (
     record,
     rectype,
 )
-from ttr.printing import notation
-from ttr.records import differences
-from ttr.substitution import grounded
-from ttr.syntax import Object
+from ttr.types.printing import notation
+from ttr.types.records import differences
+from ttr.types.substitution import grounded
+from ttr.types.syntax import Object
 from ttr.updates import Step
 
 __all__ = [

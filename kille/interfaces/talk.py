@@ -22,8 +22,8 @@ from kille.sensors.sensor import SensorError, Stage
 from kille.speech.sound import SoundError
 from kille.speech.speaking import Voice, voice
 from ttr import TTRError
-from ttr.inputs import ask_line
-from ttr.limits import UTTERANCE, TooMuch
+from ttr.safety.inputs import ask_line
+from ttr.safety.limits import UTTERANCE, TooMuch
 
 __all__ = ["talk"]
 

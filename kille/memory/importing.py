@@ -27,7 +27,7 @@ from kille.memory.packing import (
     unpack_turn,
     whole,
 )
-from ttr.inputs import parse_json, read_lines
+from ttr.safety.inputs import parse_json, read_lines
 
 
 class Package:

@@ -17,8 +17,8 @@ from typing import Protocol
 from kille.archives import check_sizes, opened_zip, read_member
 from kille.databases import shown
 from kille.private import FILE_MODE, FOLDER_MODE, private
-from ttr.inputs import read_bytes
-from ttr.limits import MEMBER, PACKAGE
+from ttr.safety.inputs import read_bytes
+from ttr.safety.limits import MEMBER, PACKAGE
 
 ZIP = ".zip"
 MANIFEST = "memory.json"

@@ -29,7 +29,7 @@ from kille.memory.lessons import (
 )
 from kille.memory.pictures import JPEG, Crop, Picture
 from kille.scene import Box, Intrinsics, Point
-from ttr.limits import MEMBER
+from ttr.safety.limits import MEMBER
 
 Line = dict[str, Any]
 Files = Mapping[str, bytes]

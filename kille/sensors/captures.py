@@ -22,8 +22,8 @@ import numpy as np
 from kille.scene import Frame, Intrinsics, Mask
 from kille.sensors.pictures import read_colour, read_depth, read_labels
 from kille.sensors.sensor import SensorError
-from ttr.inputs import parse_json, read_text
-from ttr.limits import TABLE
+from ttr.safety.inputs import parse_json, read_text
+from ttr.safety.limits import TABLE
 
 DESCRIPTIONS = ("scene.json", "index.json", "boxes.json")
 _COLOUR = "_color.png"

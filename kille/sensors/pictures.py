@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from kille.scene import Colour, Depth
 from kille.sensors.sensor import SensorError
-from ttr.inputs import open_file, read_bytes
-from ttr.limits import MEASURED, PICTURE, PICTURE_FILE
+from ttr.safety.inputs import open_file, read_bytes
+from ttr.safety.limits import MEASURED, PICTURE, PICTURE_FILE
 
 SUFFIXES = frozenset({".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp"})
 

@@ -10,9 +10,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from kille.dialogue.meanings import named, predicate_at, value_at
 from kille.simulation.playing import words
 from ttr import Judgement, Record, RecordType
-from ttr.strategies import Dialogue, Trial
-from ttr.strategies.roles import Roles
 from ttr.testing import Property
+from ttr.testing.strategies import Dialogue, Trial
+from ttr.testing.strategies.discourse_roles import Roles
 
 __all__ = ["GROUNDED", "HONEST", "LOCAL", "OF_TUTORING", "RETRACTED", "WORDED"]
 

@@ -33,7 +33,7 @@ from kille.simulation.sayings import (
 from kille.simulation.vocabulary import vocabulary
 from kille.simulation.worlds import World
 from ttr import Model, Negation, Pred, PType, Record, RecordType
-from ttr.strategies import Tutor
+from ttr.testing.strategies import Tutor
 
 __all__ = ["NONSENSE", "happenings", "is_true", "tutoring"]
 

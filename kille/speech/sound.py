@@ -12,8 +12,8 @@ from typing import BinaryIO, cast
 
 import numpy as np
 
-from ttr.inputs import read_bytes
-from ttr.limits import SOUND, SOUND_FILE
+from ttr.safety.inputs import read_bytes
+from ttr.safety.limits import SOUND, SOUND_FILE
 
 __all__ = ["RATE", "Sound", "SoundError", "WavFile", "read_wav"]
 

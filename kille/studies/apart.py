@@ -24,7 +24,7 @@ from typing import Any
 from kille.dialogue.redefining import ALLOWED, VARIABLE
 from kille.studies.errors import TheoryError
 from kille.studies.study import Theory
-from ttr.modules import separate_python
+from ttr.safety.python_files import separate_python
 
 __all__ = ["allowed_for", "ask", "is_apart", "own_types"]
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from ttr.consent import Consent
+from ttr.safety.consent import Consent
 
 __all__ = ["PERSON", "Named", "Phase", "Run", "Study", "Theory"]
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from ttr.cli import main
-from ttr.fragment.fracas import Unreadable, problems
+from ttr.cli.main import main
+from ttr.semantics.fragment.fracas import Unreadable, problems
 
 PROBLEM = """
 <problem id="{number}" fracas_answer="{answer}">

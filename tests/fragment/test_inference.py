@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from ttr.fragment import follows, understand
-from ttr.quantifiers import Thresholds, number, share
+from ttr.semantics.fragment import follows, understand
+from ttr.semantics.quantifiers import Thresholds, number, share
 
 PAIRS = tomllib.loads((Path(__file__).parent / "pairs.toml").read_text("utf-8"))["pair"]
 REACHED = [pair for pair in PAIRS if not pair.get("beyond")]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ttr import Ind, Model, Theory, TTRError, load
-from ttr.fragment import (
+from ttr.semantics.fragment import (
     OutsideFragment,
     english,
     follows,
@@ -13,8 +13,8 @@ from ttr.fragment import (
     picked_up,
     understand,
 )
-from ttr.objects import FiniteSet
-from ttr.quantifiers import Undefined, every
+from ttr.semantics.quantifiers import Undefined, every
+from ttr.types.objects import FiniteSet
 
 CONTENTS = {
     "Fido barks.": "bark(fido)",

@@ -21,7 +21,7 @@ from kille.archives import (
     read_head,
     read_member,
 )
-from ttr.limits import DIRECTORY, Limit, TooMuch
+from ttr.safety.limits import DIRECTORY, Limit, TooMuch
 
 FEW = Limit(1000, "bytes")
 

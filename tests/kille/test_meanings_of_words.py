@@ -9,7 +9,8 @@ import pytest
 from kille import Agent
 from kille.dialogue.meanings import noun
 from ttr import Record, TTRError, Unsupported, box, record
-from ttr.perceptual import (
+from ttr.probability import UNKNOWN
+from ttr.semantics.perceptual import (
     agreement,
     combined_type,
     convergence,
@@ -17,7 +18,6 @@ from ttr.perceptual import (
     history,
     says,
 )
-from ttr.probability import UNKNOWN
 
 
 @pytest.fixture(scope="module")

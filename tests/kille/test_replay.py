@@ -8,7 +8,7 @@ import pytest
 
 from kille.memory import Memory
 from kille.replay import play
-from ttr.stories import Mismatch, StoryError, read_stories
+from ttr.dialogues.stories import Mismatch, StoryError, read_stories
 
 
 @pytest.fixture

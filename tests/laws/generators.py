@@ -36,9 +36,9 @@ from ttr import (
     record,
     rectype,
 )
-from ttr.paths import occurring
-from ttr.strategies import models, objects, types
-from ttr.syntax import Object
+from ttr.testing.strategies import models, objects, types
+from ttr.types.paths import occurring
+from ttr.types.syntax import Object
 
 __all__ = [
     "NAMES",

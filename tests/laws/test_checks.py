@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from ttr import Basic, ListOf, Model, Record, RecordType, UpdateError, record, rectype
 from ttr.errors import Endless
-from ttr.syntax import Operation, Path
+from ttr.types.syntax import Operation, Path
 from ttr.updates import Rule, by_class, first, maybe, repeat, rule, run, seq
 from ttr.updates.checks import faults
 from ttr.updates.rules import Body

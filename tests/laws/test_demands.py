@@ -11,10 +11,10 @@ from kille.dialogue.meanings import adjective, noun, relation, theory, word_of
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
 from ttr import Ind, Model, Pred, record, rectype
-from ttr.certainty import certainly
-from ttr.demands import Sieve, demands_of
-from ttr.gameboards import kos
-from ttr.questions import which
+from ttr.judging.certainty import certainly
+from ttr.judging.rule_index import Sieve, demands_of
+from ttr.semantics.gameboards import kos
+from ttr.semantics.questions import which
 from ttr.updates import First
 
 # --- what a sieve leaves out ----------------------------------------------------------

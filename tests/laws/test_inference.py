@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import Ind, Model
-from ttr.fragment import english, follows, understand
-from ttr.quantifiers import Undefined
+from ttr.semantics.fragment import english, follows, understand
+from ttr.semantics.quantifiers import Undefined
 
 DETERMINERS = (
     *("every", "some", "no", "not every", "most", "many", "few", "several", "the"),

@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import Basic, Refused, meet
-from ttr.learning import (
+from ttr.judging.propositions import probabilistic
+from ttr.semantics.learning import (
     JEFFREYS,
     LAPLACE,
     NO_SMOOTHING,
@@ -18,7 +19,6 @@ from ttr.learning import (
     lidstone,
     posterior,
 )
-from ttr.propositions import probabilistic
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 BASIC = (A, B, C)

@@ -14,9 +14,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import Model, rectype, replace
-from ttr.logs import Log, LogFile, continued, read_logs, replay, story_of
-from ttr.stories import Setting, moment, play, read_stories, setting
-from ttr.syntax import Ind, ListOf, Rec, Record
+from ttr.dialogues.logs import Log, LogFile, continued, read_logs, replay, story_of
+from ttr.dialogues.stories import Setting, moment, play, read_stories, setting
+from ttr.types.syntax import Ind, ListOf, Rec, Record
 from ttr.updates import Game, Turn, nbest, rule
 
 GAMES = Path(__file__).parent.parent / "games"

@@ -41,7 +41,7 @@ def test_creation_is_refused_only_on_a_circle_or_a_contradiction(T, M):
 
 
 def _paths(field):
-    from ttr.paths import escaping
+    from ttr.types.paths import escaping
 
     return escaping(field)
 

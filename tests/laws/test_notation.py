@@ -44,14 +44,14 @@ from ttr import (
     rst,
     this,
 )
-from ttr.notation.drafts import Draft
 from ttr.notation.grammar import statement
-from ttr.notation.statements import Declaring
-from ttr.notation.trees import Source
+from ttr.notation.syntax_trees import Source
 from ttr.probability import CERTAIN, Degree
-from ttr.syntax import BOUND, Object, RecordType
+from ttr.theories.drafts import Draft
+from ttr.theories.statements import Declaring
+from ttr.types.syntax import BOUND, Object, RecordType
+from ttr.updates.rule_notation import written
 from ttr.updates.rules import Body, Rule
-from ttr.updates.writing import written
 
 A, B = Basic("A"), Basic("B")
 dog, hug, rains = Pred("dog", Ind), Pred("hug", Ind, Ind), Pred("rains", ())

@@ -9,7 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from ttr import Ind, Model, Pred, fix, record, rectype, this
-from ttr.perceptual import (
+from ttr.semantics.perceptual import (
     GradedPerceptron,
     Perceptron,
     PointMap,

@@ -11,7 +11,7 @@ from ttr import NotationError
 from ttr.notation.grammar import statement
 from ttr.notation.plain import plain_statement
 from ttr.notation.scanning import blocks
-from ttr.notation.trees import Source
+from ttr.notation.syntax_trees import Source
 
 ROOT = Path(__file__).parents[2]
 THEORIES = sorted((ROOT / "grammars").glob("*.ttr")) + sorted(

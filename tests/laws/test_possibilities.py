@@ -19,9 +19,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from ttr import Application, Refused, Unsupported, proposition, rectype, subtype
-from ttr.paths import occurring
-from ttr.possibilities import modal_system, necessarily, possibly
-from ttr.subtyping import consistent
+from ttr.computing.subtyping import consistent
+from ttr.semantics.modality import modal_system, necessarily, possibly
+from ttr.types.paths import occurring
 
 systems = st.lists(models(), min_size=1, max_size=3).map(
     lambda found: modal_system({f"w{n}": M for n, M in enumerate(found)})

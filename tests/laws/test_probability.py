@@ -5,8 +5,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from ttr import Basic, Model, Refused, join, meet, subtype
-from ttr.theories import Axiom, Exclusion, Signature
-from ttr.variables import RandomVariable
+from ttr.semantics.random_variables import RandomVariable
+from ttr.theories.theory import Axiom, Exclusion, Signature
 
 ATOMS = [Basic(name) for name in "ABCDE"]
 SLACK = 1e-9

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import Ind, Model, Pred, fun, outer, this
-from ttr.quantifiers import (
+from ttr.semantics.quantifiers import (
     Extension,
     Thresholds,
     Undefined,

@@ -19,9 +19,9 @@ from ttr import (
     Theory,
     subtype,
 )
-from ttr.courses import begun
-from ttr.forms import star
-from ttr.strings.forms import is_of_strings
+from ttr.computing.strings.pieces import is_of_strings
+from ttr.semantics.string_prediction import begun
+from ttr.types.forms import star
 
 A, B = Basic("A"), Basic("B")
 EVENTS = {"n": (), "a": (A,), "b": (B,), "c": (A, B)}

@@ -15,13 +15,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import IllFormed, Record, merge, subtype
-from ttr.normal_forms import join_normal_form, meet_normal_form
-from ttr.reshaping.flattening import flatten, unflatten
-from ttr.reshaping.relabelling import relabel
-from ttr.reshaping.subtraction import subtract
-from ttr.reshaping.supertypes import common_supertype
-from ttr.strategies import record_types as any_record_types
-from ttr.strategies import records as any_records
+from ttr.building.flattening import flatten, unflatten
+from ttr.building.generalisation import common_supertype
+from ttr.building.relabelling import relabel
+from ttr.building.subtraction import subtract
+from ttr.computing.normal_forms import join_normal_form, meet_normal_form
+from ttr.testing.strategies import record_types as any_record_types
+from ttr.testing.strategies import records as any_records
 
 LABELS = ["x", "y", "z", "n", "c", "d", "l", "other"]
 

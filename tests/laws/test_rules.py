@@ -5,8 +5,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from ttr import Model, Refused, Singleton, UpdateError, amerge, rectype
-from ttr.merging import singleton_type
-from ttr.paths import escaping
+from ttr.building.merging import singleton_type
+from ttr.types.paths import escaping
 from ttr.updates import rule, run
 
 draws = st.data()

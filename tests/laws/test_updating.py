@@ -16,7 +16,7 @@ from ttr import (
     record,
     rectype,
 )
-from ttr.certainty import certainly, certainly_also
+from ttr.judging.certainty import certainly, certainly_also
 from ttr.probability import CERTAIN
 
 

@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 
 import ttr
 from ttr import Function, FunType, Theory, join, meet, record, rectype, subtype
-from ttr.interning import identity
-from ttr.paths import rebuilt
+from ttr.types.interning import identity
+from ttr.types.paths import rebuilt
 
 NAMES = {name: getattr(ttr, name) for name in ttr.__all__}
 
@@ -33,7 +33,7 @@ def test_repr_evaluates_back_to_an_equal_object(a):
 
 @given(objects())
 def test_printed_objects_read_back_as_themselves(a):
-    text = ttr.printing.notation(a)
+    text = ttr.types.printing.notation(a)
     assert identity(Theory.of(a).parse(text)) == identity(a)
 
 
@@ -173,7 +173,9 @@ def test_fields_stand_behind_what_they_depend_on(T):
     seen = set()
     circular = False
     for label, field in T.fields:
-        needs = {path.labels[0] for path in ttr.paths.escaping(field) if path.up == 0}
+        needs = {
+            path.labels[0] for path in ttr.types.paths.escaping(field) if path.up == 0
+        }
         circular = circular or not needs <= seen
         assert circular or needs <= seen
         seen.add(label)

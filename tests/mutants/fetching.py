@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ttr.stories import setting
+from ttr.dialogues.stories import setting
 from ttr.testing import Roles, Tutor
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"

@@ -19,7 +19,7 @@ import travelling
 
 from kille.dialogue.moves import answering, plan
 from ttr import ListOf, Model, Record, RecType, TypeNode, rectype, replace
-from ttr.questions import top
+from ttr.semantics.questions import top
 from ttr.testing import ALL, Property
 from ttr.updates import Game, Rule
 from ttr.updates.algorithms import replaced
@@ -423,7 +423,7 @@ def lost_downdate_qud(game: Game) -> Game:
 
 @mutant("travel", "whatever the user answers is the answer to what was asked")
 def relevant_or_not(game: Game) -> Game:
-    from ttr.questions import combine
+    from ttr.semantics.questions import combine
 
     def effect(s: Record, m: object) -> Record | None:
         question = top(s.shared.qud)

@@ -17,8 +17,8 @@ sys.path.append(str(Path(__file__).parent))
 
 from mutants import GAMES, MUTANTS, Mutant, properties_of
 
-from ttr.strategies import dialogues
 from ttr.testing import ALL, Coverage, Dialogue
+from ttr.testing.strategies import dialogues
 from ttr.updates.checks import faults_of
 
 DIALOGUES = 200

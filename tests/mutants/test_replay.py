@@ -8,9 +8,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from mutants import GAMES
 
-from ttr.logs import LogFile, read_logs, replay
-from ttr.strategies import dialogues
-from ttr.testing.telling import place_of
+from ttr.dialogues.logs import LogFile, read_logs, replay
+from ttr.testing.failure_story import place_of
+from ttr.testing.strategies import dialogues
 
 
 @pytest.mark.parametrize("name", GAMES)

@@ -12,7 +12,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ttr import Theory
-from ttr.theories import load
+from ttr.theories.theory import load
 from ttr.updates.games import Game
 
 __all__ = ["HELD_OUT", "ORIGINALS", "PLANTED", "Slip"]

@@ -13,7 +13,7 @@ import pytest
 from slips import HELD_OUT, ORIGINALS, PLANTED, Slip, game_of
 
 from ttr.testing import Report, Suite
-from ttr.theories import load
+from ttr.theories.theory import load
 
 ROOT = Path(__file__).resolve().parents[2]
 DIALOGUES = 60

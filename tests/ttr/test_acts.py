@@ -3,7 +3,7 @@
 import pytest
 
 from ttr import Ind, Model, Pred, Refused, TTRError, record, rectype
-from ttr.acts import Create, Judge, JudgeSome, Query, QuerySome, performed
+from ttr.judging.type_acts import Create, Judge, JudgeSome, Query, QuerySome, performed
 from ttr.probability import UNKNOWN
 
 dog, cat = Pred("dog", Ind), Pred("cat", Ind)
@@ -60,7 +60,9 @@ def test_acts_print_as_in_the_literature():
 
 
 def test_what_is_no_act():
-    with pytest.raises(TTRError, match=r"an act is one of ttr\.acts, found"):
+    with pytest.raises(
+        TTRError, match=r"an act is one of ttr\.judging\.type_acts, found"
+    ):
         performed("bark", M)
 
 

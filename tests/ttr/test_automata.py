@@ -3,8 +3,8 @@
 import pytest
 
 from ttr import Basic, EventString, Model, Plus, Str, Unsupported, join, subtype
-from ttr.forms import star
-from ttr.strings.automata import automaton, automaton_above
+from ttr.computing.strings.automata import automaton, automaton_above
+from ttr.types.forms import star
 
 A, B, C = map(Basic, "ABC")
 

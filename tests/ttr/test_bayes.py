@@ -13,8 +13,8 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.learning import LAPLACE, Counts, NaiveBayes, posterior
-from ttr.propositions import probabilistic
+from ttr.judging.propositions import probabilistic
+from ttr.semantics.learning import LAPLACE, Counts, NaiveBayes, posterior
 
 red, round_ = Pred("red", Ind), Pred("round", Ind)
 Apple, Pear = Basic("Apple"), Basic("Pear")

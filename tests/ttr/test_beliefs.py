@@ -2,8 +2,8 @@
 
 import pytest
 
+from ttr.computing.strings.beliefs import NOWHERE, SETS, Beliefs, frechet, independent
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
-from ttr.strings.beliefs import NOWHERE, SETS, Beliefs, frechet, independent
 
 ONE, TWO, BOTH = frozenset((1,)), frozenset((2,)), frozenset((1, 2))
 

@@ -22,7 +22,6 @@ from ttr import (
     TooLargeError,
     TTRError,
     TypeNode,
-    budgets,
     consistent,
     join,
     meet,
@@ -32,9 +31,10 @@ from ttr import (
     subtype,
     this,
 )
-from ttr.budgets import open_purse, spend, within_budget
-from ttr.checking import check
-from ttr.cli import main
+from ttr.cli.main import main
+from ttr.safety import budgets
+from ttr.safety.budgets import open_purse, spend, within_budget
+from ttr.theories.checking import check
 from ttr.updates import rule
 from ttr.updates.games import Game
 

@@ -26,17 +26,17 @@ from ttr import (
     merge,
     outer,
     proposition,
-    quantifiers,
     record,
     rectype,
     subtract,
     subtype,
     this,
 )
-from ttr.circles import circle
-from ttr.contents import content, strong, weak
-from ttr.learning import Counts, posterior
-from ttr.quantifiers import (
+from ttr.computing.cycles import circle
+from ttr.semantics import quantifiers
+from ttr.semantics.learning import Counts, posterior
+from ttr.semantics.parametric_content import content, strong, weak
+from ttr.semantics.quantifiers import (
     Thresholds,
     every,
     exist,
@@ -48,8 +48,8 @@ from ttr.quantifiers import (
     share,
     truth,
 )
-from ttr.theories import Axiom, Signature
-from ttr.variables import RandomVariable
+from ttr.semantics.random_variables import RandomVariable
+from ttr.theories.theory import Axiom, Signature
 
 man, run, dog, boy = (Pred(name, Ind) for name in ("man", "run", "dog", "boy"))
 love, hug = Pred("love", Ind, Ind), Pred("hug", Ind, Ind)
@@ -499,7 +499,7 @@ def test_T09_naive_bayes():
 
 
 def test_T07_the_perceptual_meaning_of_right():
-    from ttr.perceptual import Perceptron, RealVector, meaning
+    from ttr.semantics.perceptual import Perceptron, RealVector, meaning
 
     right = Pred("right", Ind)
     bg = rectype(foo=Ind, spkr=Ind, pos=RealVector)

@@ -24,8 +24,8 @@ from ttr import (
     replace,
     this,
 )
-from ttr.objects import fst
-from ttr.records import differences
+from ttr.types.objects import fst
+from ttr.types.records import differences
 from ttr.updates import (
     Game,
     all_,

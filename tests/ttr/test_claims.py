@@ -14,9 +14,9 @@ from ttr import (
     record,
     rectype,
 )
-from ttr.claims import entails, equivalent
-from ttr.propositions import judged, probabilistic, probabilistic_claim
-from ttr.theories import Axiom, Exclusion, Signature
+from ttr.judging.propositions import judged, probabilistic, probabilistic_claim
+from ttr.semantics.propositional_entailment import entails, equivalent
+from ttr.theories.theory import Axiom, Exclusion, Signature
 
 A, B = Basic("A"), Basic("B")
 M = Model().given("a", A, 0.75).given("b", A).given("b", B)

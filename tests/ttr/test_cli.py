@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from ttr.cli import main
+from ttr.cli.main import main
 
 THEORIES = Path(__file__).resolve().parent.parent / "theories"
 GOOD = (
@@ -30,7 +30,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def run(*words: str, **options: object) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "ttr.cli", *words]
+    command = [sys.executable, "-m", "ttr.cli.main", *words]
     return subprocess.run(  # type: ignore[call-overload,no-any-return]
         command,
         capture_output=True,
@@ -268,7 +268,8 @@ def test_show_keeps_the_names_of_definitions_on_demand(
 
 def test_the_command_says_its_version_and_loads_no_parser_for_help() -> None:
     assert run("--version").stdout.startswith("ttr 0.")
-    loaded = "import sys, ttr.cli\ntry: ttr.cli.main(['--help'])\nexcept SystemExit: "
+    loaded = "import sys; from ttr.cli.main import main\ntry: main(['--help'])\n"
+    loaded += "except SystemExit: "
     loaded += "print('lark' in sys.modules)"
     done = subprocess.run(
         [sys.executable, "-c", loaded], capture_output=True, text=True, check=True
@@ -280,7 +281,7 @@ def test_the_command_says_its_version_and_loads_no_parser_for_help() -> None:
 def test_an_interrupt_is_quiet(tmp_path: Path) -> None:
     pipe = tmp_path / "endless.ttr"
     os.mkfifo(pipe)
-    command = [sys.executable, "-m", "ttr.cli", "check", str(pipe)]
+    command = [sys.executable, "-m", "ttr.cli.main", "check", str(pipe)]
     with subprocess.Popen(command, stdout=-1, stderr=-1) as process:
         with pipe.open("w"):  # opens once the command has opened it to read
             process.send_signal(signal.SIGINT)
@@ -291,7 +292,7 @@ def test_an_interrupt_is_quiet(tmp_path: Path) -> None:
 def test_a_closed_pipe_is_quiet(folder: Path) -> None:
     reader, writer = os.pipe()
     os.close(reader)
-    command = [sys.executable, "-m", "ttr.cli", "check", "good.ttr"]
+    command = [sys.executable, "-m", "ttr.cli.main", "check", "good.ttr"]
     done = subprocess.run(command, stdout=writer, stderr=-1, check=False)
     os.close(writer)
     assert done.stderr == b""
@@ -300,7 +301,7 @@ def test_a_closed_pipe_is_quiet(folder: Path) -> None:
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
 def test_a_full_disk_is_one_line(folder: Path) -> None:
-    command = [sys.executable, "-m", "ttr.cli", "check", "good.ttr"]
+    command = [sys.executable, "-m", "ttr.cli.main", "check", "good.ttr"]
     with Path("/dev/full").open("wb") as full:
         done = subprocess.run(command, stdout=full, stderr=-1, check=False)
     told = b"ttr: the output cannot be written: no space left on device\n"

@@ -11,13 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ttr
-from ttr.cli import main
-from ttr.consent import Consent, NotAllowed, is_below
-from ttr.interactive.repl import respond
-from ttr.interactive.sessions import Session
-from ttr.logs import LogError, read_logs
-from ttr.stories import play, read_stories, setting
-from ttr.testing.processes import differing
+from ttr.cli.main import main
+from ttr.cli.session.repl import respond
+from ttr.cli.session.sessions import Session
+from ttr.dialogues.logs import LogError, read_logs
+from ttr.dialogues.stories import play, read_stories, setting
+from ttr.safety.consent import Consent, NotAllowed, is_below
+from ttr.testing.hash_seeds import differing
 
 GAMES = Path(__file__).parent.parent / "games"
 

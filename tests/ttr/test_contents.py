@@ -3,8 +3,8 @@
 import pytest
 
 from ttr import IllFormed, Ind, Model, Pred, Refused, fun, record, rectype, this
-from ttr.contents import apply, content, in_context, strong, weak
-from ttr.quantifiers import truth
+from ttr.semantics.parametric_content import apply, content, in_context, strong, weak
+from ttr.semantics.quantifiers import truth
 
 donkey, bray = Pred("donkey", Ind), Pred("bray", Ind)
 own, beat = Pred("own", Ind, Ind), Pred("beat", Ind, Ind)

@@ -17,10 +17,17 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.learning import JEFFREYS, LAPLACE, NO_SMOOTHING, Counts, Smoothing, lidstone
-from ttr.learning.counts import Weight
-from ttr.propositions import probabilistic
-from ttr.theories import Axiom, Signature
+from ttr.judging.propositions import probabilistic
+from ttr.semantics.learning import (
+    JEFFREYS,
+    LAPLACE,
+    NO_SMOOTHING,
+    Counts,
+    Smoothing,
+    lidstone,
+)
+from ttr.semantics.learning.counts import Weight
+from ttr.theories.theory import Axiom, Signature
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 Dog, Bark = Basic("Dog"), Basic("Bark")

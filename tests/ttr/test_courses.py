@@ -3,10 +3,10 @@
 import pytest
 
 from ttr import Basic, Ind, Model, Plus, Pred, Refused, Str, TTRError, Unsupported, this
-from ttr.constructors import rectype
-from ttr.courses import begun
+from ttr.building.constructors import rectype
 from ttr.errors import Unexpected
-from ttr.forms import star
+from ttr.semantics.string_prediction import begun
+from ttr.types.forms import star
 
 A, B, C = map(Basic, "ABC")
 M = Model().given("a", A).given("b", B).given("c", C).given("ab", A).given("ab", B)

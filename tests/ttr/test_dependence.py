@@ -21,8 +21,8 @@ from ttr import (
     subtype,
     this,
 )
-from ttr.theories import Axiom, Exclusion, Signature
-from ttr.variables import RandomVariable
+from ttr.semantics.random_variables import RandomVariable
+from ttr.theories.theory import Axiom, Exclusion, Signature
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 Below = Signature(axioms=(Axiom(A, B),))

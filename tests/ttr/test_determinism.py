@@ -8,7 +8,7 @@ import pytest
 
 PROGRAM = r"""
 from ttr import *
-from ttr.theories import Axiom, Signature
+from ttr.theories.theory import Axiom, Signature
 from ttr.updates import first, maybe, repeat, rule, run, seq
 
 hug, dog = Pred("hug", Ind, Ind), Pred("dog", Ind)

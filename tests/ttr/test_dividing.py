@@ -3,7 +3,7 @@
 import pytest
 
 from ttr import Basic, EventString, Ind, Model, Plus, Pred, Str, rectype, this
-from ttr.forms import star
+from ttr.types.forms import star
 
 A, B, C = map(Basic, "ABC")
 M = Model().given("a", A).given("b", B)

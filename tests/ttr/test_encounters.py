@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from ttr import IllFormed, RecType, UpdateError, load, rectype
-from ttr.encounters import Participant, meeting
+from ttr.dialogues.encounters import Participant, meeting
 from ttr.updates import Game
 
 FETCH = Path(__file__).parents[2] / "examples" / "fetch.ttr"

@@ -5,8 +5,8 @@ import pickle
 import pytest
 
 from ttr import IllFormed, Refused, TTRError
-from ttr.budgets import within_budget
 from ttr.errors import Span, Unsupported, suggestion
+from ttr.safety.budgets import within_budget
 
 TEXT = "basic Ind\nX := [x : Idn]\n"
 SPAN = Span.of("a.ttr", TEXT, 20, 23)

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from ttr.display.typesetting import latex_text
+from ttr.display.latex import latex_text
 from ttr.errors import Span, TTRError
 from ttr.escapes import (
     columns,
@@ -27,7 +27,7 @@ from ttr.escapes import (
     terminal_word,
 )
 from ttr.notation.reader import parse
-from ttr.printing import notation
+from ttr.types.printing import notation
 
 HOSTILE = (
     "\x1b]0;pwned\x07",

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from ttr import TTRError
-from ttr.cli import main
-from ttr.files import check_outputs, write_whole
+from ttr.cli.main import main
+from ttr.safety.files import check_outputs, write_whole
 
 DOOR = Path(__file__).parents[1] / "games" / "door.dlg"
 

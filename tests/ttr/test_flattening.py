@@ -17,7 +17,7 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.reshaping.flattening import flatten, unflatten
+from ttr.building.flattening import flatten, unflatten
 
 A = Basic("A")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

@@ -16,8 +16,8 @@ from ttr import (
     this,
     wellformed,
 )
-from ttr.circles import in_order
-from ttr.theories import Axiom, Signature
+from ttr.computing.cycles import in_order
+from ttr.theories.theory import Axiom, Signature
 
 Dog, Image = Basic("Dog"), Basic("Image")
 dog = Pred("dog", Ind)

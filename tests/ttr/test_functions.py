@@ -14,7 +14,7 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.reshaping.functions import fix, restrict
+from ttr.building.functions import fix, restrict
 
 A = Basic("A")
 man, run, hug = Pred("man", Ind), Pred("run", Ind), Pred("hug", Ind, Ind)

@@ -17,9 +17,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from ttr import NotationError, Theory, TTRError
-from ttr.printing import notation
-from ttr.syntax import Object, identity
-from ttr.theories import Mistakes
+from ttr.theories.theory import Mistakes
+from ttr.types.printing import notation
+from ttr.types.syntax import Object, identity
 
 DECLARED = r"""
 basic Ind, A

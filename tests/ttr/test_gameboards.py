@@ -5,10 +5,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import Ind, ListOf, Model, Pred, Rec, RecType, Type, record, rectype
-from ttr.encounters import Participant, meeting
+from ttr.dialogues.encounters import Participant, meeting
 from ttr.errors import NotHeard
-from ttr.gameboards import cooper, kos
-from ttr.questions import Question, whether, which
+from ttr.semantics.gameboards import cooper, kos
+from ttr.semantics.questions import Question, whether, which
 from ttr.updates.checks import faults_of
 
 leave, run_ = Pred("leave", Ind), Pred("run", Ind)

@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 import pytest
 
 from ttr import Theory, TTRError
-from ttr.cli import main
+from ttr.cli.main import main
 
 CODES = "\x1b]0;pwned\x07\x9b1m\u202egrab\u2028<script>x</script>"
 SEEN = r"\x1b]0;pwned\x07\x9b1m\u202egrab\u2028<script>x</script>"

@@ -3,10 +3,10 @@
 import pytest
 
 from ttr import Basic, Pred, RecordType, Str, Theory, rectype, subtype, this
-from ttr.forms import star
-from ttr.strings.automata import automaton
-from ttr.strings.inclusion import included
-from ttr.syntax import Ind, ListOf, Plus
+from ttr.computing.strings.automata import automaton
+from ttr.computing.strings.inclusion import included
+from ttr.types.forms import star
+from ttr.types.syntax import Ind, ListOf, Plus
 
 A, B, C, D = map(Basic, "ABCD")
 dog = Pred("dog", Ind)

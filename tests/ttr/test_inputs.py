@@ -13,8 +13,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ttr.cli import main
-from ttr.inputs import (
+from ttr.cli.main import main
+from ttr.safety.inputs import (
     DEPTH,
     ask_line,
     open_file,
@@ -25,7 +25,7 @@ from ttr.inputs import (
     read_lines,
     read_text,
 )
-from ttr.limits import FACTOR, LINE, THEORY, Limit, TooMuch
+from ttr.safety.limits import FACTOR, LINE, THEORY, Limit, TooMuch
 
 FEW = Limit(10, "bytes")
 

@@ -7,7 +7,7 @@ import pytest
 
 from kille.perception.learners import check_learner
 from ttr import Basic, Ind, Pred, TTRError, outer, rectype, this
-from ttr.learning import LAPLACE, Learner, LogOdds, NaiveBayes, feature_types
+from ttr.semantics.learning import LAPLACE, Learner, LogOdds, NaiveBayes, feature_types
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 red, big = Pred("red", Ind), Pred("big", Ind)

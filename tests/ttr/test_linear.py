@@ -5,8 +5,8 @@ import math
 import pytest
 
 from ttr import Basic, Refused, TTRError
-from ttr.learning import LAPLACE, LogOdds, NaiveBayes
-from ttr.learning.fitting import Example, fitted, logistic
+from ttr.semantics.learning import LAPLACE, LogOdds, NaiveBayes
+from ttr.semantics.learning.logistic_regression import Example, fitted, logistic
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 COPIES = tuple(Basic(f"Copy{n}") for n in range(5))

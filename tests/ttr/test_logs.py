@@ -17,8 +17,8 @@ import pytest
 
 from ttr import Model, Pred, record, rectype, this
 from ttr import replace as replaced
-from ttr.cli import main
-from ttr.logs import (
+from ttr.cli.main import main
+from ttr.dialogues.logs import (
     Log,
     LogError,
     LogFile,
@@ -28,9 +28,9 @@ from ttr.logs import (
     run_after,
     story_of,
 )
-from ttr.stories import Setting, moment, play, read_stories, setting
-from ttr.syntax import Ind, ListOf, RecType
-from ttr.theories import Theory
+from ttr.dialogues.stories import Setting, moment, play, read_stories, setting
+from ttr.theories.theory import Theory
+from ttr.types.syntax import Ind, ListOf, RecType
 from ttr.updates import Game, Turn, nbest, rule
 
 GAMES = Path(__file__).parent.parent / "games"
@@ -262,8 +262,8 @@ def test_a_log_that_was_cut_and_is_gone_on_with_equals_the_whole(
 WRITER = """
 import sys
 from pathlib import Path
-from ttr.logs import LogFile
-from ttr.stories import setting
+from ttr.dialogues.logs import LogFile
+from ttr.dialogues.stories import setting
 
 games, path = map(Path, sys.argv[1:])
 door = setting("door.ttr door", games)

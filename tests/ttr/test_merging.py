@@ -16,9 +16,9 @@ from ttr import (
     rectype,
     this,
 )
+from ttr.building.merging import singleton_type
 from ttr.errors import TTRError
-from ttr.merging import singleton_type
-from ttr.theories import Axiom, Signature
+from ttr.theories.theory import Axiom, Signature
 
 A, B, Dog = Basic("A"), Basic("B"), Basic("Dog")
 dog = Pred("dog", Ind)

@@ -31,9 +31,9 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.forms import star
-from ttr.theories import Axiom, Given, Signature
-from ttr.witnesses import candidates
+from ttr.judging.witnesses import candidates
+from ttr.theories.theory import Axiom, Given, Signature
+from ttr.types.forms import star
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 p = Pred("p", A)

@@ -3,8 +3,8 @@
 import pytest
 
 from ttr import Basic, IllFormed, Negation, Unsupported, join, meet, rectype
-from ttr.cases import cases
-from ttr.normal_forms import join_normal_form, meet_normal_form
+from ttr.computing.case_analysis import cases
+from ttr.computing.normal_forms import join_normal_form, meet_normal_form
 
 A, B, C, D = map(Basic, "ABCD")
 

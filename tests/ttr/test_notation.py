@@ -38,8 +38,8 @@ from ttr import (
     rst,
     this,
 )
-from ttr.printing import notation
-from ttr.syntax import Object
+from ttr.types.printing import notation
+from ttr.types.syntax import Object
 
 A, B = Basic("A"), Basic("B")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

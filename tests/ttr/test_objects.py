@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ttr import FiniteSet, IllFormed, Ind, Record, TTRError, outer, record, this
-from ttr.objects import freeze
-from ttr.syntax import Path
+from ttr.types.objects import freeze
+from ttr.types.syntax import Path
 
 r = record(x="fido", bg=record(size=3), keys="k", items=[1, [2]])
 

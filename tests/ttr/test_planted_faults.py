@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from ttr import Basic, ListOf, Model, Theory, TTRError, record, rectype, replace
-from ttr.cli import main
+from ttr.cli.main import main
 from ttr.updates import by_class, first, nbest, repeat, rule
 from ttr.updates.checks import faults
 

@@ -20,7 +20,8 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.possibilities import (
+from ttr.judging.propositions import probabilistic
+from ttr.semantics.modality import (
     ModalSystem,
     modal_system,
     nec,
@@ -28,8 +29,7 @@ from ttr.possibilities import (
     poss,
     possibly,
 )
-from ttr.propositions import probabilistic
-from ttr.theories import Axiom, Signature
+from ttr.theories.theory import Axiom, Signature
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

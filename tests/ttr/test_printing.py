@@ -25,7 +25,7 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.printing import notation
+from ttr.types.printing import notation
 
 dog, hug, asks = Pred("dog", Ind), Pred("hug", Ind, Ind), Pred("asks", Type)
 A, Type1 = Basic("A"), Universe("Type", 1)

@@ -18,8 +18,7 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.objects import FiniteSet
-from ttr.quantifiers import (
+from ttr.semantics.quantifiers import (
     DETERMINERS,
     Extension,
     Thresholds,
@@ -46,6 +45,7 @@ from ttr.quantifiers import (
     share,
     truth,
 )
+from ttr.types.objects import FiniteSet
 
 dog, bark, boy = (Pred(name, Ind) for name in ("dog", "bark", "boy"))
 hug = Pred("hug", Ind, Ind)

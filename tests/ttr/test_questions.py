@@ -19,7 +19,7 @@ from ttr import (
     subtype,
     this,
 )
-from ttr.questions import (
+from ttr.semantics.questions import (
     Question,
     asked_of,
     combine,

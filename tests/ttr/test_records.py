@@ -3,7 +3,7 @@
 import pytest
 
 from ttr import TTRError, record, replace
-from ttr.records import differences
+from ttr.types.records import differences
 
 r = record(x="a", bg=record(size=3, n={"y": 1}))
 

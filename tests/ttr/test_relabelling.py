@@ -20,7 +20,7 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.reshaping.relabelling import relabel
+from ttr.building.relabelling import relabel
 
 A, B = Basic("A"), Basic("B")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

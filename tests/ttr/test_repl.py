@@ -18,13 +18,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ttr
-from ttr.interactive.completing import completions
-from ttr.interactive.repl import COMMANDS, Pending, is_complete, respond
-from ttr.interactive.sessions import Session
+from ttr.cli.session.completion import completions
+from ttr.cli.session.repl import COMMANDS, Pending, is_complete, respond
+from ttr.cli.session.sessions import Session
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 PAGE = ROOT / "docs" / "how-to" / "try-things-out.md"
-REPL = [sys.executable, "-m", "ttr.cli", "repl"]
+REPL = [sys.executable, "-m", "ttr.cli.main", "repl"]
 
 KENNEL = """\
 basic Ind
@@ -699,7 +699,7 @@ def test_what_is_said_already_is_not_worked_out_again(monkeypatch):
     def again(*_):
         raise AssertionError("the whole session is read again")
 
-    monkeypatch.setattr("ttr.interactive.sessions.theory_of_text", again)
+    monkeypatch.setattr("ttr.cli.session.sessions.theory_of_text", again)
     for line in said:
         reply = respond(session, line)
         assert reply.text == ""

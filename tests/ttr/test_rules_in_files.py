@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from ttr.checking import check
-from ttr.display.folding import folding
+from ttr.cli.session.repl import is_complete, respond
+from ttr.cli.session.sessions import Session
+from ttr.display.abbreviations import folding
 from ttr.errors import (
     NoState,
     NotationError,
@@ -17,15 +18,14 @@ from ttr.errors import (
     Unsupported,
     UpdateError,
 )
-from ttr.interactive.repl import is_complete, respond
-from ttr.interactive.sessions import Session
-from ttr.models import Model
+from ttr.judging.models import Model
 from ttr.probability import Degree
-from ttr.syntax import Record, RecordType, record
-from ttr.theories import Mistakes, Theory, load
+from ttr.theories.checking import check
+from ttr.theories.theory import Mistakes, Theory, load
+from ttr.types.syntax import Record, RecordType, record
 from ttr.updates import all_, by_class, first, maybe, nbest, repeat, rule, run, seq
-from ttr.updates.stepping import stepped, why_not
-from ttr.updates.writing import declaration, written
+from ttr.updates.rule_application import stepped, why_not
+from ttr.updates.rule_notation import declaration, written
 
 BOARD = """\
 basic Ind, Act

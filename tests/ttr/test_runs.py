@@ -3,9 +3,9 @@
 from itertools import islice
 
 from ttr import Basic, Plus, Str
-from ttr.forms import star
-from ttr.strings.automata import automaton
-from ttr.strings.runs import Stop, a_way, all_ways, covers, shortest
+from ttr.computing.strings.automata import automaton
+from ttr.computing.strings.runs import Stop, a_way, all_ways, covers, shortest
+from ttr.types.forms import star
 
 A, B, C = map(Basic, "ABC")
 

@@ -20,8 +20,8 @@ from ttr import (
     rectype,
     replace,
 )
-from ttr.cli import main
-from ttr.stories import (
+from ttr.cli.main import main
+from ttr.dialogues.stories import (
     Line,
     Mismatch,
     Moment,
@@ -35,7 +35,7 @@ from ttr.stories import (
     setting,
     written,
 )
-from ttr.theories import Theory
+from ttr.theories.theory import Theory
 from ttr.updates import Game, first, nbest, rule
 
 DOOR = (Path(__file__).parent.parent / "games" / "door.ttr").read_text("utf-8")
@@ -366,7 +366,7 @@ from dataclasses import dataclass
 
 from beside import Greet
 from ttr import Model, replace
-from ttr.syntax import ListOf, RecType
+from ttr.types.syntax import ListOf, RecType
 from ttr import rectype
 from ttr.updates import Game, rule
 

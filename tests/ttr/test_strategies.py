@@ -32,9 +32,9 @@ from ttr import (
     this,
     wellformed,
 )
-from ttr import strategies as tst
-from ttr.circles import circle
-from ttr.paths import escaping, occurring, parts
+from ttr.computing.cycles import circle
+from ttr.testing import strategies as tst
+from ttr.types.paths import escaping, occurring, parts
 
 many = settings(
     max_examples=1000,
@@ -207,11 +207,11 @@ def test_wrong_arguments_are_named():
 def test_what_is_missing_is_said(monkeypatch):
     for name in [name for name in sys.modules if name.split(".")[0] == "hypothesis"]:
         monkeypatch.delitem(sys.modules, name)
-    for name in ("ttr.strategies", "ttr.arbitrary"):
+    for name in ("ttr.testing.strategies", "ttr.testing.strategies.arbitrary"):
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "hypothesis", None)
     with pytest.raises(ImportError, match=r"pip install 'kille\[test\]'"):
-        import ttr.strategies  # noqa: F401
+        import ttr.testing.strategies  # noqa: F401
 
 
 def test_fields_are_set_to_objects_and_to_other_fields():

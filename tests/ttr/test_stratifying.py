@@ -23,9 +23,9 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.levels import level_of
-from ttr.strategies import types
-from ttr.stratifying import levelled_judgement, with_levels, without_levels
+from ttr.building.level_inference import levelled_judgement, with_levels, without_levels
+from ttr.computing.universe_levels import level_of
+from ttr.testing.strategies import types
 
 T1, T2, T3 = (Universe("Type", n) for n in (1, 2, 3))
 Of_types = rectype(x=Type)

@@ -14,8 +14,7 @@ from ttr import (
     join,
     rectype,
 )
-from ttr.forms import star
-from ttr.strings.forms import (
+from ttr.computing.strings.pieces import (
     alternatives,
     events_of,
     is_of_strings,
@@ -23,6 +22,7 @@ from ttr.strings.forms import (
     regular_above,
     string_of,
 )
+from ttr.types.forms import star
 
 A, B, C = map(Basic, "ABC")
 

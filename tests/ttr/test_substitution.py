@@ -3,10 +3,10 @@
 import pytest
 
 from ttr import Ind, Pred, outer, record, rectype, this
-from ttr.objects import Unresolved
-from ttr.paths import replace_paths
-from ttr.substitution import along, grounded
-from ttr.syntax import Path
+from ttr.types.objects import Unresolved
+from ttr.types.paths import replace_paths
+from ttr.types.substitution import along, grounded
+from ttr.types.syntax import Path
 
 hug = Pred("hug", Ind, Ind)
 

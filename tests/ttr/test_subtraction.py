@@ -3,7 +3,7 @@
 import pytest
 
 from ttr import Basic, IllFormed, Ind, Pred, Rec, meet, outer, record, rectype, this
-from ttr.reshaping.subtraction import subtract
+from ttr.building.subtraction import subtract
 
 A = Basic("A")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

@@ -22,7 +22,7 @@ from ttr import (
     subtype,
     this,
 )
-from ttr.theories import Axiom, Signature
+from ttr.theories.theory import Axiom, Signature
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 p, q = Pred("p", (A,), (B,)), Pred("q", (A, A), (B, B))

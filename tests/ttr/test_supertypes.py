@@ -22,7 +22,7 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.reshaping.supertypes import common_supertype
+from ttr.building.generalisation import common_supertype
 
 A, B, C = map(Basic, "ABC")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

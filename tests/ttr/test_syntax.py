@@ -24,8 +24,8 @@ from ttr import (
     rectype,
     this,
 )
-from ttr.paths import escaping
-from ttr.syntax import Path, identity
+from ttr.types.paths import escaping
+from ttr.types.syntax import Path, identity
 
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)
 
@@ -90,7 +90,7 @@ def test_an_object_of_a_class_of_its_own_stays_what_it_is():
 
 def test_nodes_are_let_go():
     def pool():
-        from ttr import interning
+        from ttr.types import interning
 
         gc.collect()
         return len(interning._pool)

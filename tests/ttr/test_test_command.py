@@ -9,8 +9,8 @@ import time
 
 import pytest
 
-from ttr.cli import main
-from ttr.commands.test import _bar
+from ttr.cli.commands.test import _bar
+from ttr.cli.main import main
 
 GOOD = """
     basic Word
@@ -136,7 +136,7 @@ def test_what_is_not_there_is_told_in_a_line(rules, told, capsys):
 
 def test_that_hypothesis_is_not_there_is_told_in_a_line(monkeypatch, capsys):
     for name in list(sys.modules):
-        if name.startswith(("hypothesis", "ttr.testing", "ttr.strategies")):
+        if name.startswith(("hypothesis", "ttr.testing", "ttr.testing.strategies")):
             monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "hypothesis", None)
     assert main(["test", "good.ttr"]) == 2
@@ -176,7 +176,7 @@ def test_rules_that_depend_on_the_order_of_sets_differ_between_processes(
 
 @pytest.mark.skipif(os.name == "nt", reason="there are no such signals")
 def test_ctrl_c_tells_what_was_covered_so_far(folder):
-    command = [sys.executable, "-m", "ttr.cli", "test", "good.ttr"]
+    command = [sys.executable, "-m", "ttr.cli.main", "test", "good.ttr"]
     process = subprocess.Popen(
         [*command, "--examples", "100000"],
         stdout=subprocess.PIPE,

@@ -20,10 +20,10 @@ from ttr import (
     testing,
     this,
 )
-from ttr import strategies as tst
-from ttr.stories import play as play_story
-from ttr.stories import read_stories, setting
+from ttr.dialogues.stories import play as play_story
+from ttr.dialogues.stories import read_stories, setting
 from ttr.testing import Breach, Property, Roles, Suite, Tutor
+from ttr.testing import strategies as tst
 from ttr.updates import Game, by_class, first, maybe, nbest, repeat, rule, seq
 
 Word = Basic("Word")

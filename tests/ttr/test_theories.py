@@ -12,18 +12,18 @@ from pathlib import Path
 import pytest
 
 import ttr
-from ttr.checking import check
-from ttr.constructors import rectype
+from ttr.building.constructors import rectype
+from ttr.computing.subtyping import subtype
 from ttr.errors import IllFormed, NotationError, Span, TTRError
-from ttr.notation.drafts import Draft
 from ttr.notation.grammar import statement
-from ttr.notation.loading import Unreadable
-from ttr.notation.statements import Declaring
-from ttr.notation.trees import Part, Source
-from ttr.subtyping import subtype
-from ttr.syntax import Basic, Ind, Pred, this
-from ttr.syntax import Path as LabelPath
-from ttr.theories import Axiom, Mistakes, Theory, load, theory_of_draft
+from ttr.notation.syntax_trees import Part, Source
+from ttr.theories.checking import check
+from ttr.theories.drafts import Draft
+from ttr.theories.loading import Unreadable
+from ttr.theories.statements import Declaring
+from ttr.theories.theory import Axiom, Mistakes, Theory, load, theory_of_draft
+from ttr.types.syntax import Basic, Ind, Pred, this
+from ttr.types.syntax import Path as LabelPath
 
 NAMES = """
 basic Ind, Image

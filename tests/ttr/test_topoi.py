@@ -18,8 +18,7 @@ from ttr import (
     subtype,
     this,
 )
-from ttr.theories import Axiom, Signature
-from ttr.topoi import (
+from ttr.semantics.topoi import (
     Topos,
     combined,
     compatible,
@@ -29,6 +28,7 @@ from ttr.topoi import (
     topos,
     underpins,
 )
+from ttr.theories.theory import Axiom, Signature
 
 bird, penguin, fly, swim = (Pred(n, Ind) for n in ("bird", "penguin", "fly", "swim"))
 Bird = rectype(x=Ind, c=bird(this.x))

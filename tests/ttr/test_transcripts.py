@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from ttr import record, rectype
-from ttr.cli import main
-from ttr.display.comparing import compared
+from ttr.cli.main import main
+from ttr.dialogues.stories import Setting, moment, setting
+from ttr.dialogues.transcripts import Transcribed, transcript
+from ttr.display.differences import compared
 from ttr.display.layout import Matrix
-from ttr.stories import Setting, moment, setting
-from ttr.transcripts import Transcribed, transcript
 
 GAMES = Path(__file__).parent.parent / "games"
 VOID = {"meta", "br", "hr"}

@@ -12,12 +12,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import Model, Rec, TTRError, rectype
+from ttr.dialogues.stories import play, read_stories, setting
 from ttr.errors import NotHeard
-from ttr.gameboards.ibis import Domain, PhraseBook, utterance
-from ttr.gameboards.ibis import terms as moves
-from ttr.gameboards.ibis.domains import asked_in, size
-from ttr.questions import resolves, resolving, whether, which
-from ttr.stories import play, read_stories, setting
+from ttr.semantics.gameboards.ibis import Domain, PhraseBook, utterance
+from ttr.semantics.gameboards.ibis import moves as moves
+from ttr.semantics.gameboards.ibis.domains import asked_in, size
+from ttr.semantics.questions import resolves, resolving, whether, which
 from ttr.updates.checks import faults_of
 
 FOLDER = Path(__file__).resolve().parents[2] / "examples" / "travel"

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import kille.interfaces.cli as kille_cli
-import ttr.cli as ttr_cli
-from ttr.unforeseen import DEBUG, guarded, report_unforeseen
+import ttr.cli.main as ttr_cli
+from ttr.safety.unforeseen_errors import DEBUG, guarded, report_unforeseen
 
 MAINS: dict[str, tuple[object, Callable[[list[str]], int]]] = {
     "ttr": (ttr_cli, ttr_cli.main),

@@ -11,7 +11,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, TypeAlias
 
-from ttr.brackets import (
+from ttr.escapes import columns, terminal_line
+from ttr.safety.budgets import spend
+from ttr.types.paths import parts as contents
+from ttr.types.precedence import (
     WORDS,
     begins_with_bracket,
     binds,
@@ -19,11 +22,8 @@ from ttr.brackets import (
     is_loose,
     is_loose_beside,
 )
-from ttr.budgets import spend
-from ttr.escapes import columns, terminal_line
-from ttr.paths import parts as contents
-from ttr.printing import Scope, as_object, head, notation, variable
-from ttr.syntax import (
+from ttr.types.printing import Scope, as_object, head, notation, variable
+from ttr.types.syntax import (
     BOUND,
     Application,
     Basic,

@@ -20,10 +20,10 @@ from lark.tree import Meta
 from lark.visitors import Transformer_NonRecursive, v_args
 
 from ttr.errors import NotationError, Span
-from ttr.notation import trees
-from ttr.notation.misreadings import explained, shown, stopped
+from ttr.notation import syntax_trees as trees
 from ttr.notation.scanning import DEPTH, blocks, too_deep, vetted, with_backslashes
-from ttr.notation.trees import Source, Statement, Term
+from ttr.notation.syntax_errors import explained, shown, stopped
+from ttr.notation.syntax_trees import Source, Statement, Term
 
 __all__ = ["blocks", "statement", "term", "vetted"]
 

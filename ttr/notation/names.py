@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
 from ttr.errors import IllFormed
-from ttr.paths import occurring
-from ttr.signature import Opening, Signature
-from ttr.syntax import Basic, Object, Pred
+from ttr.signature.signature import Opening, Signature
+from ttr.types.paths import occurring
+from ttr.types.syntax import Basic, Object, Pred
 
 if TYPE_CHECKING:
     from ttr.updates.algorithms import Algorithm
@@ -90,7 +90,7 @@ def vocabulary_of(*values: object) -> Vocabulary:
 
     Raises `IllFormed` where two predicates of one name occur.
 
-    >>> from ttr.syntax import Ind, Pred
+    >>> from ttr.types.syntax import Ind, Pred
     >>> sorted(vocabulary_of(Pred("dog", (Ind,))("fido")).names)
     ['Ind', 'dog', 'fido']
     """

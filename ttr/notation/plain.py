@@ -11,9 +11,9 @@ import re
 from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
-from ttr.notation.misreadings import KEYWORDS
 from ttr.notation.scanning import DEPTH
-from ttr.notation.trees import (
+from ttr.notation.syntax_errors import KEYWORDS
+from ttr.notation.syntax_trees import (
     Application,
     Arity,
     BasicNames,

@@ -4,7 +4,7 @@ In argument position a bare name is the innermost variable or label of that name
 it, else an object; a dot or carets start a path explicitly. In type position a name is
 a type. Before a bracket it is a variable, else a predicate, else any function.
 
->>> from ttr.syntax import Ind, Pred
+>>> from ttr.types.syntax import Ind, Pred
 >>> dog = Pred("dog", Ind)
 >>> parse("[x : Ind, c : dog(x)]", using=[Ind, dog])
 rectype(x=Basic('Ind'), c=Pred('dog', Basic('Ind'))(this.x))
@@ -20,15 +20,13 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, NoReturn, TypeVar
 
-from ttr.budgets import within_budget
-from ttr.constructors import Pi, fun, rectype
+from ttr.building.constructors import Pi, fun, rectype
+from ttr.building.merging import amerge, merge
 from ttr.errors import IllFormed, NotationError, TTRError, suggestion
-from ttr.forms import function_type, star
-from ttr.merging import amerge, merge
-from ttr.notation.culprits import culprit, misfit, refused
-from ttr.notation.misreadings import shown
+from ttr.notation.error_location import culprit, misfit, refused
 from ttr.notation.names import Names, is_declared, meaning, vocabulary_of
-from ttr.notation.trees import (
+from ttr.notation.syntax_errors import shown
+from ttr.notation.syntax_trees import (
     Abstraction,
     Arrow,
     Braces,
@@ -51,13 +49,15 @@ from ttr.notation.trees import (
     Term,
     Word,
 )
-from ttr.notation.trees import Application as Call
-from ttr.objects import Unresolved, check_label, concat, fst, rst
-from ttr.printing import RESERVED, Scope
+from ttr.notation.syntax_trees import Application as Call
 from ttr.probability import degree
-from ttr.signature import Interval, Signature
-from ttr.substitution import along
-from ttr.syntax import (
+from ttr.safety.budgets import within_budget
+from ttr.signature.signature import Interval, Signature
+from ttr.types.forms import function_type, star
+from ttr.types.objects import Unresolved, check_label, concat, fst, rst
+from ttr.types.printing import RESERVED, Scope
+from ttr.types.substitution import along
+from ttr.types.syntax import (
     BOUND,
     Application,
     EventString,
@@ -128,7 +128,7 @@ def parse(text: str, using: Iterable[object] = ()) -> Object:
     types and objects built of them. Raises `NotationError` for what is no notation and
     `IllFormed` for a type that cannot be.
 
-    >>> from ttr.syntax import Ind
+    >>> from ttr.types.syntax import Ind
     >>> parse("list(Ind)", using=[Ind]) is ListOf(Ind)
     True
     """

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from typing import NoReturn
 
 from ttr.errors import NotationError, Span
-from ttr.notation.misreadings import KEYWORDS
-from ttr.notation.trees import UNNAMED, Source
+from ttr.notation.syntax_errors import KEYWORDS
+from ttr.notation.syntax_trees import UNNAMED, Source
 
 __all__ = ["DEPTH", "blocks", "too_deep", "vetted", "with_backslashes"]
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from typing import NamedTuple, TypeAlias
 
-from ttr.budgets import spend
 from ttr.probability.degrees import CERTAIN, REFUTED, UNKNOWN, Degree, ordered
 from ttr.probability.dependence import INDEPENDENT, Component, Dependence
 from ttr.probability.events import (
@@ -25,6 +24,7 @@ from ttr.probability.independent import bounds, in_cases
 from ttr.probability.networks import Impossible, Network, conjunction, network
 from ttr.probability.polytopes import Polytope, polytope
 from ttr.probability.programs import Infeasible
+from ttr.safety.budgets import spend
 
 __all__ = ["Chance", "Contradiction", "Impossible", "are_apart", "chance"]
 

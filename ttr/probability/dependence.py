@@ -13,9 +13,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeVar
 
-from ttr.budgets import spend
 from ttr.probability.degrees import UNKNOWN, Degree
 from ttr.probability.events import Event, Truth, substituted
+from ttr.safety.budgets import spend
 
 __all__ = ["INDEPENDENT", "Component", "Conditional", "Dependence"]
 

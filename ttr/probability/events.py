@@ -10,8 +10,8 @@ from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from ttr.budgets import spend
 from ttr.probability.degrees import CERTAIN, REFUTED, Degree
+from ttr.safety.budgets import spend
 
 __all__ = [
     "All",

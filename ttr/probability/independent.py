@@ -7,9 +7,9 @@ from collections import Counter
 from collections.abc import Hashable, Mapping
 from itertools import product
 
-from ttr.budgets import spend
 from ttr.probability.degrees import Degree, ordered
 from ttr.probability.events import All, AnyOf, Atomic, Event, Not, atoms, signs
+from ttr.safety.budgets import spend
 
 __all__ = ["bounds", "in_cases", "shared"]
 

@@ -14,11 +14,11 @@ from fractions import Fraction
 from itertools import product
 from math import prod
 
-from ttr.budgets import spend
 from ttr.probability.degrees import REFUTED, UNKNOWN, Degree, ordered
 from ttr.probability.dependence import Component
 from ttr.probability.events import Truth
 from ttr.probability.programs import units
+from ttr.safety.budgets import spend
 
 __all__ = ["Impossible", "Network", "conjunction", "network"]
 

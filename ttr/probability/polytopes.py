@@ -10,12 +10,12 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
 
-from ttr.budgets import spend
 from ttr.probability.degrees import Degree, ordered
 from ttr.probability.dependence import Component
 from ttr.probability.events import Truth
 from ttr.probability.networks import Impossible
 from ttr.probability.programs import Infeasible, Row, least, units
+from ttr.safety.budgets import spend
 
 __all__ = ["Polytope", "feasible", "polytope"]
 

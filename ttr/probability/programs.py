@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 
-from ttr.budgets import spend
+from ttr.safety.budgets import spend
 
 __all__ = ["Infeasible", "Row", "least", "units"]
 

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from ttr.testing.agendas import DONE_ONCE
-from ttr.testing.dead import NO_DEAD_RULE
+from ttr.testing.determinism import CONFLUENT, DETERMINISTIC, REPLAYS
 from ttr.testing.discourse import COMMITMENTS_STAY, DOWNDATES_ONCE, QUD_DISCIPLINE
-from ttr.testing.flows import ANSWERED, EMPTIES
-from ttr.testing.grounding import AGREED_ONCE, SAID_FIRST
-from ttr.testing.hearing import NOTHING_DROPPED
+from ttr.testing.groundedness import AGREED_ONCE, SAID_FIRST
+from ttr.testing.pending_items import ANSWERED, EMPTIES
 from ttr.testing.properties import Property
-from ttr.testing.repeating import CONFLUENT, DETERMINISTIC, REPLAYS
 from ttr.testing.soundness import (
     KEEPS_TYPE,
     NAMES_BOUND,
@@ -17,8 +15,10 @@ from ttr.testing.soundness import (
     PURE,
     TERMINATES,
 )
-from ttr.testing.speakers import IN_TURN
-from ttr.testing.turns import EVENTS_ONCE, FRESH_ANSWERS, ROUND_TRIP, TAKES_TURNS
+from ttr.testing.speaker_rights import IN_TURN
+from ttr.testing.turn_taking import EVENTS_ONCE, FRESH_ANSWERS, ROUND_TRIP, TAKES_TURNS
+from ttr.testing.unused_rules import NO_DEAD_RULE
+from ttr.testing.uptake import NOTHING_DROPPED
 
 __all__ = ["ALL", "OF_GAMES", "OF_ONE_RULE"]
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from ttr.strategies.playing import Dialogue
+from ttr.testing.strategies.playthroughs import Dialogue
 from ttr.updates.games import Game
 
 __all__ = ["Coverage"]
@@ -49,7 +49,7 @@ class Coverage:
     def table(self) -> str:
         """The rules with how often they were applied, and which came next most often.
 
-        >>> from ttr.constructors import rectype
+        >>> from ttr.building.constructors import rectype
         >>> from ttr.updates import rule
         >>> @rule(when=rectype())
         ... def rest(s):

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from ttr.errors import TTRError
-from ttr.strategies.playing import Dialogue
-from ttr.strategies.roles import Roles
 from ttr.testing.coverage import Coverage
+from ttr.testing.strategies.discourse_roles import Roles
+from ttr.testing.strategies.playthroughs import Dialogue
 
 if TYPE_CHECKING:
-    from ttr.testing.flows import Flows, Seen
+    from ttr.testing.pending_items import Flows, Seen
 
 __all__ = ["Breach", "Checked", "Property"]
 

@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ttr.errors import Endless, NoState, RuleFailed, TTRError
-from ttr.objects import Unresolved
 from ttr.probability import CERTAIN
-from ttr.records import differences
-from ttr.strategies.playing import Dialogue
-from ttr.strategies.roles import Roles
 from ttr.testing.properties import Checked, Property
-from ttr.testing.stepping import rerun
+from ttr.testing.single_rules import rerun
+from ttr.testing.strategies.discourse_roles import Roles
+from ttr.testing.strategies.playthroughs import Dialogue
+from ttr.types.objects import Unresolved
+from ttr.types.records import differences
 from ttr.updates.running import Step
 
 __all__ = ["KEEPS_TYPE", "NAMES_BOUND", "NEVER_BREAKS", "PURE", "TERMINATES"]

@@ -8,25 +8,25 @@ from dataclasses import dataclass, field, replace
 
 from hypothesis import strategies as st
 
+from ttr.building.merging import merge
+from ttr.dialogues.stories import Setting
 from ttr.errors import TTRError
 from ttr.escapes import terminal_text
-from ttr.merging import merge
-from ttr.models import Model, as_model
-from ttr.stories import Setting
-from ttr.strategies.dialogues import TURNS, dialogues
-from ttr.strategies.playing import Dialogue
-from ttr.strategies.roles import Roles
-from ttr.strategies.states import states
-from ttr.strategies.tutors import Speaker, Tutor
-from ttr.syntax import Record, RecordType, kind_of
+from ttr.judging.models import Model, as_model
 from ttr.testing.catalogue import ALL, OF_GAMES, OF_ONE_RULE
 from ttr.testing.coverage import Coverage
-from ttr.testing.flows import Flows
+from ttr.testing.determinism import DETERMINISTIC
+from ttr.testing.failure_story import story
+from ttr.testing.pending_items import Flows
 from ttr.testing.properties import Breach, Property, chosen
-from ttr.testing.repeating import DETERMINISTIC
-from ttr.testing.searching import DRAWN, DRAWN_AND_SHRUNK, Unsteady, how_many, search
-from ttr.testing.shortening import Broken
-from ttr.testing.telling import story
+from ttr.testing.search import DRAWN, DRAWN_AND_SHRUNK, Unsteady, how_many, search
+from ttr.testing.shrinking import Broken
+from ttr.testing.strategies.discourse_roles import Roles
+from ttr.testing.strategies.playthroughs import Dialogue
+from ttr.testing.strategies.random_dialogues import TURNS, dialogues
+from ttr.testing.strategies.random_states import states
+from ttr.testing.strategies.tutors import Speaker, Tutor
+from ttr.types.syntax import Record, RecordType, kind_of
 from ttr.updates.algorithms import Algorithm, first
 from ttr.updates.checks import Fault, faults, faults_of
 from ttr.updates.games import Game
@@ -200,9 +200,9 @@ def check_rules(
     on (P14), or that what is planned is made (P23). The same `seed` draws the same
     dialogues. Raises `TTRError` for what is no rule set.
 
-    >>> from ttr.constructors import rectype
-    >>> from ttr.records import replace
-    >>> from ttr.syntax import Ind, ListOf
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.records import replace
+    >>> from ttr.types.syntax import Ind, ListOf
     >>> from ttr.updates import rule
     >>> Board = rectype(heard=ListOf(Ind))
     >>> @rule(when=Board, on=Ind)

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeAlias
 
-from ttr.demands import Demands, Sieve, any_of, demands_of
 from ttr.errors import UpdateError, suggestion
-from ttr.syntax import Record, kind_of
+from ttr.judging.rule_index import Demands, Sieve, any_of, demands_of
+from ttr.types.syntax import Record, kind_of
 from ttr.updates.rules import Rule
 
 __all__ = [

@@ -11,14 +11,14 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
-from ttr.budgets import within_budget
-from ttr.certainty import certainly
 from ttr.errors import Endless, NotHeard, TTRError, UpdateError, suggestion
-from ttr.judgements import Judgement
-from ttr.models import Model, as_model
-from ttr.printing import notation
+from ttr.judging.certainty import certainly
+from ttr.judging.judgements import Judgement
+from ttr.judging.models import Model, as_model
 from ttr.probability import CERTAIN, REFUTED
-from ttr.syntax import (
+from ttr.safety.budgets import within_budget
+from ttr.types.printing import notation
+from ttr.types.syntax import (
     Object,
     Record,
     RecordType,
@@ -28,14 +28,14 @@ from ttr.syntax import (
     kind_of,
 )
 from ttr.updates.algorithms import Algorithm, checked, rules_of
-from ttr.updates.failing import failing, in_short
 from ttr.updates.nbest import NBest
 from ttr.updates.rules import Rule
 from ttr.updates.running import Run, Step, continued
 from ttr.updates.states import check_state
+from ttr.updates.user_functions import failing, in_short
 
 if TYPE_CHECKING:
-    from ttr.theories import Theory
+    from ttr.theories.theory import Theory
 
 __all__ = ["Act", "Game", "Turn"]
 
@@ -93,7 +93,7 @@ class Game:
     is created. A game with a language reads texts by `hear` and words its moves by
     `say`. Raises `UpdateError` where the start is no state.
 
-    >>> from ttr.theories import Theory
+    >>> from ttr.theories.theory import Theory
     >>> from ttr.updates import first, update
     >>> fetch = Theory.parse(r'''
     ...     basic Ind

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 
-from ttr.budgets import spend
-from ttr.certainty import certainly
 from ttr.errors import Refused
-from ttr.judging import reduced
-from ttr.models import Model
-from ttr.objects import Unresolved
-from ttr.paths import escaping
-from ttr.substitution import grounded
-from ttr.syntax import Object, PType, RecordType, Singleton, TypeNode
+from ttr.judging.certainty import certainly
+from ttr.judging.evaluator import reduced
+from ttr.judging.models import Model
+from ttr.safety.budgets import spend
+from ttr.types.objects import Unresolved
+from ttr.types.paths import escaping
+from ttr.types.substitution import grounded
+from ttr.types.syntax import Object, PType, RecordType, Singleton, TypeNode
 
 __all__ = ["Found", "found"]
 

@@ -7,14 +7,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from ttr.certainty import certainly
 from ttr.errors import UpdateError
-from ttr.judging import derivation
-from ttr.models import Model
-from ttr.printing import notation
+from ttr.judging.certainty import certainly
+from ttr.judging.evaluator import derivation
+from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
-from ttr.syntax import Object, Record, RecordType, Singleton, TypeNode, freeze
-from ttr.updates.failing import in_short
+from ttr.types.printing import notation
+from ttr.types.syntax import Object, Record, RecordType, Singleton, TypeNode, freeze
+from ttr.updates.user_functions import in_short
 
 __all__ = ["Heard", "NBest", "heard", "nbest"]
 

@@ -9,12 +9,12 @@ from linecache import checkcache, getlines
 from typing import TypeAlias
 
 from ttr.errors import Span, TTRError, UpdateError
-from ttr.judging import reduced
-from ttr.models import Model
-from ttr.paths import escaping, replace_paths
+from ttr.judging.evaluator import reduced
+from ttr.judging.models import Model
 from ttr.probability import CERTAIN, Degree, degree
-from ttr.substitution import grounded
-from ttr.syntax import (
+from ttr.types.paths import escaping, replace_paths
+from ttr.types.substitution import grounded
+from ttr.types.syntax import (
     BOUND,
     Function,
     Object,
@@ -105,9 +105,9 @@ def rule(
     The fields of `where` lead to the function's parameters by their names, one record
     further out: `outer.s.qud` where the state is called `s`.
 
-    >>> from ttr.constructors import rectype
-    >>> from ttr.records import replace
-    >>> from ttr.syntax import Ind, outer, record
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.records import replace
+    >>> from ttr.types.syntax import Ind, outer, record
     >>> from ttr.updates import run
     >>> Board = rectype(spkr=Ind, addr=Ind)
     >>> @rule(when=Board, where=rectype(other=Ind @ outer.s.addr))
@@ -252,8 +252,8 @@ def update(
     of the state's own type with T. Raises `UpdateError` for what is no such function.
     Source: Cooper 2023, chapter 2.
 
-    >>> from ttr.theories import Theory
-    >>> from ttr.syntax import record
+    >>> from ttr.theories.theory import Theory
+    >>> from ttr.types.syntax import record
     >>> from ttr.updates import run
     >>> board = Theory.parse('''
     ...     basic Ind

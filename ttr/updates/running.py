@@ -13,15 +13,15 @@ from math import inf
 from time import perf_counter
 from typing import NamedTuple
 
-from ttr.budgets import within_budget
-from ttr.certainty import certainly_also
 from ttr.errors import Endless, UpdateError
-from ttr.judgements import Judgement
-from ttr.models import Model
-from ttr.printing import notation
+from ttr.judging.certainty import certainly_also
+from ttr.judging.judgements import Judgement
+from ttr.judging.models import Model
 from ttr.probability import CERTAIN, Degree
-from ttr.records import differences
-from ttr.syntax import (
+from ttr.safety.budgets import within_budget
+from ttr.types.printing import notation
+from ttr.types.records import differences
+from ttr.types.syntax import (
     FiniteSet,
     Object,
     Record,
@@ -42,12 +42,12 @@ from ttr.updates.algorithms import (
     Seq,
     checked,
 )
-from ttr.updates.failing import failing, in_short
+from ttr.updates.effect_application import settled
 from ttr.updates.matching import found
 from ttr.updates.nbest import Heard, NBest, heard
 from ttr.updates.rules import Rule
-from ttr.updates.settling import settled
 from ttr.updates.states import check_state, still_of
+from ttr.updates.user_functions import failing, in_short
 
 __all__ = ["Run", "Step", "continued", "run"]
 

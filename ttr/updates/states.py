@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from functools import lru_cache
 from operator import is_
 
-from ttr.certainty import certainly, note
 from ttr.errors import NoState, UpdateError
-from ttr.models import Model
-from ttr.objects import lasts
-from ttr.paths import escaping
-from ttr.printing import notation
-from ttr.syntax import ListOf, Object, Record, RecordType, TypeNode
+from ttr.judging.certainty import certainly, note
+from ttr.judging.models import Model
+from ttr.types.objects import lasts
+from ttr.types.paths import escaping
+from ttr.types.printing import notation
+from ttr.types.syntax import ListOf, Object, Record, RecordType, TypeNode
 
 __all__ = ["check_state", "still_of"]
 

@@ -13,7 +13,7 @@ from functools import lru_cache
 from typing import TypeVar
 
 from ttr import Meet, Pred, PType, RecordType, Singleton, TypeNode
-from ttr.objects import Object, Path
+from ttr.types.objects import Object, Path
 
 __all__ = ["Claim", "Part", "put_together", "taken_apart"]
 

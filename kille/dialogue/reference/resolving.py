@@ -19,7 +19,7 @@ from kille.dialogue.reference.salience import (
     just_mentioned,
 )
 from ttr import Model, Pred, Record, RecordType, Singleton, rectype
-from ttr.objects import Object
+from ttr.types.objects import Object
 
 __all__ = [
     "PARTS",

@@ -23,7 +23,7 @@ from kille.perception.segment import region_of
 from kille.scene import Frame
 from kille.sensors.captures import description_of, read_scenes, read_sequence
 from kille.sensors.synthetic.sensor import open_synthetic
-from ttr.unforeseen import guarded
+from ttr.safety.unforeseen_errors import guarded
 
 _EACH = 150  # descriptors of a window
 _WINDOWS = 8  # by chance of a frame

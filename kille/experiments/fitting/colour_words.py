@@ -31,9 +31,9 @@ from kille.experiments.results import Table
 from kille.perception.colours.borders import AXES, along
 from kille.perception.colours.space import even
 from kille.perception.colours.words import ColourWords, read
-from ttr.inputs import read_text
-from ttr.limits import TABLE
-from ttr.unforeseen import guarded
+from ttr.safety.inputs import read_text
+from ttr.safety.limits import TABLE
+from ttr.safety.unforeseen_errors import guarded
 
 Numbers = NDArray[np.float64]
 

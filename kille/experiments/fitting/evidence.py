@@ -37,7 +37,7 @@ from kille.perception.votes import beyond_chance, votes
 from kille.scene import Frame, Region
 from kille.sensors.sensor import Stage
 from kille.sensors.sources import open_sensor
-from ttr.unforeseen import guarded
+from ttr.safety.unforeseen_errors import guarded
 
 Numbers = NDArray[np.float64]
 

@@ -53,7 +53,7 @@ from kille.perception.surfaces.relief import (
 )
 from kille.scene import Frame
 from kille.sensors.synthetic import obj
-from ttr.unforeseen import guarded
+from ttr.safety.unforeseen_errors import guarded
 
 HEAPS, SCREENS, TIDY = range(700), range(200), range(200)
 MORE_HEAPS = (*HEAPS, *range(1000, 1700))

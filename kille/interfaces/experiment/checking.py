@@ -12,7 +12,7 @@ from kille.studies.reading import checked
 from kille.studies.reading.doubts import doubts
 from kille.studies.study import Study
 from ttr import TTRError
-from ttr.consent import Consent
+from ttr.safety.consent import Consent
 
 __all__ = ["MISTAKES", "check_files", "complain_all", "in_numbers", "tell_doubts"]
 

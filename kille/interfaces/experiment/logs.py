@@ -11,7 +11,7 @@ from kille.studies import log
 from kille.studies.errors import StudyError
 from kille.studies.reading.consenting import check_allowed, python_in
 from kille.studies.study import Study
-from ttr.consent import Consent
+from ttr.safety.consent import Consent
 
 __all__ = ["consent_to", "logged"]
 

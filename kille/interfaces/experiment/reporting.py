@@ -14,7 +14,7 @@ from kille.interfaces.grids import print_table
 from kille.interfaces.terminal import FINE, console
 from kille.studies import log, reporting
 from kille.studies.log import write_tables
-from ttr.consent import Consent
+from ttr.safety.consent import Consent
 
 __all__ = ["compare", "print_summary", "report"]
 

@@ -28,7 +28,7 @@ from kille.studies.reading import check, checked, read
 from kille.studies.reading.consenting import check_allowed, python_in
 from kille.studies.running import Progress, Scheduler, Summary, run
 from kille.studies.study import Study
-from ttr.consent import OWN_FOLDER, Consent
+from ttr.safety.consent import OWN_FOLDER, Consent
 
 __all__ = ["Request", "as_it_is", "resume_study", "run_study", "studied"]
 

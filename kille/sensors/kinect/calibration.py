@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kille.sensors.kinect.commands import BadReply
-from ttr.inputs import parse_json
+from ttr.safety.inputs import parse_json
 
 _REGISTRATION = struct.Struct("<2x29i")
 _PADDING = struct.Struct("<2x3H")

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from kille.sensors.recordings.images import NotThis
 from kille.sensors.sensor import SensorError
-from ttr.inputs import open_file
-from ttr.limits import FRAMES
+from ttr.safety.inputs import open_file
+from ttr.safety.limits import FRAMES
 
 if TYPE_CHECKING:
     from rosbags.highlevel import AnyReader

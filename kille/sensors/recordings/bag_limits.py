@@ -2,7 +2,7 @@
 
 It opens files by their paths, decompresses chunks by tables of its own, and reads
 databases by apsw: each of the three is given here in a form that refuses, with an
-`OSError`, what is larger than `ttr.limits.MESSAGE`.
+`OSError`, what is larger than `ttr.safety.limits.MESSAGE`.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from lz4.frame import LZ4FrameDecompressor
 from rosbags.rosbag1 import reader as rosbag1
 from rosbags.rosbag2 import storage_mcap as mcap
 
-from ttr.inputs import open_file
-from ttr.limits import BAG_UNPACKED, MESSAGE, SETTINGS
+from ttr.safety.inputs import open_file
+from ttr.safety.limits import BAG_UNPACKED, MESSAGE, SETTINGS
 
 __all__ = ["BagPath", "bounded", "check_unpacked"]
 

@@ -31,8 +31,8 @@ from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.pairing import paired
 from kille.sensors.recordings.reels import Moment, Reel, remark_on
 from kille.sensors.sensor import SensorError
-from ttr.inputs import open_file, parse_json, read_bytes, read_text
-from ttr.limits import SETTINGS, TABLE, Limit
+from ttr.safety.inputs import open_file, parse_json, read_bytes, read_text
+from ttr.safety.limits import SETTINGS, TABLE, Limit
 
 INDEX, DEVICE = "INDEX.txt", "device.json"
 WIDTH, HEIGHT = 640, 480

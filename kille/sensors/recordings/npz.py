@@ -29,8 +29,8 @@ from kille.sensors.recordings.lenses import lens_from
 from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.reels import Moment, Reel
 from kille.sensors.sensor import SensorError
-from ttr.inputs import open_file
-from ttr.limits import ARRAYS, PICTURE
+from ttr.safety.inputs import open_file
+from ttr.safety.limits import ARRAYS, PICTURE
 
 _ALSO = {"color": "colour", "rgb": "colour", "time": "times", "K": "intrinsics"}
 

@@ -27,8 +27,8 @@ from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.pairing import paired
 from kille.sensors.recordings.reels import Moment, Reel, remark_on
 from kille.sensors.sensor import SensorError
-from ttr.inputs import open_file, read_text
-from ttr.limits import SETTINGS, TABLE
+from ttr.safety.inputs import open_file, read_text
+from ttr.safety.limits import SETTINGS, TABLE
 
 UNITS_PER_METRE = 5000.0
 USUAL = Intrinsics(fx=525.0, fy=525.0, cx=319.5, cy=239.5)

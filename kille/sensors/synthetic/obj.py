@@ -19,8 +19,8 @@ from kille.sensors.synthetic.model import (
     smooth_normals,
     standing,
 )
-from ttr.inputs import read_text
-from ttr.limits import MESH
+from ttr.safety.inputs import read_text
+from ttr.safety.limits import MESH
 
 
 def found(path: Path) -> dict[str, Path]:

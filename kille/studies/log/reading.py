@@ -20,7 +20,7 @@ from kille.studies.log.outcomes import Broken, Finished, Outcome, RunError
 from kille.studies.log.schema import check_ours, check_rows, table
 from kille.studies.played import Answer, Played, Turn
 from kille.studies.study import Run, Study
-from ttr.consent import Consent
+from ttr.safety.consent import Consent
 
 __all__ = ["about", "broken", "facts", "named", "outcomes", "over", "read", "study"]
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from kille.studies.study import Study
-from ttr.inputs import open_file
+from ttr.safety.inputs import open_file
 
 __all__ = ["STUDY", "changed", "sources"]
 

@@ -19,7 +19,7 @@ from kille.studies.log.outcomes import Broken, Finished, Outcome, RunError
 from kille.studies.log.reading import facts, outcomes
 from kille.studies.played import Answer, Turn
 from ttr.escapes import csv_line
-from ttr.files import why_unwritten
+from ttr.safety.files import why_unwritten
 
 __all__ = ["TABLES", "write_tables"]
 

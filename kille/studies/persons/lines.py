@@ -12,8 +12,8 @@ from importlib import import_module
 from typing import TypeAlias
 
 from ttr.escapes import terminal_text
-from ttr.inputs import ask_line
-from ttr.limits import UTTERANCE
+from ttr.safety.inputs import ask_line
+from ttr.safety.limits import UTTERANCE
 
 __all__ = ["Ask", "Gone", "ready", "typed"]
 

@@ -22,7 +22,7 @@ from kille.studies.reading.trying import troubles
 from kille.studies.reading.words import names_in, unsaid
 from kille.studies.settings import Wrong
 from kille.studies.study import Run, Study, Theory
-from ttr.consent import OWN_FOLDER, Consent
+from ttr.safety.consent import OWN_FOLDER, Consent
 
 __all__ = ["check", "checked"]
 

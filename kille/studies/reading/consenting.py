@@ -14,7 +14,7 @@ from kille.studies.errors import StudyError
 from kille.studies.reading.lines import Key
 from kille.studies.reading.troubles import Trouble, told
 from kille.studies.study import Study, Theory
-from ttr.consent import NotAllowed, check_called
+from ttr.safety.consent import NotAllowed, check_called
 
 __all__ = ["check_allowed", "python_in", "unallowed"]
 

@@ -20,10 +20,10 @@ from kille.studies.reading.shape import APART, STUDY, faults
 from kille.studies.reading.troubles import told
 from kille.studies.settings import no_file
 from kille.studies.study import Named, Phase, Study, Theory
-from ttr.consent import OWN_FOLDER, Consent
-from ttr.files import why_unread
-from ttr.inputs import parse_toml, read_text
-from ttr.limits import SETTINGS
+from ttr.safety.consent import OWN_FOLDER, Consent
+from ttr.safety.files import why_unread
+from ttr.safety.inputs import parse_toml, read_text
+from ttr.safety.limits import SETTINGS
 
 __all__ = [
     "data_of",

@@ -18,9 +18,9 @@ from kille.studies.settings import no_folder, unknown
 from kille.studies.study import Theory
 from kille.studies.theories.games import language_of
 from ttr import TTRError
-from ttr.files import why_unread
-from ttr.inputs import read_text
-from ttr.limits import SETTINGS
+from ttr.safety.files import why_unread
+from ttr.safety.inputs import read_text
+from ttr.safety.limits import SETTINGS
 
 __all__ = ["of_language"]
 

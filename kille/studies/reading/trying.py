@@ -34,10 +34,10 @@ from kille.studies.theories.games import (
 )
 from kille.studies.theories.rules import PACKAGED, absent
 from ttr import TTRError
-from ttr.checking import check
-from ttr.consent import OWN_FOLDER
 from ttr.errors import Span
-from ttr.theories import Mistakes, load
+from ttr.safety.consent import OWN_FOLDER
+from ttr.theories.checking import check
+from ttr.theories.theory import Mistakes, load
 from ttr.updates.checks import NEVER, Fault, faults_of
 
 __all__ = ["troubles"]

@@ -24,7 +24,7 @@ from kille.studies.reporting.writing import Subject, every_two, results_of, writ
 from kille.studies.study import Study, Theory
 from kille.studies.theories.describing import described
 from ttr import TTRError
-from ttr.consent import Consent
+from ttr.safety.consent import Consent
 
 __all__ = ["Report", "compare", "compared", "report"]
 

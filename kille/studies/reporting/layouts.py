@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 from kille.experiments.strokes import HUES
 from ttr import Record, TypeNode
+from ttr.display.html import part_of_page
 from ttr.display.layout import Layout, Matrix, Row, Word, laid_out
-from ttr.display.markup import part_of_page
 from ttr.escapes import html_text
 
 __all__ = ["Described", "apart", "shortened", "side_by_side"]

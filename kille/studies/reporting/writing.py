@@ -34,9 +34,9 @@ from kille.studies.reporting.pages import pages
 from kille.studies.reporting.places import Places, places_of
 from kille.studies.reporting.styles import PAGE, THEORIES
 from ttr import TTRError
-from ttr.display import markup
+from ttr.display import html as markup
 from ttr.escapes import html_address, html_text
-from ttr.files import why_unwritten, write_whole
+from ttr.safety.files import why_unwritten, write_whole
 
 __all__ = ["Subject", "every_two", "results_of", "write"]
 

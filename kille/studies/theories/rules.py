@@ -15,9 +15,9 @@ from kille.studies.failing import line_in, why
 from kille.studies.settings import no_file, unknown
 from kille.studies.study import Theory
 from ttr import TTRError
-from ttr.consent import OWN_FOLDER, Consent, NotAllowed
-from ttr.modules import run_named
-from ttr.theories import load
+from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowed
+from ttr.safety.python_files import run_named
+from ttr.theories.theory import load
 from ttr.updates import (
     Algorithm,
     ByClass,

@@ -16,7 +16,7 @@ from kille.studies.tutors.own import located, maker_of
 from kille.studies.tutors.places import SIDES, rated
 from kille.studies.tutors.scripted import unplayable
 from kille.studies.tutors.words import Words
-from ttr.stories import StoryError, read_stories
+from ttr.dialogues.stories import StoryError, read_stories
 
 __all__ = ["faults"]
 

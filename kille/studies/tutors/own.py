@@ -16,8 +16,8 @@ from kille.studies.errors import StudyError
 from kille.studies.failing import line_in, why
 from kille.studies.settings import no_file, unknown
 from kille.studies.tutors.tutor import Tutor
-from ttr.consent import Consent, NotAllowed
-from ttr.modules import run_named
+from ttr.safety.consent import Consent, NotAllowed
+from ttr.safety.python_files import run_named
 
 __all__ = ["Make", "located", "maker_of"]
 

@@ -15,7 +15,7 @@ from kille.studies.scenes import WHOLE
 from kille.studies.scenes.happening import PLACED, is_step
 from kille.studies.study import Study
 from kille.studies.tutors.tutor import Asked, Happens, Move, Says, Shows, Task, Turns
-from ttr.stories import Line, read_stories
+from ttr.dialogues.stories import Line, read_stories
 
 __all__ = ["Scripted", "scripted", "unplayable"]
 

@@ -18,8 +18,8 @@ from kille.simulation.robots import ROBOTS
 from kille.simulation.tutoring import roles_in
 from kille.simulation.tutors import NONSENSE, tutoring
 from kille.simulation.worlds import drawn
-from ttr.strategies import play
 from ttr.testing import ALL, Suite
+from ttr.testing.strategies import play
 from ttr.updates.checks import faults_of
 
 PROPERTIES = (*OF_TUTORING, *(one for one in ALL if one.name != "P6"))

@@ -16,7 +16,7 @@ from kille.studies.reading import checked, read
 from kille.studies.reading.consenting import unallowed
 from kille.studies.study import Theory
 from kille.studies.theories.judging import learners_of
-from ttr.consent import NotAllowed
+from ttr.safety.consent import NotAllowed
 
 Run = Callable[..., Any]
 

@@ -23,7 +23,7 @@ import pytest
 import listening
 from kille.interfaces import cli as kille
 from listening import MACHINE, NETWORK, USER, Listening, reach_of, sockets_of, tree
-from ttr import cli as ttr
+from ttr.cli import main as ttr
 
 pytestmark = pytest.mark.skipif(
     not Path("/proc/net/tcp").exists(), reason="only Linux lists sockets in /proc"

@@ -34,7 +34,7 @@ from kille.memory.importing import opened
 from kille.memory.merging import Merged
 from kille.memory.packages import PackageError
 from kille.scene import Configuration
-from ttr.limits import FACTOR, Limit
+from ttr.safety.limits import FACTOR, Limit
 
 from .conftest import ARRANGEMENTS, NAMES, SIGHTINGS, SURFACES, plain
 

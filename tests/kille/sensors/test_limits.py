@@ -18,7 +18,7 @@ from kille.sensors.pictures import read_colour, read_depth, read_labels, shows_p
 from kille.sensors.recordings import open_recording
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic.obj import loaded
-from ttr.limits import Limit
+from ttr.safety.limits import Limit
 
 
 def png(width: int, height: int, about: bytes = b"\x08\x02\0\0\0") -> bytes:
@@ -190,7 +190,7 @@ def test_a_chunk_is_unpacked_no_further_than_a_message_may_be(
     import lz4.frame
 
     from kille.sensors.recordings.bag_limits import bounded
-    from ttr.limits import MESSAGE, TooMuch
+    from ttr.safety.limits import MESSAGE, TooMuch
 
     # So that not so much has to be made for it.
     monkeypatch.setattr(type(MESSAGE), "allowed", 1000)

@@ -11,7 +11,7 @@ from kille.simulation.properties import GROUNDED, HONEST, LOCAL, RETRACTED, WORD
 from kille.simulation.tutoring import roles
 from kille.simulation.worlds import Thing, World
 from ttr import replace as changed
-from ttr.strategies import Dialogue, play
+from ttr.testing.strategies import Dialogue, play
 
 WORLD = World((Thing("cup", "red", 0.5, (2, 3)), Thing("book", "blue", 0.9, (6, 3))))
 GAME = simulated(WORLD)

@@ -6,7 +6,7 @@ from kille.dialogue.meanings import noun, word_of
 from kille.simulation.perceiving import glanced
 from kille.simulation.playing import simulated, word, words, world_of
 from kille.simulation.worlds import Thing, World, drawn
-from ttr.strategies import play
+from ttr.testing.strategies import play
 
 WORLD = World(
     (

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.speech.sound import RATE, Sound, SoundError, WavFile, read_wav
-from ttr.limits import Limit
+from ttr.safety.limits import Limit
 
 
 def wav(samples: bytes, rate: int, width: int, channels: int) -> bytes:

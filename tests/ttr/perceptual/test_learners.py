@@ -8,7 +8,8 @@ import warnings
 import pytest
 
 from ttr import Ind, Pred, TTRError, Unsupported, record, rectype, this
-from ttr.perceptual import (
+from ttr.probability import UNKNOWN
+from ttr.semantics.perceptual import (
     ByLearner,
     RealVector,
     as_learner,
@@ -16,7 +17,6 @@ from ttr.perceptual import (
     learner_params,
     meaning,
 )
-from ttr.probability import UNKNOWN
 
 CUP = rectype(x=Ind, pos=RealVector, c=Pred("cup", Ind)(this.x))
 

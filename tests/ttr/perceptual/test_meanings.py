@@ -26,7 +26,8 @@ from ttr import (
     replace,
     this,
 )
-from ttr.perceptual import (
+from ttr.probability import UNKNOWN
+from ttr.semantics.perceptual import (
     Classifier,
     GradedPerceptron,
     Meaning,
@@ -39,7 +40,6 @@ from ttr.perceptual import (
     meaning,
     perceive,
 )
-from ttr.probability import UNKNOWN
 
 right = Pred("right", Ind)
 BG = rectype(foo=Ind, spkr=Ind, pos=RealVector)

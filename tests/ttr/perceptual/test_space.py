@@ -5,7 +5,7 @@ import math
 import pytest
 
 from ttr import Ind, Model, Pred, Refused, TTRError, fun, record, rectype, this
-from ttr.perceptual import (
+from ttr.semantics.perceptual import (
     INDIVIDUATE,
     Frame,
     Perceptron,
@@ -24,7 +24,7 @@ from ttr.perceptual import (
     meaning,
     relative,
 )
-from ttr.perceptual.vectors import is_vector
+from ttr.semantics.perceptual.vectors import is_vector
 
 cup, book = Pred("cup", Ind), Pred("book", Ind)
 SCENE = PointMap(

@@ -3,7 +3,7 @@
 import pytest
 
 from ttr import Ind, Pred, TTRError, Unsupported, record, rectype, this
-from ttr.perceptual import (
+from ttr.semantics.perceptual import (
     Agreement,
     ByLearner,
     Perceptron,

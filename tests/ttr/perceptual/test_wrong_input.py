@@ -8,9 +8,9 @@ import pytest
 from sklearn.linear_model import LogisticRegression, SGDClassifier
 
 from ttr import Ind, Model, Pred, TTRError, outer, record, rectype
-from ttr.constructors import fun
-from ttr.learning import Learner, LogOdds
-from ttr.perceptual import (
+from ttr.building.constructors import fun
+from ttr.semantics.learning import Learner, LogOdds
+from ttr.semantics.perceptual import (
     ByLearner,
     Perceptron,
     PointMap,
@@ -34,7 +34,7 @@ from ttr.perceptual import (
     meaning,
     perceive,
 )
-from ttr.syntax import Basic
+from ttr.types.syntax import Basic
 
 BG = rectype(x=Ind, pos=RealVector)
 RIGHT = fun(r=BG)(rectype(c=Pred("right", Ind)(outer.r.x)))

@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
-from ttr.budgets import within_budget
 from ttr.errors import UpdateError
-from ttr.models import Model, as_model
-from ttr.syntax import Record, RecordType, TypeNode, freeze
+from ttr.judging.models import Model, as_model
+from ttr.safety.budgets import within_budget
+from ttr.types.syntax import Record, RecordType, TypeNode, freeze
 from ttr.updates.algorithms import Algorithm, checked
 from ttr.updates.checks.bindings import circular, unlisted
-from ttr.updates.checks.cases import dead
-from ttr.updates.checks.labels import misread, missing, unbound
-from ttr.updates.checks.loops import endless
-from ttr.updates.checks.overlaps import disagreements
+from ttr.updates.checks.conflicting_rules import disagreements
+from ttr.updates.checks.endless_loops import endless
+from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
-from ttr.updates.checks.sorts import Fault
-from ttr.updates.checks.triggers import unheard, unset
-from ttr.updates.checks.values import misfits
+from ttr.updates.checks.unknown_paths import misread, missing, unbound
+from ttr.updates.checks.unreachable_rules import dead
+from ttr.updates.checks.untriggered_rules import unheard, unset
+from ttr.updates.checks.wrong_values import misfits
 from ttr.updates.rules import Rule
 
 if TYPE_CHECKING:
@@ -46,9 +46,9 @@ def faults(
     followed is left alone: what is found is wrong, but what is not found need not be
     right. Raises `UpdateError` for what is no strategy, no type of states or no events.
 
-    >>> from ttr.constructors import rectype
-    >>> from ttr.records import replace
-    >>> from ttr.syntax import Basic
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.records import replace
+    >>> from ttr.types.syntax import Basic
     >>> from ttr.updates import rule
     >>> Count = Basic("Count")
     >>> @rule(when=rectype(nn=Count))

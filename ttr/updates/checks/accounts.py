@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from ttr.errors import Span
-from ttr.syntax import RecordType, TypeNode
-from ttr.updates.checks.layouts import Labels, Term
+from ttr.types.syntax import RecordType, TypeNode
+from ttr.updates.checks.state_layout import Labels, Term
 
 __all__ = ["OPAQUE", "Access", "Account", "Built", "Outcome", "Write"]
 

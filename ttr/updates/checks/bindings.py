@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ttr.circles import round_about
-from ttr.paths import occurring
-from ttr.syntax import Object, RecordType, Singleton
-from ttr.updates.checks.places import place
+from ttr.computing.cycles import round_about
+from ttr.judging.witnesses import can_be_listed
+from ttr.types.paths import occurring
+from ttr.types.syntax import Object, RecordType, Singleton
+from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
-from ttr.updates.checks.sorts import Fault
+from ttr.updates.checks.source_positions import place
 from ttr.updates.rules import Body, Rule
-from ttr.witnesses import can_be_listed
 
 __all__ = ["circular", "unlisted"]
 

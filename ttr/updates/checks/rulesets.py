@@ -9,15 +9,15 @@ from typing import TypeAlias
 
 from immutables import Map
 
-from ttr.cases import cases
-from ttr.entailment import Question
+from ttr.computing.case_analysis import cases
+from ttr.computing.prover import Question
+from ttr.computing.subtyping import subtype
 from ttr.errors import TTRError
-from ttr.models import Model
-from ttr.paths import escaping, occurring
+from ttr.judging.models import Model
 from ttr.probability import REFUTED
-from ttr.signature import Signature
-from ttr.subtyping import subtype
-from ttr.syntax import (
+from ttr.signature.signature import Signature
+from ttr.types.paths import escaping, occurring
+from ttr.types.syntax import (
     Basic,
     Object,
     Path,
@@ -31,9 +31,9 @@ from ttr.syntax import (
     meet,
 )
 from ttr.updates.algorithms import Algorithm, rules_of
-from ttr.updates.checks.accounting import account
 from ttr.updates.checks.accounts import Account, Write
-from ttr.updates.checks.layouts import (
+from ttr.updates.checks.rule_accounts import account
+from ttr.updates.checks.state_layout import (
     Labels,
     Missing,
     Term,

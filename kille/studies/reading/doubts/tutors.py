@@ -15,7 +15,7 @@ from kille.studies.scenes import Scene
 from kille.studies.study import PERSON, Named, Study
 from kille.studies.theories import language_of
 from kille.studies.tutors.words import Words
-from ttr.stories import Line, read_stories
+from ttr.dialogues.stories import Line, read_stories
 
 __all__ = ["doubts", "lines_of"]
 

@@ -1,0 +1,65 @@
+"""Addresses: where a field stands in a record type, as the labels that lead to it.
+
+A path says how many scopes out it starts; an address starts at the outermost record
+type. What moves fields about rewrites a path as an address and back.
+"""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from ttr.errors import IllFormed
+from ttr.types.objects import Path, check_label
+
+__all__ = ["Address", "absolute", "address", "nearest", "written"]
+
+Address: TypeAlias = tuple[str, ...]
+"""The labels from the outermost record type to a field, or to a record type in it."""
+
+
+def address(path: object, what: str) -> Address:
+    """The labels of a path written with dots; `what` takes it.
+
+    >>> address("bg.x", "subtract")
+    ('bg', 'x')
+    """
+    if not isinstance(path, str):
+        raise IllFormed(
+            f"{what} takes a path as a text, as in 'bg.x', found {type(path).__name__}"
+        )
+    labels = tuple(path.split("."))
+    for label in labels:
+        check_label(label)
+    return labels
+
+
+def written(labels: Address) -> str:
+    """The address as a path with dots."""
+    return ".".join(labels)
+
+
+def absolute(path: Path, scope: Address) -> Path:
+    """A path from the record type at an address, as a path from the outermost one.
+
+    >>> absolute(Path(0, ("x",)), ("bg",)), absolute(Path(1, ("y",)), ("bg",))
+    (this.bg.x, this.y)
+    """
+    if path.up > len(scope):
+        return Path(path.up - len(scope), path.labels)
+    return Path(0, scope[: len(scope) - path.up] + path.labels)
+
+
+def nearest(path: Path, scope: Address) -> Path:
+    """A path from the outermost record type, as the shortest one from an address.
+
+    >>> nearest(Path(0, ("bg", "x")), ("bg",)), nearest(Path(0, ("y",)), ("bg",))
+    (this.x, outer.y)
+    """
+    if path.up > 0:
+        return Path(path.up + len(scope), path.labels)
+    shared = 0
+    for mine, wanted in zip(scope, path.labels[:-1], strict=False):
+        if mine != wanted:
+            break
+        shared += 1
+    return Path(len(scope) - shared, path.labels[shared:])

@@ -1,0 +1,142 @@
+"""Building record types, functions and function types, in one form, well-formed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
+
+from ttr.building.formation import checked, checked_binder
+from ttr.errors import IllFormed
+from ttr.types.forms import order_fields
+from ttr.types.objects import check_label, labelled
+from ttr.types.paths import replace_paths
+from ttr.types.syntax import (
+    BOUND,
+    Function,
+    FunType,
+    Object,
+    Path,
+    RecordType,
+    TypeNode,
+    as_type,
+    freeze,
+    kind_of,
+)
+
+if TYPE_CHECKING:
+    from ttr.signature.signature import Signature
+
+__all__ = ["Pi", "fun", "rectype"]
+
+
+def rectype(
+    fields: Mapping[str, TypeNode] | None = None,
+    theory: Signature | None = None,
+    /,
+    **labels: TypeNode,
+) -> RecordType:
+    """The record type with these fields, as keywords or as one mapping.
+
+    Fields are put in the order (depth of dependency, label), so that the order of
+    writing never matters; fields on a cycle come last. Raises `IllFormed` for a path
+    that leads nowhere in this record type, or to an object of a wrong type; what fits
+    by an axiom fits where the theory is given.
+
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> dog = Pred("dog", Ind)
+    >>> print(rectype(c=dog(this.x), x=Ind))
+    [x : Ind, c : dog(x)]
+    >>> rectype(c=dog(this.y), x=Ind)
+    Traceback (most recent call last):
+    ttr.errors.IllFormed: the path y leads nowhere: [c : dog(.y), x : Ind] has no y
+    help: outer.y, written ^.y, is the y one record further out
+    """
+    given = labelled("rectype", fields, labels)
+    for label, T in given.items():
+        check_label(label)
+        if not isinstance(T, TypeNode):
+            raise IllFormed(f"the field {label} needs a type, found {kind_of(T)}")
+    return checked(RecordType(order_fields(given)), theory)
+
+
+# --- functions -----------------------------------------------------------------------
+
+
+def fun(
+    variable: Mapping[str, TypeNode] | None = None,
+    theory: Signature | None = None,
+    /,
+    **named: TypeNode,
+) -> Callable[[object], Function]:
+    """`fun(x=S)(body)` is the function λx:S. body.
+
+    In the body `this.x` is the variable, and inside a record type there `outer.x`, as
+    the function is a scope like a record type. Raises `IllFormed` for a path that leads
+    nowhere, or to an object of a wrong type.
+
+    >>> from ttr.types.syntax import Ind, Pred, outer, this
+    >>> run, hug = Pred("run", Ind), Pred("hug", Ind, Ind)
+    >>> print(fun(x=Ind)(run(this.x)))
+    \\x:Ind. run(x)
+    >>> print(fun(x=Ind)(rectype(y=Ind, e=hug(outer.x, this.y))))
+    \\x:Ind. [y : Ind, e : hug(x, y)]
+    >>> fun(x=Ind)(run(this.x)) is fun(y=Ind)(run(this.y))
+    True
+    """
+    name, domain = _variable("fun", variable, named)
+
+    def of(body: object) -> Function:
+        found = Function(domain, _bound(name, freeze(body)), name)
+        return checked_binder(found, theory)
+
+    return of
+
+
+def Pi(
+    variable: Mapping[str, TypeNode] | None = None,
+    theory: Signature | None = None,
+    /,
+    **named: TypeNode,
+) -> Callable[[TypeNode], FunType]:
+    """`Pi(x=S)(T)` is the type of functions from each x of S to T, which may mention x.
+
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> print(Pi(x=Ind)(Pred("run", Ind)(this.x)))
+    ((x : Ind) -> run(x))
+    """
+    name, domain = _variable("Pi", variable, named)
+
+    def of(result: TypeNode) -> FunType:
+        found = FunType(domain, _bound(name, as_type(result)), name)
+        return checked_binder(found, theory)
+
+    return of
+
+
+def _variable(
+    what: str, given: Mapping[str, TypeNode] | None, named: Mapping[str, TypeNode]
+) -> tuple[str, TypeNode]:
+    """The one variable of a binder, and its type."""
+    variables = labelled(what, given, named)
+    if len(variables) != 1:
+        raise IllFormed(f"{what} takes one variable, as in {what}(x=Ind)(…)")
+    ((name, domain),) = variables.items()
+    check_label(name)
+    return name, as_type(domain)
+
+
+def _bound(name: str, body: Object) -> Object:
+    """The body with the variable as the path that its name does not matter for."""
+
+    def at(path: Path) -> Object:
+        first, *rest = path.labels
+        if path.up > 0 or first == BOUND:
+            return path
+        if first != name:
+            raise IllFormed(
+                f"the path {'.'.join(path.labels)} leads nowhere: "
+                f"the variable is {name}"
+            )
+        return Path(0, (BOUND, *rest))
+
+    return replace_paths(body, at)

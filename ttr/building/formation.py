@@ -1,0 +1,322 @@
+"""Well-formed types: every path leads somewhere, to what fits, and in no circle.
+
+A scope is here a record type; that of a binder has one field, for its variable.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import NamedTuple, TypeVar
+
+from ttr.computing.cycles import circle
+from ttr.computing.subtyping import Answer, subtype
+from ttr.errors import IllFormed, suggestion
+from ttr.safety.budgets import spend, within_budget
+from ttr.signature.signature import Signature, signature_of
+from ttr.types.paths import escaping, parts
+from ttr.types.printing import notation
+from ttr.types.syntax import (
+    BOUND,
+    Application,
+    Function,
+    FunType,
+    Join,
+    Meet,
+    Object,
+    Path,
+    PType,
+    RecordType,
+    Singleton,
+    TypeNode,
+    as_type,
+    join,
+    meet,
+)
+
+__all__ = ["checked", "checked_binder", "checked_within", "target", "wellformed"]
+
+
+@within_budget
+def wellformed(T: TypeNode, theory: Signature | None = None, /) -> Answer:
+    """Whether every path in T leads to a field that fits, and none in a circle.
+
+    A type with a circle can be judged, but no witness of it built. Where the theory is
+    given, what fits by an axiom fits. Raises `IllFormed` for what is no type.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, this
+    >>> print(wellformed(rectype(x=Ind, y=Ind @ this.x)))
+    yes: every path leads to a field that fits
+    >>> print(wellformed(rectype(x=Ind @ this.y, y=Ind @ this.x)))
+    no: its paths go in a circle: x → y → x
+    """
+    T = as_type(T)
+    around = circle(T)
+    if around:
+        return Answer("no", f"its paths go in a circle: {around}")
+    if isinstance(T, RecordType):
+        try:
+            checked(T, theory)
+        except IllFormed as error:
+            return Answer("no", error.message)
+    return Answer("yes", "every path leads to a field that fits")
+
+
+Where = tuple[str, ...]
+"""The labels that lead to the field that is looked at."""
+
+
+@within_budget
+def checked(T: RecordType, theory: Signature | None = None) -> RecordType:
+    """The record type itself, if its paths resolve and fit; else `IllFormed`.
+
+    Paths that lead out of T are left to the record type that will be built around it.
+    """
+    theory = signature_of(theory)
+    scope = _scope(T)
+    for label, field in T.fields:
+        _check(field, scope, (label,), theory)
+    return T
+
+
+_BINDER = TypeVar("_BINDER", Function, FunType)
+
+
+@within_budget
+def checked_binder(binder: _BINDER, theory: Signature | None = None) -> _BINDER:
+    """The function or function type itself, if its paths resolve and fit."""
+    inside = binder.body if isinstance(binder, Function) else binder.result
+    _check(inside, _scope(binder), (), signature_of(theory))
+    return binder
+
+
+def checked_within(
+    value: Object, around: RecordType, theory: Signature | None = None
+) -> None:
+    """Refuses a value whose paths do not resolve in records of `around`, or misfit.
+
+    The value stands in such a record, as the type of a field of it does.
+
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> checked_within(Pred("dog", Ind)(this.s.y), RecordType((("s", RecordType(())),)))
+    Traceback (most recent call last):
+    ttr.errors.IllFormed: the path s.y leads nowhere: Rec has no y
+    """
+    _check(value, _scope(around), (), signature_of(theory))
+
+
+class _Scope(NamedTuple):
+    """The fields that paths may start from, and what they are called in print."""
+
+    fields: RecordType
+    names: frozenset[str] | str
+
+
+def _scope(value: RecordType | Function | FunType) -> _Scope:
+    """A record type with its labels; for a binder, one field for its variable."""
+    if isinstance(value, RecordType):
+        return _Scope(value, frozenset(value))
+    return _Scope(RecordType(((BOUND, value.domain),)), value.hint)
+
+
+def _check(
+    inside: Object, scope: _Scope, where: Where, theory: Signature | None
+) -> None:
+    """What stands in a scope leads somewhere in it, and to what fits."""
+    paths = [path for path in escaping(inside) if path.up == 0]
+    found = {
+        path: target(path, scope.fields)
+        for path in sorted(paths, key=lambda p: p.labels)
+    }
+    if not paths:
+        return
+    wanted = _wanted(inside) if isinstance(inside, TypeNode) else None
+    if wanted is None or any(_bare(found[path]) is not T for path, T in wanted):
+        _check_domains(inside, (scope,), where, theory)
+
+
+@lru_cache(4096)
+def _wanted(inside: TypeNode) -> tuple[tuple[Path, TypeNode], ...] | None:
+    """The paths out of a value that are arguments of predicates, and of which type.
+
+    None where it takes more to see whether they fit: functions, several arities.
+    """
+    wanted: list[tuple[Path, TypeNode]] = []
+    waiting: list[tuple[Object, int]] = [(inside, 0)]
+    while waiting:
+        value, depth = waiting.pop()
+        if isinstance(value, Application):
+            return None
+        if isinstance(value, PType):
+            if len(value.pred.arities) > 1:
+                return None
+            pairs = zip(value.args, value.pred.arities[0], strict=True)
+            wanted += [
+                (Path(0, arg.labels), T)
+                for arg, T in pairs
+                if isinstance(arg, Path) and arg.up == depth
+            ]
+        same, inner = parts(value)
+        waiting += [(part, depth) for part in same]
+        waiting += [(part, depth + 1) for part in inner]
+    return tuple(wanted)
+
+
+def target(path: Path, T: RecordType) -> TypeNode:
+    """The type of the field that a path leads to, from within T; else `IllFormed`."""
+    here: TypeNode = T
+    for label in path.labels:
+        field = _field(here, label)
+        if field is None:
+            labels = list(_labels(here))
+            is_record = labels or isinstance(here, RecordType)
+            lacks = f"has no {label}" if is_record else "is no record type"
+            raise IllFormed(
+                f"the path {_written(path)} leads nowhere: {_shown(here)} {lacks}",
+                hint=f"{label} is in some alternatives only"
+                if label in labels
+                else suggestion(label, labels) or _further_out(path, here),
+            )
+        here = field
+    return here
+
+
+def _further_out(path: Path, T: TypeNode) -> str:
+    """What to write for a label that another record type around T has."""
+    if len(path.labels) > 1 or not isinstance(T, RecordType):
+        return ""
+    label = path.labels[0]
+    return f"outer.{label}, written ^.{label}, is the {label} one record further out"
+
+
+def _written(path: Path) -> str:
+    """The labels of a path; those from a variable after a dot, as its name is gone."""
+    return ".".join("" if label == BOUND else label for label in path.labels)
+
+
+def _shown(T: TypeNode) -> str:
+    is_variable = isinstance(T, RecordType) and BOUND in T
+    return "the function" if is_variable else str(T)
+
+
+def _field(T: TypeNode, label: str) -> TypeNode | None:
+    """The type of a field that every witness of T has, or None."""
+    spend()
+    match T:
+        case RecordType():
+            return T.get(label)
+        case Singleton(base, _):
+            return _field(base, label)
+        case Meet(parts):
+            found = [_field(part, label) for part in parts]
+            fields = [field for field in found if field is not None]
+            return meet(*fields) if fields else None
+        case Join(parts):
+            found = [_field(part, label) for part in parts]
+            fields = [field for field in found if field is not None]
+            return join(*fields) if len(fields) == len(found) else None
+    return None
+
+
+def _labels(T: TypeNode) -> Iterator[str]:
+    match T:
+        case RecordType():
+            yield from T
+        case Singleton(base, _):
+            yield from _labels(base)
+        case Meet(parts) | Join(parts):
+            for part in parts:
+                yield from _labels(part)
+
+
+def _check_domains(
+    value: Object,
+    around: tuple[_Scope, ...],
+    where: Where,
+    theory: Signature | None,
+) -> None:
+    """Every path to the outermost scope that is an argument fits what it is given to.
+
+    `around` are the scopes around the value, innermost first.
+    """
+    spend()
+    outermost = len(around) - 1
+    if not any(path.up == outermost for path in escaping(value)):
+        return
+    match value:
+        case PType(pred, args):
+            arities = [a for a in pred.arities if len(a) == len(args)]
+            _check_arguments(value, args, arities, around, where, theory)
+        case Application(Path() as function, argument) if function.up == outermost:
+            domain = _domain(target(function, around[outermost].fields))
+            if domain is not None:
+                _check_arguments(value, (argument,), [(domain,)], around, where, theory)
+    same, inner = parts(value)
+    for part in same:
+        _check_domains(part, around, where, theory)
+    if not inner:
+        return
+    within = (_scope(value), *around)
+    labels = value.labels if isinstance(value, RecordType) else ()
+    for i, part in enumerate(inner):
+        _check_domains(part, within, (*where, *labels[i : i + 1]), theory)
+
+
+def _domain(T: TypeNode) -> TypeNode | None:
+    """What functions of the type are surely defined for, where that is plain."""
+    if isinstance(T, FunType) and not escaping(T.domain):
+        return T.domain
+    return None
+
+
+def _check_arguments(
+    value: PType | Application,
+    args: tuple[Object, ...],
+    arities: list[tuple[TypeNode, ...]],
+    around: tuple[_Scope, ...],
+    where: Where,
+    theory: Signature | None,
+) -> None:
+    """Refuses arguments that fit none of the arities, as far as their types tell."""
+    misfits = [
+        _misfit(args, arity, around[-1].fields, len(around) - 1, theory)
+        for arity in arities
+    ]
+    first = misfits[0]
+    if first is None or None in misfits:
+        return
+    arg, wanted, found = first
+    scope = tuple(one.names for one in around)
+    raise IllFormed(
+        f"{_in_field(where)}{notation(value, scope)} needs {wanted} for "
+        f"{notation(arg, scope)}, but that is of {found}"
+    )
+
+
+def _in_field(where: Where) -> str:
+    return f"in the field {'.'.join(where)}, " if where else ""
+
+
+def _misfit(
+    args: tuple[Object, ...],
+    arity: tuple[TypeNode, ...],
+    scope: RecordType,
+    up: int,
+    theory: Signature | None,
+) -> tuple[Path, TypeNode, TypeNode] | None:
+    """The first argument that is a path to an object of the scope that does not fit."""
+    for arg, wanted in zip(args, arity, strict=True):
+        if not isinstance(arg, Path) or arg.up != up:
+            continue
+        found = target(arg, scope)
+        if _bare(found) is not wanted and subtype(found, wanted, theory).no:
+            return arg, wanted, found
+    return None
+
+
+def _bare(T: TypeNode) -> TypeNode:
+    """The type without what it is restricted to: T for T@a."""
+    while isinstance(T, Singleton):
+        T = T.base
+    return T

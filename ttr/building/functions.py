@@ -1,0 +1,93 @@
+"""Functions with a narrower domain, and the type at which a function is fixed."""
+
+from __future__ import annotations
+
+from typing import cast
+
+from ttr.building.formation import checked, checked_binder
+from ttr.building.merging import merge
+from ttr.errors import IllFormed
+from ttr.safety.budgets import within_budget
+from ttr.signature.signature import Signature
+from ttr.types.forms import order_fields
+from ttr.types.paths import replace_paths
+from ttr.types.syntax import (
+    BOUND,
+    Function,
+    Path,
+    RecordType,
+    TypeNode,
+    as_type,
+    kind_of,
+)
+
+__all__ = ["fix", "restrict"]
+
+
+@within_budget
+def restrict(f: Function, S: TypeNode, theory: Signature | None = None, /) -> Function:
+    r"""λv:merge(T, S). body: the function f = λv:T. body, only for what is also of S.
+
+    Raises `IllFormed` for what is no function, and where the domain is ill-formed then.
+
+    >>> from ttr.building.constructors import fun, rectype
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> man, run = Pred("man", Ind), Pred("run", Ind)
+    >>> f = fun(r=rectype(x=Ind))(run(this["r.x"]))
+    >>> print(restrict(f, rectype(x=Ind, c=man(this.x))))
+    \r:[x : Ind, c : man(x)]. run(r.x)
+    """
+    if not isinstance(f, Function):
+        raise IllFormed(f"restrict takes a function, found {kind_of(f)}")
+    domain = merge(f.domain, as_type(S), theory)
+    return checked_binder(Function(domain, f.body, f.hint), theory)
+
+
+@within_budget
+def fix(f: Function, theory: Signature | None = None, /) -> RecordType:
+    r"""The fixed-point type of f = λr:S. T, for record types S and T.
+
+    It is S merged with T, in which the paths from r are paths from the record itself:
+    a record s is of it iff s : S and s : f(s). Raises `IllFormed` where f is no such
+    function, and where it says something of r as a whole. Source: Cooper 2023.
+
+    >>> from ttr.building.constructors import fun, rectype
+    >>> from ttr.types.syntax import Ind, Pred, outer
+    >>> run = Pred("run", Ind)
+    >>> f = fun(r=rectype(x=Ind))(rectype(c=run(outer.r.x)))
+    >>> print(f)
+    \r:[x : Ind]. [c : run(r.x)]
+    >>> print(fix(f))
+    [x : Ind, c : run(x)]
+    """
+    match f:
+        case Function(RecordType() as domain, RecordType() as body, hint):
+            inside = _from_the_record(body, hint)
+        case _:
+            raise IllFormed(
+                "fix takes a function from a record type to a record type, as in "
+                f"\\r:[x : Ind]. [c : run(r.x)], found {kind_of(f)}"
+            )
+    merged = cast(RecordType, merge(domain, inside, theory))
+    return checked(merged, theory)
+
+
+def _from_the_record(body: RecordType, variable: str) -> RecordType:
+    """The body with paths from the variable as paths from where its fields stand.
+
+    It is one scope instead of two, the record that the variable stood for.
+    """
+
+    def at(path: Path) -> Path:
+        if path.up == 0:
+            return path
+        if path.up > 1 or path.labels[0] != BOUND:
+            return Path(path.up - 1, path.labels)
+        if len(path.labels) == 1:
+            raise IllFormed(
+                f"there is no fixed-point type: something is said of {variable} "
+                "as a whole"
+            )
+        return Path(0, path.labels[1:])
+
+    return RecordType(order_fields({k: replace_paths(T, at) for k, T in body.fields}))

@@ -1,0 +1,422 @@
+"""The most specific type above two types that makes no join of them.
+
+Two record types are generalised together: a term of the one and a term of the other
+have a common term if they are the same, or if some path leads to the one here and to
+the other there. So [x = a : Ind, c : dog(a)] and [x = b : Ind, c : dog(b)] have
+[x : Ind, c : dog(x)] in common.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from ttr.building.addresses import nearest
+from ttr.building.constructors import rectype
+from ttr.building.merging import merge
+from ttr.computing.generic_witness import Hypothetical
+from ttr.computing.strings.pieces import is_of_strings
+from ttr.computing.subtyping import subtype
+from ttr.computing.witness_places import ITSELF, step
+from ttr.errors import IllFormed
+from ttr.safety.budgets import spend, within_budget
+from ttr.signature.axioms import above
+from ttr.signature.signature import Signature
+from ttr.types.forms import function_type, order_fields
+from ttr.types.objects import in_print
+from ttr.types.paths import escaping, moved, parts, rebuilt, replace_paths
+from ttr.types.syntax import (
+    Basic,
+    FunType,
+    Join,
+    ListOf,
+    Meet,
+    NonEmpty,
+    Object,
+    Path,
+    Plus,
+    PType,
+    RecordType,
+    SetOf,
+    Singleton,
+    Str,
+    TypeNode,
+    as_type,
+    identity,
+    meet,
+)
+
+__all__ = ["common_supertype"]
+
+
+@within_budget
+def common_supertype(
+    S: TypeNode, T: TypeNode, theory: Signature | None = None, /
+) -> TypeNode:
+    """The most specific type above both that has no join but those they have.
+
+    If one is below the other it is that other one. Of record types it has the labels
+    that both have, with types above both; a field depends on others and is set to what
+    it is set to as far as it is so in both. Of other types it is the meet of what each
+    of them says and the other is below. Raises `IllFormed` where there is none: there
+    is no type of everything.
+    Law: S <= common_supertype(S, T), and T <= common_supertype(S, T).
+
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> dog, run = Pred("dog", Ind), Pred("run", Ind)
+    >>> S = rectype(x=Ind @ "a", c=dog("a") & run("a"), d=run("c"))
+    >>> print(common_supertype(S, rectype(x=Ind @ "b", c=dog("b"), d=run("d"))))
+    [x : Ind, c : dog(x)]
+    >>> common_supertype(Ind, Basic("Real"))
+    Traceback (most recent call last):
+    ttr.errors.IllFormed: Ind and Real have no common supertype without a join
+    """
+    found = _above_both(as_type(S), as_type(T), theory)
+    if found is None:
+        raise IllFormed(f"{S} and {T} have no common supertype without a join")
+    return found
+
+
+def _above_both(S: TypeNode, T: TypeNode, theory: Signature | None) -> TypeNode | None:
+    higher = [
+        upper for lower, upper in ((S, T), (T, S)) if subtype(lower, upper, theory).yes
+    ]
+    if higher:
+        return min(higher, key=in_print)
+    found = _Both(Hypothetical(S), Hypothetical(T), theory).generalised()
+    match found:
+        case RecordType():
+            return _fitting(found, theory)
+        case Meet(parts):
+            fitting = [
+                _fitting(part, theory) if isinstance(part, RecordType) else part
+                for part in parts
+            ]
+            return meet(*fitting)
+    return found
+
+
+def _fitting(T: RecordType, theory: Signature | None) -> RecordType:
+    """The record type without the fields that do not fit the others any more."""
+    fields = dict(T.fields)
+    try:
+        return rectype(fields, theory)
+    except IllFormed:
+        kept: dict[str, TypeNode] = {}
+    for label, inside in fields.items():
+        try:
+            kept = dict(rectype({**kept, label: inside}, theory).fields)
+        except IllFormed:
+            continue
+    return rectype(kept, theory)
+
+
+# --- both together -------------------------------------------------------------------
+
+
+_APART = Path(0, ("",))
+"""What stands for a term where two have none in common; it leads nowhere."""
+
+_Terms: TypeAlias = tuple[object, object]
+"""What tells a term of the one record type, and one of the other, from others."""
+
+
+@dataclass(frozen=True)
+class _Both:
+    """What two types have in common, by an arbitrary witness of each.
+
+    `paths` are the places that are kept, by the terms they have on either side;
+    `settled` are those that are set to something, and what is in them.
+    """
+
+    left: Hypothetical
+    right: Hypothetical
+    theory: Signature | None
+    paths: dict[_Terms, list[Path]] = field(default_factory=dict)
+    settled: set[Path] = field(default_factory=set)
+
+    def generalised(self) -> TypeNode | None:
+        """The type that both witnesses are of; None if they have nothing in common.
+
+        All fields that both have are kept at first; then those that have nothing to be
+        of, and what depends on them, have to go, until all that are left can stay.
+        """
+        kept = list(self._shared(ITSELF))
+        for place in kept:
+            self.paths.setdefault(self._terms(place), []).append(place)
+        while True:
+            self.settled.clear()
+            found = self._type(ITSELF)
+            still = [place for place in kept if self._is_kept(place)]
+            if len(still) == len(kept):
+                return found
+            kept = still
+
+    def _shared(self, place: Path) -> Iterator[Path]:
+        """The places of the fields that both have, inside a place."""
+        for label in self._labels(place):
+            yield step(place, label)
+            yield from self._shared(step(place, label))
+
+    def _labels(self, place: Path) -> list[str]:
+        """The labels that both have at a place."""
+        mine, theirs = self._types(self.left, place), self._types(self.right, place)
+        there = {label for R in theirs if isinstance(R, RecordType) for label in R}
+        here = [label for R in mine if isinstance(R, RecordType) for label in R]
+        return [label for label in dict.fromkeys(here) if label in there]
+
+    def _types(self, side: Hypothetical, place: Path) -> list[TypeNode]:
+        return side.types_of(side.normal(place))
+
+    def _terms(self, place: Path) -> _Terms:
+        return identity(self.left.normal(place)), identity(self.right.normal(place))
+
+    def _is_kept(self, place: Path) -> bool:
+        return place in self.paths[self._terms(place)]
+
+    # --- what is at a place ---
+
+    def _type(self, place: Path) -> TypeNode | None:
+        """The type of what is at a place and what it is set to, as written there."""
+        spend()
+        value = self._value(place)
+        if value is not _APART:
+            self.settled.add(place)
+        parts = self._parts(place)
+        if not parts:
+            return None
+        base = meet(*parts)
+        return base if value is _APART else Singleton(base, _as_written(value, place))
+
+    def _parts(self, place: Path) -> list[TypeNode]:
+        """What is said of a place in both, as a whole and field by field."""
+        mine, theirs = self._types(self.left, place), self._types(self.right, place)
+        common = self._common(_others(self.left, mine), _others(self.right, theirs))
+        written = [_as_written(part, place) for part in common]
+        found = [part for part in written if not any(map(_in_witness, escaping(part)))]
+        if any(map(_is_record_type, mine)) and any(map(_is_record_type, theirs)):
+            found.append(self._record(place))
+        return found
+
+    def _record(self, place: Path) -> RecordType:
+        fields: dict[str, TypeNode] = {}
+        for label in self._labels(place):
+            inner = step(place, label)
+            found = self._type(inner) if self._is_kept(inner) else None
+            if found is not None:
+                fields[label] = found
+            elif self._is_kept(inner):
+                self.paths[self._terms(inner)].remove(inner)
+        return RecordType(order_fields(fields))
+
+    def _value(self, place: Path) -> Object:
+        """What a field is set to on both sides, if that is worth saying; else _APART.
+
+        What is in a record that is set to something is not worth saying.
+        """
+        if Path(0, place.labels[:-1]) in self.settled:
+            self.settled.add(place)
+            return _APART
+        s, t = self.left.normal(place), self.right.normal(place)
+        value = self.term(s, t, 0)
+        if value is not place:
+            return value
+        return _APART if isinstance(s, Path) else self._composed(s, t, 0)
+
+    # --- types ---
+
+    def common(self, F: TypeNode, G: TypeNode) -> TypeNode | None:
+        """The meet of what both types say; None if they say nothing in common."""
+        spend()
+        found = self._common([F], [G])
+        return meet(*found) if found else None
+
+    def _common(
+        self, mine: Iterable[TypeNode], theirs: Iterable[TypeNode]
+    ) -> list[TypeNode]:
+        """What two meets of types have in common, none of it implied by the rest."""
+        left = [f for T in mine for f in self._said(T)]
+        right = [g for T in theirs for g in self._said(T)]
+        found = [self._part(f, g) for f in left for g in right]
+        return self._strongest([part for part in found if part is not None])
+
+    def _said(self, T: TypeNode) -> Iterator[TypeNode]:
+        """The types that a type is below by its form, and by the axioms."""
+        spend()
+        if isinstance(T, Meet):
+            for part in T.parts:
+                yield from self._said(part)
+            return
+        yield T
+        if isinstance(T, Singleton):
+            yield from self._said(T.base)
+        if isinstance(T, Basic | PType) and self.theory:
+            yield from [upper for _, upper in above(T, self.theory.axioms)]
+
+    def _part(self, f: TypeNode, g: TypeNode) -> TypeNode | None:
+        """What two types that are no meets have in common."""
+        spend()
+        if f is not g and not escaping(f) and not escaping(g):
+            higher = self._higher(f, g)
+            if higher is not None:
+                return higher
+        match f, g:
+            case (Join(several), other) | (other, Join(several)) if f is not g:
+                return self._each((*several, other))
+            case (NonEmpty(mine), NonEmpty(theirs)):
+                return self._made(NonEmpty, (mine,), (theirs,))
+            case (ListOf(mine) | NonEmpty(mine), ListOf(theirs) | NonEmpty(theirs)):
+                return self._made(ListOf, (mine,), (theirs,))
+            case (SetOf(mine), SetOf(theirs)) | (Plus(mine), Plus(theirs)):
+                return self._made(type(f), (mine,), (theirs,))
+            case (Str(several), Str(others)) if len(several) == len(others):
+                return self._made(Str, several, others)
+        found = self.term(f, g, 0)
+        return None if found is _APART else found
+
+    def _higher(self, f: TypeNode, g: TypeNode) -> TypeNode | None:
+        """What two closed types have in common, if they are the same or of one kind."""
+        if subtype(f, g, self.theory).yes:
+            return g
+        if subtype(g, f, self.theory).yes:
+            return f
+        match f, g:
+            case RecordType(), RecordType():
+                return _above_both(f, g, self.theory)
+            case FunType(), FunType():
+                return self._function(f, g)
+        return None
+
+    def _function(self, f: FunType, g: FunType) -> TypeNode | None:
+        """Functions from what both take to what both give, if no result depends."""
+        if escaping(f.result) or escaping(g.result):
+            return None
+        result = _above_both(f.result, g.result, self.theory)
+        domain = merge(f.domain, g.domain, self.theory)
+        return None if result is None else function_type(domain, result)
+
+    def _each(self, several: tuple[TypeNode, ...]) -> TypeNode | None:
+        first, *others = several
+        found: TypeNode | None = first
+        for other in others:
+            found = None if found is None else self.common(found, other)
+        return found
+
+    def _made(
+        self,
+        kind: type[TypeNode],
+        mine: tuple[TypeNode, ...],
+        theirs: tuple[TypeNode, ...],
+    ) -> TypeNode | None:
+        found = [self.common(f, g) for f, g in zip(mine, theirs, strict=True)]
+        several = [one for one in found if one is not None]
+        if len(several) < len(found):
+            return None
+        # Strings of strings and strings of events have nothing in common by their form.
+        alike = [
+            len(set(map(is_of_strings, parts))) == 1
+            for parts in zip(mine, theirs, several, strict=True)
+        ]
+        fits = kind not in (Str, Plus) or all(alike)
+        return kind(*several) if fits else None
+
+    def _strongest(self, found: list[TypeNode]) -> list[TypeNode]:
+        """The types that no other one is below; of equal ones the first."""
+        once = list(dict.fromkeys(found))
+        kept: list[TypeNode] = []
+        for i, T in enumerate(once):
+            others = [*kept, *once[i + 1 :]]
+            if not any(subtype(other, T, self.theory).yes for other in others):
+                kept.append(T)
+        return kept
+
+    # --- terms ---
+
+    def term(self, s: Object, t: Object, depth: int) -> Object:
+        """A term that is s on the left and t on the right, or _APART.
+
+        Both stand `depth` scopes further in than the fields.
+        """
+        spend()
+        if identity(s) == identity(t) and not _leads_in(s, depth):
+            return s
+        found = self._path(s, t, depth)
+        if found is not None:
+            return moved(found, depth)
+        if type(s) is not type(t) or isinstance(s, Path):
+            return _APART
+        return self._composed(s, t, depth)
+
+    def _path(self, s: Object, t: Object, depth: int) -> Path | None:
+        """The first place kept of what is s on the left and t on the right."""
+        left, right = _lowered(s, depth), _lowered(t, depth)
+        if left is _APART or right is _APART:
+            return None
+        known = self.paths.get((identity(left), identity(right)))
+        return known[0] if known else None
+
+    def _composed(self, s: Object, t: Object, depth: int) -> Object:
+        """A term of the same form as both, of what their parts have in common."""
+        mine, mine_inside = parts(s)
+        theirs, theirs_inside = parts(t)
+        if len(mine) != len(theirs) or len(mine_inside) != len(theirs_inside):
+            return _APART
+        pairs = zip(mine, theirs, strict=True)
+        inside = zip(mine_inside, theirs_inside, strict=True)
+        common = [self.term(a, b, depth) for a, b in pairs]
+        common += [self.term(a, b, depth + 1) for a, b in inside]
+        if not common or any(one is _APART for one in common):
+            return _APART
+        left, right = _with_parts(s, common), _with_parts(t, common)
+        return left if identity(left) == identity(right) else _APART
+
+
+def _is_record_type(T: TypeNode) -> bool:
+    return isinstance(T, RecordType)
+
+
+def _others(witness: Hypothetical, types: Iterable[TypeNode]) -> list[TypeNode]:
+    """The types that are no record types, in the terms chosen for the witness."""
+    return [witness.normal(T) for T in types if not _is_record_type(T)]
+
+
+def _as_written(value: Object, place: Path) -> Object:
+    """What has places as paths, as it is written in the field at a place.
+
+    At the witness itself nothing can be written of what is inside it.
+    """
+    here = place.labels[len(ITSELF.labels) :]
+
+    def at(path: Path) -> Path:
+        if not _in_witness(path):
+            return Path(path.up + len(here), path.labels)
+        inside = Path(0, path.labels[len(ITSELF.labels) :])
+        return nearest(inside, here[:-1]) if here else path
+
+    return replace_paths(value, at)
+
+
+def _in_witness(path: Path) -> bool:
+    return path.up == 0 and path.labels[: len(ITSELF.labels)] == ITSELF.labels
+
+
+def _leads_in(value: Object, depth: int) -> bool:
+    """Whether a path in a term leads into the witness."""
+    return any(
+        path.up == depth and _in_witness(Path(0, path.labels))
+        for path in escaping(value)
+    )
+
+
+def _lowered(value: Object, depth: int) -> Object:
+    """The term as it is seen from outside the scopes further in, else _APART."""
+    if isinstance(value, Path):
+        inside = value.up < depth
+        return _APART if inside else Path(value.up - depth, value.labels)
+    return value if depth == 0 or not escaping(value) else _APART
+
+
+def _with_parts(value: Object, common: list[Object]) -> Object:
+    waiting = iter(common)
+    return rebuilt(value, lambda part, deeper: next(waiting))

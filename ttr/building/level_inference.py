@@ -1,0 +1,235 @@
+"""Superscripts that were left out, filled in: the least levels that are consistent.
+
+Papers write `Type` where they mean Typeⁿ for some n that makes sense (typical
+ambiguity). Here a bare `Type` is of level 0; these functions give the reading that a
+writer who left the superscripts out had in mind. What they give has its levels: nothing
+in it is a type of itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from ttr.computing.universe_levels import level_of
+from ttr.errors import IllFormed
+from ttr.safety.budgets import spend, within_budget
+from ttr.types.paths import escaping, rebuilt
+from ttr.types.syntax import (
+    BOUND,
+    Application,
+    EventString,
+    FiniteSet,
+    Function,
+    FunType,
+    ListOf,
+    Meet,
+    NonEmpty,
+    Object,
+    Path,
+    Plus,
+    Record,
+    RecordType,
+    SetOf,
+    Singleton,
+    Str,
+    TypeNode,
+    Universe,
+    as_type,
+    freeze,
+    meet,
+)
+
+__all__ = ["levelled_judgement", "with_levels", "without_levels"]
+
+Scopes = tuple[Mapping[str, TypeNode], ...]
+"""The types of the fields that paths may start from, innermost scope first."""
+
+
+class _Placed(NamedTuple):
+    """A value and the scopes around it."""
+
+    value: Object
+    around: Scopes
+
+
+@within_budget
+def with_levels(T: TypeNode, /) -> TypeNode:
+    """T with the least superscripts at which each manifest field is of its type.
+
+    A superscript that is written stays; raises `IllFormed` where it is too low. An
+    argument of a function that is written out is made to fit its domain as well. Which
+    part of a join is meant is not known, so joins stay as they are.
+    Source: Russell's typical ambiguity; Cooper 2023 for the levels.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import RecType, Type, this
+    >>> print(with_levels(rectype(T=Type @ rectype(x=Type))))
+    [T = [x : Type] : Type^1]
+    >>> print(with_levels(rectype(x=Type @ Type, y=Type @ this.x)))
+    [x = Type : Type^1, y = x : Type^1]
+    >>> with_levels(Universe("Type", 1) @ Universe("Type", 1))
+    Traceback (most recent call last):
+    ttr.errors.IllFormed: what is of level 2 is too high for Type^1
+    help: write Type^2, or leave the superscript out
+    """
+    return as_type(_read(as_type(T), ()))
+
+
+@within_budget
+def levelled_judgement(sit: object, T: TypeNode, /) -> tuple[Object, TypeNode]:
+    """The judgement sit : T with the least superscripts at which it makes sense.
+
+    Law: where sit is a type and T is `Type` without a superscript, the judgement that
+    it gives holds. Raises `IllFormed` where a superscript that is written is too low.
+
+    >>> from ttr.types.syntax import Type
+    >>> levelled_judgement(Type, Type)
+    (Type, Universe('Type', 1))
+    """
+    found = _read(freeze(sit), ())
+    raised = _raised(as_type(T), [_Placed(found, ())])
+    return found, as_type(_read(raised, ()))
+
+
+@within_budget
+def without_levels(T: TypeNode, /) -> TypeNode:
+    """T with every superscript left out.
+
+    Law: without_levels(with_levels(T)) is without_levels(T).
+
+    >>> print(without_levels(Universe("Type", 2) @ Universe("RecType", 1)))
+    Type@RecType
+    """
+    return as_type(_bare(as_type(T)))
+
+
+def _bare(value: Object) -> Object:
+    spend()
+    if isinstance(value, Universe):
+        return Universe(value.name)
+    return rebuilt(value, lambda part, _: _bare(part))
+
+
+# --- reading -------------------------------------------------------------------------
+
+
+def _read(value: Object, around: Scopes) -> Object:
+    """The value with levels; a field sees the fields before it with theirs."""
+    spend()
+    match value:
+        case RecordType(fields):
+            scope = dict(fields)
+            for label, field in fields:
+                scope[label] = as_type(_read(field, (scope, *around)))
+            return RecordType(tuple(scope.items()))
+        case Function(domain, inside, hint) | FunType(domain, inside, hint):
+            read = as_type(_read(domain, around))
+            return type(value)(read, _read(inside, ({BOUND: read}, *around)), hint)
+        case Singleton(base, obj):
+            found = _Placed(_read(obj, around), around)
+            return Singleton(_read(_raised(base, [found]), around), found.value)
+        case Application(Function(domain, body, hint), argument):
+            found = _Placed(_read(argument, around), around)
+            wider = Function(_raised(domain, [found]), body, hint)
+            return Application(_read(wider, around), found.value)
+    return rebuilt(value, lambda part, _: _read(part, around))
+
+
+def _raised(T: TypeNode, values: list[_Placed]) -> TypeNode:
+    """T with the least superscripts at which the values may be of it."""
+    spend()
+    if not values:
+        return T
+    match T:
+        case Universe():
+            return _at_least(T, max(_level(one) for one in values))
+        case ListOf(item) | NonEmpty(item) | SetOf(item) | Plus(item):
+            return type(T)(_raised(item, list(_elements(values))))
+        case Str(items):
+            return Str(*[_raised(T, _at(i, values)) for i, T in enumerate(items)])
+        case RecordType(fields):
+            return RecordType(
+                tuple([(label, _raised(T, _in(label, values))) for label, T in fields])
+            )
+        case Singleton(base, obj):
+            return Singleton(_raised(base, values), obj)
+        case Meet(kinds):
+            return meet(*[_raised(kind, values) for kind in kinds])
+        case FunType(domain, result, hint):
+            return FunType(domain, _raised(result, list(_results(values))), hint)
+    return T
+
+
+def _at_least(universe: Universe, level: int) -> Universe:
+    """The type of types at this level, unless a superscript says which is meant."""
+    if universe.level == 0:
+        return Universe(universe.name, level)
+    if level <= universe.level:
+        return universe
+    raise IllFormed(
+        f"what is of level {level} is too high for {universe}",
+        hint=f"write {universe.name}^{level}, or leave the superscript out",
+    )
+
+
+def _level(one: _Placed) -> int:
+    """The level of a value, where a path is as high as what its field may hold."""
+    reached = [_reach(path, one.around) for path in escaping(one.value)]
+    return max(level_of(one.value), *reached, 0)
+
+
+def _reach(path: Path, around: Scopes) -> int:
+    """How high the type may be that a path leads to."""
+    field = _field(path, around)
+    if isinstance(field, Singleton) and not escaping(field.value):
+        return level_of(field.value)
+    while isinstance(field, Singleton):
+        field = field.base
+    return field.level if isinstance(field, Universe) else 0
+
+
+def _field(path: Path, around: Scopes) -> TypeNode | None:
+    """The type of the field that a path leads to, where that is plain."""
+    if path.up >= len(around):
+        return None
+    first, *rest = path.labels
+    here = around[path.up].get(first)
+    for label in rest:
+        here = here.get(label) if isinstance(here, RecordType) else None
+    return here
+
+
+# --- what the values of a constructor are made of ------------------------------------
+
+
+def _elements(values: list[_Placed]) -> Iterator[_Placed]:
+    """The elements of the values that are lists, sets or strings."""
+    for value, around in values:
+        if isinstance(value, tuple | FiniteSet | EventString):
+            yield from (_Placed(item, around) for item in value)
+
+
+def _at(place: int, values: list[_Placed]) -> list[_Placed]:
+    """What stands at a place of the values that are strings so long."""
+    return [
+        _Placed(value.items[place], around)
+        for value, around in values
+        if isinstance(value, EventString) and place < len(value)
+    ]
+
+
+def _in(label: str, values: list[_Placed]) -> list[_Placed]:
+    """What the values that are records have in a field."""
+    return [
+        _Placed(value[label], around)
+        for value, around in values
+        if isinstance(value, Record) and label in value
+    ]
+
+
+def _results(values: list[_Placed]) -> Iterator[_Placed]:
+    """What the values that are functions give."""
+    for value, around in values:
+        if isinstance(value, Function):
+            yield _Placed(value.body, ({BOUND: value.domain}, *around))

@@ -1,0 +1,287 @@
+"""Relabelling: other labels for the fields of a record type, or of a record."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import overload
+
+from ttr.building.addresses import Address, address, written
+from ttr.errors import IllFormed, suggestion
+from ttr.safety.budgets import spend, within_budget
+from ttr.types.forms import order_fields
+from ttr.types.objects import check_label, labelled
+from ttr.types.paths import replace_paths
+from ttr.types.syntax import (
+    Join,
+    Meet,
+    Negation,
+    Object,
+    Path,
+    Record,
+    RecordType,
+    Singleton,
+    TypeNode,
+    join,
+    kind_of,
+    meet,
+)
+
+__all__ = ["relabel"]
+
+
+@overload
+def relabel(
+    value: RecordType, names: Mapping[str, str] | None = None, /, **labels: str
+) -> RecordType: ...
+
+
+@overload
+def relabel(
+    value: Record, names: Mapping[str, str] | None = None, /, **labels: str
+) -> Record: ...
+
+
+@within_budget
+def relabel(
+    value: RecordType | Record,
+    names: Mapping[str, str] | None = None,
+    /,
+    **labels: str,
+) -> RecordType | Record:
+    """The record type or record with new names for some of its labels.
+
+    A label inside a nested record is named by its path, in a mapping: `{"bg.x": "z"}`
+    renames x to z inside bg. All is renamed at once, so that labels can be swapped,
+    and paths follow. Raises `IllFormed` for a label that is not there, where two labels
+    would fall together, and where something is said of a record as a whole in which a
+    label would change: it would not be the same record any more.
+    Law: r : T iff relabel(r, m) : relabel(T, m), for every r that has the labels.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, Pred, record, this
+    >>> hug = Pred("hug", Ind, Ind)
+    >>> T = rectype(x=Ind, y=Ind, e=hug(this.x, this.y))
+    >>> print(relabel(T, x="y", y="x"))
+    [x : Ind, y : Ind, e : hug(y, x)]
+    >>> bg = rectype(bg=rectype(x=Ind), c=hug(this.bg.x, this.bg.x))
+    >>> print(relabel(bg, {"bg.x": "z"}))
+    [bg : [z : Ind], c : hug(bg.z, bg.z)]
+    >>> print(relabel(record(x="fido"), x="y"))
+    {y = fido}
+    """
+    renaming = _Renaming()
+    for path, name in labelled("relabel", names, labels).items():
+        check_label(name)
+        renaming = renaming.also(address(path, "relabel"), name)
+    if isinstance(value, Record):
+        return _record(value, renaming, ())
+    if isinstance(value, RecordType):
+        _check([value], renaming, ())
+        return _record_type(value, renaming, (), ())
+    raise IllFormed(f"relabel takes a record type or a record, found {kind_of(value)}")
+
+
+@dataclass(frozen=True)
+class _Renaming:
+    """New names for the labels of a record, and what to rename inside its fields.
+
+    What is inside is found under the old label.
+    """
+
+    names: Mapping[str, str] = field(default_factory=dict)
+    inner: Mapping[str, _Renaming] = field(default_factory=dict)
+
+    def also(self, where: Address, name: str) -> _Renaming:
+        """The renaming that also gives this name to the label at an address."""
+        label, *rest = where
+        if not rest:
+            return _Renaming({**self.names, label: name}, self.inner)
+        inside = self.at(label).also(tuple(rest), name)
+        return _Renaming(self.names, {**self.inner, label: inside})
+
+    def at(self, label: str) -> _Renaming:
+        """What is to be renamed inside the field that has this label."""
+        return self.inner.get(label, _NOTHING)
+
+    def new(self, label: str) -> str:
+        """The new name of a label."""
+        return self.names.get(label, label)
+
+    def first(self) -> Address:
+        """One of the addresses that are renamed; empty where nothing is."""
+        if self.names:
+            return (min(self.names),)
+        labels = sorted(label for label, inside in self.inner.items() if inside.first())
+        return (labels[0], *self.inner[labels[0]].first()) if labels else ()
+
+
+_NOTHING = _Renaming()
+
+_Scopes = tuple[_Renaming, ...]
+"""What is renamed in the record types around, innermost first."""
+
+
+# --- in types ------------------------------------------------------------------------
+
+
+def _record_type(
+    T: RecordType, renaming: _Renaming, around: _Scopes, where: Address
+) -> RecordType:
+    scopes = (renaming, *around)
+    fields = {
+        renaming.new(label): _type(inside, renaming.at(label), scopes, (*where, label))
+        for label, inside in T.fields
+    }
+    return RecordType(order_fields(fields))
+
+
+def _type(
+    T: TypeNode, renaming: _Renaming, scopes: _Scopes, where: Address
+) -> TypeNode:
+    """A type in which something may be renamed, standing in these scopes."""
+    spend()
+    if not renaming.first():
+        followed: TypeNode = _following(T, scopes, where)
+        return followed
+    match T:
+        case RecordType():
+            return _record_type(T, renaming, scopes, where)
+        case Singleton(base, value):
+            return Singleton(
+                _type(base, renaming, scopes, where),
+                _object(value, renaming, scopes, where),
+            )
+        case Meet(parts):
+            return meet(*[_type(part, renaming, scopes, where) for part in parts])
+        case Join(parts):
+            return join(*[_type(part, renaming, scopes, where) for part in parts])
+        case Negation(body):
+            return Negation(_type(body, renaming, scopes, where))
+    raise _refused(where, renaming, f"{T} is no record type")
+
+
+def _object(
+    value: Object, renaming: _Renaming, scopes: _Scopes, where: Address
+) -> Object:
+    """What a manifest field is set to, with the same renamed in it as in its type."""
+    spend()
+    if not renaming.first():
+        return _following(value, scopes, where)
+    match value:
+        case Record():
+            fields = {
+                renaming.new(label): _object(
+                    inside, renaming.at(label), scopes, (*where, label)
+                )
+                for label, inside in value._fields.items()
+            }
+            return Record(fields)
+        case Path(up) if up < len(scopes):
+            path, inside = _followed(value, scopes)
+            if inside == renaming:
+                return path
+    raise _refused(where, renaming, f"{written(where)} is set to {value}")
+
+
+def _following(value: Object, scopes: _Scopes, where: Address) -> Object:
+    """A type or object in which nothing but the paths changes."""
+
+    def at(path: Path) -> Path:
+        if path.up >= len(scopes):
+            return path
+        followed, inside = _followed(path, scopes)
+        if inside.first():
+            said = f"{written(where)} is about {written(path.labels)} as a whole"
+            raise _refused(path.labels, inside, said)
+        return followed
+
+    return replace_paths(value, at)
+
+
+def _followed(path: Path, scopes: _Scopes) -> tuple[Path, _Renaming]:
+    """The path under the new names, and what is renamed in what it leads to."""
+    renaming = scopes[path.up]
+    labels = []
+    for label in path.labels:
+        labels.append(renaming.new(label))
+        renaming = renaming.at(label)
+    return Path(path.up, tuple(labels)), renaming
+
+
+def _refused(where: Address, renaming: _Renaming, why: str) -> IllFormed:
+    path = written((*where, *renaming.first()))
+    return IllFormed(f"{path} cannot be renamed: {why}")
+
+
+# --- in records ----------------------------------------------------------------------
+
+
+def _record(value: Object, renaming: _Renaming, where: Address) -> Record:
+    if not isinstance(value, Record):
+        raise IllFormed(f"{written(where)} is no record, so it has no labels to rename")
+    _check_labels(value._fields, renaming, where)
+    fields = {
+        renaming.new(label): _record(inside, renaming.at(label), (*where, label))
+        if renaming.at(label).first()
+        else inside
+        for label, inside in value._fields.items()
+    }
+    return Record(fields)
+
+
+# --- what can be renamed -------------------------------------------------------------
+
+
+def _check(kinds: Iterable[Object], renaming: _Renaming, where: Address) -> None:
+    """Refuses labels that are not there, and those that would fall together.
+
+    `kinds` are what one record is of; it may have the labels of all of them.
+    """
+    spend()
+    if not renaming.first():
+        return
+    inside: dict[str, list[Object]] = {}
+    for kind in kinds:
+        for label, of in _fields(kind):
+            inside.setdefault(label, []).append(of)
+    _check_labels(inside, renaming, where)
+    for label, kinds in inside.items():
+        _check(kinds, renaming.at(label), (*where, label))
+
+
+def _check_labels(labels: Iterable[str], renaming: _Renaming, where: Address) -> None:
+    known = dict.fromkeys(labels)
+    for label in (*renaming.names, *renaming.inner):
+        if label not in known:
+            raise IllFormed(
+                f"there is no {written((*where, label))}, so it cannot be renamed",
+                hint=suggestion(label, known),
+            )
+    old: dict[str, str] = {}
+    for label in known:
+        other = old.setdefault(renaming.new(label), label)
+        if other != label:
+            both = " and ".join(sorted([other, label]))
+            inside = f" in {written(where)}" if where else ""
+            raise IllFormed(
+                f"the labels {both}{inside} would both be called {renaming.new(label)}"
+            )
+
+
+def _fields(T: Object) -> Iterator[tuple[str, Object]]:
+    """The fields of a type, of all its parts, and of what it is set to."""
+    spend()
+    match T:
+        case RecordType(fields):
+            yield from fields
+        case Record():
+            yield from T._fields.items()
+        case Singleton(base, value):
+            yield from _fields(base)
+            yield from _fields(value)
+        case Meet(parts) | Join(parts):
+            for part in parts:
+                yield from _fields(part)
+        case Negation(body):
+            yield from _fields(body)

@@ -1,0 +1,115 @@
+"""Subtraction: a record type or a record without what a path leads to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TypeVar
+
+from ttr.building.addresses import Address, address, written
+from ttr.building.formation import checked
+from ttr.errors import IllFormed, suggestion
+from ttr.safety.budgets import spend, within_budget
+from ttr.signature.signature import Signature
+from ttr.types.forms import order_fields
+from ttr.types.paths import occurring
+from ttr.types.syntax import Meet, Object, Record, RecordType, TypeNode, kind_of, meet
+
+__all__ = ["subtract"]
+
+_Shape = TypeVar("_Shape", RecordType, Record)
+
+
+@within_budget
+def subtract(value: _Shape, /, *paths: str, theory: Signature | None = None) -> _Shape:
+    """T ⊖ π: the record type or record without what these paths lead to.
+
+    Raises `IllFormed` for a path that is not there, and where another field would then
+    have a path that leads nowhere; several paths are taken away at once.
+    Law: T <= subtract(T, π).
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> T = rectype(x=Ind, y=Ind, e=Pred("hug", Ind, Ind)(this.x, this.y))
+    >>> print(subtract(T, "e"))
+    [x : Ind, y : Ind]
+    >>> subtract(T, "y")
+    Traceback (most recent call last):
+    ttr.errors.IllFormed: without y, the path y leads nowhere: ...
+    >>> print(subtract(T, "y", "e"))
+    [x : Ind]
+    """
+    addresses = [address(path, "subtract") for path in paths]
+    if isinstance(value, Record):
+        for labels in addresses:
+            value = _record_without(value, labels, ())
+        return value
+    if not isinstance(value, RecordType):
+        raise IllFormed(
+            f"subtract takes a record type or a record, found {kind_of(value)}"
+        )
+    for labels in addresses:
+        value = _without(value, labels, ())
+    return _checked(value, paths, theory)
+
+
+def _without(T: RecordType, labels: Address, around: Address) -> RecordType:
+    spend()
+    label, *rest = labels
+    here = (*around, label)
+    if label not in T:
+        raise _not_there(here, T)
+    fields = dict(T.fields)
+    if rest:
+        fields[label] = _inside_without(fields[label], tuple(rest), here)
+    else:
+        del fields[label]
+    return RecordType(order_fields(fields))
+
+
+def _inside_without(T: TypeNode, labels: Address, at: Address) -> TypeNode:
+    spend()
+    match T:
+        case RecordType():
+            return _without(T, labels, at)
+        case Meet(parts):
+            having = [p for p in parts if isinstance(p, RecordType) and labels[0] in p]
+            others = [p for p in parts if p not in having]
+            if having:
+                return meet(*others, *[_without(p, labels, at) for p in having])
+    raise IllFormed(
+        f"there is no {written((*at, *labels))} to take away: "
+        f"{written(at)} : {T} is no record type with that label"
+    )
+
+
+def _record_without(r: Object, labels: Address, around: Address) -> Record:
+    label, *rest = labels
+    here = (*around, label)
+    if not isinstance(r, Record) or label not in r:
+        raise _not_there(here, r if isinstance(r, Record) else ())
+    fields = dict(r._fields)
+    if rest:
+        fields[label] = _record_without(fields[label], tuple(rest), here)
+    else:
+        del fields[label]
+    return Record(fields)
+
+
+def _not_there(path: Address, known: Iterable[str]) -> IllFormed:
+    return IllFormed(
+        f"there is no {written(path)} to take away", hint=suggestion(path[-1], known)
+    )
+
+
+def _checked(
+    T: RecordType, paths: tuple[str, ...], theory: Signature | None
+) -> RecordType:
+    """T, if every path in it still leads somewhere; else `IllFormed`."""
+    try:
+        for part in occurring([T]):
+            if isinstance(part, RecordType):
+                checked(part, theory)
+    except IllFormed as error:
+        gone = " and ".join(paths)
+        raise IllFormed(f"without {gone}, {error.message}", hint=error.hint) from None
+    return T

@@ -1,0 +1,216 @@
+"""`ttr play`: plays stories with the games that they name, and compares."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from ttr.cli.commands.consent_options import (
+    add_allow,
+    add_no_python,
+    consent_of,
+    game_named,
+)
+from ttr.cli.commands.output import (
+    FAILED,
+    FINE,
+    WRONG_USE,
+    Commands,
+    complain,
+    say,
+    say_json,
+)
+from ttr.errors import TTRError
+from ttr.safety.consent import Consent, NotAllowed
+from ttr.safety.files import check_outputs, write_whole
+
+if TYPE_CHECKING:
+    from ttr.dialogues.logs import LogFile
+    from ttr.dialogues.stories import Line, Moment, Outcome, Played, Setting, Story
+
+    _Result = tuple[Outcome, Played | None]
+
+__all__ = ["add"]
+
+
+def add(commands: Commands) -> None:
+    """Declares the command."""
+    play = commands.add_parser(
+        "play",
+        help="play dialogues, and say where they differ",
+        description="Plays stories with the games that they name; exits with 1 if "
+        "one differs.",
+    )
+    play.add_argument("files", nargs="+", type=Path, metavar="FILE.dlg")
+    telling = play.add_mutually_exclusive_group()
+    telling.add_argument("--quiet", action="store_true", help="only what differs")
+    telling.add_argument("--trace", action="store_true", help="the rules, too")
+    telling.add_argument("--json", action="store_true", help="report for machines")
+    play.add_argument("--log", type=Path, metavar="FILE", help="keep a log (.jsonl)")
+    play.add_argument("--html", type=Path, metavar="FILE", help="write a transcript")
+    play.add_argument(
+        "--junit", type=Path, metavar="FILE", help="write a report for CI (.xml)"
+    )
+    play.add_argument(
+        "--game",
+        metavar="GAME",
+        help="play all with this game, FILE.ttr:NAME, FILE.py:NAME or MODULE:NAME, "
+        "whatever they name",
+    )
+    add_allow(play)
+    add_no_python(play)
+    play.set_defaults(command=_play)
+
+
+def _play(options: argparse.Namespace) -> int:
+    from ttr.dialogues.logs import LogFile
+    from ttr.dialogues.stories import Outcome
+
+    outputs = (options.log, options.html, options.junit)
+    try:
+        check_outputs(options.files, outputs)
+    except TTRError as error:
+        return complain(str(error))
+    consent, game = consent_of(options), None
+    if options.game is not None:
+        try:
+            game = game_named(options.game, consent)
+        except TTRError as error:
+            return complain(str(error))
+    plan: list[tuple[str, Story]] = []
+    unread: list[Outcome] = []
+    for file in options.files:
+        try:
+            plan += ((str(file), it) for it in _stories(file, game, consent))
+        except TTRError as error:
+            complain(str(error))
+            unread.append(Outcome(str(file), file.stem, error=error))
+    try:
+        with ExitStack() as closing:
+            log = closing.enter_context(LogFile(options.log)) if options.log else None
+            playing = _Playing(_echo(options), options.trace, log, consent, game)
+            results = playing.all(plan)
+        _write_reports(options, unread, results)
+    except TTRError as error:
+        return complain(str(error))
+    _sum_up(options, results)
+    if unread:
+        return WRONG_USE
+    return FINE if all(one.as_written for one, _ in results) else FAILED
+
+
+def _stories(file: Path, game: Setting | None, consent: Consent) -> Sequence[Story]:
+    """The stories in a file, none of which names what there is no consent to.
+
+    A game that was given is played in the place of those that they name.
+    """
+    from ttr.dialogues.stories import check_consent, read_stories
+
+    stories = read_stories(file)
+    for story in stories if game is None else ():
+        check_consent(story, consent)
+    return stories
+
+
+def _echo(options: argparse.Namespace) -> Callable[[str], None]:
+    return (lambda line: None) if options.quiet or options.json else say
+
+
+@dataclass
+class _Playing:
+    """Stories being played one after the other."""
+
+    echo: Callable[[str], None]
+    trace: bool
+    log: LogFile | None
+    consent: Consent
+    game: Setting | None = None
+    settings: dict[Line | None, Setting] = field(default_factory=dict)
+
+    def all(self, plan: list[tuple[str, Story]]) -> list[_Result]:
+        """What became of the stories, with what was played of them."""
+        return [self._one(file, story) for file, story in plan]
+
+    def _one(self, file: str, story: Story) -> _Result:
+        from ttr.dialogues.stories import Outcome, StoryError
+
+        self.echo(f"--- {story.title}")
+        start = perf_counter()
+        try:
+            played = self._played(story)
+        except (StoryError, NotAllowed) as error:
+            seconds = perf_counter() - start
+            return Outcome(file, story.title, seconds, error=error), None
+        seconds = perf_counter() - start
+        return Outcome(file, story.title, seconds, played.mismatch), played
+
+    def _played(self, story: Story) -> Played:
+        from ttr.dialogues.stories import opening, play
+
+        setting = opening(story, self._setting(story))
+        if self.log is not None:
+            self.log.begin(setting, story.title)
+        return play(story, setting, echo=self.echo, witness=self._witness)
+
+    def _setting(self, story: Story) -> Setting:
+        """The setting that the story names, found once for all that name it so."""
+        from ttr.dialogues.stories import setting_of
+
+        if self.game is not None:
+            return self.game
+        if story.game not in self.settings:
+            self.settings[story.game] = setting_of(story, self.consent)
+        return self.settings[story.game]
+
+    def _witness(self, one: Moment) -> None:
+        if self.log is not None:
+            self.log.write(one)
+        for step in one.turn.trace if self.trace else ():
+            self.echo("\n".join(f"   {line}" for line in str(step).splitlines()))
+
+
+# --- reports -------------------------------------------------------------------------
+
+
+def _write_reports(
+    options: argparse.Namespace, unread: list[Outcome], results: list[_Result]
+) -> None:
+    from ttr.dialogues.stories import junit
+    from ttr.dialogues.transcripts import Transcribed, transcript
+
+    if options.junit is not None:
+        outcomes = [*unread, *(one for one, _ in results)]
+        write_whole(options.junit, f"{junit(outcomes)}\n")
+    if options.html is not None:
+        shown = [
+            Transcribed(
+                one.story.title, one.setting, one.start, one.moments, str(about)
+            )
+            for about, one in results
+            if one is not None
+        ]
+        title = ", ".join(file.name for file in options.files)
+        write_whole(options.html, transcript(title, shown))
+
+
+def _sum_up(options: argparse.Namespace, results: list[_Result]) -> None:
+    """Says what differs, and how many stories of each file do."""
+    from ttr.dialogues.stories import facts, summary
+
+    if options.json:
+        about = [facts(one) for one, _ in results]
+        say_json(about)
+        return
+    files: dict[str, list[Outcome]] = {}
+    for one, _ in results:
+        files.setdefault(one.file, []).append(one)
+    for file, outcomes in files.items():
+        for one in outcomes:
+            if not one.as_written:
+                say(str(one))
+        say(summary(file, outcomes))

@@ -1,0 +1,113 @@
+"""`ttr show`: print what a name of a theory stands for."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from ttr.cli.commands.consent_options import add_allow
+from ttr.cli.commands.output import FAILED, FINE, Commands, complain, say
+from ttr.errors import TTRError, Unsupported
+
+if TYPE_CHECKING:
+    from ttr.theories.theory import Theory
+    from ttr.types.objects import Object
+
+__all__ = ["add"]
+
+_FORMATS = ("text", "box", "latex", "html")
+
+
+def add(commands: Commands) -> None:
+    """Declares the command."""
+    show = commands.add_parser(
+        "show",
+        help="print what a name stands for",
+        description="Prints a definition or declaration of a theory file.",
+    )
+    show.add_argument("file", metavar="FILE", help="a theory file (.ttr)")
+    show.add_argument("name", metavar="NAME", help="a name that it declares")
+    show.add_argument(
+        "--as", dest="form", choices=_FORMATS, default="text", help="how to print it"
+    )
+    show.add_argument(
+        "--unfold",
+        type=_levels,
+        metavar="N",
+        help="show names for the definitions inside, but for N levels (default: all)",
+    )
+    add_allow(show)
+    show.set_defaults(command=_show)
+
+
+def _levels(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"expected 0, 1, 2 or so, found {text}")
+    return int(text)
+
+
+def _show(options: argparse.Namespace) -> int:
+    from ttr.theories.loading import Unreadable
+    from ttr.theories.theory import load
+
+    try:
+        theory = load(options.file, allow=options.allow)
+    except Unreadable as error:
+        return complain(error.message)
+    except TTRError as error:
+        say(f"error: {error}")
+        return FAILED
+    if options.name in theory.objects:
+        return complain(f"{options.file}: {options.name} is an object, only a name")
+    try:
+        say(_shown(theory, options))
+    except KeyError as missing:
+        return complain(f"{options.file}: {missing.args[0]}")
+    except TTRError as error:
+        say(f"error: {error}")
+        return FAILED
+    return FINE
+
+
+def _shown(theory: Theory, options: argparse.Namespace) -> str:
+    """What the name stands for, as asked; raises `KeyError` for a name nobody knows."""
+    from ttr.display.abbreviations import folding
+    from ttr.display.html import page
+    from ttr.display.render import box, html, latex
+
+    if options.name in {*theory.rules, *theory.strategies, *theory.openings}:
+        return _played(theory, options)
+    # What was asked for is opened itself, whatever else is not.
+    unfold = None if options.unfold is None else options.unfold + 1
+    value = folding(theory, unfold)(theory[options.name])
+    match options.form:
+        case "box":
+            return box(value)
+        case "latex":
+            return latex(value)
+        case "html":
+            return page(options.name, html(value))
+    return _declaration(theory, options.name, value)
+
+
+def _played(theory: Theory, options: argparse.Namespace) -> str:
+    """The statement that declares a rule, a strategy or a game."""
+    from ttr.display.abbreviations import folding
+    from ttr.updates.rule_notation import declaration
+
+    if options.form != "text":
+        raise Unsupported(f"{options.name} is shown as text only: it is no type")
+    return declaration(theory, options.name, folding(theory, options.unfold))
+
+
+def _declaration(theory: Theory, name: str, value: Object) -> str:
+    """The name as a statement that declares it."""
+    from ttr.types.printing import notation
+    from ttr.types.syntax import Pred
+
+    if name in theory.definitions:
+        return f"{name} := {notation(value)}"
+    if isinstance(value, Pred):
+        arities = [", ".join(map(str, arity)) for arity in value.arities]
+        return f"pred {', '.join(f'{name}({arity})' for arity in arities)}"
+    return f"basic {name}"

@@ -1,0 +1,345 @@
+"""`ttr test`: plays many dialogues with the games of a file, and says what breaks."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING, Any
+
+from ttr.cli.commands.consent_options import (
+    add_allow,
+    add_no_python,
+    consent_of,
+    game_named,
+)
+from ttr.cli.commands.output import (
+    FAILED,
+    FINE,
+    INTERRUPTED,
+    Commands,
+    LiveLine,
+    complain,
+    say,
+    say_json,
+)
+from ttr.errors import TTRError
+
+if TYPE_CHECKING:
+    from ttr.dialogues.stories import Setting
+    from ttr.safety.consent import Consent
+    from ttr.testing import Coverage, Report
+    from ttr.testing.strategies.discourse_roles import Roles
+    from ttr.updates import Game
+
+__all__ = ["add"]
+
+EXAMPLES = 1000
+PROCESSED = 20
+"""How many dialogues are played once more in processes of their own."""
+
+PATIENCE = 2.0
+"""After how many seconds a terminal is told how far it has come."""
+
+REFRESH = 0.1
+WIDTH = 30
+
+
+def add(commands: Commands) -> None:
+    """Declares the command."""
+    test = commands.add_parser(
+        "test",
+        help="play many dialogues, and find the shortest that breaks",
+        description="Checks the rules of games before they run, then plays dialogues "
+        "and checks what dialogues should be like; exits with 1 if something breaks.",
+    )
+    test.add_argument(
+        "rules", metavar="RULES", help="FILE.ttr, FILE.py:GAME or MODULE:GAME"
+    )
+    test.add_argument("--game", metavar="NAME", help="only this game of the file")
+    test.add_argument(
+        "--examples",
+        type=_count,
+        default=EXAMPLES,
+        metavar="N",
+        help=f"how many dialogues (default: {EXAMPLES})",
+    )
+    test.add_argument(
+        "--turns", type=_count, default=10, metavar="N", help="of how many turns"
+    )
+    test.add_argument(
+        "--seed", type=int, default=0, metavar="S", help="draws other dialogues"
+    )
+    test.add_argument(
+        "--role",
+        type=_role,
+        action="append",
+        default=[],
+        metavar="ROLE=PATH",
+        help="what plays a role in the state, as qud=shared.issues; nothing does: "
+        "commitments=, rules that may: drops=reject,cancel",
+    )
+    test.add_argument("--json", action="store_true", help="report for machines")
+    add_allow(test)
+    add_no_python(test)
+    test.set_defaults(command=_test)
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"expected a number from 1 on, found {text}")
+    return int(text)
+
+
+def _role(text: str) -> tuple[str, str]:
+    role, sign, path = text.partition("=")
+    if not sign or not role:
+        raise argparse.ArgumentTypeError(f"expected ROLE=PATH, found {text}")
+    return role, path
+
+
+def _test(options: argparse.Namespace) -> int:
+    try:
+        import ttr.testing  # noqa: F401
+    except ImportError as error:
+        return complain(str(error))
+    try:
+        places = _places(options.rules, options.game, consent_of(options))
+    except TTRError as error:
+        return complain(str(error))
+    try:
+        roles = [_roles(place.game, options.role) for place in places]
+    except TTRError as error:
+        return complain(str(error))
+    outcomes = []
+    for place, played in zip(places, roles, strict=True):
+        outcome = _outcome(place, played, options)
+        outcomes.append(outcome)
+        if not options.json:
+            say(outcome.told())
+        if outcome.interrupted:
+            break
+    if options.json:
+        facts = [one.facts() for one in outcomes]
+        say_json(facts)
+    return max(one.code for one in outcomes)
+
+
+# --- which games ---------------------------------------------------------------------
+
+
+def _places(rules: str, game: str | None, consent: Consent) -> list[Setting]:
+    """The games that are named, with where they are."""
+    if not rules.endswith(".ttr"):
+        named = rules if ":" in Path(rules).name else f"{rules}:{game or 'game'}"
+        return [game_named(named, consent)]
+    if game is not None:
+        return [game_named(f"{rules} {game}", consent)]
+    from ttr.theories.theory import load
+
+    if not Path(rules).is_file():
+        raise TTRError(f"there is no file {rules}")
+    names = load(rules, allow=consent.folders).openings
+    if not names:
+        raise TTRError(f"{rules} has no game: write `game NAME(START : TYPE) := …`")
+    return [game_named(f"{rules} {name}", consent) for name in names]
+
+
+def _roles(game: Game, declared: list[tuple[str, str]]) -> Roles | None:
+    """What plays which role: what stands beside the game, and what was declared."""
+    from ttr.testing.game_settings import roles_of
+    from ttr.testing.strategies.discourse_roles import Roles
+
+    roles = roles_of(game)
+    if not declared:
+        return roles
+    return (roles or Roles.of(game.type)).declared(game.type, dict(declared))
+
+
+# --- testing one ---------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    """What became of one game."""
+
+    place: Setting
+    coverage: Coverage
+    report: Report | None
+    across: str
+    """How the processes differ."""
+    seconds: float
+
+    @property
+    def interrupted(self) -> bool:
+        return self.report is None
+
+    @property
+    def code(self) -> int:
+        if self.report is None:
+            return INTERRUPTED
+        return FINE if self.report.holds and not self.across else FAILED
+
+    def told(self) -> str:
+        """For reading: what went wrong, and what was covered."""
+        known = "\n".join(filter(None, [self._roles(), self._skipped()]))
+        parts = [self._wrong(), self.coverage.table(), known, self._summary()]
+        return "\n\n".join(filter(None, parts)) + "\n"
+
+    def _wrong(self) -> str:
+        told = self.report.told(self.place) if self.report else ""
+        return "\n\n".join(filter(None, [told.rstrip(), self._across()]))
+
+    def _across(self) -> str:
+        from ttr.testing.determinism import DETERMINISTIC
+
+        if not self.across:
+            return ""
+        return f"{DETERMINISTIC}: {DETERMINISTIC.says}\n{self.across}"
+
+    def _skipped(self) -> str:
+        if self.report is None or not self.report.skipped:
+            return ""
+        lacking: dict[str, list[str]] = {}
+        for one, no in self.report.skipped:
+            lacking.setdefault(", ".join(no), []).append(one.name)
+        told = [f"{', '.join(names)} (no {no})" for no, names in lacking.items()]
+        return f"not checked: {'; '.join(told)}"
+
+    def _roles(self) -> str:
+        """What was taken for what, and how to say it otherwise."""
+        paths = self.report.roles.paths if self.report is not None else {}
+        if not paths:
+            return ""
+        told = ", ".join(f"{path} as {role}" for role, path in paths.items())
+        return f"taken: {told}; to change it: --role ROLE=PATH"
+
+    def _summary(self) -> str:
+        name, count = self.place.game.name, self.coverage.dialogues
+        took = f"{count} dialogue{'s' * (count != 1)} in {self.seconds:.1f} s"
+        if self.report is None:
+            return f"{name}: stopped after {took}"
+        return f"{name}: {'holds' if self.code == FINE else 'breaks'}, {took}"
+
+    def facts(self) -> dict[str, Any]:
+        """For machines."""
+        report = self.report
+        facts: dict[str, Any] = {
+            "game": self.place.game.name,
+            "holds": self.code == FINE,
+            "interrupted": self.interrupted,
+            "seconds": round(self.seconds, 3),
+            "coverage": self.coverage.facts(),
+            "across_processes": self.across or None,
+        }
+        if report is not None:
+            facts["faults"] = [str(fault) for fault in report.faults]
+            facts["broken"] = _broken(report, self.place)
+            facts["overall"] = [
+                {"property": one.name, "why": why} for one, why in report.overall
+            ]
+            facts["roles"] = report.roles.paths
+            facts["not_checked"] = [one.name for one, _ in report.skipped]
+        return facts
+
+
+def _broken(report: Report, place: Setting) -> dict[str, Any] | None:
+    from ttr.testing.failure_story import story
+
+    if report.broken is None:
+        return None
+    breach = report.broken.why
+    return {
+        "property": breach.property.name,
+        "says": breach.property.says,
+        "turn": breach.turn,
+        "why": breach.why,
+        "story": story(report.broken.dialogue, str(breach.property), place),
+    }
+
+
+def _outcome(
+    place: Setting, roles: Roles | None, options: argparse.Namespace
+) -> _Outcome:
+    from ttr.testing import Suite
+    from ttr.testing.game_settings import starts_of, tutor_of
+    from ttr.testing.hash_seeds import differing
+
+    watch = _Watch(place.game, options.examples)
+    suite = Suite(
+        place.game,
+        tutor_of(place.game),
+        roles=roles,
+        turns=options.turns,
+        examples=options.examples,
+        seed=options.seed,
+        starts=starts_of(place.game),
+        after_each=watch.see,
+    )
+    report, across = None, ""
+    with watch:
+        try:
+            report = suite.run()
+            if report.holds and place.reference:
+                across = differing(place, examples=PROCESSED, start=options.seed)
+        except KeyboardInterrupt:
+            report = None
+        except TTRError as error:
+            across = error.message
+    return _Outcome(place, watch.coverage, report, across, watch.seconds)
+
+
+class _Watch:
+    """Keeps what was covered so far, and tells a terminal how far it has come.
+
+    Ctrl-C takes effect between two dialogues: an interrupt that comes while something
+    is let go of would be lost. A second one takes effect at once.
+    """
+
+    def __init__(self, game: Game, total: int) -> None:
+        from ttr.testing import Coverage
+
+        self.coverage = Coverage(game)
+        self._total = total
+        self._began = self._told = monotonic()
+        self._stops, self._line = False, LiveLine()
+
+    def __enter__(self) -> None:
+        self._usual = signal.getsignal(signal.SIGINT)
+        with suppress(ValueError):  # only the main thread may
+            signal.signal(signal.SIGINT, self._stop)
+
+    def __exit__(self, *_: object) -> None:
+        with suppress(ValueError):
+            signal.signal(signal.SIGINT, self._usual)
+        self._line.clear()
+
+    def _stop(self, *_: object) -> None:
+        if self._stops:
+            raise KeyboardInterrupt
+        self._stops = True
+
+    @property
+    def seconds(self) -> float:
+        """How long it has been."""
+        return monotonic() - self._began
+
+    def see(self, coverage: Coverage) -> None:
+        """Takes note of what was covered after one more dialogue."""
+        self.coverage = coverage
+        if self._stops:
+            raise KeyboardInterrupt
+        now = monotonic()
+        if now - self._began < PATIENCE or now - self._told < REFRESH:
+            return
+        self._told = now
+        self._line.show(_bar(coverage.dialogues, self._total))
+
+
+def _bar(done: int, total: int) -> str:
+    share = min(1.0, done / total)
+    filled = round(WIDTH * share)
+    return f"{'█' * filled}{'░' * (WIDTH - filled)} {done} of {total} dialogues"

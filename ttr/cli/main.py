@@ -1,0 +1,87 @@
+"""The command `ttr`: check a theory file, show what it defines, try things out."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from errno import ENOSPC
+from io import TextIOWrapper
+
+from ttr.cli.commands import COMMANDS
+from ttr.cli.commands.output import (
+    FAILED,
+    INTERRUPTED,
+    PIPE_CLOSED,
+    Parser,
+    complain,
+    say,
+)
+from ttr.safety.unforeseen_errors import report_unforeseen
+
+__all__ = ["main"]
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the command; 0 fine, 1 something does not hold, 2 wrong use."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # not where a program has replaced it
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        code = _run(argv)
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except RecursionError:
+        complain("types are nested too deep, by definitions, to be printed or checked")
+        return FAILED
+    except BrokenPipeError:
+        _drop_output()
+        return PIPE_CLOSED
+    except Exception as error:
+        if not isinstance(error, OSError) or error.errno != ENOSPC:
+            return report_unforeseen("ttr", error)
+        _drop_output()
+        complain("the output cannot be written: no space left on device")
+        return FAILED
+    return code
+
+
+def _drop_output() -> None:
+    """Python would complain once more when it flushes at exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _run(argv: Sequence[str] | None) -> int:
+    options = _parser().parse_args(argv)
+    code: int = options.command(options)
+    return code
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = Parser(
+        prog="ttr",
+        description="Type Theory with Records: check files, show them, try things.",
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
+    commands = parser.add_subparsers(
+        metavar="COMMAND", required=True, parser_class=Parser
+    )
+    for command in COMMANDS:
+        command.add(commands)
+    return parser
+
+
+class _Version(argparse.Action):
+    """Prints the version, which is looked up only when it is asked for."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from importlib.metadata import version
+
+        say(f"ttr {version('kille')}")
+        parser.exit()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

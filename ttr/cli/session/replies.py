@@ -1,0 +1,322 @@
+"""What is typed into a session: a statement, a question or a term, and the reply."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from ttr.building.merging import amerge, merge
+from ttr.cli.session.sessions import INPUT, Answered, Session, created, declared
+from ttr.computing.subtyping import subtype
+from ttr.display.abbreviations import folding
+from ttr.errors import NotationError, Span, TTRError
+from ttr.judging.judgements import Why
+from ttr.notation import syntax_trees as trees
+from ttr.notation.grammar import statement, vetted
+from ttr.notation.reader import Reader, read_term
+from ttr.notation.syntax_trees import Application, Name, Source, Statement
+from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
+from ttr.safety.budgets import within_budget
+from ttr.theories.check_statements import Asking
+from ttr.theories.checking import asked
+from ttr.theories.game_statements import opened
+from ttr.theories.queries import Check, IsBelow, IsOf
+from ttr.types.printing import notation
+from ttr.types.syntax import Object, TypeNode, as_type
+from ttr.updates.rule_application import stepped
+from ttr.updates.rule_notation import declaration
+
+__all__ = ["ASKED", "Reply", "answered", "changes", "term"]
+
+_MERGES = {"merge": merge, "amerge": amerge}
+
+ASKED = (*_MERGES, "create", "wellformed", "witnesses", "P")
+"""What is asked of types and written like an application."""
+
+_CHECK = "check "
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What is said, and the session after it."""
+
+    session: Session
+    text: str = ""
+
+
+@within_budget
+def answered(session: Session, text: str) -> Reply:
+    """The reply to a statement, a question or a term; raises `TTRError`.
+
+    >>> kennel = answered(Session(), "basic A, B").session
+    >>> print(answered(kennel, "A <= B").text)
+    no: A is not below B
+    counter-example: a1
+    """
+    source = Source.of(text, INPUT)
+    vetted(source)
+    try:
+        tree = statement(source, 0, len(source.text))
+    except NotationError as mistake:
+        return _replied(session, source, mistake)
+    return _stated(session, tree, source)
+
+
+@within_budget
+def term(session: Session, text: str) -> Object:
+    """The type or object a text stands for, with its applications worked out."""
+    return session.model.reduced(read_term(text, session.theory, INPUT))
+
+
+def changes(names: Iterable[str]) -> str:
+    """What is said where names mean something else from now on."""
+    listed = ", ".join(sorted(names))
+    return f"changed: {listed}" if listed else ""
+
+
+def _stated(session: Session, tree: Statement, source: Source) -> Reply:
+    """The session with the statement; a check that fails is not kept."""
+    after, changed = declared(session, tree, source)
+    if changed or isinstance(tree, trees.GameStatement):
+        opened(after.theory)  # refuses a game that starts from what is no state of it
+    if not isinstance(tree, trees.Question):
+        return Reply(replace(after, before=session), changes(changed))
+    report = asked(replace(after.theory, checks=after.theory.checks[-1:]))
+    if not report.holds:
+        return Reply(session, str(report))
+    return Reply(replace(after, before=session), "it holds")
+
+
+# --- questions -----------------------------------------------------------------------
+
+
+def _replied(session: Session, source: Source, mistake: NotationError) -> Reply:
+    """The reply to what is no statement, for which the mistake says why.
+
+    The grammar knows questions as checks, so it is read as one.
+    """
+    asked = Source(_CHECK + source.text, source.name)
+    try:
+        tree = statement(asked, 0, len(asked.text))
+    except NotationError as error:
+        raise _further(mistake, _without_check(_in_place(error))) from None
+    try:
+        return _answer(session, tree, Reader(session.theory, asked))
+    except TTRError as error:
+        raise _in_place(_of_definition(error, tree, asked, mistake)) from None
+
+
+def _of_definition(
+    error: TTRError, tree: Statement, source: Source, mistake: NotationError
+) -> TTRError:
+    """The error; of an unknown name before = the hint is how names are defined.
+
+    `mistake` says why what was typed is no definition.
+    """
+    match tree:
+        case trees.Question(
+            _, _, _, trees.Comparison(_, _, "=", Name(_, _, (_,), None) as name)
+        ) if error.span == source.span(name):
+            near = error.hint if error.hint.startswith("did you mean") else ""
+            hint = " ".join(filter(None, (near, mistake.hint)))
+            return type(error)(error.message, span=error.span, hint=hint)
+    return error
+
+
+def _in_place(error: TTRError) -> TTRError:
+    """The error where it is in the text without the word before it."""
+    span = error.span
+    if span is None or span.source != INPUT or span.line > 1:
+        return error
+    before = len(_CHECK)
+    column = max(1, span.column - before)
+    length = min(span.column - 1 + span.length - before, span.length)
+    moved = Span(INPUT, 1, column, max(1, length), span.text[before:])
+    return type(error)(error.message, span=moved, hint=error.hint)
+
+
+def _without_check(error: TTRError) -> TTRError:
+    """The error without a hint at the word, which nobody wrote."""
+    hint = "" if _CHECK.strip() in error.hint else error.hint
+    return type(error)(error.message, span=error.span, hint=hint)
+
+
+def _further(statement: TTRError, question: TTRError) -> TTRError:
+    """Of two ways to read a text, the mistake of the one that came further.
+
+    Where both came as far it is the one that knows a way out.
+    """
+    return max(question, statement, key=lambda one: (_place(one), bool(one.hint)))
+
+
+def _place(error: TTRError) -> tuple[int, int]:
+    return (error.span.line, error.span.column) if error.span else (0, 0)
+
+
+def _answer(session: Session, tree: Statement, reader: Reader) -> Reply:
+    match tree:
+        case trees.Question(_, _, "yes", trees.Claim(_, _, claim)):
+            return _claimed(session, claim, reader)
+        case trees.Question(_, _, "yes", trees.Probability(degree=None) as asked):
+            return _probable(session, asked, reader)
+        case trees.Question(_, _, "yes", trees.Expectation(degree=None) as asked):
+            return _expected(session, asked, reader)
+        case trees.Question(_, _, "yes"):
+            return _asked(session, Asking(reader).check(tree))
+    reader.refuse(
+        tree,
+        "a question is asked as it is: the answer says yes, no or unknown",
+        "to claim what the answer is, put the word check before it",
+    )
+
+
+def _asked(session: Session, question: Check) -> Reply:
+    query, model = question.query, session.model
+    match query:
+        case TTRError():
+            raise query
+        case IsOf(sit, T):
+            return _judged(session, model.reduced(sit), _type(session, T))
+        case IsBelow(lower, upper):
+            return _compared(session, _type(session, lower), _type(session, upper))
+    report = asked(replace(session.theory, checks=(question,)))
+    if report.holds:
+        return Reply(session, "yes")
+    (failure,) = report.failures
+    if failure.found == "error":
+        raise TTRError(failure.why)
+    found = failure.why if failure.found == "no" else failure.found
+    return Reply(session, f"no: {found}")
+
+
+def _type(session: Session, T: TypeNode) -> TypeNode:
+    return as_type(session.model.reduced(T))
+
+
+def _judged(session: Session, sit: Object, T: TypeNode) -> Reply:
+    judgement = session.model.judge(sit, T)
+    text = f"{_verdict(judgement.p)}: {_ground(judgement.why)}"
+    return Reply(replace(session, last=judgement), text)
+
+
+def _probable(session: Session, asked: trees.Probability, reader: Reader) -> Reply:
+    """p(a : T | b : S), with what it is reckoned from."""
+    model = session.model
+    sit, T = reader.object(asked.sit, ()), reader.type(asked.type, ())
+    when = [(reader.object(one, ()), reader.type(S, ())) for one, S in asked.when]
+    conditions = [(model.reduced(one), _type(session, S)) for one, S in when]
+    judgement = model.judge(model.reduced(sit), _type(session, T), when=conditions)
+    text = f"{judgement.p}: {judgement.why.because}"
+    return Reply(replace(session, last=judgement), text)
+
+
+def _expected(session: Session, asked: trees.Expectation, reader: Reader) -> Reply:
+    """p(T || S), over the known objects."""
+    T, *types = [
+        _type(session, reader.type(one, ())) for one in (asked.type, *asked.when)
+    ]
+    return Reply(session, str(session.model.chance(T, when=types)))
+
+
+def _verdict(p: Degree) -> str:
+    """The answer in a word, or the degree."""
+    words = {CERTAIN: "yes", REFUTED: "no", UNKNOWN: "unknown"}
+    return words.get(p, f"p = {p}")
+
+
+def _ground(why: Why) -> str:
+    """The step of a derivation that decides, on one line."""
+    step = why.failure() or why
+    said = step.because
+    if step is why:
+        return said
+    path = why.path()
+    where = f"{path}: " if path else ""
+    return f"{where}{notation(step.sit)} : {step.type} ({said})"
+
+
+def _compared(session: Session, S: TypeNode, T: TypeNode) -> Reply:
+    answer = subtype(S, T, session.theory)
+    counter = answer.counter
+    lines = [str(answer)]
+    if counter is not None:
+        lines.append(f"counter-example: {notation(counter.sit)}")
+    return Reply(replace(session, last=answer), "\n".join(lines))
+
+
+# --- what is asked of types, and terms ------------------------------------------------
+
+
+def _claimed(session: Session, claim: trees.Term, reader: Reader) -> Reply:
+    match claim:
+        case Application(_, _, Name(_, _, (word,), None)) if (
+            word in ASKED and word not in session.theory.names
+        ):
+            return _asked_of_types(session, word, claim, reader)
+        case Name(_, _, (name,), None) if _is_played(session, name):
+            return Reply(session, _declared(session, name))
+        case Application(_, _, Name(_, _, (name,), None)) if (
+            name in session.theory.rules
+        ):
+            rule, args = Asking(reader).step(claim, name)
+            args = tuple(map(session.model.reduced, args))
+            return _shown(session, stepped(rule, args, session.model).state)
+        case Application(_, _, Name(_, _, (name,), None), args) if (
+            name in session.theory.openings
+        ):
+            return _played(session, name, [reader.object(arg, ()) for arg in args])
+    return _shown(session, session.model.reduced(reader.object(claim, ())))
+
+
+def _shown(session: Session, value: Answered) -> Reply:
+    return Reply(replace(session, last=value), notation(value))
+
+
+def _is_played(session: Session, name: str) -> bool:
+    theory = session.theory
+    played = (theory.rules, theory.strategies, theory.openings)
+    return any(name in kind for kind in played)
+
+
+def _declared(session: Session, name: str) -> str:
+    """The rule, strategy or game, with the names of what is defined."""
+    return declaration(session.theory, name, folding(session.theory, 0))
+
+
+def _played(session: Session, name: str, events: list[Object]) -> Reply:
+    """The turns of a game from its start: one for each event, or one without any."""
+    game = session.theory.games[name]
+    turns = game.play([session.model.reduced(event) for event in events] or [None])
+    state = notation(turns[-1].state)
+    return Reply(session, "\n".join([*map(str, turns), f"state: {state}"]))
+
+
+def _asked_of_types(
+    session: Session, word: str, claim: Application, reader: Reader
+) -> Reply:
+    wanted = 2 if word in _MERGES else 1
+    if len(claim.args) != wanted:
+        needed = "one type" if wanted == 1 else "two types"
+        reader.refuse(claim, f"{word} takes {needed}, but has {len(claim.args)}")
+    if word == "wellformed":
+        place = claim.start, claim.end
+        question = trees.Question(*place, "yes", trees.Claim(*place, claim))
+        return _asked(session, Asking(reader).check(question))
+    types = [_type(session, reader.type(arg, ())) for arg in claim.args]
+    match word, types:
+        case "create", [T]:
+            return _created(session, T)
+        case "P", [T]:
+            return Reply(session, str(session.model.true(T)))
+        case "witnesses", [T]:
+            known = session.model.witnesses(T)
+            listed = "\n".join(map(notation, known)) or "none is known"
+            return Reply(replace(session, last=known), listed)
+    S, T = types
+    return _shown(session, _MERGES[word](S, T, session.theory))
+
+
+def _created(session: Session, T: TypeNode) -> Reply:
+    after, witness = created(session, T)
+    last = after.model.judge(witness, T)
+    return Reply(replace(after, last=last, before=session), notation(witness))

@@ -1,0 +1,475 @@
+"""A session: a theory that grows statement by statement, and the model of its facts.
+
+A session is a value. What is entered gives another session, and a mistake gives none.
+Unlike in a file, a name may be declared again: what rests on it then follows it.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import reduce
+from pathlib import Path
+from typing import TypeAlias
+
+from ttr.computing.subtyping import Answer
+from ttr.errors import NotationError, TTRError, Unsupported
+from ttr.escapes import json_text
+from ttr.judging.judgements import Judgement, Why
+from ttr.judging.models import Model
+from ttr.notation import syntax_trees as trees
+from ttr.notation.grammar import blocks, statement
+from ttr.notation.syntax_trees import Source, Statement
+from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.safety.budgets import within_budget
+from ttr.safety.consent import OWN_FOLDER, Consent, check_called
+from ttr.safety.files import write_whole
+from ttr.safety.inputs import read_text
+from ttr.safety.limits import THEORY
+from ttr.theories.drafts import Draft
+from ttr.theories.statements import Declaring, mentioned
+from ttr.theories.strategy_statements import gathered
+from ttr.theories.theory import (
+    Expected,
+    Given,
+    Mistakes,
+    Theory,
+    theory_of_draft,
+    theory_of_file,
+    theory_of_text,
+)
+from ttr.types.paths import occurring
+from ttr.types.printing import notation
+from ttr.types.syntax import Basic, Object, PType, TypeNode
+
+__all__ = ["Answered", "Entry", "Session", "created", "declared", "loaded", "saved"]
+
+INPUT = "<input>"
+"""What a line that was typed is called where a mistake in it is shown."""
+
+Answered: TypeAlias = Object | Judgement | Answer | None
+"""What was answered last: a value, a judgement or an answer about types."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A statement of a session: the names that it declares, and those it rests on.
+
+    `kinds` are those of the rules in it, as `rests_on` has those that are gathered.
+    """
+
+    text: str
+    declares: frozenset[str]
+    rests_on: frozenset[str]
+    kinds: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, eq=False)
+class Session:
+    """What was entered so far: `theory` and `model` are what the entries come to.
+
+    `last` is what was answered last, `before` the session before the last change, and
+    `over` says that nothing more is to be asked. By `consent`, files may import from
+    the folders of those that the user has named.
+    """
+
+    entries: tuple[Entry, ...] = ()
+    theory: Theory = field(default_factory=Theory)
+    model: Model = field(default_factory=Model, repr=False)
+    last: Answered = None
+    before: Session | None = field(default=None, repr=False)
+    over: bool = False
+    consent: Consent = OWN_FOLDER
+
+    def naming(self, path: Path) -> Session:
+        """The session in which the user has named this file."""
+        return replace(self, consent=self.consent.adding(path.parent))
+
+
+# --- entering statements -------------------------------------------------------------
+
+
+@within_budget
+def declared(
+    session: Session, tree: Statement, source: Source
+) -> tuple[Session, frozenset[str]]:
+    """The session with a statement more, and the names that changed with it.
+
+    Raises `TTRError` for a mistake in it, a fact that contradicts others, or where what
+    rests on a name has no use for its new meaning.
+
+    >>> kennel, _ = declared(Session(), *_read("basic Ind"))
+    >>> kennel, _ = declared(kennel, *_read("Pair := [a : Ind, b : Ind]"))
+    >>> kennel, changed = declared(kennel, *_read("Ind := list(Type)"))
+    >>> sorted(changed), str(kennel.theory.Pair)
+    (['Ind', 'Pair'], '[a : list(Type), b : list(Type)]')
+    """
+    if isinstance(tree, trees.Import):
+        session = session.naming(Path(os.path.realpath(tree.path)))
+        entries = (*session.entries, _entry(tree, source, Path(), session.consent))
+        return _afresh(session, entries, _theory_of(session, entries)), frozenset()
+    entry = _entry(tree, source, Path(), session.consent)
+    if _is_said_already(session, entry, tree):
+        return session, frozenset()
+    again = _declared_again(session.theory, tree)
+    if again or _gathered(session, entry):
+        return _redeclared(session, entry, tree, source)
+    theory = _after(session.theory, session.entries, tree, source)
+    return _with(session, (*session.entries, entry), theory), frozenset()
+
+
+def _is_said_already(session: Session, entry: Entry, tree: Statement) -> bool:
+    """Is a statement in the session that the new one would only say once more?
+
+    A question is asked again. A fact or a chance may have another degree by now.
+    """
+    if isinstance(tree, trees.Question | trees.GivenFact | trees.GivenChance):
+        return False
+    return any(entry.text == one.text for one in session.entries)
+
+
+def _after(
+    theory: Theory, entries: Iterable[Entry], tree: Statement, source: Source
+) -> Theory:
+    """The theory of the entries with a statement more."""
+    draft = Draft.of(theory)
+    draft.settled.update(*(one.rests_on for one in entries))
+    Declaring(draft, source).declare(tree)
+    return theory_of_draft(draft)
+
+
+def _entry(tree: Statement, source: Source, folder: Path, consent: Consent) -> Entry:
+    """The statement as an entry; an import in it is relative to the folder."""
+    if isinstance(tree, trees.Import):
+        path = Path(os.path.realpath(folder / tree.path))
+        try:
+            check_called(folder / tree.path, ".ttr", tree.path)
+            theory = theory_of_file(path, consent)
+        except TTRError as error:
+            raise error.at(source.span(tree)) from None
+        kinds = _of_kinds(rule.kind for rule in theory.rules.values())
+        text = f"import {json_text(str(path))}"
+        return Entry(text, theory.names, frozenset(), kinds)
+    text = _indented(_written(source, tree))
+    rests_on = mentioned(tree) | _of_kinds(gathered(tree))
+    return Entry(text, _announced(tree), rests_on, _kinds(tree))
+
+
+def _kinds(tree: Statement) -> frozenset[str]:
+    """The kind of the rule that a statement declares, if it has one."""
+    match tree:
+        case trees.RuleStatement(kind=trees.Word(_, _, kind)):
+            return _of_kinds([kind])
+    return frozenset()
+
+
+def _of_kinds(kinds: Iterable[str]) -> frozenset[str]:
+    """The kinds of rules as what is rested on: written so that they are no names."""
+    return frozenset(f"of {kind}" for kind in kinds)
+
+
+def _gathered(session: Session, entry: Entry) -> bool:
+    """Whether a strategy gathers the rules of a kind, and the entry is one more."""
+    return any(entry.kinds & one.rests_on for one in session.entries)
+
+
+def _indented(text: str) -> str:
+    """The text with its further lines set in, as they are in a file."""
+    first, *rest = text.split("\n")
+    inner = (line if line[:1].isspace() else f"    {line}" for line in rest)
+    return "\n".join((first, *inner))
+
+
+def _announced(tree: Statement) -> frozenset[str]:
+    """The names that a statement declares, or may declare as it goes."""
+    match tree:
+        case trees.BasicNames(_, _, words) | trees.ObjectNames(_, _, words):
+            return frozenset(word.text for word in words)
+        case trees.Predicates(_, _, arities):
+            return frozenset(arity.name.text for arity in arities)
+        case (
+            trees.Definition(_, _, word)
+            | trees.RuleStatement(_, _, word)
+            | trees.StrategyStatement(_, _, word)
+            | trees.GameStatement(_, _, word)
+        ):
+            return frozenset((word.text,))
+        case trees.GivenFact(_, _, trees.Name(_, _, (name,), None)):
+            return frozenset((name,))
+    return frozenset()
+
+
+def _with(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Session:
+    """The session in which these entries have come to this theory."""
+    old = session.theory
+    if _rules(theory) != _rules(old):
+        return _afresh(session, entries, theory)
+    new = theory.givens[len(old.givens) :]
+    model = reduce(_told, new, session.model)
+    return replace(session, entries=entries, theory=theory, model=model)
+
+
+def _rules(theory: Theory) -> tuple[object, ...]:
+    """What judgements that were told before may have to be looked at again for."""
+    return theory.axioms, theory.exclusions, theory.opened
+
+
+def _afresh(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Session:
+    model = reduce(_told, theory.givens, Model(replace(theory, givens=())))
+    return replace(session, entries=entries, theory=theory, model=model)
+
+
+def _told(model: Model, given: Given | Expected) -> Model:
+    try:
+        return model.stated(given)
+    except TTRError as error:
+        raise error.at(given.span) if given.span else error from None
+
+
+def _theory_of(session: Session, entries: Iterable[Entry]) -> Theory:
+    text = "\n".join(entry.text for entry in entries)
+    return theory_of_text(text, "<session>", session.consent)
+
+
+def _union(names: Iterable[frozenset[str]]) -> frozenset[str]:
+    return frozenset().union(*names)
+
+
+# --- names that are declared again ---------------------------------------------------
+
+
+def _declared_again(theory: Theory, tree: Statement) -> frozenset[str]:
+    """The names that a statement gives another meaning.
+
+    A fact does not, nor does what makes a basic type of one, or an object of one.
+    """
+    known = theory.names & _announced(tree)
+    match tree:
+        case trees.BasicNames():
+            return known - frozenset(theory.basics)
+        case trees.ObjectNames():
+            return known - theory.objects
+        case trees.GivenFact():
+            return frozenset()
+    return known
+
+
+def _redeclared(
+    session: Session, entry: Entry, tree: Statement, source: Source
+) -> tuple[Session, frozenset[str]]:
+    """The session with the entry for those that declared its names before."""
+    names = entry.declares
+    ahead, behind = _parted(session.entries, names, entry.kinds)
+    try:
+        _after(_theory_of(session, ahead), ahead, tree, source)
+    except TTRError:
+        _refuse_circle(names, entry.rests_on, _names_of(behind))
+        raise
+    return _replaced(session, ahead, (entry,), behind)
+
+
+def _refuse_circle(
+    names: frozenset[str], rests_on: frozenset[str], followers: frozenset[str]
+) -> None:
+    new, hint = _listing(names), "give the new one another name"
+    if rests_on & names:
+        raise NotationError(f"{new} would rest on itself", hint=hint)
+    if rests_on & followers:
+        between = _listing(rests_on & followers)
+        raise NotationError(
+            f"{new} would rest on {between}, which rests on {new}", hint=hint
+        )
+
+
+def _replaced(
+    session: Session,
+    ahead: Sequence[Entry],
+    new: Sequence[Entry],
+    behind: Sequence[Entry],
+) -> tuple[Session, frozenset[str]]:
+    """The session of these entries, and the names that changed with the new ones.
+
+    Raises `TTRError` where one of those behind does not fit with the new ones.
+    """
+    names = session.theory.names & _names_of(new)
+    entries = (*ahead, *new, *behind)
+    try:
+        after = _afresh(session, entries, _theory_of(session, entries))
+    except TTRError as error:
+        first = error.errors[0] if isinstance(error, Mistakes) else error
+        raise type(first)(
+            f"{_listing(names)} cannot change so: {first.message}",
+            span=first.span,
+            hint=first.hint,
+        ) from None
+    return after, (names | _names_of(behind)) - after.theory.objects
+
+
+def _names_of(entries: Iterable[Entry]) -> frozenset[str]:
+    return _union(one.declares for one in entries)
+
+
+def _parted(
+    entries: Iterable[Entry],
+    names: frozenset[str],
+    kinds: frozenset[str] = frozenset(),
+) -> tuple[list[Entry], list[Entry]]:
+    """The entries but for those that declare the names, in two parts.
+
+    First those that do not rest on the names and the kinds, then those that do, each in
+    their order.
+    """
+    ahead: list[Entry] = []
+    behind: list[Entry] = []
+    changed = names | kinds
+    for entry in entries:
+        follows = bool(entry.rests_on & changed)
+        left = _without(entry, names)
+        (behind if follows else ahead).extend(left)
+        if follows:
+            changed |= _names_of(left)
+        if follows or entry.declares & names:
+            changed |= entry.kinds
+    return ahead, behind
+
+
+def _without(entry: Entry, names: frozenset[str]) -> tuple[Entry, ...]:
+    """The entry without its declarations of the names: none if nothing is left."""
+    if not entry.declares & names:
+        return (entry,)
+    tree, source = _read(entry.text)
+    match tree:
+        case trees.Import(_, _, path):
+            raise NotationError(
+                f"{_listing(entry.declares & names)} is declared in {path}, "
+                "which the session imports",
+                hint="give the new one another name",
+            )
+        case trees.GivenFact():
+            text = entry.text
+        case trees.BasicNames(_, _, words):
+            text = _shorter("basic", [w for w in words if w.text not in names], source)
+        case trees.ObjectNames(_, _, words, kind):
+            text = _shorter("object", [w for w in words if w.text not in names], source)
+            text += f" : {_written(source, kind)}" * bool(text)
+        case trees.Predicates(_, _, arities):
+            left = [one for one in arities if one.name.text not in names]
+            text = _shorter("pred", left, source)
+        case _:
+            text = ""
+    return (replace(entry, text=text, declares=entry.declares - names),) * bool(text)
+
+
+def _shorter(keyword: str, left: Sequence[trees.Part], source: Source) -> str:
+    """The declaration of the parts that are left, or nothing if none is."""
+    written = ", ".join(_written(source, part) for part in left)
+    return f"{keyword} {written}" if written else ""
+
+
+def _written(source: Source, part: trees.Part) -> str:
+    return source.text[part.start : part.end]
+
+
+def _listing(names: Iterable[str]) -> str:
+    return ", ".join(sorted(names))
+
+
+def _read(text: str) -> tuple[Statement, Source]:
+    source = Source.of(text, INPUT)
+    return statement(source, 0, len(source.text)), source
+
+
+# --- witnesses -----------------------------------------------------------------------
+
+
+@within_budget
+def created(session: Session, T: TypeNode) -> tuple[Session, Object]:
+    """The session with the facts of a fresh witness of T, and the witness.
+
+    Raises `Refused` where there can be none.
+    """
+    witness, model = session.model.create(T)
+    for sit, kind, p in _atoms(model.judge(witness, T).why, CERTAIN):
+        is_new = isinstance(sit, str) and sit not in session.theory.names
+        if is_new or session.model.judge(sit, kind).p != p:
+            fact = _fact(session.theory, sit, kind, p)
+            session, _ = declared(session, *_read(fact))
+    return session, witness
+
+
+def _atoms(why: Why, p: Degree) -> Iterable[tuple[Object, TypeNode, Degree]]:
+    """The judgements of basic types and ptypes that a derivation of degree p rests on.
+
+    Under a negation they are those that are refuted.
+    """
+    if why.p != p:
+        return
+    if not why.parts and isinstance(why.type, Basic | PType):
+        yield why.sit, why.type, p
+    other = REFUTED if p == CERTAIN else CERTAIN
+    for part in why.parts:
+        yield from _atoms(part, other if why.how == "none" else p)
+
+
+def _fact(theory: Theory, sit: Object, T: TypeNode, p: Degree) -> str:
+    """A statement of the fact; names of objects that mean something else are quoted."""
+    meant = theory.names - theory.objects
+    named = (part for part in occurring([T]) if isinstance(part, str))
+    unheard = [name for name in named if name not in theory.objects]
+    degree = " = 0" * (p == REFUTED)
+    kind = notation(T, (meant.union(unheard),))
+    return f"given {notation(sit, (meant,))} : {kind}{degree}"
+
+
+# --- files ---------------------------------------------------------------------------
+
+
+def loaded(session: Session, path: Path) -> tuple[Session, frozenset[str]]:
+    """The session with the statements of a file, and the names that changed.
+
+    Raises `TTRError` for a file that cannot be read and for the mistakes in it.
+    """
+    session = session.naming(path)
+    theory = theory_of_file(path, session.consent)
+    known = {entry.text for entry in session.entries}
+    entries = _entries(path, session.consent)
+    new = tuple(entry for entry in entries if entry.text not in known)
+    if not session.entries:
+        return _afresh(session, new, theory), frozenset()
+    kinds = _union(one.kinds for one in new)
+    ahead, behind = _parted(session.entries, _names_of(new), kinds)
+    return _replaced(session, ahead, new, behind)
+
+
+def _entries(path: Path, consent: Consent) -> Iterator[Entry]:
+    source = Source.of(read_text(path, THEORY), str(path))
+    for start, end in blocks(source.text):
+        yield _entry(statement(source, start, end), source, path.parent, consent)
+
+
+def saved(session: Session, path: Path) -> None:
+    """Writes the statements into a file that loads again, imports too.
+
+    In another session, imports from other folders have to be allowed.
+
+    Raises `TTRError` where the file cannot be written.
+    """
+    try:
+        folder = Path(os.path.realpath(path)).parent
+        lines = [_relative(entry.text, folder) for entry in session.entries]
+        write_whole(path, "".join(f"{line}\n" for line in lines))
+    except ValueError:
+        raise Unsupported(
+            f"{path} cannot be written: it is no path of a file"
+        ) from None
+
+
+def _relative(text: str, folder: Path) -> str:
+    """The statement, an import as one that is relative to the folder."""
+    if not text.startswith("import"):
+        return text
+    tree, _ = _read(text)
+    if not isinstance(tree, trees.Import):
+        return text
+    return f"import {json_text(os.path.relpath(tree.path, folder))}"

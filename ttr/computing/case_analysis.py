@@ -1,0 +1,129 @@
+"""Taking joins and negations apart: the cases of a type, and its clauses.
+
+A type is the join of its cases, which have no join where one can be taken out; and the
+meet of its clauses, each a join of types that are neither meets nor joins. In both,
+negations are pushed inwards: ¬(S ∧ T) is ¬S ∨ ¬T, and ¬¬T is T.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from functools import partial
+from itertools import chain, product
+from math import prod
+
+from ttr.computing.normal_forms import inwards, meet_normal_form
+from ttr.computing.strings.pieces import is_of_strings
+from ttr.errors import Unsupported
+from ttr.safety.budgets import spend
+from ttr.types.forms import order_fields
+from ttr.types.syntax import (
+    Join,
+    Meet,
+    Negation,
+    RecordType,
+    Singleton,
+    Str,
+    TypeNode,
+    meet,
+)
+
+__all__ = ["CASES", "Clause", "cases", "clauses", "splits"]
+
+CASES = 256
+"""How many cases or clauses a type may have before it is left whole."""
+
+Clause = tuple[TypeNode, ...]
+
+
+def splits(T: TypeNode) -> bool:
+    """Whether T has a join or a negation where cases can be told apart."""
+    match T:
+        case Join() | Negation():
+            return True
+        case Meet(parts):
+            spend(len(parts))
+            return any(map(splits, parts))
+        case Str(parts):
+            spend(len(parts))
+            return any(splits(part) for part in parts if not is_of_strings(part))
+        case RecordType(fields):
+            spend(len(fields))
+            return any(splits(field) for _, field in fields)
+        case Singleton(base, _):
+            spend()
+            return splits(base)
+    return False
+
+
+def cases(T: TypeNode) -> tuple[TypeNode, ...] | None:
+    """The types of which T is the join, or None where they are too many.
+
+    A record type has a case for each choice of a case for its fields: what a field is
+    of is one of the cases, whatever the others are.
+
+    >>> from ttr.types.syntax import Basic
+    >>> A, B, C = map(Basic, "ABC")
+    >>> print(*cases(A & (B | ~~C)), sep="; ")
+    A /\\ B; A /\\ C
+    """
+    spend()
+    if not splits(T):
+        return (T,)
+    match T:
+        case Join(parts):
+            return _few(tuple(map(cases, parts)))
+        case Negation():
+            inner = inwards(T)
+            return (T,) if inner is T else cases(inner)
+        case Singleton(base, value):
+            found = cases(base)
+            return found and tuple([Singleton(case, value) for case in found])
+        case Meet(parts):
+            return _chosen(map(cases, parts), meet)
+        case Str(parts):
+            # A piece that may be a string of several events stays whole.
+            kept = [(p,) if is_of_strings(p) else cases(p) for p in parts]
+            return _chosen(kept, Str)
+        case RecordType(fields):
+            kept = [cases(field) for _, field in fields]
+            return _chosen(kept, partial(_fields, T.labels))
+    return (T,)
+
+
+def _fields(labels: Iterable[str], *types: TypeNode) -> RecordType:
+    return RecordType(order_fields(dict(zip(labels, types, strict=True))))
+
+
+def _chosen(
+    parts: Iterable[tuple[TypeNode, ...] | None], whole: Callable[..., TypeNode]
+) -> tuple[TypeNode, ...] | None:
+    """A case of the whole for each choice of a case for each part."""
+    found = list(parts)
+    if prod(len(choices or ()) for choices in found) > CASES or None in found:
+        return None
+    return tuple([whole(*choice) for choice in product(*filter(None, found))])
+
+
+def _few(found: tuple[tuple[TypeNode, ...] | None, ...]) -> tuple[TypeNode, ...] | None:
+    """All that were found, each once, unless they are too many."""
+    if None in found:
+        return None
+    once = tuple(dict.fromkeys(chain.from_iterable(filter(None, found))))
+    return once if len(once) <= CASES else None
+
+
+def clauses(T: TypeNode) -> tuple[Clause, ...] | None:
+    """The clauses of which T is the meet, or None where they are too many.
+
+    >>> from ttr.types.syntax import Basic
+    >>> A, B, C = map(Basic, "ABC")
+    >>> [" or ".join(map(str, clause)) for clause in clauses((A & B) | ~(A & C))]
+    ['A or ~A or ~C', 'B or ~A or ~C']
+    """
+    try:
+        T = meet_normal_form(T, CASES)
+    except Unsupported:
+        return None
+    whole = T.parts if isinstance(T, Meet) else (T,)
+    return tuple([one.parts if isinstance(one, Join) else (one,) for one in whole])

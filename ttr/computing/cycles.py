@@ -1,0 +1,130 @@
+"""Do the paths of a record type go in a circle?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
+
+from ttr.safety.budgets import spend
+from ttr.types.forms import order_fields
+from ttr.types.paths import escaping, occurring, rebuilt
+from ttr.types.syntax import Object, RecordType, Singleton, TypeNode
+
+__all__ = ["circle", "in_order", "round_about", "straightened"]
+
+Address = tuple[str, ...]
+"""A field of a record type or of one nested in it: the labels that lead to it."""
+
+
+def circle(T: TypeNode) -> str:
+    """The fields that depend on one another in a circle, or the empty string.
+
+    A field depends on another where its type or value mentions a path to it, to what is
+    in it or to what it is in. Such a type can be checked, but no witness built.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, this
+    >>> circle(rectype(x=Ind @ this.y, y=Ind @ this.x))
+    'x → y → x'
+    >>> circle(rectype(x=Ind, y=Ind @ this.x))
+    ''
+    """
+    return " → ".join(round_about(T))
+
+
+def round_about(T: TypeNode) -> tuple[str, ...]:
+    """The paths of the fields in a circle, the first of them once more at the end.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, this
+    >>> round_about(rectype(x=Ind @ this.x)), round_about(rectype(x=Ind))
+    (('x', 'x'), ())
+    """
+    leaves = dict(_leaves(T, ()))
+    inner: dict[Address, list[Address]] = {}
+    for leaf in leaves:
+        for length in range(1, len(leaf) + 1):
+            inner.setdefault(leaf[:length], []).append(leaf)
+    needs = {
+        leaf: [
+            near for target in _targets(leaf, field) for near in _near(target, inner)
+        ]
+        for leaf, field in leaves.items()
+    }
+    try:
+        TopologicalSorter(needs).prepare()
+    except CycleError as error:
+        return tuple(".".join(leaf) for leaf in reversed(error.args[1]))
+    return ()
+
+
+def in_order(T: TypeNode) -> bool:
+    """Whether each field depends on fields before it only, in T and in what is in it.
+
+    Then no paths of it go in a circle.
+    """
+    return all(
+        _is_in_order(part) for part in occurring([T]) if isinstance(part, RecordType)
+    )
+
+
+def _is_in_order(T: RecordType) -> bool:
+    before: set[str] = set()
+    for label, field in T.fields:
+        for path in escaping(field):
+            if path.up == 0 and path.labels[0] not in before:
+                return False
+        before.add(label)
+    return True
+
+
+def straightened(T: TypeNode) -> TypeNode:
+    """T without the equations that go in a circle, each of which may be so by itself.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, this
+    >>> print(straightened(rectype(x=Ind @ this.y, y=Ind @ this.x)))
+    [x : Ind, y = x : Ind]
+    """
+    found: TypeNode = _without_circles(T)
+    return found
+
+
+def _without_circles(value: Object) -> Object:
+    spend()
+    value = rebuilt(value, lambda part, _: _without_circles(part))
+    if not isinstance(value, RecordType):
+        return value
+    fields: dict[str, TypeNode] = {}
+    for label, field in value.fields:
+        needs = {path.labels[0] for path in escaping(field) if path.up == 0}
+        if isinstance(field, Singleton) and not needs <= fields.keys():
+            field = field.base
+        fields[label] = field
+    return RecordType(order_fields(fields))
+
+
+def _leaves(T: TypeNode, at: Address) -> Iterator[tuple[Address, TypeNode]]:
+    if not isinstance(T, RecordType):
+        return
+    spend((1 + len(at)) * len(T.fields))
+    for label, field in T.fields:
+        address = (*at, label)
+        if isinstance(field, RecordType) and field.fields:
+            yield from _leaves(field, address)
+        else:
+            yield address, field
+
+
+def _targets(leaf: Address, field: TypeNode) -> list[Address]:
+    """Where the paths of a field lead; those that leave the whole type lead nowhere."""
+    inside = [path for path in escaping(field) if path.up < len(leaf)]
+    return sorted(leaf[: len(leaf) - 1 - path.up] + path.labels for path in inside)
+
+
+def _near(target: Address, inner: dict[Address, list[Address]]) -> list[Address]:
+    """The leaves in the field a path leads to, or the leaf that the path goes into."""
+    for length in range(len(target), 0, -1):
+        if target[:length] in inner:
+            return inner[target[:length]]
+    return []

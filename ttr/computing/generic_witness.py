@@ -1,0 +1,443 @@
+"""An arbitrary witness of a type: what is equal in it, and what is of what.
+
+It is symbolic. Its parts are *places*, paths from the witness itself; manifest fields
+make places equal to one another or to objects, and each class of equal places is of the
+types that are claimed of any of them. Nothing is judged and nothing is remembered.
+
+What is claimed of an arbitrary element of a list or set holds only where there is one,
+so such a claim has a *condition*, the place of that element.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator
+
+from ttr.computing.strings.pieces import events_of, is_of_strings
+from ttr.computing.universe_levels import why_outside
+from ttr.computing.witness_places import (
+    EACH,
+    ITSELF,
+    element,
+    elements,
+    event,
+    instantiated,
+    step,
+    unpacked,
+    within,
+)
+from ttr.safety.budgets import spend
+from ttr.types.paths import escaping, occurring, replace_paths
+from ttr.types.syntax import (
+    Application,
+    Basic,
+    EventString,
+    FiniteSet,
+    Function,
+    FunType,
+    ListOf,
+    Meet,
+    Negation,
+    NonEmpty,
+    Object,
+    Operation,
+    Path,
+    Plus,
+    PType,
+    Record,
+    RecordType,
+    SetOf,
+    Singleton,
+    Str,
+    TypeNode,
+    Universe,
+    identity,
+)
+
+__all__ = ["Assumption", "Hypothetical"]
+
+Assumption = tuple[Object, TypeNode]
+"""That a place or an object is of a type."""
+
+
+class Hypothetical:
+    """An arbitrary witness of S, and others that are assumed beside it.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, this
+    >>> witness = Hypothetical(rectype(x=Ind, y=Ind @ this.x))
+    >>> witness.normal(step(ITSELF, "y")) is step(ITSELF, "x")
+    True
+    >>> Hypothetical(Ind @ "a" & Ind @ "b").impossible
+    True
+    """
+
+    def __init__(self, S: TypeNode, assumed: Iterable[Assumption] = ()) -> None:
+        self._equal: dict[tuple[str, ...], Object] = {}
+        self._unbound: list[tuple[Object, Object]] = []
+        self._around_bound: set[tuple[str, ...]] = set()
+        self._absent: set[Path | None] = set()
+        self._followed = True
+        self._classes: dict[object, _Class] = {}
+        self._claims: list[tuple[Path, TypeNode]] = []
+        self.strings: list[Object] = []
+        self._claim(ITSELF, S)
+        written = []
+        for term, T in assumed:
+            if isinstance(term, Path):
+                self._claim(term, T)
+            else:
+                written.append((term, T))
+        self._equate_manifest()
+        for place, T in self._claims:
+            self._classify(place, T, self._condition(place))
+        for term, T in written:
+            self._spread(term, T, None)
+        self._find_misfits()
+
+    def normal(self, value: Object) -> Object:
+        """The value with every place in it replaced by the one chosen for its class."""
+        return replace_paths(value, self._chosen) if self._equal else value
+
+    def same(self, term: Object, other: Object) -> bool:
+        """Whether two normal terms surely are equal."""
+        wanted = {identity(term), identity(other)}
+        return len(wanted) == 1 or any(
+            wanted == {identity(self.normal(left)), identity(self.normal(right))}
+            for left, right in self._unbound
+        )
+
+    def types_of(self, term: Object, given: Collection[Path] = ()) -> list[TypeNode]:
+        """The types claimed of a normal term, none of them a singleton or a meet.
+
+        `given` are the elements of lists that there are.
+        """
+        known = self._classes.get(identity(term))
+        return known.types(given) if known else []
+
+    @property
+    def impossible(self) -> bool:
+        """Whether nothing is of S, under no assignment."""
+        return None in self._absent
+
+    @property
+    def certain(self) -> bool:
+        """Whether some assignment surely has such a witness, of no more than this."""
+        return self._followed and not self._absent
+
+    def is_absent(self, place: Path) -> bool:
+        """Whether there cannot be such an element, so that its list is empty."""
+        return place in self._absent
+
+    def negated(self, given: Collection[Path]) -> list[Assumption]:
+        """The terms that are surely not of a type, each with that type."""
+        return [
+            (known.term, T.body)
+            for known in self._classes.values()
+            for T in known.types(given)
+            if isinstance(T, Negation)
+        ]
+
+    def atoms(self, given: Collection[Path]) -> Iterator[list[Basic | PType]]:
+        """The basic types and ptypes that each of the terms is surely of."""
+        for known in self._classes.values():
+            yield [T for T in known.types(given) if isinstance(T, Basic | PType)]
+
+    # --- what is claimed, place by place ---
+
+    def _claim(self, place: Path, T: TypeNode) -> None:
+        match T:
+            case Meet(parts):
+                spend(2 * len(parts))
+                for part in parts:
+                    self._claim(place, part)
+                return
+            case Singleton(base, _):
+                self._claim(place, base)
+            case ListOf(item) | NonEmpty(item) | SetOf(item):
+                spend(2 + len(place.labels) // 4)
+                self._claim(element(place), item)
+            case Str(items):
+                spend(2 * len(items))
+                for number, item in enumerate(events_of(T) or ()):
+                    self._claim(event(place, number), item)
+            case RecordType(fields):
+                # A claim is kept for each field, with a place as long as it is deep.
+                spend((2 + len(place.labels) // 4) * len(fields))
+                for label, field in fields:
+                    self._claim(step(place, label), unpacked(field, place))
+        self._claims.append((place, T))
+
+    def _classify(self, term: Object, T: TypeNode, condition: Path | None) -> None:
+        """Adds a claim to those of the class of its term."""
+        if isinstance(T, Singleton):
+            return
+        term = self.normal(term)
+        known = self._classes.setdefault(identity(term), _Class(term))
+        claimed = T if isinstance(T, RecordType) else self.normal(T)
+        known.claims.append((claimed, condition))
+        value = _value(claimed)
+        if isinstance(value, Basic | PType):
+            known.claims.append((value, condition))
+        inside = elements(term)
+        match T:
+            case ListOf(item) | NonEmpty(item) | SetOf(item) if inside is not None:
+                for one in inside:
+                    self._spread(one, item, condition)
+            case Str() if inside is not None and len(inside) == _length(T):
+                for one, item in zip(inside, T.items, strict=True):
+                    self._spread(one, item, condition)
+        if isinstance(T, Str | Plus):
+            self.strings.append(term)
+
+    def _spread(self, term: Object, T: TypeNode, condition: Path | None) -> None:
+        """Adds what a list's type claims of an element that is written in it."""
+        spend()
+        match T:
+            case Meet(parts):
+                for part in parts:
+                    self._spread(term, part, condition)
+            case Singleton(base, value):
+                self._compare(term, self.normal(value), condition)
+                self._spread(term, base, condition)
+            case RecordType(fields) if isinstance(term, Record):
+                self._classify(term, T, condition)
+                for label, field in fields:
+                    inner = within(term, (label,))
+                    self._spread(inner, unpacked(field, term), condition)
+            case RecordType():
+                self._followed = False
+                self._classify(term, T, condition)
+            case _:
+                self._classify(term, T, condition)
+
+    def _compare(self, term: Object, value: Object, condition: Path | None) -> None:
+        """Notes what follows where an object that is written has to be a value."""
+        if identity(term) == identity(value):
+            return
+        if _is_open(term) or _is_open(value):
+            self._leave(term, value)
+        else:
+            self._absent.add(condition)
+
+    def _condition(self, place: Path) -> Path | None:
+        """The innermost element of a list that a place is, or is in."""
+        if EACH not in place.labels:
+            return None
+        labels = _to_element(place)
+        found = self.normal(Path(0, labels[:-1]))
+        return element(found) if isinstance(found, Path) else Path(0, labels)
+
+    # --- what is equal ---
+
+    def _equate_manifest(self) -> None:
+        """Makes manifest places equal to their values, outer places first."""
+        manifest = [
+            (place, T.value) for place, T in self._claims if isinstance(T, Singleton)
+        ]
+        for place, value in sorted(manifest, key=lambda pair: len(pair[0].labels)):
+            self._equate(place, value, place)
+
+    def _equate(self, left: Object, right: Object, at: Path) -> None:
+        spend()
+        left, right = self.normal(left), self.normal(right)
+        if identity(left) == identity(right):
+            return
+        if isinstance(left, Path) and self._may_bind(left, at):
+            self._bind(left, right)
+        elif isinstance(right, Path) and self._may_bind(right, at):
+            self._bind(right, left)
+        elif not _is_open(left) and not _is_open(right):
+            self._absent.add(self._condition(at))
+        elif _same_form(left, right):
+            for mine, theirs in zip(_contents(left), _contents(right), strict=True):
+                self._equate(mine, theirs, at)
+        else:
+            self._leave(left, right)
+
+    def _leave(self, left: Object, right: Object) -> None:
+        """Notes that two terms are equal, of which neither is chosen for the other."""
+        self._unbound.append((left, right))
+        self._followed = False
+
+    def _may_bind(self, place: Path, at: Path) -> bool:
+        """Whether what holds at a place may say what another one is equal to."""
+        needed = self._condition(at)
+        inside = needed is None or place.labels[: len(needed.labels)] == needed.labels
+        return place.up == 0 and inside
+
+    def _bind(self, place: Path, value: Object) -> None:
+        """Chooses the value for the class of a free place.
+
+        What is not followed up, a place equal to something around or inside it, or one
+        whose parts were equated before it, is noted: then a refutation is not certain.
+        """
+        labels = place.labels
+        if labels in self._around_bound:
+            self._followed = False
+        for path in escaping(value):
+            size = min(len(path.labels), len(labels))
+            if path.up == 0 and path.labels[:size] == labels[:size]:
+                self._leave(place, value)
+                return
+        self._equal[labels] = value
+        self._around_bound.update(labels[:size] for size in range(1, len(labels)))
+
+    def _chosen(self, path: Path) -> Object:
+        """The term chosen for the class of a place, along all equations.
+
+        Places on the way are noted to be equal to it, so that no way is gone twice.
+        """
+        passed: list[tuple[str, ...]] = []
+        chosen: Object = path
+        while isinstance(chosen, Path) and (length := self._bound_length(chosen)):
+            labels = chosen.labels
+            if length == len(labels):
+                passed.append(labels)
+            chosen = within(self._equal[labels[:length]], labels[length:])
+        self._equal.update(dict.fromkeys(passed, chosen))
+        return chosen if isinstance(chosen, Path) else self.normal(chosen)
+
+    def _bound_length(self, path: Path) -> int:
+        """How many of the path's labels lead to the first place that is bound, or 0."""
+        if path.up > 0 or not self._equal:
+            return 0
+        lengths = range(1, len(path.labels) + 1)
+        return next((n for n in lengths if path.labels[:n] in self._equal), 0)
+
+    def _find_misfits(self) -> None:
+        """Notes what cannot be there, as nothing has the form of all its types."""
+        for known in self._classes.values():
+            if isinstance(known.term, Path) and len(known.claims) == 1:
+                continue
+            if known.is_mixed():
+                self._followed = False
+            if known.fits([T for T, _ in known.claims]):
+                continue
+            conditions = dict.fromkeys((None, *(c for _, c in known.claims)))
+            absent = [c for c in conditions if not known.fits(known.types((c,)))]
+            self._absent.update(absent)
+            self._followed = False
+        for known in self._classes.values() if self._absent else ():
+            place = known.term
+            if isinstance(place, Path) and element(place) in self._absent:
+                self._absent.update(known.conditions(NonEmpty))
+
+
+class _Class:
+    """A term chosen for equal places, and the claims made of any of them."""
+
+    def __init__(self, term: Object) -> None:
+        self.term = term
+        self.claims: list[tuple[TypeNode, Path | None]] = []
+
+    def types(self, given: Collection[Path | None]) -> list[TypeNode]:
+        """The types claimed where these elements of lists are there."""
+        return [T for T, c in self.claims if c is None or c in given]
+
+    def is_mixed(self) -> bool:
+        """Whether something of a given form is claimed to be of atoms, too.
+
+        There may be such things, but none can be made up where it stands.
+        """
+        kinds = {isinstance(T, Basic | PType) for T, _ in self.claims}
+        return len(kinds) > 1
+
+    def conditions(self, kind: type[TypeNode]) -> list[Path | None]:
+        """Under which conditions a type of this kind is claimed."""
+        return [c for T, c in self.claims if isinstance(T, kind)]
+
+    def fits(self, types: list[TypeNode]) -> bool:
+        """Whether the types can all be of the term, as far as their form says."""
+        shapes = [T for T in types if isinstance(T, _Shape)]
+        if isinstance(self.term, Path):
+            lengths = {_length(T) for T in shapes if isinstance(T, Str)} - {None}
+            return len({_SHAPES[type(T)] for T in shapes}) <= 1 and len(lengths) <= 1
+        if isinstance(self.term, Application | Operation):
+            return True
+        return all(_has_form(self.term, shape) for shape in shapes)
+
+
+_SHAPES: dict[type[TypeNode], str] = {
+    RecordType: "record",
+    ListOf: "list",
+    NonEmpty: "list",
+    SetOf: "set",
+    Str: "string",
+    Plus: "string",
+    FunType: "function",
+    Universe: "type",
+}
+"""The form that everything of a type has, where it says so."""
+
+_Shape = tuple(_SHAPES)
+
+
+def _has_form(term: Object, shape: TypeNode) -> bool:
+    match shape:
+        case RecordType():
+            return isinstance(term, Record) and all(label in term for label in shape)
+        case ListOf():
+            return isinstance(term, tuple)
+        case NonEmpty():
+            return isinstance(term, tuple) and len(term) > 0
+        case SetOf():
+            return isinstance(term, FiniteSet)
+        case Str():
+            length = _length(shape)
+            some = isinstance(term, EventString)
+            return some and (length is None or len(term) == length)
+        case Plus(item):
+            some = isinstance(term, EventString) and len(term) > 0
+            return some or (isinstance(term, EventString) and is_of_strings(item))
+        case FunType():
+            return isinstance(term, Function)
+        case Universe():
+            return not why_outside(term, shape)
+    return True
+
+
+def _length(T: Str) -> int | None:
+    """How many events the strings of a type have, if all have as many by its form."""
+    events = events_of(T)
+    return None if events is None else len(events)
+
+
+def _value(T: TypeNode) -> Object:
+    """What an application of a function that is written out gives, else nothing.
+
+    If the argument were outside the domain, nothing would be of the type.
+    """
+    match T:
+        case Application(Function(_, body), argument):
+            return instantiated(body, argument)
+    return None
+
+
+def _is_open(value: Object) -> bool:
+    """Whether what the value is depends on a place or on what a function gives."""
+    return bool(escaping(value)) or any(
+        isinstance(part, Application) for part in occurring([value])
+    )
+
+
+def _same_form(left: Object, right: Object) -> bool:
+    """Whether two objects are equal just where their contents are, one by one."""
+    match left, right:
+        case Record(), Record():
+            return left._fields.keys() == right._fields.keys()
+        case (tuple(), tuple()) | (EventString(), EventString()):
+            return len(left) == len(right)
+    return False
+
+
+def _contents(value: Object) -> list[Object]:
+    if isinstance(value, Record):
+        return [value[label] for label in sorted(value)]
+    return list(elements(value) or ())
+
+
+def _to_element(place: Path) -> tuple[str, ...]:
+    """The labels to the innermost element of a list that the place is in, or none."""
+    labels = place.labels
+    lengths = range(len(labels), 0, -1)
+    return next((labels[:n] for n in lengths if labels[n - 1] == EACH), ())

@@ -1,0 +1,164 @@
+"""Is every string of a type one of another? Two automata are followed side by side.
+
+A state of the one is followed with all states that the other may be in for the same
+events. Whether an event of a type is of another one is asked of a function that may not
+know; so a yes follows for every assignment, and a string that speaks against it has to
+be checked.
+
+Source: the subset construction of Rabin and Scott 1959, with the smallest sets only, as
+in De Wulf and others 2006; labels that are types are told apart as far as is needed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from ttr.computing.strings.automata import Automaton, Edges
+from ttr.safety.budgets import spend
+from ttr.types.syntax import TypeNode, meet
+
+__all__ = ["Below", "Inclusion", "included"]
+
+PAIRS = 1024
+"""How many pairs of a state and a set of states are followed before it is left."""
+
+TOLD_APART = 6
+"""How many types an event may be of or not, for its cases to be told apart."""
+
+Below: TypeAlias = Callable[[TypeNode, tuple[TypeNode, ...]], bool]
+"""Whether what is of a type surely is of one of some others; of none, if nothing is."""
+
+
+@dataclass(frozen=True)
+class Inclusion:
+    """Whether every string is one of the other type, as far as that is derivable.
+
+    If not, `against` are types of events, a string of which may speak against it, or
+    None where none was found.
+    """
+
+    yes: bool
+    against: tuple[TypeNode, ...] | None = None
+
+
+def included(S: Automaton, T: Automaton | None, below: Below) -> Inclusion:
+    """Whether the strings of S are among those of T; without T, whether there are none.
+
+    >>> from ttr.computing.strings.automata import automaton
+    >>> from ttr.types.syntax import Basic, Plus, Str
+    >>> A = Basic("A")
+    >>> pairs, some = automaton(Plus(Str(A, A))), automaton(Plus(A))
+    >>> same = lambda event, types: event in types
+    >>> included(pairs, some, same).yes
+    True
+    >>> [str(one) for one in included(some, pairs, same).against]
+    ['A']
+    """
+    return _Following(S, T, below).all()
+
+
+_Pair: TypeAlias = tuple[int, frozenset[int]]
+_Came: TypeAlias = dict[_Pair, tuple[_Pair, TypeNode] | None]
+
+
+class _Following:
+    """Follows pairs of a state of S and the states that T may be in, shortest first."""
+
+    def __init__(self, S: Automaton, T: Automaton | None, below: Below) -> None:
+        self._S, self._T, self._below = S, T, below
+        self._known: dict[tuple[TypeNode, tuple[TypeNode, ...]], bool] = {}
+
+    def all(self) -> Inclusion:
+        start = (self._S.start, frozenset((self._T.start,) if self._T else ()))
+        came: _Came = {start: None}
+        smallest: dict[int, list[frozenset[int]]] = {start[0]: [start[1]]}
+        waiting = [start]
+        for pair in waiting:  # grows on the way
+            if len(waiting) > PAIRS:
+                return Inclusion(False)
+            state, others = pair
+            if state in self._S.final and not self._ends(others):
+                return Inclusion(False, _word(came, pair))
+            for after, label in self._after(state, others):
+                seen = smallest.setdefault(after[0], [])
+                if any(fewer <= after[1] for fewer in seen):
+                    continue
+                seen.append(after[1])
+                came[after] = (pair, label)
+                waiting.append(after)
+        return Inclusion(True)
+
+    def _ends(self, others: frozenset[int]) -> bool:
+        return self._T is not None and not others.isdisjoint(self._T.final)
+
+    def _after(
+        self, state: int, others: frozenset[int]
+    ) -> Iterator[tuple[_Pair, TypeNode]]:
+        """The pairs after an event of S, or after a string that it takes as a whole."""
+        for steps in (_by_events, _by_wholes):
+            theirs = [
+                edge for q in sorted(others) if self._T for edge in steps(self._T)[q]
+            ]
+            labels = tuple(dict.fromkeys(edge.label for edge in theirs))
+            for label, target in steps(self._S)[state]:
+                for denied in self._denied(label, labels):
+                    after = frozenset(
+                        edge.target for edge in theirs if edge.label not in denied
+                    )
+                    event = meet(label, *[~one for one in denied])
+                    yield (target, after), event
+
+    def _denied(
+        self, label: TypeNode, labels: tuple[TypeNode, ...]
+    ) -> list[tuple[TypeNode, ...]]:
+        """Of which of the labels an event of a type may not be, as many as can be.
+
+        If it is of more of them, no more speaks against what is asked.
+        """
+        open_ones = tuple([one for one in labels if not self._is_below(label, (one,))])
+        found: list[tuple[TypeNode, ...]] = []
+        waiting = [open_ones]
+        seen = {open_ones}
+        for denied in waiting:  # grows on the way
+            if any(set(denied) <= set(more) for more in found):
+                continue
+            if not self._is_below(label, denied):
+                found.append(denied)
+                continue
+            if len(open_ones) > TOLD_APART:
+                return [open_ones]
+            fewer = [tuple([x for x in denied if x is not one]) for one in denied]
+            new = [one for one in fewer if one not in seen]
+            seen.update(new)
+            waiting += new
+        return found
+
+    def _is_below(self, label: TypeNode, labels: tuple[TypeNode, ...]) -> bool:
+        spend()
+        if label in labels:
+            return True
+        asked = (label, labels)
+        if asked not in self._known:
+            self._known[asked] = self._below(label, labels)
+        return self._known[asked]
+
+
+def _by_events(one: Automaton) -> Edges:
+    return one.edges
+
+
+def _by_wholes(one: Automaton) -> Edges:
+    return one.wholes
+
+
+def _word(came: _Came, pair: _Pair) -> tuple[TypeNode, ...]:
+    """The types of the events on the way to a pair."""
+    labels = []
+    step = came[pair]
+    while step is not None:
+        pair, label = step
+        labels.append(label)
+        step = came[pair]
+    return tuple(reversed(labels))

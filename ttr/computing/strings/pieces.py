@@ -1,0 +1,158 @@
+"""Types of strings of events by their form: what is a piece of a string, and how long.
+
+In str(T₁, …, Tₙ) and plus(T) a type stands for *pieces*: one that by its form is a type
+of strings stands for several events in a row, any other for one event.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import product
+from math import prod
+
+from ttr.computing.normal_forms import inwards
+from ttr.safety.budgets import spend
+from ttr.types.syntax import (
+    EventString,
+    Join,
+    Meet,
+    Negation,
+    Object,
+    Plus,
+    Singleton,
+    Str,
+    TypeNode,
+    join,
+    meet,
+)
+
+__all__ = [
+    "alternatives",
+    "events_of",
+    "is_of_strings",
+    "is_regular",
+    "regular_above",
+    "string_of",
+]
+
+ALTERNATIVES = 256
+"""How many alternatives a piece may have before it is left whole."""
+
+
+def is_of_strings(T: TypeNode) -> bool:
+    """Whether T by its form is a type of strings, rather than of events.
+
+    >>> from ttr.types.syntax import Ind
+    >>> is_of_strings(Plus(Ind)), is_of_strings(Ind), is_of_strings(~~Str(Ind))
+    (True, False, True)
+    """
+    match T:
+        case Str() | Plus():
+            return True
+        case Join(parts) | Meet(parts):
+            spend(len(parts))
+            return any(map(is_of_strings, parts))
+        case Singleton(base, _):
+            return is_of_strings(base)
+        case Negation():
+            inner = inwards(T)
+            return inner is not T and is_of_strings(inner)
+    return False
+
+
+def events_of(T: Str) -> tuple[TypeNode, ...] | None:
+    """The types of the events, one by one; None where a piece may be of several.
+
+    >>> from ttr.types.syntax import Ind
+    >>> events_of(Str(Ind, Ind)), events_of(Str(Ind, Plus(Ind)))
+    ((Basic('Ind'), Basic('Ind')), None)
+    """
+    return None if any(map(is_of_strings, T.items)) else T.items
+
+
+def string_of(types: Iterable[TypeNode], pieces: Iterable[Object]) -> EventString:
+    """The string of these pieces: the events of a string, or what is one event.
+
+    >>> from ttr.types.syntax import Ind
+    >>> print(string_of((Plus(Ind), Ind), (EventString("a", "b"), "c")))
+    <a b c>
+    """
+    events: list[Object] = []
+    for T, piece in zip(types, pieces, strict=True):
+        is_string = is_of_strings(T) and isinstance(piece, EventString)
+        events += piece.items if is_string else (piece,)
+    return EventString(*events)
+
+
+def alternatives(T: TypeNode) -> tuple[TypeNode, ...]:
+    """The types that T is the join of as a piece, each of strings only or of events.
+
+    >>> from ttr.types.syntax import Basic
+    >>> A, B = Basic("A"), Basic("B")
+    >>> print(*alternatives((A | Str(A)) & B), sep="; ")
+    A /\\ B; B /\\ str(A)
+    """
+    spend()
+    if not is_of_strings(T):
+        return (T,)
+    T = inwards(T)
+    match T:
+        case Join(parts):
+            found = [one for part in parts for one in alternatives(part)]
+            return tuple(dict.fromkeys(found))
+        case Singleton(base, value):
+            return tuple([Singleton(one, value) for one in alternatives(base)])
+        case Meet(parts):
+            choices = [_choices(part) for part in parts]
+            if 1 < prod(map(len, choices)) <= ALTERNATIVES:
+                found = [meet(*choice) for choice in product(*choices)]
+                once = dict.fromkeys(one for U in found for one in alternatives(U))
+                return tuple(once)
+    return (T,)
+
+
+def _choices(T: TypeNode) -> tuple[TypeNode, ...]:
+    """The parts of a join in a meet, where that is not for an automaton to follow."""
+    return T.parts if isinstance(T, Join) and not is_regular(T) else (T,)
+
+
+def is_regular(T: TypeNode) -> bool:
+    """Whether its types of events say all of a type of strings, event by event.
+
+    They do not where a string as a whole is asked for: to be another string, or of a
+    type that is not of strings.
+    """
+    spend()
+    match T:
+        case Str() | Plus():
+            return True
+        case Join(parts):
+            return all(map(is_regular, parts))
+        case Meet(parts):
+            return any(map(is_regular, parts)) and all(map(_says_all, parts))
+    return False
+
+
+def _says_all(T: TypeNode) -> bool:
+    """Whether a part of a meet is regular, or denies what is."""
+    return is_regular(T.body if isinstance(T, Negation) else T)
+
+
+def regular_above(T: TypeNode) -> TypeNode:
+    """The part of a type of strings that is regular: what is of T is of it, too.
+
+    >>> from ttr.types.syntax import Ind, Basic
+    >>> print(regular_above(Str(Ind) & Basic("Short")))
+    str(Ind)
+    """
+    spend()
+    match T:
+        case Meet(parts):
+            kept = [part for part in parts if _says_all(part)]
+            others = [p for p in parts if p not in kept and is_of_strings(p)]
+            return meet(*kept, *map(regular_above, others))
+        case Join(parts):
+            return join(*map(regular_above, parts))
+        case Singleton(base, _):
+            return regular_above(base)
+    return T

@@ -1,0 +1,344 @@
+"""Running an automaton over a string of events: the ways to divide it into pieces.
+
+What events are of is asked of functions, so this knows nothing of models. One way is
+found in one pass, in which every event is asked for each type once at most.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any, NamedTuple, TypeAlias
+
+from ttr.computing.strings.automata import Automaton, Edge, Edges, automaton_above
+from ttr.errors import Unsupported
+from ttr.types.syntax import TypeNode, join
+
+__all__ = [
+    "Division",
+    "Fits",
+    "FitsWhole",
+    "Piece",
+    "Stop",
+    "a_way",
+    "all_ways",
+    "covers",
+]
+
+WAYS = 64
+"""How many ways to divide a string are told apart."""
+
+FOLLOWED = 4096
+"""How many beginnings of strings are followed to find the shortest ones."""
+
+Fits: TypeAlias = Callable[[int, TypeNode], bool]
+"""Whether an event, by its number, is of a type of events."""
+
+FitsWhole: TypeAlias = Callable[[int, int, TypeNode], bool]
+"""Whether events start to end as one string are of a type."""
+
+
+@dataclass(frozen=True)
+class Stop:
+    """Where a string cannot be gone on with: after how many events, and what may come.
+
+    `may_end` says whether the string could have ended there.
+    """
+
+    furthest: int
+    expected: tuple[TypeNode, ...]
+    may_end: bool
+
+
+class Piece(NamedTuple):
+    """Events start to end, the type they are of, and whether that is asked as a whole.
+
+    Else it is one event.
+    """
+
+    start: int
+    end: int
+    label: TypeNode
+    whole: bool
+
+
+@dataclass(frozen=True)
+class Division:
+    """Ways to divide a string, at most `WAYS`, and whether those are all."""
+
+    ways: tuple[tuple[Piece, ...], ...]
+    all: bool
+
+
+# --- one way -------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Step:
+    """From some states to others: for each of these, from where and by which edge."""
+
+    states: tuple[int, ...]
+    back: dict[int, tuple[int, TypeNode]]
+
+
+class _States:
+    """The steps from sets of states, each worked out once."""
+
+    def __init__(self, automaton: Automaton) -> None:
+        self._edges = automaton.edges
+        self._steps: dict[tuple[tuple[int, ...], tuple[bool, ...]], _Step] = {}
+        self._labels: dict[tuple[int, ...], tuple[TypeNode, ...]] = {}
+
+    def labels(self, states: tuple[int, ...]) -> tuple[TypeNode, ...]:
+        """The types of events that some of the states go on with."""
+        found = self._labels.get(states)
+        if found is None:
+            edges = (edge for state in states for edge in self._edges[state])
+            found = tuple(dict.fromkeys(edge.label for edge in edges))
+            self._labels[states] = found
+        return found
+
+    def step(self, states: tuple[int, ...], fits: tuple[bool, ...]) -> _Step:
+        """Where an event leads that fits those labels, as said in their order."""
+        found = self._steps.get((states, fits))
+        if found is None:
+            so = dict(zip(self.labels(states), fits, strict=True))
+            back: dict[int, tuple[int, TypeNode]] = {}
+            for state in states:
+                for label, target in self._edges[state]:
+                    if so[label]:
+                        back.setdefault(target, (state, label))
+            found = self._steps[states, fits] = _Step(tuple(back), back)
+        return found
+
+
+def a_way(length: int, automaton: Automaton, fits: Fits) -> tuple[TypeNode, ...] | Stop:
+    """What the events of a string are of, one by one, or where that leads nowhere.
+
+    The automaton takes no wholes. The time is linear in the length.
+
+    >>> from ttr.computing.strings.automata import automaton
+    >>> from ttr.types.syntax import Basic, Plus, Str
+    >>> A, B = Basic("A"), Basic("B")
+    >>> ends_in_B = automaton(Str(Plus(A), B))
+    >>> print(*a_way(3, ends_in_B, lambda number, T: T is (A, A, B)[number]))
+    A A B
+    >>> a_way(3, ends_in_B, lambda number, T: T is A).furthest
+    3
+    """
+    states = _States(automaton)
+    here: tuple[int, ...] = (automaton.start,)
+    steps: list[_Step] = []
+    for number in range(length):
+        labels = states.labels(here)
+        step = states.step(here, tuple([fits(number, label) for label in labels]))
+        if not step.states:
+            return _stop(number, here, automaton)
+        steps.append(step)
+        here = step.states
+    ending = [state for state in here if state in automaton.final]
+    if not ending:
+        return _stop(length, here, automaton)
+    state, way = ending[0], []
+    for step in reversed(steps):
+        state, label = step.back[state]
+        way.append(label)
+    return tuple(reversed(way))
+
+
+def _stop(number: int, states: tuple[int, ...], automaton: Automaton) -> Stop:
+    labels = [label for state in states for label in automaton.labels(state)]
+    may_end = any(state in automaton.final for state in states)
+    return Stop(number, tuple(dict.fromkeys(labels)), may_end)
+
+
+# --- all ways ------------------------------------------------------------------------
+
+
+def all_ways(
+    length: int, automaton: Automaton, fits: Fits, fits_whole: FitsWhole
+) -> Division | Stop:
+    """The ways to divide a string, told apart by the pieces and what they are of."""
+    came = _Arrivals(length, automaton, fits, fits_whole).all()
+    ending = [state for state in came[length] if state in automaton.final]
+    if not ending:
+        furthest = max(number for number, states in enumerate(came) if states)
+        return _stop(furthest, tuple(came[furthest]), automaton)
+    found = _backwards(came, automaton.start, frozenset(ending))
+    ways = tuple(map(tuple, islice(found, WAYS + 1)))
+    return Division(ways[:WAYS], len(ways) <= WAYS)
+
+
+class _Arrival(NamedTuple):
+    """How a state is reached: after how many events, from which one, with what."""
+
+    start: int
+    source: int
+    label: TypeNode
+    whole: bool = False
+
+
+_Came: TypeAlias = list[dict[int, list[_Arrival]]]
+"""How each state is reached after so many events."""
+
+
+class _Arrivals:
+    """Finds how states are reached, forwards."""
+
+    def __init__(
+        self, length: int, automaton: Automaton, fits: Fits, fits_whole: FitsWhole
+    ) -> None:
+        self._length, self._automaton = length, automaton
+        self._fits, self._fits_whole = fits, fits_whole
+        self._came: _Came = [{} for _ in range(length + 1)]
+        self._came[0][automaton.start] = []
+
+    def all(self) -> _Came:
+        """How each state is reached after each number of events."""
+        edges = _joined(self._automaton.edges)
+        has_wholes = any(self._automaton.wholes.values())
+        for number, states in enumerate(self._came):
+            if has_wholes:
+                self._take_wholes(number)
+            for state in states if number < self._length else ():
+                self._take_events(number, state, edges[state])
+        return self._came
+
+    def _take_events(self, number: int, state: int, edges: tuple[Edge, ...]) -> None:
+        for label, target in edges:
+            if self._fits(number, label):
+                arrival = _Arrival(number, state, label)
+                self._came[number + 1].setdefault(target, []).append(arrival)
+
+    def _take_wholes(self, number: int) -> None:
+        """Notes where the strings may end that begin here and are asked for whole."""
+        waiting = list(self._came[number])
+        for state in waiting:  # grows on the way
+            for label, target in self._automaton.wholes[state]:
+                ends = self._ends(label, number)
+                if number in ends and target not in self._came[number]:
+                    waiting.append(target)
+                for end in ends:
+                    arrival = _Arrival(number, state, label, True)
+                    self._came[end].setdefault(target, []).append(arrival)
+
+    def _ends(self, T: TypeNode, start: int) -> list[int]:
+        """Where the strings of a type may end that begin after so many events."""
+        try:
+            above = automaton_above(T)
+        except Unsupported:
+            ends = range(start, self._length + 1)
+            return [end for end in ends if self._fits_whole(start, end, T)]
+        found, states = [], {above.start}
+        for number in range(start, self._length + 1):
+            may_end = not states.isdisjoint(above.final)
+            if may_end and self._fits_whole(start, number, T):
+                found.append(number)
+            if number == self._length:
+                break
+            edges = [edge for state in sorted(states) for edge in above.edges[state]]
+            states = {to for label, to in edges if self._fits(number, label)}
+            if not states:
+                break
+        return found
+
+
+def _joined(edges: Edges) -> Edges:
+    """The edges with those between the same states made one: a way less to tell."""
+    found: dict[int, tuple[Edge, ...]] = {}
+    for state, several in edges.items():
+        labels: dict[int, list[TypeNode]] = {}
+        for label, target in several:
+            labels.setdefault(target, []).append(label)
+        found[state] = tuple([Edge(join(*of), to) for to, of in labels.items()])
+    return found
+
+
+def _backwards(
+    came: _Came, start: int, ending: frozenset[int]
+) -> Iterator[list[Piece]]:
+    """The ways from the start to the end, found backwards; without recursion."""
+    # A way so far is a linked list, so that ways share what they have in common. What
+    # was passed without an event is not passed again.
+    waiting: list[_Way] = [(len(came) - 1, ending, frozenset(), None)]
+    while waiting:
+        end, states, passed, rest = waiting.pop()
+        if end == 0 and start in states:
+            yield _unlinked(rest)
+        before: dict[Piece, list[int]] = {}
+        for state in sorted(states - passed):
+            for begin, source, label, whole in came[end][state]:
+                piece = Piece(begin, end, label, whole)
+                before.setdefault(piece, []).append(source)
+        for piece, sources in before.items():
+            still = passed | states if piece.start == end else frozenset()
+            waiting.append((piece.start, frozenset(sources), still, (piece, rest)))
+
+
+_Way: TypeAlias = tuple[int, frozenset[int], frozenset[int], Any]
+"""Before how many events, in which states, after which others there; and the rest."""
+
+
+def _unlinked(way: Any) -> list[Any]:
+    found = []
+    while way is not None:
+        piece, way = way
+        found.append(piece)
+    return found
+
+
+# --- whether there is a way ----------------------------------------------------------
+
+
+def covers(length: int, automaton: Automaton, fits: Fits) -> bool:
+    """Whether so many events can be divided, where `fits` says what an event is of.
+
+    >>> from ttr.computing.strings.automata import automaton
+    >>> from ttr.types.syntax import Ind, Plus, Str
+    >>> pairs = automaton(Plus(Str(Ind, Ind)))
+    >>> covers(4, pairs, lambda number, T: True)
+    True
+    >>> covers(3, pairs, lambda number, T: True)
+    False
+    """
+    states = {automaton.start}
+    for number in range(length):
+        edges = [edge for state in sorted(states) for edge in automaton.edges[state]]
+        asked = {label: fits(number, label) for label, _ in dict.fromkeys(edges)}
+        states = {target for label, target in edges if asked[label]}
+    return not states.isdisjoint(automaton.final)
+
+
+# --- strings of a type ---------------------------------------------------------------
+
+
+def shortest(automaton: Automaton, length: int = 0) -> Iterator[tuple[TypeNode, ...]]:
+    """What the events may be of in the strings of a type, shortest first.
+
+    They have so many events or more, if the type has such strings.
+
+    >>> from ttr.computing.strings.automata import automaton
+    >>> from ttr.types.syntax import Basic, Plus, Str
+    >>> A, B = Basic("A"), Basic("B")
+    >>> for labels in islice(shortest(automaton(Str(Plus(A), B)), 3), 2):
+    ...     print(*labels)
+    A A B
+    A A A B
+    """
+    waiting: deque[tuple[int, int, Any]] = deque([(automaton.start, 0, None)])
+    shorter: list[tuple[TypeNode, ...]] = []
+    followed = 0
+    while waiting and followed < FOLLOWED:
+        followed += 1
+        state, size, way = waiting.popleft()
+        if state in automaton.final:
+            labels = tuple(reversed(_unlinked(way)))
+            if size >= length:
+                yield labels
+            else:
+                shorter.append(labels)
+        for label, target in automaton.edges[state]:
+            waiting.append((target, size + 1, (label, way)))
+    yield from reversed(shorter)

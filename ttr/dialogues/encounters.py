@@ -1,0 +1,253 @@
+"""Encounters: several participants, each with an own board, who act and look on.
+
+Each plays a game by itself: what happens is taken by the rules of everyone who sees it.
+Who has on the agenda a type of event that it can bring about is licensed to create one
+(Cooper 2023, chapter 2), in turn with the others or at the same time as they.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from ttr.computing.subtyping import subtype
+from ttr.errors import TTRError, UpdateError, suggestion
+from ttr.judging.judgements import Judgement
+from ttr.judging.models import Model
+from ttr.judging.type_acts import Create, performed
+from ttr.types.printing import notation
+from ttr.types.syntax import Object, Record, TypeNode, as_type, kind_of
+from ttr.updates.games import Game
+from ttr.updates.running import Run, Step, run
+
+__all__ = ["Encounter", "Happening", "Participant", "meeting"]
+
+
+@dataclass(frozen=True, eq=False)
+class Participant:
+    """Somebody who plays a game by its own board.
+
+    `does` is the type of the events that it can bring about: what is on its agenda and
+    not of this type is for others to do.
+    """
+
+    name: str
+    game: Game
+    does: TypeNode
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise UpdateError(f"a participant has a name, found {kind_of(self.name)}")
+        as_type(self.does)
+        if not isinstance(self.game, Game):
+            raise UpdateError(f"a participant plays a game, found {kind_of(self.game)}")
+        if self.game.agenda is None:
+            raise UpdateError(
+                f"{self.name} has no agenda to act on: the game {self.game.name} "
+                "names none",
+                hint="say where it is: Game(…, agenda='agenda')",
+            )
+
+    def licensed(self, board: Run) -> Create | None:
+        """What its board licenses it to do: create the first thing on its agenda."""
+        planned = self.game.planned(board.state)
+        if not planned:
+            return None
+        theory = board.model.theory
+        able = subtype(planned[0], self.does, theory).yes
+        return Create(planned[0]) if able else None
+
+
+@dataclass(frozen=True, eq=False)
+class Happening:
+    """One step of an encounter: who did what, and what each board made of it.
+
+    `by` and `event` are None where only tacit rules applied.
+    """
+
+    by: str | None
+    event: Judgement | None
+    boards: dict[str, Record]
+    traces: dict[str, tuple[Step, ...]]
+
+    def __str__(self) -> str:
+        head = "nothing happens"
+        if self.event is not None:
+            head = f"{self.by}: {notation(self.event.sit)} : {self.event.type}"
+        lines = [head]
+        for name, steps in self.traces.items():
+            lines += [f"  {name} | {line}" for step in steps for line in _lines(step)]
+        return "\n".join(lines)
+
+
+def _lines(step: Step) -> list[str]:
+    return str(step).split("\n")
+
+
+@dataclass(frozen=True, eq=False)
+class Encounter:
+    """Participants with their boards, and what has happened so far. Built by `meeting`.
+
+    `in_turn` and `in_step` give the encounter after one more round.
+    """
+
+    participants: tuple[Participant, ...]
+    boards: tuple[Run, ...]
+    history: tuple[Happening, ...] = ()
+
+    def board(self, name: str) -> Record:
+        """The board of a participant; raises `UpdateError` for one who is not there."""
+        for one, board in zip(self.participants, self.boards, strict=True):
+            if one.name == name:
+                return board.state
+        names = [one.name for one in self.participants]
+        raise UpdateError(f"{name} takes no part", hint=suggestion(name, names))
+
+    @property
+    def agree(self) -> bool:
+        """Whether all boards are the same."""
+        return len({board.state for board in self.boards}) == 1
+
+    def in_turn(self) -> Encounter:
+        """A round in which each who is licensed acts, one after the other.
+
+        What one has done the others have seen before it is their turn.
+        """
+        current = self
+        for index in range(len(self.participants)):
+            ready = current._tacitly()
+            act = ready.participants[index].licensed(ready.boards[index])
+            current = ready if act is None else ready._done(index, act)
+        return current
+
+    def in_step(self) -> Encounter:
+        """A round in which all who are licensed act at once, and then all see it."""
+        ready = self._tacitly()
+        pairs = zip(ready.participants, ready.boards, strict=True)
+        acts = [one.licensed(board) for one, board in pairs]
+        current = ready
+        for index, act in enumerate(acts):
+            current = current if act is None else current._done(index, act)
+        return current
+
+    @cached_property
+    def is_idle(self) -> bool:
+        """Whether nobody is licensed to anything, even after the tacit rules."""
+        ready = self._tacitly()
+        pairs = zip(ready.participants, ready.boards, strict=True)
+        return all(one.licensed(board) is None for one, board in pairs)
+
+    def _tacitly(self) -> Encounter:
+        """After the tacit rules of all whose agenda is empty."""
+        boards = [
+            board if one.game.planned(board.state) else _played(one, board, ())
+            for one, board in zip(self.participants, self.boards, strict=True)
+        ]
+        return self._with(boards, None, None)
+
+    def _done(self, index: int, act: Create) -> Encounter:
+        """After a participant has created something, and everyone has seen it."""
+        by = self.participants[index]
+        made = performed(act, _fresh(self.boards, index))
+        event, T = made.answer.sit, act.type
+        boards = []
+        for number, (one, board) in enumerate(
+            zip(self.participants, self.boards, strict=True)
+        ):
+            model = made.model
+            if number != index:
+                model = _witnessing(one, board.model, event, T, by)
+            boards.append(_played(one, board._replace(model=model), (event,)))
+        return self._with(boards, by.name, made.answer)
+
+    def _with(
+        self, boards: Sequence[Run], by: str | None, event: Judgement | None
+    ) -> Encounter:
+        """The encounter with these boards, whose traces are those of one step."""
+        names = [one.name for one in self.participants]
+        if by is None and not any(board.trace for board in boards):
+            return self
+        happening = Happening(
+            by,
+            event,
+            {name: b.state for name, b in zip(names, boards, strict=True)},
+            {name: b.trace for name, b in zip(names, boards, strict=True)},
+        )
+        kept = tuple(board._replace(trace=()) for board in boards)
+        return replace(self, boards=kept, history=(*self.history, happening))
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.history))
+
+
+def meeting(*participants: Participant) -> Encounter:
+    """The encounter of participants, each at the start of its game.
+
+    Raises `UpdateError` where two are called the same.
+
+    >>> from ttr.theories.theory import Theory
+    >>> from ttr.updates import first, update
+    >>> chat = Theory.parse(r'''
+    ...     basic Ind
+    ...     object a, b : Ind
+    ...     pred greet(Ind, Ind)
+    ...     Hi := [e : greet('a', 'b')]
+    ...     Back := [e : greet('b', 'a')]
+    ...     Board := [agenda : list(RecType)]
+    ...     planned := \\s:[agenda = [Hi] : list(RecType)]. \\e:Hi.
+    ...                [agenda = [Back] : list(RecType)]
+    ...     done := \\s:[agenda = [Back] : list(RecType)]. \\e:Back.
+    ...             [agenda = [] : list(RecType)]
+    ... ''')
+    >>> rules = first(update(chat.planned, "reply"), update(chat.done, "done"))
+    >>> M, start = Model(chat), {"agenda": [chat.Hi]}
+    >>> game = Game("greeting", chat.Board, start, rules, M, "agenda")
+    >>> a, b = Participant("a", game, chat.Hi), Participant("b", game, chat.Back)
+    >>> after = meeting(a, b).in_turn()
+    >>> print(*[f"{one.by}: {one.event.type}" for one in after.history], sep="\\n")
+    a: [e : greet(a, b)]
+    b: [e : greet(b, a)]
+    >>> after.agree, after.is_idle
+    (True, True)
+    """
+    for one in participants:
+        if not isinstance(one, Participant):
+            raise UpdateError(f"a meeting is of participants, found {kind_of(one)}")
+    names = [one.name for one in participants]
+    if not names or len(set(names)) < len(names):
+        raise UpdateError(
+            f"participants have names of their own, found {', '.join(names) or 'none'}"
+        )
+    return Encounter(participants, tuple(one.game.begin() for one in participants))
+
+
+def _witnessing(
+    one: Participant, model: Model, event: Object, T: TypeNode, by: Participant
+) -> Model:
+    """The model of one who has seen another do something."""
+    try:
+        return model.given(event, T)
+    except TTRError as error:
+        raise UpdateError(
+            f"{one.name} cannot take {notation(event)} : {T}, which {by.name} did: "
+            f"{error.message}"
+        ) from error
+
+
+def _played(one: Participant, board: Run, events: Sequence[object]) -> Run:
+    game = one.game
+    return run(
+        game.algorithm,
+        board.state,
+        type=game.type,
+        model=board.model,
+        events=events,
+    )
+
+
+def _fresh(boards: Sequence[Run], index: int) -> Model:
+    """The actor's model, in which names that any board knows are not given again."""
+    most = max(board.model.facts.created for board in boards)
+    mine = boards[index].model
+    return Model.of(replace(mine.facts, created=most))

@@ -1,0 +1,33 @@
+"""Logs of dialogues: every turn in a line of JSON, to be read, replayed, gone on with.
+
+`LogFile` writes one, `read_logs` reads it, `replay` plays its events again and says
+where anything differs, `continued` takes the dialogue up, `story_of` makes a story.
+"""
+
+from ttr.dialogues.logs.entries import Entry, Header, LogError
+from ttr.dialogues.logs.log_reader import Log, UnreadableLog, read_logs
+from ttr.dialogues.logs.log_writer import LogFile
+from ttr.dialogues.logs.replay import (
+    Divergence,
+    Replayed,
+    continued,
+    replay,
+    run_after,
+    story_of,
+)
+
+__all__ = [
+    "Divergence",
+    "Entry",
+    "Header",
+    "Log",
+    "LogError",
+    "LogFile",
+    "Replayed",
+    "UnreadableLog",
+    "continued",
+    "read_logs",
+    "replay",
+    "run_after",
+    "story_of",
+]

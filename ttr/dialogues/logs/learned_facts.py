@@ -1,0 +1,56 @@
+"""What a turn adds to the model, so that a dialogue can be taken up from its log."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from immutables import Map
+
+from ttr.judging.assignments import Atom
+from ttr.judging.models import Model
+from ttr.probability import Degree
+from ttr.types.syntax import Object
+
+__all__ = ["Fact", "gained", "only_facts", "restored"]
+
+_NONE: Map[Atom, Degree] = Map()
+
+
+@dataclass(frozen=True)
+class Fact:
+    """A judgement of a basic type or ptype, as it was given to a model."""
+
+    sit: Object
+    type: Atom
+    p: Degree
+
+
+def gained(before: Model, after: Model) -> tuple[Fact, ...]:
+    """The facts that a model has and an earlier one has not, in the order told."""
+    new: list[tuple[int, Fact]] = []
+    for key, facts in after.facts.known.items():
+        known = before.facts.known.get(key, _NONE)
+        if facts is known:
+            continue
+        for T, p in facts.items():
+            if known.get(T) != p:
+                number, sit = after.facts.told[T][key]
+                new.append((number, Fact(sit, T, p)))
+    return tuple(fact for _, fact in sorted(new, key=lambda one: one[0]))
+
+
+def only_facts(before: Model, after: Model) -> bool:
+    """Whether a model differs from an earlier one by facts alone.
+
+    Witness functions and conditional probabilities cannot be written down as facts.
+    """
+    was, has = before.facts, after.facts
+    return has.functions is was.functions and has.links is was.links
+
+
+def restored(model: Model, facts: Iterable[Fact], names: int) -> Model:
+    """The model with these facts, after it has given out so many names."""
+    for fact in facts:
+        model = model.given(fact.sit, fact.type, fact.p)
+    return Model.of(replace(model.facts, created=names))

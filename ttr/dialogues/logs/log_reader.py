@@ -1,0 +1,120 @@
+"""Reading logs, up to the last whole turn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from ttr.dialogues.logs.entries import Entry, Fault, Header, LogError, entry, header
+from ttr.dialogues.logs.name_declarations import Declared
+from ttr.errors import TTRError
+from ttr.safety.files import why_unread
+from ttr.safety.inputs import parse_json, read_bytes
+from ttr.safety.limits import LINE, LOG
+
+__all__ = ["Log", "UnreadableLog", "read_logs"]
+
+
+class UnreadableLog(LogError):
+    """A log that is not there, or that may not be read; it may well be a good one."""
+
+
+@dataclass(frozen=True)
+class Log:
+    """A dialogue in a log: its header and turns, and where they are.
+
+    `number` is the line of the header. `cut` says that the turn after the last one is
+    there in part only, as where a process was killed; it is empty otherwise.
+    """
+
+    file: str
+    number: int
+    header: Header
+    entries: tuple[Entry, ...] = ()
+    cut: str = ""
+
+    @cached_property
+    def declared(self) -> Declared:
+        """The names that are used in it; raises `LogError`."""
+        lines: list[Header | Entry] = [self.header, *self.entries]
+        statements = [text for line in lines for text in line.declares]
+        objects = [name for line in lines for name in line.objects]
+        try:
+            return Declared().together_with(statements, objects)
+        except TTRError as error:
+            why = error.message.partition("\n")[0]
+            raise LogError(
+                f"{self.file}:{self.number}: the names declared here and below cannot "
+                f"be read: {why}"
+            ) from error
+
+    def place(self, turn: int) -> str:
+        """The file, the line and the number of a turn; the start is turn 0."""
+        where = f"{self.file}:{self.number + turn}"
+        return f"{where}: turn {turn}" if turn else f"{where}: the start"
+
+    def until(self, turn: int) -> Log:
+        """The log as it was after a turn."""
+        return replace(self, entries=self.entries[:turn], cut="")
+
+
+def read_logs(path: Path) -> tuple[Log, ...]:
+    """The dialogues in a file. Raises `LogError` for a line that has been damaged.
+
+    Of these, `UnreadableLog` is for a file that cannot be read at all.
+
+    The last line may be cut off: what is before it is given.
+    """
+    try:
+        text = read_bytes(path, LOG)
+    except OSError as error:
+        raise UnreadableLog(why_unread(path, error)) from None
+    *lines, rest = text.split(b"\n")
+    logs = _dialogues(path, lines)
+    if rest and logs:
+        after = f"after turn {len(logs[-1].entries)}" if logs[-1].entries else "at once"
+        told = f"{path}:{len(lines) + 1}: the log is cut off {after}"
+        logs[-1] = replace(logs[-1], cut=told)
+    if not logs:
+        raise LogError(f"{path} is no log: it should begin with a header")
+    return tuple(logs)
+
+
+def _dialogues(path: Path, lines: list[bytes]) -> list[Log]:
+    logs: list[Log] = []
+    entries: list[Entry] = []
+    for number, line in enumerate(_parsed(path, lines), start=1):
+        if isinstance(line, Header):
+            if logs:
+                logs[-1] = replace(logs[-1], entries=tuple(entries))
+            logs.append(Log(str(path), number, line))
+            entries = []
+            continue
+        if not logs:
+            raise LogError(f"{path} is no log: it should begin with a header")
+        if line.turn != len(entries) + 1:
+            raise LogError(
+                f"{path}:{number}: expected turn {len(entries) + 1}, found turn "
+                f"{line.turn}: lines have been moved, put in or taken out"
+            )
+        entries.append(line)
+    if logs:
+        logs[-1] = replace(logs[-1], entries=tuple(entries))
+    return logs
+
+
+def _parsed(path: Path, lines: list[bytes]) -> Iterator[Header | Entry]:
+    for number, line in enumerate(lines, start=1):
+        try:
+            if len(line) > LINE.allowed:
+                raise LogError(f"{path}:{number}: {LINE.exceeded().strerror}")
+            facts = parse_json(line.decode("utf-8"))
+            yield header(facts) or entry(facts)
+        except Fault as fault:
+            raise LogError(f"{path}:{number}: {fault}") from None
+        except UnicodeDecodeError:
+            raise LogError(f"{path}:{number}: this is no text in UTF-8") from None
+        except ValueError:
+            raise LogError(f"{path}:{number}: this is no JSON") from None

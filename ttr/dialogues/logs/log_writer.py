@@ -1,0 +1,242 @@
+"""Writing a log: a line for each turn, which is there in full or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from io import FileIO
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from ttr.dialogues.logs.entries import Entry, Header, LogError
+from ttr.dialogues.logs.learned_facts import Fact, gained, only_facts
+from ttr.dialogues.logs.name_declarations import Declared
+from ttr.dialogues.stories import Moment, Setting, moment
+from ttr.errors import TTRError
+from ttr.judging.models import Model
+from ttr.safety.files import why_unwritten
+from ttr.types.printing import notation
+from ttr.types.syntax import Object
+from ttr.updates import NBest, Run, Step, Turn
+
+__all__ = ["LogFile"]
+
+
+@dataclass(frozen=True)
+class _Now:
+    """Where a dialogue that is logged has got to."""
+
+    setting: Setting
+    turn: int
+    model: Model
+    declared: Declared
+
+
+class LogFile:
+    """A log that is written turn by turn; it is its own context manager.
+
+    A turn is handed to the system in one piece as soon as it is over, so that a process
+    that is killed leaves whole turns, and at most the beginning of one more.
+
+    >>> import tempfile
+    >>> from ttr.dialogues.logs import read_logs
+    >>> from ttr.theories.theory import Theory
+    >>> theory = Theory.parse('''
+    ...     basic Ind
+    ...     pred greet(Ind)
+    ...     Greet := [x : Ind, e : greet(x)]
+    ...     Board := [said : list(RecType)]
+    ...     rule hear(s : Board, e : Greet) := [said = [Greet] : list(RecType)]
+    ...     game talk({said = []} : Board) := hear
+    ... ''')
+    >>> talk = Setting.of(theory.games["talk"], theory, "talk.ttr talk")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with LogFile(Path(folder, "talk.jsonl")) as log:
+    ...         log.begin(talk, "a greeting")
+    ...         for turn in talk.game.play([theory.Greet]):
+    ...             log.write(turn)
+    ...     [dialogue] = read_logs(Path(folder, "talk.jsonl"))
+    >>> dialogue.entries[0].state
+    '{said = [[x : Ind, e : greet(x)]]}'
+    """
+
+    def __init__(self, path: Path) -> None:
+        """A new log, which is there as soon as a dialogue begins."""
+        self.path = path
+        self._file: FileIO | None = None
+        self._now: _Now | None = None
+
+    @classmethod
+    def going_on(
+        cls, path: Path, setting: Setting, turn: int, run: Run, declared: Declared
+    ) -> Self:
+        """Goes on with a log whose last dialogue has come so far."""
+        log = cls.__new__(cls)
+        log.path = path
+        with _failing(path):
+            log._file = file = FileIO(path, "r+")
+            whole = file.readall().rfind(b"\n") + 1  # the rest was cut off
+            file.seek(whole)
+            file.truncate()
+        log._now = _Now(setting, turn, run.model, declared)
+        return log
+
+    def begin(
+        self, setting: Setting, title: str = "", start: Run | None = None
+    ) -> None:
+        """Begins a dialogue, at the start of the game if nothing else is said.
+
+        Raises `LogError` where the log cannot be written.
+        """
+        run = start or setting.game.begin()
+        statements, objects = Declared().missing([run.state])
+        declared = _declared(Declared(), statements, objects)
+        if not declared.reads_back(run.state):
+            raise _unwritable("the state at the start", run.state)
+        self._write(
+            Header(
+                setting.reference_from(self.path.parent),
+                title,
+                notation(run.state),
+                tuple(statements),
+                tuple(objects),
+            )
+        )
+        self._now = _Now(setting, 0, run.model, declared)
+
+    def write(self, turn: Turn | Moment) -> None:
+        """Adds a turn; raises `LogError` for an event that no text stands for."""
+        now = self._now
+        if now is None:
+            raise LogError(f"{self.path}: begin a dialogue before writing its turns")
+        one = turn if isinstance(turn, Moment) else moment(turn, now.setting)
+        entry, declared = _entry(one, now)
+        self._write(entry)
+        self._now = _Now(now.setting, entry.turn, one.turn.model, declared)
+
+    def _write(self, line: Header | Entry) -> None:
+        waiting = memoryview(_encoded(f"{line.text()}\n"))
+        with _failing(self.path):
+            if self._file is None:
+                self._file = FileIO(self.path, "w")
+            while waiting:  # in one piece, unless the disk is nearly full
+                waiting = waiting[self._file.write(waiting) :]
+
+    def close(self) -> None:
+        """Lets go of the file."""
+        if self._file is not None:
+            self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+@contextmanager
+def _failing(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise LogError(why_unwritten(path, error)) from None
+
+
+def _encoded(text: str) -> bytes:
+    try:
+        return text.encode()
+    except UnicodeEncodeError as error:
+        found = ascii(text[error.start : error.end])
+        raise LogError(f"no log can keep the character {found}") from None
+
+
+def _unwritable(what: str, value: object) -> LogError:
+    shown = str(value)
+    shown = shown if len(shown) < 60 else f"{shown[:60]}…"
+    return LogError(f"{what} has no notation, so that no log can keep it: {shown}")
+
+
+# --- entries -------------------------------------------------------------------------
+
+
+def _entry(one: Moment, now: _Now) -> tuple[Entry, Declared]:
+    turn, number = one.turn, now.turn + 1
+    facts = gained(now.model, turn.model)
+    values = list(_values(one, facts))
+    statements, objects = now.declared.missing(values)
+    declared = _declared(now.declared, statements, objects)
+    for event in _events(turn.event):
+        if not declared.reads_back(event):
+            raise _unwritable(f"the event of turn {number}", event)
+    entry = Entry(
+        number,
+        one.line,
+        _event(turn.event),
+        tuple(
+            (notation(move.type), words)
+            for move, words in zip(turn.said, one.said, strict=True)
+        ),
+        tuple(map(_rule, turn.trace)),
+        notation(turn.state),
+        tuple(map(_fact, facts)),
+        turn.model.facts.created,
+        only_facts(now.model, turn.model),
+        tuple(statements),
+        tuple(objects),
+    )
+    return entry, declared
+
+
+def _declared(before: Declared, statements: list[str], objects: list[str]) -> Declared:
+    try:
+        return before.together_with(statements, objects)
+    except TTRError as error:
+        raise LogError(f"the names of this game cannot be logged: {error}") from error
+
+
+def _values(one: Moment, facts: tuple[Fact, ...]) -> Iterator[object]:
+    """What has to be read back from the entry."""
+    yield one.turn.state
+    yield from _events(one.turn.event)
+    yield from (move.type for move in one.turn.said)
+    for fact in facts:
+        yield from (fact.sit, fact.type)
+
+
+def _events(event: object) -> list[Any]:
+    match event:
+        case None:
+            return []
+        case NBest():
+            return [alternative for alternative, _ in event]
+    return [event]
+
+
+def _event(event: Any) -> str | list[list[Any]] | None:
+    match event:
+        case None:
+            return None
+        case NBest():
+            return [[notation(alternative), p] for alternative, p in event]
+    return notation(event)
+
+
+def _rule(step: Step) -> dict[str, Any]:
+    return {
+        "rule": step.rule.name,
+        "event": "" if step.event is None else notation(step.event),
+        "with": {label: notation(value) for label, value in step.bindings.items()},
+        "changes": list(step.changes),
+    }
+
+
+def _fact(fact: Fact) -> tuple[str, str, float, float]:
+    sit: Object = fact.sit
+    return notation(sit), notation(fact.type), fact.p.lo, fact.p.hi

@@ -1,0 +1,255 @@
+"""Replaying a log: the same events again, and whether everything else is the same."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from ttr.dialogues.logs.entries import Entry, LogError
+from ttr.dialogues.logs.learned_facts import Fact, gained, restored
+from ttr.dialogues.logs.log_reader import Log
+from ttr.dialogues.logs.log_writer import LogFile
+from ttr.dialogues.stories import Moment, Setting, moment, written
+from ttr.dialogues.stories.story_writer import turn_lines
+from ttr.errors import TTRError
+from ttr.probability import Degree
+from ttr.types.printing import notation
+from ttr.types.records import differences
+from ttr.types.syntax import Basic, Object, PType, Record
+from ttr.updates import Run, Step, Turn, nbest
+
+__all__ = ["Divergence", "Replayed", "continued", "replay", "run_after", "story_of"]
+
+
+@dataclass(frozen=True)
+class Divergence:
+    """Where a log and its replay differ first: in what, and what there is in each."""
+
+    place: str
+    what: str
+    logged: str
+    found: str
+
+    def __str__(self) -> str:
+        return (
+            f"{self.place}: {self.what} differs\n"
+            f"    logged: {self.logged}\n"
+            f"     found: {self.found}"
+        )
+
+
+@dataclass(frozen=True)
+class Replayed:
+    """A log that was replayed: from where, the turns, and where it differs, if it does.
+
+    It ends with the first turn that differs.
+    """
+
+    start: Run
+    moments: tuple[Moment, ...]
+    divergence: Divergence | None
+
+    @property
+    def run(self) -> Run:
+        """The state and the model at the end."""
+        return self.moments[-1].turn.run if self.moments else self.start
+
+
+def replay(log: Log, setting: Setting, *, from_: int = 0) -> Replayed:
+    """Plays the events of a log again, from the state after a turn of it.
+
+    The state and the facts of that turn are taken from the log, and what comes then is
+    compared. Raises `LogError` for a turn that the log has not, or from which no game
+    can be taken up.
+    """
+    start = run_after(log, setting, from_)
+    now, moments = start, list[Moment]()
+    for entry in log.entries[from_:]:
+        turn, divergence = _again(log, entry, setting, now)
+        if turn is not None:
+            now = turn.run
+            moments.append(moment(turn, setting, entry.line))
+        if divergence is not None:
+            return Replayed(start, tuple(moments), divergence)
+    return Replayed(start, tuple(moments), None)
+
+
+def run_after(log: Log, setting: Setting, turn: int) -> Run:
+    """The state and the model after a turn of a log; turn 0 is the start.
+
+    Raises `LogError` where the log has no such turn, or does not say all of it.
+    """
+    if not 0 <= turn <= len(log.entries):
+        raise LogError(
+            f"{log.file}: there is no turn {turn}: the dialogue has {len(log.entries)}"
+        )
+    model = setting.game.model
+    for entry in log.entries[:turn]:
+        if not entry.whole:
+            raise LogError(
+                f"{log.place(entry.turn)} has changed the model by more than facts, so "
+                "that the log can be replayed from its start only"
+            )
+        facts = [_fact(log, entry, *judged) for judged in entry.judged]
+        try:
+            model = restored(model, facts, entry.names)
+        except TTRError as error:
+            place = log.place(entry.turn)
+            raise LogError(f"{place}: the facts cannot be: {error.message}") from error
+    text = log.entries[turn - 1].state if turn else log.header.start
+    return Run(_state(log, turn, text), model, ())
+
+
+def continued(log: Log, setting: Setting) -> tuple[LogFile, Run]:
+    """A log to be gone on with, and the state and the model that it has come to.
+
+    What there is of a turn that was cut off is taken away. Raises `LogError`.
+    """
+    run = run_after(log, setting, len(log.entries))
+    turns = len(log.entries)
+    file = LogFile.going_on(Path(log.file), setting, turns, run, log.declared)
+    return file, run
+
+
+def story_of(log: Log, setting: Setting, folder: Path | None = None) -> str:
+    """The story that a log tells, to be put into a folder: it plays as it was."""
+    if folder is not None:
+        reference = setting.reference_from(folder)
+        setting = replace(setting, reference=reference, folder=folder)
+    usual = notation(setting.game.start) == log.header.start
+    start = None if usual else _state(log, 0, log.header.start)
+    lines = [written(log.header.title or "a dialogue", [], setting, start=start)]
+    for entry in log.entries:
+        said = [words for _, words in entry.said]
+        lines += [f"{line}\n" for line in turn_lines(entry.line, said)]
+    return "".join(lines)
+
+
+# --- one turn ------------------------------------------------------------------------
+
+
+def _again(
+    log: Log, entry: Entry, setting: Setting, now: Run
+) -> tuple[Turn | None, Divergence | None]:
+    event = _event(log, entry)
+    place = log.place(entry.turn)
+    try:
+        turn = setting.game.take(now, event)
+    except TTRError as error:
+        return None, Divergence(place, "the turn", "no error", error.message)
+    for what, logged, found in _compared(log, entry, now, turn):
+        return turn, Divergence(place, what, logged, found)
+    return turn, None
+
+
+def _compared(
+    log: Log, entry: Entry, now: Run, turn: Turn
+) -> Iterator[tuple[str, str, str]]:
+    """What is different, as it is in the log and as it was found."""
+    rules = [one["rule"] for one in entry.rules]
+    ran = [step.rule.name for step in turn.trace]
+    if rules != ran:
+        yield "which rules ran", ", ".join(rules) or "none", ", ".join(ran) or "none"
+    moves = [T for T, _ in entry.said]
+    made = [notation(move.type) for move in turn.said]
+    if moves != made:
+        yield (
+            "what was said",
+            ", ".join(moves) or "nothing",
+            ", ".join(made) or "nothing",
+        )
+    if entry.state != notation(turn.state):
+        yield _first_difference(_state(log, entry.turn, entry.state), turn.state)
+    for one, step in zip(entry.rules, turn.trace, strict=True):
+        yield from _step_compared(one, step)
+    facts = tuple(_fact(log, entry, *judged) for judged in entry.judged)
+    new = gained(now.model, turn.model)
+    if facts != new:
+        yield "what was judged", _listed(facts), _listed(new)
+    if entry.names != turn.model.facts.created:
+        count = turn.model.facts.created
+        yield "how many names were given", str(entry.names), str(count)
+
+
+def _step_compared(
+    one: Mapping[str, Any], step: Step
+) -> Iterator[tuple[str, str, str]]:
+    """What is different in what a rule did."""
+    name = step.rule.name
+    event = "" if step.event is None else notation(step.event)
+    if one["event"] != event:
+        yield f"what {name} took", str(one["event"]), event
+    bound = {label: notation(value) for label, value in step.bindings.items()}
+    if one["with"] != bound:
+        yield f"what {name} bound", _bindings(one["with"]), _bindings(bound)
+    if one["changes"] != list(step.changes):
+        logged, found = ("; ".join(some) for some in (one["changes"], step.changes))
+        yield f"what {name} changed", logged, found
+
+
+def _bindings(bound: Mapping[str, object]) -> str:
+    return ", ".join(f"{label} = {value}" for label, value in bound.items()) or "none"
+
+
+def _listed(facts: Iterable[Fact]) -> str:
+    told = (f"{notation(one.sit)} : {one.type} {one.p}" for one in facts)
+    return ", ".join(told) or "nothing"
+
+
+def _first_difference(logged: Record, found: Record) -> tuple[str, str, str]:
+    path = next(differences(logged, found), "").partition(":")[0]
+    return f"the state at {path}", _shown_at(logged, path), _shown_at(found, path)
+
+
+def _shown_at(state: Record, path: str) -> str:
+    value: Object = state
+    for label in path.split("."):
+        if not isinstance(value, Record) or label not in value:
+            return "nothing"
+        value = value[label]
+    return notation(value)
+
+
+# --- values --------------------------------------------------------------------------
+
+
+def _event(log: Log, entry: Entry) -> object:
+    match entry.event:
+        case None:
+            return None
+        case str(text):
+            return _value(log, entry.turn, "the event", text)
+    pairs = [(_value(log, entry.turn, "the event", text), p) for text, p in entry.event]
+    try:
+        return nbest(*pairs)
+    except TTRError as error:
+        raise LogError(f"{log.place(entry.turn)}: {error.message}") from error
+
+
+def _fact(log: Log, entry: Entry, sit: str, T: str, lo: float, hi: float) -> Fact:
+    found = _value(log, entry.turn, "a fact", T)
+    if not isinstance(found, Basic | PType):
+        raise LogError(f"{log.place(entry.turn)}: no fact is of the type {T}")
+    return Fact(_value(log, entry.turn, "a fact", sit), found, Degree(lo, hi))
+
+
+def _state(log: Log, turn: int, text: str) -> Record:
+    found = _value(log, turn, "the state", text)
+    if isinstance(found, Record):
+        return found
+    raise LogError(f"{log.place(turn)}: the state is no record, but {text[:60]}")
+
+
+def _first_line(error: TTRError) -> str:
+    return error.message.partition("\n")[0]
+
+
+def _value(log: Log, turn: int, what: str, text: str) -> Object:
+    try:
+        return log.declared.read(text, log.file)
+    except TTRError as error:
+        raise LogError(
+            f"{log.place(turn)}: {what} cannot be read: {_first_line(error)}"
+        ) from error

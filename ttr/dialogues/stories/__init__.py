@@ -1,0 +1,49 @@
+"""Stories: dialogues as tests that anyone can write, in files `.dlg`.
+
+`read_stories` reads them, `setting` finds the game that they name, and `play` plays
+them and says where they differ from what happens. `written` makes a story of turns.
+"""
+
+from ttr.dialogues.stories.junit_report import Outcome, facts, junit, summary
+from ttr.dialogues.stories.line_events import Alternative, alternatives
+from ttr.dialogues.stories.mismatches import SILENCE, Mismatch
+from ttr.dialogues.stories.story_opening import check_consent, opening, setting_of
+from ttr.dialogues.stories.story_player import Played, failing, fits, play
+from ttr.dialogues.stories.story_reader import Line, Story, StoryError, read_stories
+from ttr.dialogues.stories.story_settings import (
+    Setting,
+    named_by_user,
+    python_in,
+    setting,
+)
+from ttr.dialogues.stories.story_writer import Moment, moment, worded, written
+
+__all__ = [
+    "SILENCE",
+    "Alternative",
+    "Line",
+    "Mismatch",
+    "Moment",
+    "Outcome",
+    "Played",
+    "Setting",
+    "Story",
+    "StoryError",
+    "alternatives",
+    "check_consent",
+    "facts",
+    "failing",
+    "fits",
+    "junit",
+    "moment",
+    "named_by_user",
+    "opening",
+    "play",
+    "python_in",
+    "read_stories",
+    "setting",
+    "setting_of",
+    "summary",
+    "worded",
+    "written",
+]

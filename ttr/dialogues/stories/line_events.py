@@ -1,0 +1,134 @@
+"""What the lines of a story stand for: values, and the events that they make happen."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from functools import partial
+from typing import NamedTuple
+
+from ttr.dialogues.stories.story_reader import Line, StoryError
+from ttr.dialogues.stories.story_settings import Setting
+from ttr.errors import NotationError, TTRError, UpdateError, suggestion
+from ttr.types.syntax import Object, TypeNode
+from ttr.updates import NBest, Run, nbest
+
+__all__ = ["Alternative", "alternatives", "event", "type_of", "value"]
+
+_Read = Callable[[Line, str, int], object]
+"""What a part of a line makes happen, which begins so far into its text."""
+
+_VERBS = ("game", "start", "event", "perhaps")
+"""What may stand after `@`."""
+
+
+def value(setting: Setting, now: Run, line: Line, text: str, begin: int) -> Object:
+    """What a part of a line stands for, which begins so far into its text.
+
+    Raises `StoryError` with the place of the mistake.
+    """
+    begin += len(text) - len(text.lstrip())
+    try:
+        return setting.value(text.strip(), now.model, line.file)
+    except NotationError as error:
+        span = error.span
+        if span is None or span.source != line.file:
+            raise line.wrong(error.message) from error
+        told = StoryError(
+            f"{line.place}: {error.message}",
+            span=line.span(begin + span.column - 1, span.length),
+            hint=error.hint,
+        )
+        raise told from error
+    except TTRError as error:
+        raise line.wrong(error.message) from error
+
+
+def type_of(setting: Setting, now: Run, line: Line, text: str, begin: int) -> TypeNode:
+    """The type that a part of a line stands for; raises `StoryError` for another."""
+    T = value(setting, now, line, text, begin)
+    if isinstance(T, TypeNode):
+        return T
+    raise line.wrong(f"expected a type, found {text.strip()}")
+
+
+def event(setting: Setting, now: Run, line: Line) -> object:
+    """What a line makes happen, in words if the game hears them; None for nothing."""
+    hear = setting.game.hear
+    in_notation: _Read = partial(value, setting, now)
+    if line.mark == "@":
+        return _happening(line, in_notation)
+    if not line.text:
+        return None
+    read = in_notation if hear is None else partial(_heard, hear)
+    if line.mark == "U>":
+        return read(line, line.text, 0)
+    return _weighed(line, 0, read)
+
+
+def _happening(line: Line, read: _Read) -> object:
+    verb, _, text = line.text.partition(" ")
+    begin = len(verb) + 1
+    match verb:
+        case "event":
+            return read(line, text, begin)
+        case "perhaps":
+            return _weighed(line, begin, read)
+        case "start":
+            raise line.wrong("a story says where it starts before anything else")
+    hint = suggestion(verb, _VERBS) or f"there are {', '.join(_VERBS)}"
+    raise line.wrong(f"there is no `@ {verb}`: {hint}")
+
+
+def _heard(hear: Callable[[str], object], line: Line, text: str, begin: int) -> object:
+    """What a game understands of words; None if nothing."""
+    try:
+        return hear(text)
+    except TTRError as error:
+        raise line.wrong(error.message) from error
+    except Exception as error:
+        fault = f"{type(error).__name__}: {error}"
+        raise line.wrong(f"what the game hears by failed: {fault}") from error
+
+
+def _weighed(line: Line, begin: int, read: _Read) -> NBest | None:
+    """The alternatives of a line, each with the number after it.
+
+    Those that are not understood are left out: it may have been something else.
+    """
+    found = alternatives(line, begin)
+    pairs = [(read(line, it.text, it.begin), it.p) for it in found]
+    understood = [(one, p) for one, p in pairs if one is not None]
+    if pairs and not understood:
+        return None
+    try:
+        return nbest(*understood)
+    except UpdateError as error:
+        span = line.span(begin, len(line.text) - begin)
+        raise StoryError(f"{line.place}: {error.message}", span=span) from error
+
+
+class Alternative(NamedTuple):
+    """What was perhaps said or done: where it begins in its line, and how probable."""
+
+    text: str
+    p: float
+    begin: int
+
+
+def alternatives(line: Line, begin: int = 0) -> tuple[Alternative, ...]:
+    """The alternatives in a line: texts, each with its probability after it.
+
+    Raises `StoryError` for one without.
+    """
+    parts = re.finditer(r"(?:(?!\s\|\s).)+", line.text[begin:])
+    return tuple(_alternative(line, begin + it.start(), it[0]) for it in parts)
+
+
+def _alternative(line: Line, begin: int, text: str) -> Alternative:
+    found = re.fullmatch(r"[\s|]*(\S.*?)\s+(\d*\.?\d+)\s*", text)
+    if found is None:
+        told = "an alternative ends with its probability, as in `Greet 0.6`"
+        span = line.span(begin, len(text))
+        raise StoryError(f"{line.place}: {told}", span=span)
+    return Alternative(found[1], float(found[2]), begin + found.start(1))

@@ -1,0 +1,91 @@
+"""Where a story and what was played differ, told so that it is seen at once."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+
+from ttr.dialogues.stories.story_reader import Line
+from ttr.updates import Step
+
+__all__ = ["SILENCE", "Mismatch"]
+
+SILENCE = "silence"
+
+_EXPECTED, _FOUND = "  expected: ", "     found: "
+
+_WIDTH = 100
+"""How long a line of the trace is at most; logs and transcripts have all of it."""
+
+
+@dataclass(frozen=True)
+class Mismatch:
+    """Where a story and the system differ: what the story has, what there was.
+
+    `trace` are the rules that ran in the turn before it.
+    """
+
+    line: Line
+    expected: str
+    found: str
+    trace: tuple[Step, ...] = ()
+
+    def __str__(self) -> str:
+        """The place, both texts with the words that differ marked, and the trace."""
+        expected, found = self._marks()
+        lines = [
+            self.line.place,
+            _EXPECTED + self.expected,
+            *_marked(_EXPECTED, expected),
+            _FOUND + self.found,
+            *_marked(_FOUND, found),
+        ]
+        if self.trace:
+            lines.append("  the rules of this turn:")
+        for step in self.trace:
+            lines += [_cut(f"    {line}") for line in str(step).splitlines()]
+        return "\n".join(lines)
+
+    def _marks(self) -> tuple[str, str]:
+        """Carets under what only one side has, if they have a word in common."""
+        if self.line.mark != "S>" or SILENCE in (self.expected, self.found):
+            return "", ""
+        mine, others = _words(self.expected), _words(self.found)
+        matcher = SequenceMatcher(None, _texts(mine), _texts(others), autojunk=False)
+        common = matcher.get_matching_blocks()
+        if not any(_has_word(mine[i : i + n]) for i, _, n in common):
+            return "", ""
+        only, besides = list[re.Match[str]](), list[re.Match[str]]()
+        for kind, i, j, k, m in matcher.get_opcodes():
+            if kind != "equal":
+                only += mine[i:j]
+                besides += others[k:m]
+        return _carets(only), _carets(besides)
+
+
+def _words(text: str) -> list[re.Match[str]]:
+    return list(re.finditer(r"\w+|[^\w\s]", text))
+
+
+def _has_word(words: list[re.Match[str]]) -> bool:
+    return any(word[0].isalnum() for word in words)
+
+
+def _texts(words: list[re.Match[str]]) -> list[str]:
+    return [word[0] for word in words]
+
+
+def _carets(words: list[re.Match[str]]) -> str:
+    line = ""
+    for word in words:
+        line = line.ljust(word.start()) + "^" * len(word[0])
+    return line
+
+
+def _cut(line: str) -> str:
+    return line if len(line) <= _WIDTH else f"{line[: _WIDTH - 1]}…"
+
+
+def _marked(label: str, carets: str) -> list[str]:
+    return [" " * len(label) + carets] if carets else []

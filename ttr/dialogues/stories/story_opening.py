@@ -1,0 +1,93 @@
+"""Before the first turn of a story: which game is played, and where it starts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from shlex import quote
+
+from ttr.dialogues.stories.line_events import value
+from ttr.dialogues.stories.story_reader import Line, Story, StoryError
+from ttr.dialogues.stories.story_settings import (
+    Setting,
+    check_named,
+    python_in,
+    setting,
+)
+from ttr.errors import TTRError, suggestion
+from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowed
+from ttr.types.syntax import Record
+
+__all__ = ["check_consent", "opening", "setting_of", "turns_of"]
+
+
+def setting_of(story: Story, consent: Consent = OWN_FOLDER) -> Setting:
+    """The setting that a story names; raises `StoryError` and `NotAllowed`.
+
+    Python that it names is run if it lies in the folder of the story or below, or where
+    there is consent to that.
+    """
+    check_consent(story, consent)
+    if story.game is None:
+        first = story.lines[0]
+        verb = first.text.partition(" ")[0] if first.mark == "@" else ""
+        near = suggestion(verb, ("game",)) or "begin the file with " + (
+            "`@ game FILE.ttr NAME`"
+        )
+        raise first.wrong(f"the story names no game: {near}")
+    try:
+        return setting(*_named(story.game), _beside(story.game, consent))
+    except StoryError as error:
+        raise story.game.wrong(error.message) from error
+
+
+def check_consent(story: Story, consent: Consent) -> None:
+    """Raises `NotAllowed` where a story names what there is no consent to use."""
+    if story.game is None:
+        return
+    try:
+        check_named(*_named(story.game), _beside(story.game, consent))
+    except NotAllowed as error:
+        reference, _ = _named(story.game)
+        or_else = f", or name the game yourself, --game {quote(reference)}"
+        told = error.message + or_else * bool(consent.python and python_in(reference))
+        raise NotAllowed(f"{story.game.place}: {told}") from error
+    except StoryError as error:
+        raise story.game.wrong(error.message) from error
+
+
+def _named(line: Line) -> tuple[str, Path]:
+    """The reference to a game in a line, and the folder from which it is taken."""
+    return line.text.partition(" ")[2].strip(), Path(line.file).parent
+
+
+def _beside(line: Line, consent: Consent) -> Consent:
+    """The consent, and to what lies in the folder of the story."""
+    return consent.adding(Path(line.file).parent)
+
+
+def opening(story: Story, setting: Setting) -> Setting:
+    """The setting, with the start that the story says, if it says one.
+
+    Raises `StoryError` for a start that no state of the game can be.
+    """
+    first = story.lines[0]
+    if not _says_start(first):
+        return setting
+    verb, _, text = first.text.partition(" ")
+    start = value(setting, setting.game.begin(), first, text, len(verb) + 1)
+    if not isinstance(start, Record):
+        raise first.wrong(f"a story starts in a record, found {text or 'nothing'}")
+    try:
+        return replace(setting, game=replace(setting.game, start=start))
+    except TTRError as error:
+        raise first.wrong(error.message) from error
+
+
+def turns_of(story: Story) -> tuple[Line, ...]:
+    """The lines of a story after the one that says where it starts."""
+    return story.lines[1:] if _says_start(story.lines[0]) else story.lines
+
+
+def _says_start(line: Line) -> bool:
+    return line.mark == "@" and line.text.partition(" ")[0] == "start"

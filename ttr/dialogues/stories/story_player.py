@@ -1,0 +1,190 @@
+"""Playing a story with a game, and comparing what happens with what is written."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ttr.computing.subtyping import subtype
+from ttr.dialogues.stories.line_events import event, type_of
+from ttr.dialogues.stories.mismatches import SILENCE, Mismatch
+from ttr.dialogues.stories.story_opening import opening, setting_of, turns_of
+from ttr.dialogues.stories.story_reader import Line, Story
+from ttr.dialogues.stories.story_settings import Setting
+from ttr.dialogues.stories.story_writer import Moment, moment
+from ttr.errors import NotHeard, TTRError
+from ttr.judging.judgements import Judgement
+from ttr.probability import CERTAIN
+from ttr.types.printing import notation
+from ttr.updates import Run, Step
+
+__all__ = ["Played", "failing", "fits", "play"]
+
+Echo = Callable[[str], None]
+
+_Said = tuple[Judgement, str]
+"""A move of the system, and its words."""
+
+
+@dataclass(frozen=True)
+class Played:
+    """A story that was played: from where, its turns, and where it differs, if it does.
+
+    It ends where it first differs.
+    """
+
+    story: Story
+    setting: Setting
+    start: Run
+    moments: tuple[Moment, ...]
+    mismatch: Mismatch | None
+
+
+def play(
+    story: Story,
+    setting: Setting | None = None,
+    *,
+    echo: Echo = lambda line: None,
+    witness: Callable[[Moment], None] = lambda moment: None,
+) -> Played:
+    """Plays a story with a game: the one given, or the one that the story names.
+
+    `echo` is given each line as it is played, `witness` each turn when it is over.
+    Raises `StoryError` for a line that cannot be played.
+    """
+    opened = opening(story, setting or setting_of(story))
+    playing = _Playing(opened, echo, witness)
+    mismatch = playing.play(story)
+    return Played(story, opened, playing.start, tuple(playing.moments), mismatch)
+
+
+# --- playing -------------------------------------------------------------------------
+
+
+class _Playing:
+    """A story being played, and what was said that the story has not had."""
+
+    def __init__(
+        self, setting: Setting, echo: Echo, witness: Callable[[Moment], None]
+    ) -> None:
+        self.setting, self._echo, self._witness = setting, echo, witness
+        self.start = self._now = setting.game.begin()
+        self.moments: list[Moment] = []
+        self._said: list[_Said] = []
+
+    def play(self, story: Story) -> Mismatch | None:
+        for line in turns_of(story):
+            mismatch = self._step(line)
+            if mismatch is not None:
+                return mismatch
+        return self._left_over(story.lines[-1])
+
+    def _step(self, line: Line) -> Mismatch | None:
+        match line.mark:
+            case "S>" | "S~":
+                return self._compare(line)
+            case "=":
+                return self._judge(line)
+        return self._left_over(line) or self._turn(line)
+
+    def _turn(self, line: Line) -> Mismatch | None:
+        happening = event(self.setting, self._now, line)
+        told = f"{line.mark} {line.text}".rstrip()
+        self._echo(told)
+        try:
+            turn = self.setting.game.take(self._now, happening)
+            done = moment(turn, self.setting, told)
+        except NotHeard as error:
+            raise line.wrong(error.message) from error
+        except TTRError as error:
+            self._said = []
+            return Mismatch(line, "a turn without an error", error.message)
+        self._now = turn.run
+        said = zip(turn.said, done.said, strict=True)
+        self._said = [(move, words) for move, words in said if words]
+        self.moments.append(done)
+        self._witness(done)
+        for _, words in self._said:
+            self._echo(f"S> {words}")
+        return None
+
+    # --- what the system says ---
+
+    def _compare(self, line: Line) -> Mismatch | None:
+        found = self._said.pop(0) if self._said else None
+        if found is None:
+            return self._differing(line, SILENCE) if line.text else None
+        move, words = found
+        if line.text and self._fits(line, move, words):
+            return None
+        return self._differing(line, words)
+
+    def _fits(self, line: Line, move: Judgement, words: str) -> bool:
+        """Whether a move is as written: to the letter, or roughly."""
+        if self.setting.game.say is not None:
+            return words == line.text if line.mark == "S>" else fits(line, words)
+        T = type_of(self.setting, self._now, line, line.text, 0)
+        theory = self.setting.theory
+        below = subtype(move.type, T, theory).yes
+        return below and (line.mark == "S~" or subtype(T, move.type, theory).yes)
+
+    def _left_over(self, line: Line) -> Mismatch | None:
+        """What the system said more than the story has, before this line."""
+        if not self._said:
+            return None
+        _, words = self._said[0]
+        expected = "nothing more to be said before this"
+        return Mismatch(line, expected, words, self._trace)
+
+    # --- states ---
+
+    def _judge(self, line: Line) -> Mismatch | None:
+        name, colon, text = line.text.partition(":")
+        if not colon or name.strip() != "s":
+            raise line.wrong("a judgement of the state is written `= s : T`")
+        T = type_of(self.setting, self._now, line, text, len(name) + 1)
+        try:
+            judgement = self._now.model.judge(self._now.state, T)
+        except TTRError as error:
+            raise line.wrong(error.message) from error
+        if judgement.p == CERTAIN:
+            return None
+        return self._differing(line, failing(judgement))
+
+    def _differing(self, line: Line, found: str) -> Mismatch:
+        expected = (
+            line.text.partition(":")[2].strip() if line.mark == "=" else line.text
+        )
+        return Mismatch(line, expected or SILENCE, found, self._trace)
+
+    @property
+    def _trace(self) -> tuple[Step, ...]:
+        """The rules of the latest turn."""
+        return self.moments[-1].turn.trace if self.moments else ()
+
+
+# --- differences ---------------------------------------------------------------------
+
+
+def fits(line: Line, words: str) -> bool:
+    """Whether words are as the regular expression of a line says.
+
+    Raises `StoryError` for what is no regular expression.
+
+    >>> fits(Line("a.dlg", 1, "S~", "Hello.*"), "Hello, you.")
+    True
+    """
+    try:
+        return re.fullmatch(line.text, words) is not None
+    except re.error as error:
+        raise line.wrong(f"{line.text!r} is no regular expression: {error}") from None
+
+
+def failing(judgement: Judgement) -> str:
+    """Where and why a judgement of the state fails."""
+    failed = judgement.why.failure()
+    if failed is None:
+        return f"it is so with probability {judgement.p}"
+    path = judgement.why.path() or "the state"
+    return f"at {path}: {notation(failed.sit)} : {failed.type}, {failed.because}"

@@ -1,0 +1,150 @@
+"""Reading dialogue files (`.dlg`): stories that anyone can write.
+
+A line begins with what it is: `---` a title, `@` something that happens in the world or
+a setting, `U>` what is said to the system, `U~` what was perhaps said, with
+probabilities, `S>` what the system says then, to the letter (nothing after it:
+silence), `S~` the same roughly, `=` a judgement that holds of the state, as in
+`= s : [shared : [latest : Learned]]`, `#` a comment. What the system says has to be in
+the story, and in that order.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from ttr.errors import Span, TTRError
+from ttr.safety.files import why_unread
+from ttr.safety.inputs import read_text
+from ttr.safety.limits import STORIES
+
+__all__ = ["Line", "Story", "StoryError", "line_of", "read_stories"]
+
+_MARKS = ("---", "@", "U>", "U~", "S>", "S~", "=")
+
+_OF_THE_FILE = "game"
+"""What is said by an `@` line of the stories after it, too."""
+
+
+class StoryError(TTRError):
+    """A dialogue file that cannot be read or played: where, and why."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of a story: its place, its mark and the text after it.
+
+    `column` is where the text begins in the line as it is `written`.
+    """
+
+    file: str
+    number: int
+    mark: str
+    text: str
+    column: int = 1
+    written: str = ""
+
+    @property
+    def place(self) -> str:
+        """The file and the number of the line."""
+        return f"{self.file}:{self.number}"
+
+    def span(self, start: int, length: int) -> Span:
+        """The place of a part of the text, which begins so far into it."""
+        return Span(self.file, self.number, self.column + start, length, self.written)
+
+    def wrong(self, message: str) -> StoryError:
+        """The error that there is something wrong with the line."""
+        return StoryError(f"{self.place}: {message}")
+
+
+@dataclass(frozen=True)
+class Story:
+    """A titled dialogue; `game` is the line that says what is played, if one does."""
+
+    title: str
+    lines: tuple[Line, ...]
+    game: Line | None = None
+
+
+def read_stories(path: Path) -> tuple[Story, ...]:
+    """The stories in a file. Raises `StoryError`.
+
+    A line `@ game …` is of its story and of those after it.
+
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "hello.dlg")
+    ...     _ = file.write_text("--- a greeting\\nU> Hello.\\nS> Hello.\\n")
+    ...     read_stories(file)[0].title
+    'a greeting'
+    """
+    try:
+        text = read_text(path, STORIES)
+    except (OSError, UnicodeDecodeError) as error:
+        raise StoryError(why_unread(path, error)) from None
+    stories = tuple(_stories(path.stem, _lines(path, text)))
+    if not stories:
+        raise StoryError(f"{path} has no story: write lines such as `U> Hello.`")
+    return stories
+
+
+def _lines(path: Path, text: str) -> Iterator[Line]:
+    for number, written in enumerate(text.splitlines(), start=1):
+        line = written.strip()
+        if not line or line.startswith("#"):
+            continue
+        mark = next((mark for mark in _MARKS if line.startswith(mark)), None)
+        if mark is None:
+            raise StoryError(
+                f"{path}:{number}: a line begins with {', '.join(_MARKS)} or #, "
+                f"but found {line[:40]!r}"
+            )
+        after = written.index(mark) + len(mark)
+        begin = after + len(written[after:]) - len(written[after:].lstrip())
+        content = _content(written[after:])
+        yield Line(str(path), number, mark, content, begin + 1, written)
+
+
+def _content(text: str) -> str:
+    """The text of a line without the comment at its end; `#2` points and is none.
+
+    A `#` that stands alone, but begins no comment, has a backslash before it.
+    """
+    plain = re.split(r"\s#(?:\s|$)", f" {text}", maxsplit=1)[0].strip()
+    return re.sub(r"(?<!\S)\\(\\*#)(?!\S)", r"\1", plain)
+
+
+def line_of(text: str) -> str:
+    """What is read as this text, as a line of a story; raises `StoryError`.
+
+    >>> line_of("U> no # comment")
+    'U> no \\\\# comment'
+    """
+    if len(text.splitlines()) > 1:
+        raise StoryError(f"no line of a story has a line break in it: {text!r}")
+    return re.sub(r"(?<!\S)(\\*#)(?!\S)", r"\\\1", text)
+
+
+def _stories(title: str, lines: Iterator[Line]) -> Iterator[Story]:
+    game: Line | None = None
+    body: list[Line] = []
+    for line in lines:
+        if line.mark == "---":
+            if body:
+                yield Story(title, tuple(body), game)
+            title, body = line.text, []
+        elif line.mark != "@" or _verb(line) != _OF_THE_FILE:
+            body.append(line)
+        elif body:
+            raise line.wrong("a story says which game it is of before anything else")
+        else:
+            game = line
+    if body:
+        yield Story(title, tuple(body), game)
+
+
+def _verb(line: Line) -> str:
+    return line.text.partition(" ")[0]

@@ -1,0 +1,215 @@
+"""What a story is played in: the game that it names, and the names that it may use."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import ModuleType
+from typing import Self
+
+from ttr.dialogues.stories.story_reader import StoryError
+from ttr.errors import TTRError, suggestion
+from ttr.judging.models import Model
+from ttr.notation.reader import read_term
+from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowed, check_called
+from ttr.safety.python_files import run_named
+from ttr.theories.loading import Unreadable
+from ttr.theories.theory import Theory, theory_of_file
+from ttr.types.syntax import Basic, Object, Rec, TypeNode, Universe
+from ttr.updates import Game
+
+__all__ = ["Setting", "check_named", "named_by_user", "python_in", "setting"]
+
+_WRITTEN = "FILE.ttr NAME, FILE.py:NAME or MODULE:NAME"
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """A game, the theory whose names are used in its stories, and how it is named.
+
+    `reference` is what stands after `@ game` in a story in this folder; it may be
+    empty. `consent` is what the user lets the game's files use.
+    """
+
+    game: Game
+    theory: Theory
+    reference: str = ""
+    folder: Path = Path()
+    consent: Consent = OWN_FOLDER
+
+    @classmethod
+    def of(cls, game: Game, theory: Theory | None = None, reference: str = "") -> Self:
+        """The setting of a game; without a theory, what occurs in it can be named."""
+        return cls(game, theory or game.theory or _mentioned(game), reference)
+
+    def reference_from(self, folder: Path) -> str:
+        """What stands after `@ game` in another folder."""
+        file, rest = _parts(self.reference)
+        if not file or Path(file).is_absolute():
+            return self.reference
+        moved = os.path.relpath(self.folder / file, folder)
+        return Path(moved).as_posix() + rest
+
+    def value(self, text: str, model: Model, source: str = "<text>") -> Object:
+        """The type or object that a text stands for, among what the model knows."""
+        known = (name for name in model.facts.known if isinstance(name, str))
+        names = self.theory.objects.union(known)
+        value = read_term(text, replace(self.theory, objects=names), source)
+        return model.reduced(value)
+
+
+def setting(reference: str, folder: Path, consent: Consent | None = None) -> Setting:
+    """The setting that a reference names; a file is taken from the folder.
+
+    A reference is the path of a theory and the name of a game in it, or a Python file
+    or module, a colon and a name. Who calls this names it, and so consents to what is
+    run; for a reference that was found in a file, `consent` is the user's. Raises
+    `StoryError` where nothing is named so, and `NotAllowed` where there is no consent.
+    """
+    if consent is not None:
+        check_named(reference, folder, consent)
+    file, rest = _parts(reference)
+    if file.endswith(".ttr"):
+        name = rest.strip().removeprefix(":")
+        found = _of_theory(file, name, folder, consent or OWN_FOLDER)
+    else:
+        found = _of_python(*_python(reference), folder, consent)
+    named = consent or OWN_FOLDER
+    return replace(found, reference=reference, folder=folder, consent=named)
+
+
+def check_named(reference: str, folder: Path, consent: Consent) -> None:
+    """Raises `NotAllowed` for a reference in a file that there is no consent to.
+
+    A theory may lie anywhere, for nothing in it is run.
+    """
+    python = python_in(reference)
+    if python:
+        consent.check_python(python, folder)
+    else:
+        file, _ = _parts(reference)
+        check_called(folder / file, ".ttr", file)
+
+
+def named_by_user(reference: str, folder: Path, consent: Consent) -> Consent:
+    """The consent of a user who has named a game himself, and so what has to be run."""
+    python = python_in(reference)
+    return consent.naming(python, folder) if python else consent
+
+
+def python_in(reference: str) -> str:
+    """The Python file or module that a reference names; none, if it is of a theory.
+
+    >>> python_in("games.py:door"), python_in("door.ttr door")
+    ('games.py', '')
+    """
+    if _parts(reference)[0].endswith(".ttr"):
+        return ""
+    return _python(reference)[0]
+
+
+def _python(reference: str) -> tuple[str, str]:
+    """The Python file or module that a reference names, and the name of its game."""
+    python, _, name = reference.rpartition(":")
+    if not python or not name.strip():
+        raise StoryError(f"a game is named as {_WRITTEN}, found {reference!r}")
+    return python.strip(), name.strip()
+
+
+def _parts(reference: str) -> tuple[str, str]:
+    """The file that a reference names, if it names one, and what follows it."""
+    found = re.fullmatch(r"(.+?\.ttr|.+\.py(?=:))((?: +\S+)?|:.*)", reference)
+    return (found[1], found[2]) if found else ("", reference)
+
+
+def _of_theory(file: str, name: str, folder: Path, consent: Consent) -> Setting:
+    _check_there(file, folder)
+    try:
+        theory = theory_of_file(folder / file, consent)
+        games = theory.games
+    except Unreadable as error:
+        raise StoryError(error.message) from error
+    except TTRError as error:
+        place = f"{error.span.source}:{error.span.line}: " if error.span else ""
+        raise StoryError(f"{file} cannot be read: {place}{error.message}") from error
+    if not name and len(games) == 1:
+        (name,) = games
+    if name not in games:
+        raise StoryError(_no_game(file, name, tuple(games)))
+    return Setting(games[name], theory)
+
+
+def _of_python(path: str, name: str, folder: Path, consent: Consent | None) -> Setting:
+    module = _module(path, folder, consent)
+    games = {key: one for key, one in vars(module).items() if isinstance(one, Game)}
+    if name not in games:
+        raise StoryError(_no_game(path, name, tuple(games)))
+    game = games[name]
+    theory = game.theory or _defined(module, _mentioned(game))
+    return Setting(game, theory)
+
+
+def _check_there(file: str, folder: Path) -> None:
+    path = folder / file
+    if os.path.isfile(path):
+        return
+    beside = [one.name for one in path.parent.glob(f"*{path.suffix}")]
+    near = suggestion(path.name, beside)
+    raise StoryError(f"there is no file {file}" + f": {near}" * bool(near))
+
+
+def _no_game(file: str, name: str, known: tuple[str, ...]) -> str:
+    told = f"{file} has no game {name}" if name else f"name a game of {file}"
+    if not known:
+        return f"{told}: there is none in it"
+    return f"{told}: {suggestion(name, known) or 'it has ' + ', '.join(known)}"
+
+
+# --- games in Python -----------------------------------------------------------------
+
+
+def _module(path: str, folder: Path, consent: Consent | None) -> ModuleType:
+    """The module of a file or a dotted name, run if it has not been."""
+    if path.endswith(".py"):
+        _check_there(path, folder)
+    try:
+        return run_named(path, folder, "_played_", consent)
+    except NotAllowed:
+        raise
+    except Exception as error:
+        raise StoryError(_not_run(path, error)) from error
+
+
+def _not_run(path: str, error: Exception) -> str:
+    if isinstance(error, ModuleNotFoundError) and error.name in _with_parents(path):
+        return f"there is no module {path}: name a game as {_WRITTEN}"
+    fault = f"{type(error).__name__}: {error}".splitlines()[0]
+    return f"{path} cannot be run: {fault}"
+
+
+def _with_parents(module: str) -> list[str]:
+    """A dotted name and those of the packages that it is in: a.b.c, a.b and a."""
+    return [".".join(module.split(".")[: n + 1]) for n in range(module.count(".") + 1)]
+
+
+def _mentioned(game: Game) -> Theory:
+    """The theory that declares what occurs in a game."""
+    types = [T for rule in game.rules for T in (rule.when, rule.on, rule.gives)]
+    planned = [T for T in types if T is not None]
+    return Theory.of(game.type, game.start, *game.hears, *planned)
+
+
+def _defined(module: ModuleType, theory: Theory) -> Theory:
+    """The theory in which the types of a module have their names in it, too."""
+    definitions = {
+        name: T
+        for name, T in vars(module).items()
+        if isinstance(T, TypeNode)
+        and not isinstance(T, Basic | Universe)
+        and T is not Rec
+    }
+    mentioned = (*theory.basics.values(), *theory.predicates.values())
+    wider = Theory.of(*mentioned, *definitions.values(), *sorted(theory.objects))
+    return replace(wider, definitions=definitions)

@@ -1,0 +1,42 @@
+"""A value laid out beside an earlier one, with the fields that have changed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ttr.display.layout import Layout, Matrix, laid_out
+from ttr.types.interning import identity
+from ttr.types.syntax import Object, Record
+
+__all__ = ["compared"]
+
+
+def compared(before: Object, after: Object) -> Layout:
+    """The layout of a value, in which fields are marked that were not so before.
+
+    Of records inside records, the innermost fields that have changed are marked.
+
+    >>> from ttr.types.syntax import record
+    >>> layout = compared(record(x="a", y="b"), record(x="a", y="c"))
+    >>> [(row.label.text, row.changed) for row in layout.rows]
+    [('x', False), ('y', True)]
+    """
+    return _marked(laid_out(after), before, after)
+
+
+def _marked(layout: Layout, before: Object, after: Object) -> Layout:
+    match layout, before, after:
+        case Matrix(rows=rows), Record(), Record() if len(after):
+            marked = []
+            for row in rows:
+                label = row.label.text
+                if label not in before:
+                    marked.append(replace(row, changed=True))
+                    continue
+                was, now = before[label], after[label]
+                if isinstance(was, Record) and isinstance(now, Record) and len(now):
+                    marked.append(replace(row, has=_marked(row.has, was, now)))
+                    continue
+                marked.append(replace(row, changed=identity(was) != identity(now)))
+            return replace(layout, rows=tuple(marked))
+    return layout

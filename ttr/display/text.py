@@ -1,0 +1,231 @@
+"""Layouts as text on several lines, with brackets as tall as what they hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from ttr.display.layout import (
+    Chain,
+    Layout,
+    Line,
+    Listed,
+    Matrix,
+    Raised,
+    Restricted,
+    Row,
+    Sign,
+    Step,
+    Word,
+    filled,
+)
+from ttr.escapes import columns
+from ttr.safety.budgets import spend
+
+__all__ = ["drawn", "drawn_derivation"]
+
+_LEAST = 24
+"""Deep inside, where there is hardly any room left, this many columns are taken."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """Lines of one width, of which `base` is the one that words beside it stand on."""
+
+    lines: tuple[str, ...]
+    width: int
+    base: int
+
+    @classmethod
+    def of(cls, text: str) -> Block:
+        """A text of one line."""
+        return cls((text,), columns(text), 0)
+
+    @property
+    def below(self) -> int:
+        """How many lines there are below the base."""
+        return len(self.lines) - 1 - self.base
+
+
+def drawn(layout: Layout, room: int) -> str:
+    """The layout as text, in so many columns where it can be done."""
+    return _text(_draw(layout, room))
+
+
+def drawn_derivation(step: Step, room: int) -> str:
+    """The derivation as an indented tree, what is claimed before its grounds."""
+    return "\n".join([_text(block) for block in _steps(step, "", room)])
+
+
+def _steps(step: Step, indent: str, room: int) -> Iterator[Block]:
+    where = f"{step.where}: " if step.where else ""
+    start = Block.of(f"{indent}{step.mark} {where}")
+    claim = _draw(step.claim, max(_LEAST, room - start.width))
+    yield _beside([start, claim, Block.of(f"   ({step.because})")])
+    for part in step.parts:
+        yield from _steps(part, indent + "  ", room)
+
+
+def _text(block: Block) -> str:
+    return "\n".join([line.rstrip() for line in block.lines])
+
+
+# --- blocks --------------------------------------------------------------------------
+
+
+def _beside(blocks: Iterable[Block]) -> Block:
+    """The blocks from left to right, on one base."""
+    row = list(blocks)
+    if len(row) == 1:
+        return row[0]
+    above = max([block.base for block in row])
+    below = max([block.below for block in row])
+    columns_of_lines = [_raised_to(block, above, below) for block in row]
+    lines = tuple(["".join(line) for line in zip(*columns_of_lines, strict=True)])
+    return Block(lines, sum(block.width for block in row), above)
+
+
+def _raised_to(block: Block, above: int, below: int) -> Sequence[str]:
+    """The lines of the block with that many lines above and below its base."""
+    if block.base == above and block.below == below:
+        return block.lines
+    empty = " " * block.width
+    over, under = above - block.base, below - block.below
+    return [empty] * over + list(block.lines) + [empty] * under
+
+
+def _below(blocks: Iterable[Block]) -> Block:
+    """The blocks from top to bottom, with the line in the middle as their base."""
+    stack = list(blocks)
+    width = max([block.width for block in stack])
+    lines = [
+        line + " " * (width - block.width) for block in stack for line in block.lines
+    ]
+    return Block(tuple(lines), width, (len(lines) - 1) // 2)
+
+
+_TALL = {
+    "[": ("⎡", "⎢", "⎢", "⎣"),
+    "]": ("⎤", "⎥", "⎥", "⎦"),
+    "(": ("⎛", "⎜", "⎜", "⎝"),
+    ")": ("⎞", "⎟", "⎟", "⎠"),
+    "{": ("⎧", "⎪", "⎨", "⎩"),
+    "}": ("⎫", "⎪", "⎬", "⎭"),
+    "<": (" ", " ", "⟨", " "),
+    ">": (" ", " ", "⟩", " "),
+}
+"""Brackets of several lines: the top, between, on the base line, the bottom."""
+
+
+def _flat(bracket: str) -> str:
+    return {"<": "⟨", ">": "⟩"}.get(bracket, bracket)
+
+
+def _enclosed(opening: str, block: Block, closing: str) -> Block:
+    return _beside([_bracket(opening, block), block, _bracket(closing, block)])
+
+
+def _bracket(sign: str, block: Block) -> Block:
+    height = len(block.lines)
+    if height == 1:
+        return Block.of(_flat(sign))
+    top, between, middle, bottom = _TALL[sign]
+    lines = [top] + [between] * (height - 2) + [bottom]
+    if middle != between and (0 < block.base < height - 1 or between == " "):
+        lines[block.base] = middle
+    return Block(tuple(lines), 1, block.base)
+
+
+# --- layouts -------------------------------------------------------------------------
+
+
+def _draw(layout: Layout, room: int) -> Block:
+    spend()
+    match layout:
+        case Word(text, _) | Sign(text):
+            return Block.of(text)
+        case Raised(base, exponent):
+            return Block.of(f"{base.text}^{exponent.text}")
+        case Restricted(base, value):
+            return _in_line((base, Sign("@"), value), room)
+        case Line(parts):
+            return _in_line(parts, room)
+        case Chain():
+            return _chain(layout, room)
+        case Listed():
+            return _listed(layout, room)
+        case Matrix():
+            return _matrix(layout, room)
+
+
+def _in_line(parts: Sequence[Layout], room: int) -> Block:
+    """The parts side by side, each with the room that those after it leave."""
+    after = sum(part.width for part in parts)
+    blocks = []
+    for part in parts:
+        after -= part.width
+        block = _draw(part, max(_LEAST, room - min(after, room // 2)))
+        room -= block.width
+        blocks.append(block)
+    return _beside(blocks)
+
+
+def _chain(chain: Chain, room: int) -> Block:
+    sign = chain.sign.text
+    if chain.width <= room:
+        blocks = [_draw(part, room) for part in chain.parts]
+        return _beside(_with(Block.of(sign), blocks))
+    lead = Block.of(sign.strip().ljust(2))
+    rest = max(_LEAST, room - lead.width)
+    first, *others = [_draw(part, rest) for part in chain.parts]
+    if sign.strip():
+        first = _beside([Block.of(" " * lead.width), first])
+    return _below([first, *[_beside([lead, block]) for block in others]])
+
+
+def _with(between: Block, blocks: Iterable[Block]) -> Iterator[Block]:
+    """The blocks, with one between every two."""
+    for number, block in enumerate(blocks):
+        if number:
+            yield between
+        yield block
+
+
+def _listed(listed: Listed, room: int) -> Block:
+    if not listed.parts:
+        return Block.of(_flat(listed.opening) + _flat(listed.closing))
+    rest = max(_LEAST, room - 2)
+    lines = list(filled(listed.parts, listed.between, rest))
+    between = Block.of(listed.between.text)
+    at_end = Block.of(listed.between.text.rstrip())
+    rows = []
+    for number, line in enumerate(lines):
+        blocks = [*_with(between, [_draw(part, rest) for part in line])]
+        if number < len(lines) - 1:
+            blocks.append(at_end)
+        rows.append(_beside(blocks))
+    return _enclosed(listed.opening, _below(rows), listed.closing)
+
+
+def _matrix(matrix: Matrix, room: int) -> Block:
+    """The fields one below the other, with their signs in one column."""
+    rest = max(_LEAST, room - 2)
+    fits = matrix.width <= room
+    names = [_name(row, rest if fits else rest // 2) for row in matrix.rows]
+    width = max([name.width for name in names])
+    rest = max(_LEAST, rest - width - matrix.sign.width)
+    rows = []
+    for name, row in zip(names, matrix.rows, strict=True):
+        sign = Block.of(" " * (width - name.width) + matrix.sign.text)
+        rows.append(_beside([name, sign, _draw(row.has, rest)]))
+    return _enclosed("[", _below(rows), "]")
+
+
+def _name(row: Row, room: int) -> Block:
+    """What stands before the sign of the matrix."""
+    label = Block.of(row.label.text)
+    if row.manifest is None:
+        return label
+    sign = Block.of(" = ")
+    value = _draw(row.manifest, max(_LEAST, room - label.width - sign.width))
+    return _beside([label, sign, value])

@@ -1,0 +1,113 @@
+"""Following an automaton over events that may be uncertain, one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import product
+from typing import TypeAlias
+
+from immutables import Map
+
+from ttr.computing.strings.automata import Automaton
+from ttr.computing.strings.beliefs import NOWHERE, Beliefs, States, frechet, independent
+from ttr.judging.judgements import Why
+from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
+from ttr.types.syntax import TypeNode, identity, meet
+
+__all__ = ["Following", "followed_from"]
+
+TOLD_APART = 4
+"""How many types that one event may or may not be of are told apart."""
+
+Reads: TypeAlias = Callable[[TypeNode], Why]
+"""Why an event is of a type, or not."""
+
+_NOTHING: Map[object, bool] = Map()
+
+
+@dataclass(frozen=True, eq=False)
+class Following:
+    """In which states an automaton may be, and how probably; made by `followed_from`.
+
+    `doubted` are the objects of which something uncertain was asked. What is uncertain
+    of different objects is independent, unless it is said to be `linked`.
+    """
+
+    automaton: Automaton
+    linked: bool
+    beliefs: Beliefs
+    doubted: Map[object, bool] = _NOTHING
+
+    @property
+    def goes_on(self) -> Degree:
+        """How probable it is that what was seen begins a string of the automaton."""
+        return self.beliefs.probability(bool)
+
+    @property
+    def may_end(self) -> Degree:
+        """How probable it is that what was seen is a string of the automaton."""
+        final = self.automaton.final
+        return self.beliefs.probability(lambda states: not states.isdisjoint(final))
+
+    def after(self, reads: Reads) -> Following:
+        """What is so after one more event, which may lead nowhere."""
+        event = _Event(reads)
+        steps = partial(self._steps, event)
+        for states in self.beliefs.degrees:
+            list(steps(states))  # so that it is known what is doubted
+        again = any(sit in self.doubted for sit in event.doubted)
+        apart = not again and not (self.linked and self.doubted)
+        doubted = self.doubted.update(dict.fromkeys(event.doubted, True))
+        beliefs = self.beliefs.after(steps, independent if apart else frechet)
+        return replace(self, beliefs=beliefs, doubted=doubted)
+
+    def _steps(self, event: _Event, states: States) -> Iterator[tuple[States, Degree]]:
+        """The states that an event leads to, and how probably."""
+        edges = [edge for q in sorted(states) for edge in self.automaton.edges[q]]
+        labels = dict.fromkeys(edge.label for edge in edges)
+        for fitting, p in event.cases(list(labels)):
+            yield frozenset(edge.target for edge in edges if edge.label in fitting), p
+
+
+def followed_from(automaton: Automaton, linked: bool) -> Following:
+    """The start of an automaton that takes no wholes, before anything happens."""
+    start = NOWHERE if automaton.empty else frozenset((automaton.start,))
+    return Following(automaton, linked, Beliefs.certain(start))
+
+
+class _Event:
+    """What an event is of, asked once for each type; of what it is uncertain."""
+
+    def __init__(self, reads: Reads) -> None:
+        self._reads = reads
+        self._known: dict[TypeNode, Degree] = {}
+        self.doubted: dict[object, None] = {}
+
+    def cases(
+        self, labels: list[TypeNode]
+    ) -> Iterator[tuple[frozenset[TypeNode], Degree]]:
+        """Of which of the labels the event may be, all of them, and how probably.
+
+        Where too many are uncertain, only the two extremes, of unknown degree.
+        """
+        certain = [T for T in labels if self._degree(T) == CERTAIN]
+        possible = [T for T in labels if self._degree(T) not in (CERTAIN, REFUTED)]
+        if len(possible) > TOLD_APART:
+            yield frozenset((*certain, *possible)), UNKNOWN
+            yield frozenset(certain), UNKNOWN
+            return
+        for case in product((True, False), repeat=len(possible)):
+            so = dict(zip(possible, case, strict=True))
+            parts = [T if so[T] else ~T for T in possible]
+            p = self._degree(meet(*parts)) if parts else CERTAIN
+            if p != REFUTED:
+                yield frozenset((*certain, *(T for T in possible if so[T]))), p
+
+    def _degree(self, T: TypeNode) -> Degree:
+        if T not in self._known:
+            why = self._reads(T)
+            self._known[T] = why.p
+            self.doubted.update({identity(one.sit): None for one in why.uncertain()})
+        return self._known[T]

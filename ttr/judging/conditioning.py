@@ -1,0 +1,161 @@
+"""Conditional probability: judgements given others, and facts that depend on others.
+
+p(a : T | b : S) = p(a : T and b : S) / p(b : S) (Cooper, Dobnik, Lappin and Larsson
+2015).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from itertools import product
+
+from ttr.errors import Refused, TTRError, Unsupported
+from ttr.judging.assignments import Assignment
+from ttr.judging.degrees_of_claims import reckoned
+from ttr.judging.dependence_analysis import check_together, dependence
+from ttr.judging.evaluator import claims_of, derivation
+from ttr.judging.judgements import Why, together
+from ttr.judging.stated_dependence import Atom, Claim, Conditioned, Expectation
+from ttr.probability import (
+    All,
+    Chance,
+    Degree,
+    Dependence,
+    Event,
+    Impossible,
+    are_apart,
+    chance,
+)
+from ttr.safety.budgets import spend
+from ttr.types.printing import notation
+from ttr.types.syntax import Basic, Meet, Negation, Object, PType, TypeNode
+
+__all__ = ["conditional", "expected", "table_rows", "told_when", "undetermined"]
+
+Pair = tuple[Object, TypeNode]
+
+PARENTS = 10
+"""On how many judgements a table may depend."""
+
+
+def conditional(
+    facts: Assignment, sit: Object, T: TypeNode, when: Sequence[Pair]
+) -> Why:
+    """How probable sit : T is given other judgements, and why.
+
+    Raises `Refused` where these cannot all be so.
+    """
+    claim = derivation(facts, sit, T)
+    conditions = tuple([derivation(facts, *pair) for pair in when])
+    given = ", ".join([f"{notation(one.sit)} : {one.type}" for one in conditions])
+    known = dependence(facts, claims_of([claim, *conditions]))
+    event, condition = claim.event(), together("all", conditions)
+    try:
+        found = reckoned(event, known, condition)
+    except Impossible:
+        raise Refused(
+            f"nothing follows given {given}, as that cannot be",
+            hint="judge under conditions that are possible",
+        ) from None
+    said = partial(_quotient, event, condition, known, found)
+    parts = (claim, *conditions)
+    return Why(sit, T, found.p, f"given {given}", parts, reckoned=said)
+
+
+def _quotient(event: Event, condition: Event, known: Dependence, found: Chance) -> str:
+    """How the degree of what is conditional comes about: p(E and C) / p(C)."""
+    links = [link for one in found.rests_on for link in one.links()]
+    said = ["bounds, as too much hangs together"] * (not found.exact)
+    if are_apart((event, condition), known):
+        return "; ".join((*said, "which has nothing to do with it"))
+    both = chance(All((event, condition)), known).p
+    whole = chance(condition, known).p
+    if both.lo == both.hi and whole.lo == whole.hi < 1.0:
+        said.append(f"{both} / {whole}")
+    return "; ".join((*said, *links))
+
+
+def told_when(
+    facts: Assignment, sit: Object, T: TypeNode, p: Degree, when: Sequence[Pair]
+) -> Assignment:
+    """The assignment in which p(sit : T | when) is known to be p.
+
+    Raises `Refused` where that contradicts what was told before.
+    """
+    literals = [
+        (Claim(one, kind), so)
+        for one, S in when
+        for kind, so in _literals(S, "a condition")
+    ]
+    target = Claim(sit, _atom(T, "what depends on others"))
+    if any(claim.key == target.key for claim, _ in literals):
+        raise TTRError(f"{target} cannot depend on itself")
+    told = facts.with_conditioned(Conditioned(target, tuple(literals), p))
+    check_together(told, target.sit, target.type)
+    return told
+
+
+def expected(
+    facts: Assignment, T: TypeNode, p: Degree, when: Sequence[TypeNode]
+) -> Assignment:
+    """The assignment in which what is of the conditions so probably is of T."""
+    kind = _atom(T, "what depends on others")
+    literals = [one for S in when for one in _literals(S, "a condition")]
+    if not literals or any(one is kind for one, _ in literals):
+        raise TTRError(f"{T} has to depend on some other type")
+    return facts.with_expected(Expectation(kind, tuple(literals), p))
+
+
+def undetermined(facts: Assignment, claims: Sequence[Pair]) -> Assignment:
+    """The assignment in which nothing is known of how these depend on one another."""
+    found = [Claim(sit, _atom(T, "what depends on others")) for sit, T in claims]
+    if len(found) < 2:
+        raise TTRError("two judgements or more depend on one another, found fewer")
+    return facts.with_unknown(tuple(found))
+
+
+def table_rows(
+    on: Sequence[object], rows: Mapping[tuple[bool, ...], object]
+) -> Iterator[tuple[tuple[bool, ...], object]]:
+    """The rows of a table in order; `TTRError` where one is missing or too many."""
+    if len(on) > PARENTS:
+        raise TTRError(f"a table is on {PARENTS} judgements at most, found {len(on)}")
+    if not isinstance(rows, Mapping):
+        raise TTRError("the rows of a table are a dict from cases to probabilities")
+    cases = list(product((True, False), repeat=len(on)))
+    found = dict(rows)
+    missing = [case for case in cases if case not in found]
+    if missing:
+        raise TTRError(
+            f"the table has no row for {_case(missing[0])}",
+            hint=f"give a probability for each of the {len(cases)} cases",
+        )
+    extra = next((case for case in found if case not in cases), None)
+    if extra is not None:
+        raise TTRError(
+            f"the table has a row for {extra!r}, but it is about {len(on)} judgements",
+            hint="a row is for a tuple of True and False, one for each of them",
+        )
+    yield from ((case, found[case]) for case in cases)
+
+
+def _case(case: tuple[bool, ...]) -> str:
+    return f"({', '.join(map(str, case))})"
+
+
+def _atom(T: TypeNode, what: str) -> Atom:
+    if isinstance(T, Basic | PType):
+        return T
+    raise Unsupported(f"{what} is of a basic type or a ptype, found {T}")
+
+
+def _literals(T: TypeNode, what: str) -> list[tuple[Atom, bool]]:
+    """The basic types and ptypes that T says something is of, or is not."""
+    spend()
+    match T:
+        case Meet(parts):
+            return [one for part in parts for one in _literals(part, what)]
+        case Negation(body):
+            return [(_atom(body, what), False)]
+    return [(_atom(T, what), True)]

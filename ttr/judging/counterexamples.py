@@ -1,0 +1,145 @@
+"""Assignments that show something: a made-up witness, checked by judging it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import partial
+from itertools import product
+
+from ttr.computing.cycles import straightened
+from ttr.computing.generic_witness import Assumption
+from ttr.computing.strings.pieces import is_of_strings
+from ttr.computing.subtyping import Refutation, counterexample
+from ttr.computing.witness_places import ITSELF, elements
+from ttr.errors import TTRError
+from ttr.judging.assignments import Assignment
+from ttr.judging.creation import created, told
+from ttr.judging.judgements import Judgement, Why
+from ttr.judging.models import Model
+from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.safety.budgets import spend
+from ttr.signature.signature import Signature
+from ttr.types.objects import Unresolved
+from ttr.types.paths import replace_paths
+from ttr.types.substitution import along
+from ttr.types.syntax import Object, Path, RecordType, TypeNode, meet
+
+__all__ = ["counter", "witness"]
+
+SIZES = (1, 0, 2)
+"""How many elements lists and sets have in what is tried: one shows the most."""
+
+
+@counterexample.provided_by
+def counter(refutation: Refutation) -> Judgement | None:
+    """A judgement of a witness of S that is not of T; None where none was made up."""
+    T, theory = refutation.T, refutation.theory
+    for size, (S, assumed) in product(SIZES, _starts(refutation)):
+        found = witness(S, theory, assumed, size)
+        if found is None or _degree(found, refutation.S) != CERTAIN:
+            continue
+        if _degree(found, T) == REFUTED:
+            return found.model.judge(found.sit, T)
+    return None
+
+
+Start = tuple[TypeNode, tuple[Assumption, ...]]
+
+
+def _starts(refutation: Refutation) -> list[Start]:
+    """What to make a witness of, and what to tell of it then.
+
+    What was assumed of the whole witness says what form it has; and what was assumed of
+    a string in a field, how long that is.
+    """
+    S, assumed = refutation.S, refutation.assumed
+    if not assumed:
+        return [(one, ()) for one in dict.fromkeys((S, straightened(S)))]
+    of_it = [T for term, T in assumed if term is ITSELF]
+    others = tuple([pair for pair in assumed if pair[0] is not ITSELF])
+    narrower = [one for pair in others if (one := _with_string(S, *pair)) is not None]
+    return [*((one, ()) for one in narrower), (meet(S, *of_it), others), (S, ())]
+
+
+def _with_string(S: TypeNode, term: Object, T: TypeNode) -> TypeNode | None:
+    """S where a string in a field is of T instead; None where it is in no field."""
+    if not isinstance(term, Path) or not is_of_strings(T):
+        return None
+    first, *labels = term.labels
+    if first != ITSELF.labels[0]:
+        return None
+    inner = replace_paths(T, partial(_seen_from, len(labels) - 1))
+    return _with_field(S, labels, inner)
+
+
+def _with_field(S: TypeNode, labels: list[str], T: TypeNode) -> TypeNode | None:
+    """S with T for the type of a field; None where the labels lead to none."""
+    if not labels:
+        return T
+    first, *rest = labels
+    if not isinstance(S, RecordType) or first not in S:
+        return None
+    inner = _with_field(S[first], rest, T)
+    if inner is None:
+        return None
+    fields = [(label, inner if label == first else U) for label, U in S.fields]
+    return RecordType(tuple(fields))
+
+
+def _seen_from(depth: int, place: Path) -> Path:
+    """A place as a path from so many records inside the witness."""
+    inside = place.up == 0 and place.labels[0] == ITSELF.labels[0]
+    return Path(depth, place.labels[1:]) if inside else place
+
+
+def _degree(found: Judgement, T: TypeNode) -> Degree | None:
+    """How certainly the object is of T too; None if T has paths that lead out of it."""
+    try:
+        return found.model.judge(found.sit, T).p
+    except TTRError:
+        return None
+
+
+def witness(
+    S: TypeNode,
+    theory: Signature,
+    assumed: Iterable[Assumption] = (),
+    size: int = 1,
+) -> Judgement | None:
+    """A judgement of a made-up witness of S, of which also this is so, if there is one.
+
+    `size` is how many elements the lists and sets in it have, if they may.
+    """
+    spend()
+    facts = Assignment(Signature(axioms=theory.axioms, exclusions=theory.exclusions))
+    try:
+        sit, facts = created(facts, S, size)
+        for term, T in assumed:
+            facts = _told(facts, sit, term, T)
+    except TTRError:
+        return None
+    made = Judgement(sit, S, CERTAIN, Why(sit, S, CERTAIN, "made up"), Model.of(facts))
+    return made if _degree(made, S) == CERTAIN else None
+
+
+def _told(facts: Assignment, sit: Object, term: Object, T: TypeNode) -> Assignment:
+    """The assignment in which also a part of the witness, or an object, is of T."""
+    if not isinstance(term, Path):
+        return told(facts, term, T)
+    if term.labels[0] != ITSELF.labels[0]:
+        return facts
+    return told(facts, _part(sit, term.labels[1:]), T)
+
+
+def _part(sit: Object, labels: tuple[str, ...]) -> Object:
+    """Where the labels lead, through elements of lists and sets too."""
+    for label in labels:
+        inside = elements(sit)
+        if inside is None:
+            sit = along(sit, (label,))
+            continue
+        number = int(label) if label.isdigit() else 0
+        if number >= len(inside):
+            raise Unresolved("there is no such element")
+        sit = inside[number]
+    return sit

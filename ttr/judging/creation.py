@@ -1,0 +1,407 @@
+"""Making up witnesses, and telling an assignment of what they are."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator
+from functools import partial, reduce
+from itertools import count, cycle, islice
+from typing import assert_never
+
+from ttr.building.merging import merge
+from ttr.computing.case_analysis import cases, splits
+from ttr.computing.cycles import circle
+from ttr.computing.generic_witness import Hypothetical
+from ttr.computing.strings.automata import automaton_above
+from ttr.computing.strings.pieces import (
+    alternatives,
+    events_of,
+    is_of_strings,
+    string_of,
+)
+from ttr.computing.strings.runs import shortest
+from ttr.computing.witness_places import ITSELF, step
+from ttr.errors import Refused, TTRError
+from ttr.judging.assignments import Assignment
+from ttr.judging.certainty import certainly
+from ttr.judging.evaluator import derivation, made_up, reduced, stands
+from ttr.probability import CERTAIN, REFUTED
+from ttr.safety.budgets import spend
+from ttr.types.objects import Unresolved
+from ttr.types.paths import escaping, mentions, moved, replace_paths
+from ttr.types.printing import notation
+from ttr.types.substitution import grounded
+from ttr.types.syntax import (
+    BOUND,
+    Application,
+    Basic,
+    EventString,
+    FiniteSet,
+    Function,
+    FunType,
+    Ind,
+    Join,
+    ListOf,
+    Meet,
+    Negation,
+    NonEmpty,
+    Object,
+    Path,
+    Plus,
+    PType,
+    Rec,
+    Record,
+    RecordType,
+    RecType,
+    SetOf,
+    Singleton,
+    Str,
+    TypeNode,
+    Universe,
+    identity,
+)
+
+__all__ = ["created", "told"]
+
+
+def told(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
+    """The assignment in which sit is of T, taken apart into its atoms.
+
+    T has no paths that escape it. Raises `Refused` where sit cannot be of T.
+    """
+    match T:
+        case Basic() | PType():
+            return facts.with_fact(sit, T, CERTAIN)
+        case Meet(parts):
+            for part in parts:
+                facts = told(facts, sit, part)
+            return facts
+        case Singleton(base, value) if identity(value) == identity(sit):
+            return told(facts, sit, base)
+        case ListOf(item) | NonEmpty(item) if isinstance(sit, tuple) and sit:
+            return _told_each(facts, sit, item)
+        case SetOf(item) if isinstance(sit, FiniteSet):
+            return _told_each(facts, sit, item)
+        case Str(items) if _has_events(sit, T):
+            for event, item in zip(sit, items, strict=True):
+                facts = told(facts, event, item)
+            return facts
+        case RecordType() if isinstance(sit, Record):
+            return _told_fields(facts, sit, T)
+        case Negation(body):
+            return _denied(facts, sit, body)
+        case Application():
+            return told(facts, sit, _worked_out(facts, T))
+    why = derivation(facts, sit, T)
+    if why.p != CERTAIN:
+        raise Refused(f"{notation(sit)} : {T} cannot be given: {why.rule}")
+    return facts
+
+
+def _has_events(sit: Object, T: Str) -> bool:
+    """Whether it is plain which events of a string are to be of what."""
+    events = events_of(T)
+    return (
+        isinstance(sit, EventString) and events is not None and len(sit) == len(events)
+    )
+
+
+def _told_each(facts: Assignment, sit: Iterable[Object], T: TypeNode) -> Assignment:
+    for element in sit:
+        facts = told(facts, element, T)
+    return facts
+
+
+def _denied(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
+    """The assignment in which sit is not of T."""
+    match T:
+        case Basic() | PType():
+            return facts.with_fact(sit, T, REFUTED)
+        case Negation(body):
+            return told(facts, sit, body)
+        case Join(parts):
+            for part in parts:
+                facts = _denied(facts, sit, part)
+            return facts
+    if derivation(facts, sit, T).p == REFUTED:
+        return facts
+    raise Refused(f"{notation(sit)} : {Negation(T)} cannot be given: only of atoms")
+
+
+def _worked_out(facts: Assignment, T: Application) -> TypeNode:
+    """The type that a function gives; raises `Refused` where it gives none."""
+    found = reduced(facts, T)
+    if isinstance(found, TypeNode) and not isinstance(found, Application):
+        return found
+    raise Refused(f"{T} is no type, so nothing is of it")
+
+
+def _told_fields(facts: Assignment, sit: Record, T: RecordType) -> Assignment:
+    for label, field in T.fields:
+        if label not in sit:
+            raise Refused(f"{notation(sit)} : {T} cannot be given: there is no {label}")
+        try:
+            ground = grounded(field, (sit._fields,))
+        except Unresolved as unresolved:
+            raise Refused(
+                f"{notation(sit)} : {T} cannot be given: {unresolved.message}"
+            ) from unresolved
+        facts = told(facts, sit._fields[label], ground)
+    return facts
+
+
+@made_up.provided_by
+def created(facts: Assignment, T: TypeNode, size: int = 0) -> tuple[Object, Assignment]:
+    """A fresh witness of T, and the assignment that has it.
+
+    `size` is how many elements the lists, sets and repetitions in it have, if they may;
+    those of a join take turns. From 2 on, a record has a label more than it needs. T
+    has no paths that escape it. Raises `Refused` where none can be made up.
+    """
+    try:
+        sit, facts = _Making(size).one(facts, T)
+    except Refused:
+        settled = _settled(T)
+        if settled is T:
+            raise
+        sit, facts = _Making(size).one(facts, settled)
+    if mentions(T, Negation):
+        _check(facts, sit, T)
+    return sit, facts
+
+
+def _settled(T: TypeNode) -> TypeNode:
+    """The type with those fields manifest that others say to be a certain object."""
+    if not isinstance(T, RecordType):
+        return T
+    witness = Hypothetical(T)
+    fields: list[tuple[str, TypeNode]] = []
+    for label, field in T.fields:
+        value = witness.normal(step(ITSELF, label))
+        known = not isinstance(field, Singleton) and not escaping(value)
+        fields.append((label, Singleton(field, value) if known else field))
+    return RecordType(tuple(fields))
+
+
+def _check(facts: Assignment, sit: Object, T: TypeNode) -> None:
+    """Refuses what cannot be: what was denied of an object may have been told of it."""
+    if derivation(facts, sit, T).p != CERTAIN:
+        raise Refused(f"a witness of {T} cannot be made up: it denies what it says")
+
+
+Made = tuple[Object, Assignment]
+"""A witness, and the assignment in which it is one."""
+
+
+class _Making:
+    """Makes up witnesses; lists and sets get so many elements."""
+
+    def __init__(self, size: int) -> None:
+        self._size = size
+
+    def one(self, facts: Assignment, T: TypeNode) -> Made:
+        """A fresh witness of T, and the assignment that has it."""
+        match T:
+            case Basic():
+                sit, facts = facts.with_new("a")
+                return sit, told(facts, sit, T)
+            case PType():
+                sit, facts = facts.with_new("s")
+                return sit, told(facts, sit, T)
+            case Meet() | Join() | Negation():
+                return self._combined(facts, T)
+            case Singleton(base, value):
+                value = reduced(facts, value)
+                return value, _surely(facts, value, base)
+            case ListOf(item):
+                return self._list(facts, item, self._size)
+            case NonEmpty(item):
+                return self._list(facts, item, max(1, self._size))
+            case SetOf(item):
+                items, facts = self._list(facts, item, self._size)
+                return FiniteSet(*items), facts
+            case Str() | Plus():
+                return self._string_or_another(facts, T)
+            case FunType():
+                return self._function(facts, T)
+            case RecordType():
+                return self._record(facts, T)
+            case Universe():
+                return _type(T, self._size), facts
+            case Application():
+                return self.one(facts, _worked_out(facts, T))
+        raise assert_never(T)  # type: ignore[arg-type]
+
+    # --- lists, strings, records ---
+
+    def _list(self, facts: Assignment, item: TypeNode, size: int) -> Made:
+        if size == 0:
+            return (), facts
+        spend(size)
+        kinds = cases(item) or (item,)
+        items: list[Object] = []
+        for _, kind in zip(range(size), cycle(kinds), strict=False):
+            made, facts = self.one(facts, kind)
+            items.append(made)
+        return tuple(items), facts
+
+    def _string_or_another(self, facts: Assignment, T: Str | Plus) -> Made:
+        """A string of the first alternatives; if there is none, of any."""
+        try:
+            return self._string(facts, T)
+        except Refused:
+            if isinstance(T, Str) and events_of(T) is not None:
+                raise
+            return self._by_events(facts, T)
+
+    def _string(self, facts: Assignment, T: Str | Plus) -> Made:
+        items = T.items if isinstance(T, Str) else self._repeated(T)
+        pieces: list[Object] = []
+        for item in items:
+            piece, facts = self.one(facts, item)
+            pieces.append(piece)
+        return string_of(items, pieces), facts
+
+    def _repeated(self, T: Plus) -> list[TypeNode]:
+        """The types of so many pieces; those of a join take turns."""
+        kinds = [case for one in alternatives(T.item) for case in cases(one) or (one,)]
+        return list(islice(cycle(kinds), max(1, self._size)))
+
+    def _record(self, facts: Assignment, T: RecordType) -> Made:
+        spend(1 + len(T.fields))
+        fields: dict[str, Object] = {}
+        for label, field in T.fields:
+            if type(field) is Singleton and stands(field):
+                fields[label] = value = field.value
+                empty = type(value) is tuple and not value
+                if not (empty and isinstance(field.base, ListOf)):
+                    facts = _surely(facts, value, field.base)
+                continue
+            try:
+                ground = grounded(field, (fields,))
+            except Unresolved as unresolved:
+                around = circle(T)
+                why = f"its fields go in a circle: {around}" * bool(around)
+                raise Refused(
+                    f"the field {label} cannot be created: {why or unresolved.message}",
+                    hint="fields on a cycle can be judged, but not created",
+                ) from unresolved
+            fields[label], facts = self.one(facts, ground)
+        if self._size > 1:
+            fields[_another(fields)], facts = facts.with_new("a")
+        return Record(fields), facts
+
+    # --- functions ---
+
+    def _function(self, facts: Assignment, T: FunType) -> Made:
+        """The first function that is one of T."""
+        for body, known in self._bodies(facts, T):
+            made = Function(T.domain, body, T.hint)
+            if derivation(known, made, T).p == CERTAIN:
+                return made, known
+        raise Refused(f"a function of {T} cannot be made up, only be given")
+
+    def _bodies(self, facts: Assignment, T: FunType) -> Iterator[Made]:
+        """What it might give; where one element is enough, constants come last."""
+        constants = partial(self._constants, facts, T)
+        x = Path(0, (BOUND,))
+        of_x = RecordType((("i", Singleton(moved(T.domain, 2), Path(1, x.labels))),))
+        if self._size != 1:
+            yield from constants()
+        yield from ((x, facts), (of_x, facts))
+        yield from constants()
+
+    def _constants(self, facts: Assignment, T: FunType) -> Iterator[Made]:
+        """What gives the same for every argument, or what the type says it gives."""
+        if isinstance(T.result, Singleton):
+            yield T.result.value, facts
+        if all(path.up > 0 for path in escaping(T.result)):
+            yield self.one(facts, replace_paths(T.result, _further_out))
+
+    # --- meets, joins, negations ---
+
+    def _combined(self, facts: Assignment, T: TypeNode) -> Made:
+        """A witness of the first case of which one can be made up."""
+        refused = Refused(f"a witness of {T} cannot be made up, only be given")
+        for case in cases(T) or (T,):
+            try:
+                sit, known = self._case(facts, case)
+                _check(known, sit, case)
+                return sit, known
+            except TTRError as error:
+                refused = Refused(error.message, hint=error.hint)
+        raise refused
+
+    def _case(self, facts: Assignment, T: TypeNode) -> Made:
+        if splits(T) and isinstance(T, Join):
+            raise Refused(f"{T} has too many cases for a witness to be made up")
+        if not isinstance(T, Meet | Negation):
+            return self.one(facts, T)
+        parts = T.parts if isinstance(T, Meet) else (T,)
+        values = [part.value for part in parts if isinstance(part, Singleton)]
+        if values:
+            value = reduced(facts, values[0])
+            return value, _surely(facts, value, T)
+        if any(map(is_of_strings, parts)):
+            return self._by_events(facts, T)
+        shapes = [part for part in parts if not isinstance(part, _FORMLESS)]
+        if not shapes:
+            sit, facts = facts.with_new("a" if _individual(parts) else "s")
+            return sit, _surely(facts, sit, T)
+        if all(isinstance(shape, RecordType) for shape in shapes):
+            shapes = [reduce(partial(_merged, facts), shapes)]
+        sit, facts = self.one(facts, min(shapes, key=lambda U: type(U) in _VAGUE))
+        return sit, _surely(facts, sit, T)
+
+    def _by_events(self, facts: Assignment, T: TypeNode) -> Made:
+        """A string as the types of its events say, told to be of what is left of T."""
+        refused = Refused(f"a witness of {T} cannot be made up, only be given")
+        found = automaton_above(T)
+        for labels in islice(shortest(found, self._size), TRIED):
+            try:
+                sit, known = self._string(facts, Str(*labels))
+                return sit, _surely(known, sit, T)
+            except TTRError as error:
+                refused = Refused(error.message, hint=error.hint)
+        raise refused
+
+
+_FORMLESS = (Basic, PType, Negation)
+"""Types that do not say what form their witnesses have."""
+
+_VAGUE = (ListOf,)
+"""Types of collections that do not say how many elements there are."""
+
+TRIED = 16
+"""How many strings are tried, shortest first, where there have to be several types."""
+
+
+def _individual(parts: tuple[TypeNode, ...]) -> bool:
+    return not any(isinstance(part, PType) for part in parts)
+
+
+def _type(T: Universe, size: int) -> TypeNode:
+    """A type of the universe: Rec, or where it shall be typical, one only of it."""
+    if size == 0 or T is RecType:
+        return Rec
+    if T.level == 0:
+        return Ind
+    lower = Universe(T.name, T.level - 1)
+    return lower if T.name == "Type" else RecordType((("type", lower),))
+
+
+def _another(labels: Collection[str]) -> str:
+    """A label that is not among these."""
+    return next(one for one in map("more{}".format, count()) if one not in labels)
+
+
+def _further_out(path: Path) -> Path:
+    return Path(path.up - 1, path.labels)
+
+
+def _surely(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
+    """The assignment itself if sit certainly is of T, else one told so."""
+    return facts if certainly(facts, sit, T) else told(facts, sit, T)
+
+
+def _merged(facts: Assignment, S: TypeNode, T: TypeNode) -> TypeNode:
+    return merge(S, T, facts.theory)

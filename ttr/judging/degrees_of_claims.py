@@ -1,0 +1,97 @@
+"""How the degree of a claim is reckoned from those of its grounds, and in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ttr.judging.dependence_analysis import contradiction
+from ttr.judging.judgements import How, Why
+from ttr.probability import (
+    CERTAIN,
+    INDEPENDENT,
+    REFUTED,
+    All,
+    Chance,
+    Contradiction,
+    Degree,
+    Dependence,
+    Event,
+    Impossible,
+    are_apart,
+    chance,
+)
+from ttr.probability.events import SURE, atoms
+
+__all__ = ["reckoned", "reckoning"]
+
+SHOWN = 6
+"""How many factors of a product are shown."""
+
+NAMED = 3
+"""How many links between judgements are named."""
+
+
+def reckoned(event: Event, known: Dependence, given: Event = SURE) -> Chance:
+    """How probable an event is; raises `Refused` where the facts contradict it."""
+    try:
+        return chance(event, known, given)
+    except Contradiction as wrong:
+        raise contradiction(wrong.component) from None
+
+
+def reckoning(
+    how: How,
+    grounds: Sequence[Why],
+    found: Chance,
+    known: Dependence = INDEPENDENT,
+) -> str:
+    """How a degree comes of those of its grounds: a product, or what they rest on.
+
+    >>> from ttr.probability import All, Atomic
+    >>> from ttr.types.syntax import Ind
+    >>> some = [Why(a, Ind, Degree(0.5, 0.5), "given") for a in ("a", "b")]
+    >>> reckoning("any", some, chance(All(())))
+    '1 − (1 − 0.5) × (1 − 0.5)'
+    """
+    uncertain = [ground for ground in grounds if ground.p not in (CERTAIN, REFUTED)]
+    apart = are_apart([ground.event() for ground in uncertain], known)
+    keys = {atom.atom for g in uncertain for atom in atoms(known.spelt_out(g.event()))}
+    linked = [one for one in known.components if not keys.isdisjoint(one.atoms)]
+    links = [
+        link for component in linked or found.rests_on for link in component.links()
+    ]
+    said = ["bounds, as too much hangs together"] * (not found.exact)
+    if apart and (len(uncertain) > 1 or how == "none"):
+        return "; ".join((_product(how, [ground.p for ground in uncertain]), *said))
+    if links and how == "all" and 1 < len(uncertain) <= SHOWN:
+        said.append(_chain(uncertain, known))
+    elif not (links or apart):
+        said.append("some of these are the same judgement")
+    said += [*links[:NAMED], *["…"] * (len(links) > NAMED)]
+    return "; ".join(filter(None, said))
+
+
+def _chain(grounds: Sequence[Why], known: Dependence) -> str:
+    """The chain rule: the degree of each ground given those before it."""
+    events = [ground.event() for ground in grounds]
+    before = [All(tuple(events[:number])) for number in range(len(events))]
+    try:
+        pairs = zip(events, before, strict=True)
+        factors = [chance(event, known, given).p for event, given in pairs]
+    except Impossible:
+        return ""
+    return f"{' × '.join(map(str, factors))}, each given those before"
+
+
+def _product(how: How, degrees: Sequence[Degree]) -> str:
+    """The product of independent judgements, ends apart where they are intervals."""
+    some = degrees[:SHOWN]
+    more = f" × … ({len(degrees)} of them)" if len(degrees) > SHOWN else ""
+    match how:
+        case "all":
+            return " × ".join(map(str, some)) + more
+        case "any":
+            return "1 − " + " × ".join(f"(1 − {p})" for p in some) + more
+        case "none" if len(degrees) == 1:
+            return f"1 − {degrees[0]}"
+    return " × ".join(f"(1 − {p})" for p in some) + more

@@ -1,0 +1,273 @@
+"""How the judgements that a claim rests on depend on one another, by the facts."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from itertools import combinations, permutations
+from typing import NamedTuple
+
+from ttr.errors import Refused
+from ttr.judging.assignments import Assignment, head
+from ttr.judging.stated_dependence import Atom, Claim, Conditioned, Key
+from ttr.probability import (
+    CERTAIN,
+    INDEPENDENT,
+    UNKNOWN,
+    All,
+    AnyOf,
+    Atomic,
+    Component,
+    Conditional,
+    Degree,
+    Dependence,
+    Event,
+    Not,
+    feasible,
+)
+from ttr.signature.axioms import excluding, uppers
+from ttr.signature.signature import Signature
+from ttr.types.syntax import Object, identity
+
+__all__ = ["check_together", "contradiction", "dependence"]
+
+RELATIVES = 32
+"""How many judgements of one object are looked at, where some bear on others."""
+
+SHOWN = 3
+"""How many links or judgements are named."""
+
+
+def dependence(facts: Assignment, asked: Mapping[Claim, Degree]) -> Dependence:
+    """What is known of how these claims depend, and of others that tell of them.
+
+    Each comes with its degree, as far as it is known.
+    """
+    theory = facts.theory
+    if not (theory.axioms or theory.exclusions or facts.links):
+        return INDEPENDENT
+    linked = _linked(facts, asked)
+    more, whole = _relatives(facts, linked.claims)
+    while more:
+        linked = _linked(facts, [*linked.claims, *more])
+        more, whole = _relatives(facts, linked.claims)
+    untold = _untold(facts, linked)
+    claims = [claim for claim in linked.claims if claim not in untold]
+    entailed = tuple(_entailed(facts, claims))
+    exclusive = tuple(_exclusive(facts, claims))
+    conditionals = tuple([_by_keys(one) for one in linked.said])
+    links: list[tuple[Hashable, ...]] = [*entailed, *exclusive, *linked.unknown]
+    links += [one.atoms for one in conditionals]
+    degrees: dict[Hashable, Degree] = {
+        claim.key: asked.get(claim) or facts.degree_of(claim.sit, claim.type)[0]
+        for claim in claims
+    }
+    defined = _definitions(facts, untold, claims, degrees)
+    if not (links or defined):
+        return INDEPENDENT
+    return Dependence(
+        degrees,
+        entailed,
+        exclusive,
+        conditionals,
+        linked.unknown,
+        whole,
+        {claim.key: claim for claim in linked.claims},
+        defined,
+    )
+
+
+def _untold(facts: Assignment, linked: _Linked) -> dict[Claim, None]:
+    """The claims of which only axioms say anything, in a fixed order."""
+    heads = facts.theory.axiom_heads
+    targets = {claim for one in linked.said for claim in one.claims()}
+    together = {key for group in linked.unknown for key in group}
+    found = [
+        claim
+        for claim in linked.claims
+        if head(claim.type) in heads
+        and claim not in targets
+        and claim.key not in together
+        and not facts.is_told(claim.sit, claim.type)
+    ]
+    return dict.fromkeys(sorted(found, key=str))
+
+
+def _definitions(
+    facts: Assignment,
+    untold: Iterable[Claim],
+    claims: Iterable[Claim],
+    degrees: Mapping[Hashable, Degree],
+) -> dict[Hashable, Event]:
+    """What nothing is told of, in terms of what is.
+
+    It is the case if something is that entails it; and it may be, as nothing is known,
+    if everything is that it entails and nothing that excludes it.
+    """
+    theory = facts.theory
+    known = [(claim, Atomic(claim.key, degrees[claim.key])) for claim in claims]
+    said: list[tuple[Claim, Event]] = list(known)
+    found: dict[Hashable, Event] = {}
+    for claim in untold:
+        T, above_it = claim.type, uppers(claim.type, theory)
+        mine = [pair for pair in said if _of_same(pair[0], claim)]
+        enough = [event for one, event in mine if T in uppers(one.type, theory)]
+        needed = [event for one, event in mine if one.type in above_it]
+        apart = [Not(event) for one, event in mine if excluding(one.type, T, theory)]
+        if not (enough or needed or apart):
+            said.append((claim, Atomic(claim.key, UNKNOWN)))
+            continue
+        free = Atomic(("only axioms tell of", claim.key), UNKNOWN)
+        event = AnyOf((*enough, All((*needed, *apart, free))))
+        found[claim.key] = event
+        said.append((claim, event))
+    return found
+
+
+def _of_same(one: Claim, other: Claim) -> bool:
+    return identity(one.sit) == identity(other.sit)
+
+
+def _by_keys(said: Conditioned) -> Conditional:
+    condition = tuple([(claim.key, so) for claim, so in said.condition])
+    return Conditional(said.target.key, condition, said.p)
+
+
+class _Linked(NamedTuple):
+    """Claims, with those they are conditioned on and those that may depend on them."""
+
+    claims: list[Claim]
+    said: list[Conditioned]
+    unknown: tuple[tuple[Key, ...], ...]
+
+
+def _linked(facts: Assignment, claims: Iterable[Claim]) -> _Linked:
+    """The claims and what was said of how they depend, followed all the way."""
+    links = facts.links
+    found = {claim.key: claim for claim in claims}
+    said: list[Conditioned] = []
+    unknown: dict[tuple[Key, ...], None] = {}
+    waiting = list(found.values())
+    while waiting:
+        claim = waiting.pop()
+        mine = links.of(claim)
+        if not mine and not facts.is_told(claim.sit, claim.type):
+            mine = links.in_general(claim)
+        said += mine
+        together = links.unknown.get(claim.key, ())
+        unknown.update((tuple([one.key for one in group]), None) for group in together)
+        more = [other for one in mine for other, _ in one.condition]
+        more += [other for other in links.on(claim) if _tells(facts, other)]
+        more += [other for group in together for other in group]
+        for other in more:
+            if other.key not in found:
+                found[other.key] = other
+                waiting.append(other)
+    return _Linked(list(found.values()), said, tuple(unknown))
+
+
+def _tells(facts: Assignment, claim: Claim) -> bool:
+    """Whether a claim tells of what it is conditioned on.
+
+    In a network what nothing else is known of does not; but there each claim has its
+    conditionals on the same others, and axioms do not relate it.
+    """
+    if facts.degree_of(claim.sit, claim.type)[0] != UNKNOWN:
+        return True
+    parents = [
+        frozenset(on.key for on, _ in one.condition) for one in facts.links.of(claim)
+    ]
+    return len(set(parents)) > 1 or head(claim.type) in facts.theory.axiom_heads
+
+
+# --- what axioms link ---
+
+
+def _relatives(facts: Assignment, claims: Iterable[Claim]) -> tuple[list[Claim], bool]:
+    """What else is known of the same objects, and related to the claims by axioms.
+
+    And whether that is all. What is certain is left out: axioms say of each claim by
+    itself what follows.
+    """
+    heads = facts.theory.axiom_heads
+    subject = [claim for claim in claims if head(claim.type) in heads]
+    found: list[Claim] = []
+    whole = True
+    for mine in _by_object(subject).values():
+        known = set(mine)
+        related = [
+            other
+            for other in dict.fromkeys(_others(facts, mine[0].sit))
+            if head(other.type) in heads and other not in known
+            if any(_is_related(facts.theory, claim.type, other.type) for claim in mine)
+        ]
+        room = max(0, RELATIVES - len(mine))
+        whole = whole and len(related) <= room
+        found += sorted(related, key=str)[:room]
+    return found, whole
+
+
+def _others(facts: Assignment, sit: Object) -> Iterator[Claim]:
+    """What is known, but not for certain, of an object; in no order."""
+    yield from facts.links.concerning(sit)
+    yield from (Claim(sit, T) for T in facts.seen_types())
+    for T in facts.types_of(sit):
+        if facts.told_degree(sit, T) != CERTAIN:
+            yield Claim(sit, T)
+
+
+def _is_related(theory: Signature, S: Atom, T: Atom) -> bool:
+    if T in uppers(S, theory) or S in uppers(T, theory):
+        return True
+    return excluding(S, T, theory) is not None
+
+
+def _entailed(facts: Assignment, claims: Iterable[Claim]) -> Iterator[tuple[Key, Key]]:
+    heads = facts.theory.axiom_heads
+    for mine in _by_object(claims).values():
+        types = [claim for claim in mine if head(claim.type) in heads]
+        for one, other in permutations(types, 2):
+            if other.type in uppers(one.type, facts.theory):
+                yield one.key, other.key
+
+
+def _exclusive(facts: Assignment, claims: Iterable[Claim]) -> Iterator[tuple[Key, Key]]:
+    if not facts.theory.exclusions:
+        return
+    for mine in _by_object(claims).values():
+        for one, other in combinations(mine, 2):
+            if excluding(one.type, other.type, facts.theory):
+                yield one.key, other.key
+
+
+def _by_object(claims: Iterable[Claim]) -> dict[object, list[Claim]]:
+    found: dict[object, list[Claim]] = {}
+    for claim in claims:
+        found.setdefault(identity(claim.sit), []).append(claim)
+    return found
+
+
+# --- what cannot be ---
+
+
+def check_together(facts: Assignment, sit: Object, T: Atom) -> None:
+    """Raises `Refused` where what was told of an object contradicts that it is of T."""
+    claim = Claim(sit, T)
+    known = dependence(facts, {claim: facts.degree_of(sit, T)[0]})
+    number = known.place.get(claim.key)
+    if number is not None and not feasible(known.components[number], claim.key):
+        raise contradiction(known.components[number])
+
+
+def contradiction(component: Component) -> Refused:
+    """The error that says which judgements cannot all be as they were given."""
+    degrees = [
+        f"{component.written(atom)} with {p}"
+        for atom, p in component.degrees.items()
+        if p != UNKNOWN
+    ]
+    links = component.links()
+    said = "; ".join((", ".join(degrees[:SHOWN]), *links[:SHOWN]))
+    return Refused(
+        f"these cannot all be so: {said}",
+        hint="change one of the degrees, or what was said of how they depend",
+    )

@@ -1,0 +1,132 @@
+"""How probable it is that something is of a type, or whatever is of another type.
+
+p(T) is the probability that something is of T; p(T | S) that something is, given that
+something is of S; and p(T || S) that any one object is of T, given that it is of S
+(Cooper, Dobnik, Lappin and Larsson 2015).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import islice
+
+from ttr.computing.subtyping import subtype
+from ttr.errors import Refused
+from ttr.judging.assignments import Assignment
+from ttr.judging.conditioning import conditional
+from ttr.judging.degrees_of_claims import reckoned
+from ttr.judging.dependence_analysis import dependence
+from ttr.judging.evaluator import claims_of, derivation
+from ttr.judging.judgements import Why
+from ttr.judging.witnesses import candidates, witnesses
+from ttr.probability import (
+    CERTAIN,
+    REFUTED,
+    UNKNOWN,
+    AnyOf,
+    Atomic,
+    Degree,
+    Event,
+    Impossible,
+)
+from ttr.probability.events import SURE
+from ttr.types.printing import notation
+from ttr.types.syntax import Object, TypeNode, meet
+
+__all__ = ["Range", "of_any", "some"]
+
+TRIED = 1_000
+"""How many objects are told apart; beyond, another one may be of the type."""
+
+SHOWN = 3
+"""How many objects are named."""
+
+
+@dataclass(frozen=True)
+class Range:
+    """p(T || S): from the least to the most probable object, each with its reason."""
+
+    type: TypeNode
+    when: tuple[TypeNode, ...]
+    p: Degree
+    whys: tuple[Why, ...]
+
+    def __str__(self) -> str:
+        """The probability, then the objects one by one, the least probable first."""
+        whys = sorted(self.whys, key=lambda why: why.p)
+        ends = dict.fromkeys([*whys[:SHOWN], *whys[-SHOWN:]])
+        given = ", ".join(map(str, self.when))
+        head = f"P({self.type} || {given}) = {self.p}   ({_counted(len(whys))})"
+        return "\n".join([head, *(f"  {why.p}: {notation(why.sit)}" for why in ends)])
+
+
+def _counted(number: int) -> str:
+    return "1 object" if number == 1 else f"{number} objects"
+
+
+def of_any(
+    facts: Assignment,
+    T: TypeNode,
+    when: Sequence[TypeNode],
+    among: Iterable[Object] | None = None,
+) -> Range:
+    """p(T || S, …): how probable it is that any one object of all S is of T.
+
+    The objects are those that are known and may be of the conditions, or those named.
+    It is certain where what is of S is of T by subtyping, refuted where it is not of T
+    by subtyping, and unknown where no object is known.
+    """
+    S = meet(*when)
+    if subtype(S, T, facts.theory).yes:
+        return Range(T, tuple(when), CERTAIN, ())
+    if subtype(S, ~T, facts.theory).yes:
+        return Range(T, tuple(when), REFUTED, ())
+    objects = facts.objects() if among is None else among
+    whys = []
+    for sit in objects:
+        if derivation(facts, sit, S).p != REFUTED:
+            whys.append(conditional(facts, sit, T, [(sit, S)]))
+    if not whys:
+        return Range(T, tuple(when), UNKNOWN, ())
+    lo, hi = min(why.p.lo for why in whys), max(why.p.hi for why in whys)
+    return Range(T, tuple(when), Degree(lo, hi), tuple(whys))
+
+
+def some(
+    facts: Assignment,
+    T: TypeNode,
+    when: TypeNode | None = None,
+    among: Iterable[Object] | None = None,
+) -> Degree:
+    """p(T), or p(T | S): how probable it is that something is of T.
+
+    Of the known objects, if T is closed; if it is open, there may be others. If objects
+    are named, one of them is meant. Raises `Refused` where nothing can be of S.
+    """
+    if when is not None and subtype(when, T, facts.theory).yes:
+        return CERTAIN
+    objects = None if among is None else list(among)
+    if when is None and objects is None and next(witnesses(facts, T), None) is not None:
+        return CERTAIN
+    whys, event = _event(facts, T, objects)
+    more, given = _event(facts, when, objects) if when is not None else ([], None)
+    known = dependence(facts, claims_of([*whys, *more]))
+    try:
+        found = reckoned(event, known, SURE if given is None else given)
+    except Impossible:
+        raise Refused(f"nothing is of {when}, so nothing follows from it") from None
+    return found.p
+
+
+def _event(
+    facts: Assignment, T: TypeNode, among: Sequence[Object] | None
+) -> tuple[list[Why], Event]:
+    """That something is of T: one of the known objects, or another one."""
+    objects = candidates(facts, T) if among is None else iter(among)
+    whys = [derivation(facts, sit, T) for sit in islice(objects, TRIED)]
+    events = [why.event() for why in whys if why.p != REFUTED]
+    more = next(objects, None) is not None
+    if more or (among is None and facts.leaves_open(T)):
+        events.append(Atomic(("another object", T), UNKNOWN))
+    return whys, AnyOf(tuple(events))

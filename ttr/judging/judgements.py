@@ -1,0 +1,233 @@
+"""Austinian judgements, and the derivations that say why they hold or fail."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import islice
+from typing import TYPE_CHECKING, Literal, TypeAlias, assert_never
+
+from ttr.errors import Undecided
+from ttr.probability import (
+    CERTAIN,
+    REFUTED,
+    All,
+    AnyOf,
+    Atomic,
+    Degree,
+    Event,
+    Not,
+    degree,
+)
+from ttr.types.notebooks import Drawn
+from ttr.types.printing import notation
+from ttr.types.syntax import Basic, Object, PType, TypeNode, identity
+
+if TYPE_CHECKING:
+    from ttr.judging.assignments import Assignment
+    from ttr.judging.models import Model
+
+__all__ = ["How", "Judgement", "Why", "mark", "together"]
+
+How: TypeAlias = Literal["all", "any", "none"]
+"""What a claim needs of its grounds: that all of them hold, any or none."""
+
+SHOWN = 3
+"""How many objects that would have done are named."""
+
+
+@dataclass(frozen=True, eq=False)
+class Why(Drawn):
+    """A step of a derivation: what is claimed, how probable, by which rule, from what.
+
+    `where` is the path of the field this step is about, from the one above; `how` is
+    what it needs of its parts. `facts` is what a claim that fails was asked of, and
+    `reckoned` says how its degree comes of theirs. `alone` is the degree of a judgement
+    before others that it depends on were taken into account.
+    """
+
+    sit: Object
+    type: TypeNode
+    p: Degree
+    rule: str
+    parts: Sequence[Why] = ()
+    where: str = ""
+    how: How = "all"
+    facts: Assignment | None = field(default=None, repr=False)
+    reckoned: Callable[[], str] | None = field(default=None, repr=False)
+    alone: Degree | None = field(default=None, repr=False)
+
+    def event(self) -> Event:
+        """The claim as an event over the uncertain judgements that it rests on."""
+        if self.p == CERTAIN:
+            return All(())
+        if self.p == REFUTED:
+            return AnyOf(())
+        if not self.parts:
+            return Atomic((identity(self.sit), self.type), self.p)
+        return together(self.how, self.parts)
+
+    def uncertain(self) -> Iterator[Why]:
+        """The uncertain judgements it rests on, in order, as often as they occur."""
+        waiting = [self]
+        while waiting:
+            step = waiting.pop()
+            if step.p in (CERTAIN, REFUTED):
+                continue
+            if not step.parts:
+                yield step
+            waiting.extend(reversed(step.parts))
+
+    @property
+    def because(self) -> str:
+        """The rule, the arithmetic and, where it fails, what would have done."""
+        reckoning = self.reckoned() if self.reckoned else ""
+        return "; ".join(filter(None, (self.rule, reckoning, self.remedy())))
+
+    def failure(self) -> Why | None:
+        """The step at the bottom that fails first, or None where all is certain.
+
+        What is refuted fails before what is only uncertain.
+        """
+        if self.p == CERTAIN:
+            return None
+        failing = self._failing()
+        return failing.failure() if failing else self
+
+    def path(self) -> str:
+        """The path of the field that fails first, or the empty string."""
+        failing = self._failing()
+        if failing is None:
+            return ""
+        return ".".join(filter(None, (failing.where, failing.path())))
+
+    def remedy(self) -> str:
+        """Of a claim that fails: what the object is of, and what would have done.
+
+        >>> from ttr.judging.models import Model
+        >>> from ttr.types.syntax import Ind, Pred
+        >>> dog = Pred("dog", Ind)
+        >>> M = Model().given("s1", dog("fido")).given("s2", dog("sam"))
+        >>> M.judge("s2", dog("fido")).why.remedy()
+        's2 is of dog(sam); s1 would do'
+        """
+        if self.facts is None:
+            return ""
+        found = (_found(self.facts, self.sit), _would_do(self.facts, self.type))
+        return "; ".join(filter(None, found))
+
+    def _failing(self) -> Why | None:
+        if self.how == "none":
+            return None
+        uncertain = [part for part in self.parts if part.p != CERTAIN]
+        refuted = [part for part in uncertain if part.p == REFUTED]
+        return next(iter([*refuted, *uncertain]), None)
+
+    def __str__(self) -> str:
+        """The derivation as an indented tree, what is claimed before its grounds."""
+        return "\n".join(self._lines(""))
+
+    def _lines(self, indent: str) -> Iterator[str]:
+        where = f"{self.where}: " if self.where else ""
+        claim = f"{notation(self.sit)} : {self.type}"
+        yield f"{indent}{mark(self.p)} {where}{claim}   ({self.because})"
+        for part in self.parts:
+            yield from part._lines(indent + "  ")
+
+
+def together(how: How, parts: Sequence[Why]) -> Event:
+    """What a claim needs of its grounds, as one event."""
+    events = tuple([part.event() for part in parts])
+    match how:
+        case "all":
+            return All(events)
+        case "any":
+            return AnyOf(events)
+        case "none":
+            return Not(AnyOf(events))
+    raise assert_never(how)
+
+
+def _found(facts: Assignment, sit: Object) -> str:
+    kinds = sorted(str(kind) for kind in facts.types_of(sit))
+    shown = ", ".join(kinds[:SHOWN]) + ", …" * (len(kinds) > SHOWN)
+    return f"{notation(sit)} is of {shown}" if kinds else ""
+
+
+def _would_do(facts: Assignment, T: TypeNode) -> str:
+    if not isinstance(T, Basic | PType):
+        return ""
+    some = list(islice(facts.witnesses(T), SHOWN + 1))
+    names = ", ".join(map(notation, some[:SHOWN])) + ", …" * (len(some) > SHOWN)
+    return f"{names} would do" if some else ""
+
+
+def mark(p: Degree) -> str:
+    """The sign before a step of a derivation: ✓, ✗ or the degree.
+
+    >>> mark(CERTAIN), mark(Degree(0.5, 0.5))
+    ('✓', 'p = 0.5')
+    """
+    if p == CERTAIN:
+        return "✓"
+    return "✗" if p == REFUTED else f"p = {p}"
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement(Drawn):
+    """s : T with a probability: a situation, a type, an interval and the reason.
+
+    Two judgements are equal when situation, type and probability are the same. `model`
+    is the model that has what was judged on the way. The reason may be derived when it
+    is first asked for.
+    """
+
+    sit: Object
+    type: TypeNode
+    p: Degree
+    reason: Why | Callable[[], Why] = field(repr=False)
+    model: Model = field(repr=False)
+
+    @cached_property
+    def why(self) -> Why:
+        """The derivation."""
+        return self.reason if isinstance(self.reason, Why) else self.reason()
+
+    @property
+    def holds(self) -> bool:
+        """True at [1, 1], False at [0, 0]; else it raises `Undecided`."""
+        if self.p in (CERTAIN, REFUTED):
+            return self.p == CERTAIN
+        raise Undecided(
+            f"{self} is neither certain nor refuted",
+            hint="ask for a degree with j.at_least(q), or look at j.p",
+        )
+
+    def at_least(self, q: float) -> bool:
+        """Whether the probability is surely q or more.
+
+        >>> from ttr.judging.models import Model
+        >>> from ttr.types.syntax import Ind
+        >>> j = Model().given("a", Ind, (0.2, 0.4)).judge("a", Ind)
+        >>> j.at_least(0.2), j.at_least(0.3)
+        (True, False)
+        """
+        return self.p.lo >= degree(q, "what a judgement is asked for").hi
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Judgement):
+            return NotImplemented
+        return self._content() == other._content()
+
+    def __hash__(self) -> int:
+        return hash(self._content())
+
+    def _content(self) -> tuple[object, ...]:
+        return identity(self.sit), self.type, self.p
+
+    def __bool__(self) -> bool:
+        raise TypeError("a judgement has a degree: ask j.holds or j.at_least(q)")
+
+    def __str__(self) -> str:
+        return f"{notation(self.sit)} : {self.type}   p = {self.p}"

@@ -1,0 +1,552 @@
+"""Models: an assignment of witnesses to types, immutable and cheap to extend.
+
+A model answers three questions. `judge` checks what is there; `perceive` also fills the
+fields whose predicates have witness functions; `create` makes a fresh witness. None
+of them changes the model: what is new is in the model they give back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Protocol, TypeAlias, cast
+
+from immutables import Map
+
+from ttr.errors import IllFormed, Refused, TooLargeError, TTRError, Unsupported
+from ttr.judging.assignments import Assignment, WitnessFunction
+from ttr.judging.conditioning import (
+    conditional,
+    expected,
+    table_rows,
+    told_when,
+    undetermined,
+)
+from ttr.judging.creation import created, told
+from ttr.judging.dependence_analysis import check_together
+from ttr.judging.evaluator import derivation, reduced
+from ttr.judging.existential import Range, of_any, some
+from ttr.judging.judgements import Judgement, Why
+from ttr.judging.perception import filled
+from ttr.judging.propositions import borne_out, claim, probabilistic_claim
+from ttr.judging.witnesses import witnesses
+from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
+from ttr.safety.budgets import (
+    SharedPurse,
+    one_of_several,
+    purse_of_several,
+    within_budget,
+)
+from ttr.signature.signature import Expected, Given, Signature
+from ttr.types.paths import escaping
+from ttr.types.printing import notation
+from ttr.types.syntax import (
+    Application,
+    Basic,
+    EventString,
+    FiniteSet,
+    NonEmpty,
+    Object,
+    Plus,
+    Pred,
+    PType,
+    Record,
+    TypeNode,
+    as_type,
+    freeze,
+    kind_of,
+)
+
+__all__ = ["Conditions", "Model", "as_model", "conditions", "model_of"]
+
+
+_EMPTY: tuple[Object, ...] = ((), FiniteSet(), EventString())
+"""What is of the types of lists, sets and strings, though nothing is known."""
+
+Conditions: TypeAlias = Iterable[tuple[object, TypeNode]]
+"""Judgements: an object and a type each."""
+
+Types: TypeAlias = TypeNode | Sequence[TypeNode]
+"""A type, or several."""
+
+Table: TypeAlias = Mapping[tuple[bool, ...], object]
+"""A probability for each case."""
+
+
+def _judged_unknown(
+    error: TooLargeError, model: Model, sit: object, T: TypeNode, /, **_: object
+) -> Judgement:
+    """The judgement where the budget ended: anything between yes and no."""
+    sit = _frozen(sit)
+    return Judgement(sit, T, UNKNOWN, Why(sit, T, UNKNOWN, error.message), model)
+
+
+@within_budget
+def _frozen(value: object) -> Object:
+    """The value as an object; what has more parts than the budget raises."""
+    return freeze(value)
+
+
+def _truth_unknown(error: TooLargeError, *_: object, **__: object) -> Degree:
+    """The degree where the budget ended."""
+    return UNKNOWN
+
+
+def _range_unknown(
+    error: TooLargeError, model: Model, T: TypeNode, /, *, when: Types, **_: object
+) -> Range:
+    """The range where the budget ended."""
+    types = cast(Sequence[TypeNode], when if isinstance(when, tuple | list) else [when])
+    return Range(T, tuple(types), UNKNOWN, ())
+
+
+class _HasSignature(Protocol):
+    @property
+    def signature(self) -> Signature: ...
+
+
+class Model:
+    """Which objects are judged to be of which types, under a theory.
+
+    An unlisted judgement is refuted, unless its type is open: the theory says so, or it
+    has a witness function, or a judgement of it was given with a degree between.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, record, this
+    >>> dog = Pred("dog", Ind)
+    >>> Dog = rectype(x=Ind, c=dog(this.x))
+    >>> M = Model().given("fido", Ind).given("s1", dog("fido"))
+    >>> M.judge(record(x="fido", c="s1"), Dog).holds
+    True
+    >>> print(M.judge(record(x="fido", c="s2"), Dog).why)
+    ✗ {c = s2, x = fido} : [x : Ind, c : dog(x)]   (field by field)
+      ✓ x: fido : Ind   (given)
+      ✗ c: s2 : dog(fido)   (nothing says so; s1 would do)
+    """
+
+    __slots__ = ("_facts",)
+
+    _facts: Assignment
+
+    def __init__(self, theory: Signature | _HasSignature | None = None, /) -> None:
+        signature = _signature(theory)
+        self._facts = Assignment(
+            signature, opened=Map(dict.fromkeys(signature.opened, True))
+        )
+        start = self
+        for given in signature.givens:
+            start = start.stated(given)
+        self._facts = start._facts
+
+    @classmethod
+    def of(cls, facts: Assignment) -> Model:
+        """The model of these facts."""
+        model = object.__new__(cls)
+        model._facts = facts
+        return model
+
+    @property
+    def facts(self) -> Assignment:
+        """What is judged of atoms: the assignment that everything else follows from."""
+        return self._facts
+
+    @property
+    def theory(self) -> Signature:
+        """The axioms, open types and first judgements that the model goes by."""
+        return self._facts.theory
+
+    @within_budget
+    def given(
+        self, sit: object, T: TypeNode, /, p: object = 1.0, *, when: Conditions = ()
+    ) -> Model:
+        """The model in which also sit : T, with a probability or an interval.
+
+        Records, meets, singletons and lists are taken apart into their atoms, for which
+        the probability must be 1. With `when` it is p(sit : T | b : S, …), what it is
+        if these are so; the conditions are of basic types and ptypes or their
+        negations. Raises `Refused` where a witness function says no or what is given
+        cannot be, and `IllFormed` where a path leads nowhere.
+
+        >>> A, B = Basic("A"), Basic("B")
+        >>> M = Model().given("a", A, 0.6).given("a", B, (0.7, 0.8), when=[("a", A)])
+        >>> print(M.judge("a", A).p, M.judge("a", A & B).p)
+        0.6 [0.42, 0.48]
+        """
+        sit, T = _closed(sit, T)
+        p = _degree_of(f"{notation(sit)} : {T}", p)
+        pairs = conditions(when)
+        if pairs:
+            return self._with(told_when(self._facts, sit, T, p, pairs))
+        if isinstance(T, Basic | PType):
+            facts = self._facts.with_fact(sit, T, p)
+            if facts.links or p not in (CERTAIN, REFUTED):
+                check_together(facts, sit, T)
+            return self._with(facts)
+        if p != CERTAIN:
+            raise Unsupported(
+                f"only basic types and ptypes take a degree, but {T} was given {p}"
+            )
+        facts = told(self._facts, sit, T)
+        why = derivation(facts, sit, T)
+        if why.p == REFUTED:
+            raise Refused(
+                f"{notation(sit)} : {T} cannot be given: it denies what it says"
+            )
+        return self._with(facts)
+
+    def expects(self, T: TypeNode, /, p: object, *, when: Types) -> Model:
+        """The model in which whatever is of the conditions is of T so probably.
+
+        This is p(T || S, …): of the same object, whatever it is. What was given of a
+        particular object goes before it.
+
+        >>> Flu, Ill = Basic("Flu"), Basic("Ill")
+        >>> M = Model().expects(Ill, 0.6, when=Flu).given("kim", Flu)
+        >>> print(M.judge("kim", Ill).p)
+        0.6
+        """
+        types = when if isinstance(when, tuple | list) else (when,)
+        _, T = _closed((), T)
+        of = [_closed((), S)[1] for S in types]
+        degree = _degree_of(f"p({T} || {', '.join(map(str, of))})", p)
+        return self._with(expected(self._facts, T, degree, of))
+
+    def tabled(self, T: object, /, on: Sequence[object], rows: Table) -> Model:
+        """The model with a table of conditional probabilities for T.
+
+        `on` are what T depends on, and `rows` says, for each case of whether they are
+        so, how probable T is. They are types, and then the table is of whatever object,
+        or pairs of an object and a type. Raises `TTRError` where a row is missing.
+
+        >>> Rain, Wet = Basic("Rain"), Basic("Wet")
+        >>> M = Model().given("now", Rain, 0.2)
+        >>> M = M.tabled(Wet, on=[Rain], rows={(True,): 0.9, (False,): 0.1})
+        >>> print(M.judge("now", Wet).p, M.judge("now", Rain, when=[("now", Wet)]).p)
+        0.26 0.6923
+        """
+        model = self
+        on = _listed("what a table depends on", on)
+        for case, p in table_rows(on, rows):
+            literals = [_literal(one, so) for one, so in zip(on, case, strict=True)]
+            if isinstance(T, TypeNode):
+                model = model.expects(T, p, when=literals)
+            else:
+                sit, kind = conditions([T])[0]
+                model = model.given(sit, kind, p, when=literals)
+        return model
+
+    def dependent(self, *claims: tuple[object, TypeNode]) -> Model:
+        """The model in which nothing is known of how these judgements depend.
+
+        What rests on several of them then has the bounds that hold in any case.
+
+        >>> A, B = Basic("A"), Basic("B")
+        >>> M = Model().given("a", A, 0.7).given("a", B, 0.8)
+        >>> print(M.judge("a", A & B).p)
+        0.56
+        >>> print(M.dependent(("a", A), ("a", B)).judge("a", A & B).p)
+        [0.5, 0.7]
+        """
+        return self._with(undetermined(self._facts, conditions(claims)))
+
+    def stated(self, given: Given | Expected, /) -> Model:
+        """The model in which also what a theory starts from is so."""
+        if isinstance(given, Expected):
+            return self.expects(given.type, given.p, when=given.when)
+        if not isinstance(given, Given):
+            raise TTRError(f"what a theory starts from is a Given, found {given!r}")
+        return self.given(given.sit, given.type, given.p, when=given.when)
+
+    def witnessed(self, head: Basic | Pred, /, *, by: WitnessFunction) -> Model:
+        """The model in which a Python function says what is of a type.
+
+        For a basic type it is asked of the object; for a predicate, of the arguments of
+        the ptype. It answers with a truth value, a number in [0, 1] or an interval.
+
+        >>> Real = Basic("Real")
+        >>> M = Model().witnessed(Real, by=lambda a: isinstance(a, float))
+        >>> M.judge(0.5, Real).holds, M.judge("a", Real).holds
+        (True, False)
+        """
+        if not isinstance(head, Basic | Pred):
+            raise TTRError(
+                f"a witness function is for a basic type or a predicate, found {head}"
+            )
+        if not callable(by):
+            raise TTRError(
+                f"the witness function of {head} is a Python function, found {by!r}"
+            )
+        return self._with(self._facts.with_function(head, by))
+
+    @within_budget(otherwise=_judged_unknown)
+    def judge(self, sit: object, T: TypeNode, /, *, when: Conditions = ()) -> Judgement:
+        """Is sit of T? What is there is checked; nothing is filled in.
+
+        With `when` the probability is p(sit : T | b : S, …), given that these are so,
+        whatever types they are of. Raises `IllFormed` where T is no type, or has a path
+        that leads nowhere, and `Refused` where the conditions cannot be.
+
+        >>> A, B = Basic("A"), Basic("B")
+        >>> M = Model().given("a", A, 0.6).given("a", B, 0.5)
+        >>> print(M.judge("a", A, when=[("b", A)]).p)
+        0.6
+        >>> print(M.judge("a", A, when=[("a", A | B)]).p)
+        0.75
+        """
+        sit, T = _closed(sit, T)
+        pairs = conditions(when)
+        why = (
+            conditional(self._facts, sit, T, pairs)
+            if pairs
+            else derivation(self._facts, sit, T)
+        )
+        return Judgement(sit, T, why.p, why, self)
+
+    @within_budget(otherwise=_judged_unknown)
+    def perceive(self, sit: object, T: TypeNode, /) -> Judgement:
+        """Judges after filling the fields that are missing and can be perceived.
+
+        A field that the record lacks and whose ptype's predicate has a witness function
+        gets a fresh situation, judged with the function's degree.
+
+        >>> from ttr.building.constructors import rectype
+        >>> from ttr.types.syntax import Ind, record, this
+        >>> cup = Pred("cup", Ind)
+        >>> M = Model().given("o1", Ind).witnessed(cup, by=lambda x: 0.75)
+        >>> j = M.perceive(record(x="o1"), rectype(x=Ind, c=cup(this.x)))
+        >>> print(j)
+        {c = e1, x = o1} : [x : Ind, c : cup(x)]   p = 0.75
+        """
+        sit, T = _closed(sit, T)
+        if not isinstance(sit, Record):
+            return self.judge(sit, T)
+        seen, facts = filled(self._facts, sit, T)
+        return self._with(facts).judge(seen, T)
+
+    @within_budget
+    def create(self, T: TypeNode, /) -> tuple[Object, Model]:
+        """A fresh witness of T, and the model that has it; else `Refused`.
+
+        >>> from ttr.types.syntax import Ind
+        >>> a, M = Model().create(Ind)
+        >>> a, M.judge(a, Ind).holds
+        ('a1', True)
+        """
+        _, T = _closed((), T)
+        witness, facts = created(self._facts, T)
+        return witness, self._with(facts)
+
+    @within_budget
+    def apply(self, function: object, argument: object, /) -> Object:
+        """f(a), worked out: the body of the function for the argument.
+
+        Raises `Refused` where the argument is not certainly of the function's domain.
+
+        >>> from ttr.building.constructors import fun
+        >>> from ttr.types.syntax import Ind, this
+        >>> run = fun(x=Ind)(Pred("run", Ind)(this.x))
+        >>> print(Model().given("j", Ind).apply(run, "j"))
+        run(j)
+        >>> Model().apply(run, "zz")
+        Traceback (most recent call last):
+        ttr.errors.Refused: \\x:Ind. run(x) takes objects of Ind, which zz is not: ...
+        """
+        return self.reduced(Application(function, argument))
+
+    @within_budget
+    def reduced(self, value: object, /) -> Object:
+        """The type or object with every application in it worked out."""
+        return reduced(self._facts, freeze(value))
+
+    @within_budget
+    def witnesses(self, T: TypeNode, /) -> tuple[Object, ...]:
+        """The known objects that certainly are of T, in the order they were told.
+
+        For a record type they are all its records of known objects. Raises
+        `Unsupported` for a type of which there may be others without end, such as
+        lists.
+
+        >>> from ttr.building.constructors import rectype
+        >>> from ttr.types.syntax import Ind, this
+        >>> dog = Pred("dog", Ind)
+        >>> M = Model().given("fido", Ind).given("sam", Ind).given("s1", dog("fido"))
+        >>> print(*M.witnesses(rectype(x=Ind, c=dog(this.x))))
+        {c = s1, x = fido}
+        """
+        _, T = _closed((), T)
+        return tuple(witnesses(self._facts, T))
+
+    @within_budget(otherwise=_truth_unknown)
+    def true(
+        self,
+        proposition: object,
+        /,
+        *,
+        when: TypeNode | None = None,
+        among: Iterable[object] | None = None,
+    ) -> Degree:
+        """How certain it is that a proposition is true.
+
+        A type is true if something is of it: as surely as that some known object is,
+        and surely not if none is and nobody could say otherwise. With `when` it is
+        p(T | S), given that something is of S; `among` names the objects that there
+        are. An Austinian proposition {sit = s, sit_type = T} is true as far as s is of
+        T; with a prob, if the probability is what it says.
+
+        >>> from ttr.types.syntax import Ind
+        >>> M = Model().given("s1", Pred("dog", Ind)("fido"))
+        >>> print(M.true(Pred("dog", Ind)("fido")), M.true(Pred("dog", Ind)("sam")))
+        1 0
+        >>> M = Model().given("a", Basic("A"), 0.3).given("b", Basic("A"), 0.4)
+        >>> print(M.true(Basic("A")), M.true(Basic("A"), among=["a", "b"]))
+        [0.58, 1] 0.58
+        """
+        if not isinstance(proposition, TypeNode):
+            return self._borne_out(freeze(proposition))
+        _, T = _closed((), proposition)
+        given = None if when is None else _closed((), when)[1]
+        objects = None if among is None else _objects(among)
+        try:
+            return some(self._facts, T, given, objects)
+        except Unsupported:
+            return CERTAIN if self._has_unlisted(T) else UNKNOWN
+
+    @within_budget(otherwise=_range_unknown)
+    def chance(
+        self,
+        T: TypeNode,
+        /,
+        *,
+        when: Types,
+        among: Iterable[object] | None = None,
+    ) -> Range:
+        """p(T || S, …): how probable it is that any one object of S is of T.
+
+        An interval from the least to the most probable of the known objects that may be
+        of S, or of those named.
+
+        >>> Flu, Ill, Old = Basic("Flu"), Basic("Ill"), Basic("Old")
+        >>> M = Model().expects(Ill, 0.6, when=[Flu, Old])
+        >>> M = M.expects(Ill, 0.3, when=[Flu, ~Old])
+        >>> M = M.given("kim", Flu).given("kim", Old).given("sam", Flu)
+        >>> print(M.chance(Ill, when=Flu))
+        P(Ill || Flu) = [0.3, 0.6]   (2 objects)
+          0.3: sam
+          0.6: kim
+        """
+        types = when if isinstance(when, tuple | list) else (when,)
+        _, T = _closed((), T)
+        objects = None if among is None else _objects(among)
+        return of_any(self._facts, T, [_closed((), S)[1] for S in types], objects)
+
+    def _borne_out(self, proposition: Object) -> Degree:
+        """How certain it is that an Austinian proposition is true."""
+        sit, T = claim(proposition)
+        found = self.judge(sit, T).p
+        if "prob" not in cast(Record, proposition):
+            return found
+        return borne_out(probabilistic_claim(proposition)[2], found)
+
+    def _has_unlisted(self, T: TypeNode) -> bool:
+        """Whether something is of a type whose witnesses have no end, by what is known.
+
+        It may be an empty list, or made of known objects.
+        """
+        if isinstance(T, NonEmpty | Plus):
+            return self.true(T.item) == CERTAIN
+        if any(self._is_certain(sit, T) for sit in _EMPTY):
+            return True
+        try:
+            sit, _ = created(self._facts, T)
+        except Refused:
+            return False
+        return self._is_certain(sit, T)
+
+    def _is_certain(self, sit: Object, T: TypeNode) -> bool:
+        return derivation(self._facts, sit, T).p == CERTAIN
+
+    def _with(self, facts: Assignment) -> Model:
+        """The model of these facts: the same model where they are the same."""
+        return self if facts is self._facts else Model.of(facts)
+
+
+def as_model(value: object) -> Model:
+    """The model itself; `TTRError` for what is none.
+
+    >>> as_model("M")
+    Traceback (most recent call last):
+    ttr.errors.TTRError: expected a model to judge in, found the object 'M'
+    """
+    if isinstance(value, Model):
+        return value
+    raise TTRError(f"expected a model to judge in, found {kind_of(value)}")
+
+
+def _signature(theory: Signature | _HasSignature | None) -> Signature:
+    if theory is None:
+        return Signature()
+    signature = getattr(theory, "signature", theory)
+    if not isinstance(signature, Signature):
+        raise TTRError(f"a model is of a theory, found {theory!r}")
+    return signature
+
+
+def _degree_of(what: str, p: object) -> Degree:
+    try:
+        return degree(p)
+    except TTRError as error:
+        raise TTRError(f"{what}: {error.message}") from None
+
+
+def conditions(when: object) -> list[tuple[Object, TypeNode]]:
+    """The conditions, each an object and its type."""
+    pairs = _listed("judgements", when)
+    if not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
+        raise TTRError(
+            "judgements are pairs of an object and a type, [(a, T), …], "
+            f"found {notation(freeze(when))}"
+        )
+    return [_closed(*pair) for pair in pairs]  # type: ignore[misc]
+
+
+def _objects(among: object) -> list[Object]:
+    return [freeze(one) for one in _listed("objects", among)]
+
+
+def _listed(what: str, values: object) -> list[object]:
+    """The values of a list; a text is none."""
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise TTRError(f"{what} are given as a list, found {notation(freeze(values))}")
+    return list(values)
+
+
+def _literal(one: object, so: bool) -> Any:
+    """A type or a pair of object and type, denied where it is not so."""
+    if isinstance(one, TypeNode):
+        return one if so else ~one
+    ((sit, T),) = conditions([one])
+    return sit, T if so else ~T
+
+
+def _closed(sit: object, T: object) -> tuple[Object, TypeNode]:
+    """The object and the type, if no path leads out of either."""
+    sit, kind = freeze(sit), as_type(T)
+    for value in (sit, kind):
+        if escaping(value):
+            raise IllFormed(
+                f"{notation(value)} has paths that lead nowhere, so nothing is judged"
+            )
+    return sit, kind
+
+
+def model_of(theory: Signature, purse: SharedPurse | None = None) -> Model:
+    """The model of just the givens; an error tells which of them it was."""
+    model = Model(replace(theory, givens=()))
+    purse = purse or purse_of_several(len(theory.givens))
+    for given in theory.givens:
+        try:
+            with one_of_several(purse):
+                model = model.stated(given)
+        except TTRError as error:
+            raise error.at(given.span) if given.span else error from None
+    return model

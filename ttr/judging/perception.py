@@ -1,0 +1,77 @@
+"""Filling the fields of a record that witness functions can see."""
+
+from __future__ import annotations
+
+from ttr.errors import Refused
+from ttr.judging.assignments import Assignment
+from ttr.judging.evaluator import reduced
+from ttr.safety.budgets import spend
+from ttr.types.objects import Unresolved
+from ttr.types.substitution import grounded
+from ttr.types.syntax import Join, Meet, Object, PType, Record, RecordType, TypeNode
+
+__all__ = ["filled"]
+
+
+def filled(facts: Assignment, sit: Record, T: TypeNode) -> tuple[Record, Assignment]:
+    """The record with what it lacks of T and can be perceived, and what was seen.
+
+    A missing field whose ptype has a witness function gets a fresh situation, of the
+    ptype as far as the function says. T has no paths that escape it.
+    """
+    spend()
+    match T:
+        case Meet(parts):
+            for part in parts:
+                sit, facts = filled(facts, sit, part)
+            return sit, facts
+        case RecordType():
+            return _filled_fields(facts, sit, T)
+    return sit, facts
+
+
+def _filled_fields(
+    facts: Assignment, sit: Record, T: RecordType
+) -> tuple[Record, Assignment]:
+    fields = dict(sit._fields)
+    for label, field in T.fields:
+        try:
+            ground = reduced(facts, grounded(field, (fields,)))
+        except (Unresolved, Refused):
+            continue
+        seen, facts = _seen(facts, fields.get(label), ground)
+        if seen is not None:
+            fields[label] = seen
+    return Record(fields), facts
+
+
+def _seen(
+    facts: Assignment, value: Object | None, T: TypeNode
+) -> tuple[Object | None, Assignment]:
+    """The value of a field after looking, or None where there is nothing to see."""
+    if isinstance(value, Record):
+        return filled(facts, value, T)
+    if value is not None:
+        return value, facts
+    perceptual = _perceptual(facts, T)
+    if perceptual:
+        return _new_situation(facts, perceptual)
+    inner, seen = filled(facts, Record({}), T)
+    return (inner, seen) if len(inner) else (None, facts)
+
+
+def _perceptual(facts: Assignment, T: TypeNode) -> tuple[PType, ...]:
+    """The ptypes that T is the meet or join of, if all can be perceived; else none."""
+    parts = T.parts if isinstance(T, Meet | Join) else (T,)
+    ptypes = tuple(part for part in parts if isinstance(part, PType))
+    visible = all(ptype.pred in facts.functions for ptype in ptypes)
+    return ptypes if visible and len(ptypes) == len(parts) else ()
+
+
+def _new_situation(
+    facts: Assignment, ptypes: tuple[PType, ...]
+) -> tuple[Object, Assignment]:
+    sit, facts = facts.with_new("e")
+    for T in ptypes:
+        facts = facts.with_perceived(sit, T)
+    return sit, facts

@@ -1,0 +1,224 @@
+"""Judging how a string of events can be divided into pieces of certain types."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
+from typing import overload
+
+from ttr.computing.strings.automata import Automaton
+from ttr.computing.strings.runs import Division, Piece, Stop, a_way, all_ways
+from ttr.judging.assignments import Assignment, Atom
+from ttr.judging.automaton_filter import followed_from
+from ttr.judging.judgements import Why
+from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
+from ttr.safety.budgets import spend
+from ttr.types.objects import Unresolved
+from ttr.types.paths import occurring
+from ttr.types.printing import notation
+from ttr.types.substitution import Around, grounded
+from ttr.types.syntax import (
+    Application,
+    Basic,
+    EventString,
+    Join,
+    Meet,
+    Negation,
+    Object,
+    PType,
+    TypeNode,
+    identity,
+)
+
+__all__ = ["Dividing", "events_in_words", "stopped"]
+
+Derives = Callable[[Object, TypeNode], Why]
+"""Why an object is of a type, or not."""
+
+
+@dataclass(frozen=True, eq=False)
+class Grounds(Sequence[Why]):
+    """Why each event of a string is of its type, worked out when it is asked for."""
+
+    derives: Derives
+    events: Sequence[Object]
+    types: Sequence[TypeNode]
+
+    def __len__(self) -> int:
+        return len(self.types)
+
+    @overload
+    def __getitem__(self, index: int) -> Why: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Why]: ...
+    def __getitem__(self, index: int | slice) -> Why | Sequence[Why]:
+        if isinstance(index, slice):
+            return Grounds(self.derives, self.events[index], self.types[index])
+        return self.derives(self.events[index], self.types[index])
+
+
+class Dividing:
+    """Judges the pieces of a string; `around` are the scopes around it.
+
+    Where witness functions may be asked, what is derived of an event is kept, so that
+    they are asked once. Otherwise a derivation is made only where it is needed.
+    """
+
+    def __init__(
+        self, facts: Assignment, sit: EventString, derives: Derives, around: Around
+    ) -> None:
+        self._facts, self._events, self._around = facts, sit.items, around
+        self._derives = derives
+        self._known: dict[tuple[object, TypeNode], Why] = {}
+        self._atoms: dict[TypeNode, Atom | None] = {}
+        self._closed: dict[Atom, bool] = {}
+        plain = facts.theory
+        self._is_free = not (plain.axioms or plain.exclusions or facts.functions)
+
+    def certain_way(self, found: Automaton) -> Sequence[Why] | None:
+        """The grounds of a certain way to divide the string, if there is one."""
+        length = len(self._events)
+        if any(found.wholes.values()):
+            ways = all_ways(length, found, self._is_certain, self._is_certain_whole)
+            return None if isinstance(ways, Stop) else self.grounds(ways.ways[0])
+        way = a_way(length, found, self._is_certain)
+        if isinstance(way, Stop):
+            return None
+        return Grounds(self._why, self._events, way)
+
+    def possible_ways(self, found: Automaton) -> Division | Stop:
+        """The ways to divide the string that are possible."""
+        length = len(self._events)
+        if not any(found.wholes.values()):
+            way = a_way(length, found, self._may_be)
+            if isinstance(way, Stop):
+                return way
+        return all_ways(length, found, self._may_be, self._may_be_whole)
+
+    def chance(self, found: Automaton) -> Degree:
+        """How probable it is that there is a way, exactly or within bounds.
+
+        For an automaton that takes wholes only that is known which holds of anything.
+        """
+        if any(found.wholes.values()):
+            return UNKNOWN
+        following = followed_from(found, bool(self._facts.links))
+        for event in self._events:
+            following = following.after(partial(self._why, event))
+        return following.may_end
+
+    def grounds(self, way: Iterable[Piece]) -> tuple[Why, ...]:
+        """The grounds on which the pieces of a way are of their types."""
+        return tuple(map(self._ground, way))
+
+    def _ground(self, piece: Piece) -> Why:
+        if piece.whole:
+            return self._why_whole(piece.start, piece.end, piece.label)
+        return self._why(self._events[piece.start], piece.label)
+
+    # --- whole pieces ---
+
+    def _is_certain_whole(self, start: int, end: int, T: TypeNode) -> bool:
+        return self._why_whole(start, end, T).p == CERTAIN
+
+    def _may_be_whole(self, start: int, end: int, T: TypeNode) -> bool:
+        return self._why_whole(start, end, T).p != REFUTED
+
+    def _why_whole(self, start: int, end: int, T: TypeNode) -> Why:
+        return self._why(EventString(*self._events[start:end]), T)
+
+    # --- events ---
+
+    def _is_certain(self, number: int, T: TypeNode) -> bool:
+        return self._degree(self._events[number], T) == CERTAIN
+
+    def _may_be(self, number: int, T: TypeNode) -> bool:
+        return self._degree(self._events[number], T) != REFUTED
+
+    def _degree(self, event: Object, T: TypeNode) -> Degree:
+        """How probably an event is of a type, if need be by a derivation."""
+        plain = None if self._facts.functions else self._plainly(event, T)
+        return self._why(event, T).p if plain is None else plain
+
+    def _plainly(self, event: Object, T: TypeNode) -> Degree | None:
+        """Whether an event is of a type, where the facts say yes or no; else None."""
+        spend()
+        match T:
+            case Join(parts):
+                return _any([self._plainly(event, part) for part in parts])
+            case Meet(parts):
+                return _all([self._plainly(event, part) for part in parts])
+            case Negation(body):
+                return _DENIED.get(self._plainly(event, body))
+        atom = self._atom(T)
+        if atom is None:
+            return None
+        p = self._facts.told_degree(event, atom)
+        if p is None and self._closed[atom]:
+            return REFUTED
+        if p != CERTAIN:
+            p, _ = self._facts.degree_of(event, atom)
+        return p if p in (CERTAIN, REFUTED) else None
+
+    def _atom(self, T: TypeNode) -> Atom | None:
+        """The atom that a type comes to, where it is plain what that is."""
+        if T not in self._atoms:
+            atom = self._atoms[T] = self._worked_out(T)
+            if atom is not None:
+                self._closed[atom] = self._is_free and not self._facts.leaves_open(atom)
+        return self._atoms[T]
+
+    def _worked_out(self, T: TypeNode) -> Atom | None:
+        with suppress(Unresolved):
+            ground = grounded(T, self._around) if isinstance(T, PType) else T
+            applies = any(isinstance(part, Application) for part in occurring([ground]))
+            if isinstance(ground, Basic | PType) and not applies:
+                return ground
+        return None
+
+    def _why(self, event: Object, T: TypeNode) -> Why:
+        if not self._facts.functions:
+            return self._derives(event, self._atoms.get(T) or T)
+        key = (identity(event), T)
+        known = self._known.get(key)
+        if known is None:
+            known = self._known[key] = self._derives(event, T)
+        return known
+
+
+_DENIED: dict[Degree | None, Degree] = {CERTAIN: REFUTED, REFUTED: CERTAIN}
+
+
+def _any(degrees: list[Degree | None]) -> Degree | None:
+    if CERTAIN in degrees:
+        return CERTAIN
+    return None if None in degrees else REFUTED
+
+
+def _all(degrees: list[Degree | None]) -> Degree | None:
+    if REFUTED in degrees:
+        return REFUTED
+    return None if None in degrees else CERTAIN
+
+
+def stopped(facts: Assignment, sit: EventString, stop: Stop) -> str:
+    """Where a string cannot be divided further, what is there and what could be."""
+    done = stop.furthest
+    wanted = " or ".join(map(str, stop.expected)) or "no more events"
+    if done == len(sit):
+        what = f"it ends after {events_in_words(done)}" if done else "it is empty"
+        return f"{what}; expected next: {wanted}"
+    event = sit.items[done]
+    kinds = " and ".join(sorted(str(kind) for kind in facts.types_of(event)))
+    found = f"event {done + 1}, {notation(event)}, is of {kinds or 'nothing known'}"
+    if done == 0:
+        return f"{found}, expected: {wanted}"
+    first = "event" if done == 1 else events_in_words(done)
+    return f"it cannot be divided beyond its first {first}; {found}, expected: {wanted}"
+
+
+def events_in_words(number: int) -> str:
+    """So many events, in words: "1 event", "2 events"."""
+    return "1 event" if number == 1 else f"{number} events"

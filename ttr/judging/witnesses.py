@@ -1,0 +1,167 @@
+"""The known witnesses of a type: who, by what was told, is of it, or may be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import reduce
+from itertools import product
+from typing import cast
+
+from ttr.building.merging import merge
+from ttr.computing.strings.pieces import string_of
+from ttr.errors import Refused, Unsupported
+from ttr.judging.assignments import Assignment
+from ttr.judging.evaluator import derivation, reduced
+from ttr.probability import Degree
+from ttr.safety.budgets import spend
+from ttr.types.objects import Unresolved
+from ttr.types.substitution import grounded
+from ttr.types.syntax import (
+    Application,
+    Basic,
+    Join,
+    Meet,
+    Object,
+    PType,
+    Record,
+    RecordType,
+    Singleton,
+    Str,
+    TypeNode,
+    identity,
+)
+
+__all__ = ["can_be_listed", "candidates", "witnesses"]
+
+
+def witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:
+    """The known objects that certainly are of T, each once, in the order told.
+
+    T has no paths that escape it. Raises `Unsupported` where there may be others
+    without end: lists, sets, functions, types, and what something is not of.
+    """
+    yield from _Listing(facts, 1.0).of(T)
+
+
+def candidates(facts: Assignment, T: TypeNode) -> Iterator[Object]:
+    """The known objects that were told to be of T, or perhaps to be, as `witnesses`."""
+    yield from _Listing(facts, 0.0).of(T)
+
+
+def can_be_listed(T: TypeNode) -> bool:
+    """Whether what is known of T has an end, as far as T alone tells.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, ListOf
+    >>> can_be_listed(rectype(x=Ind)), can_be_listed(rectype(x=ListOf(Ind)))
+    (True, False)
+    """
+    waiting = [T]
+    while waiting:
+        match waiting.pop():
+            case Basic() | PType() | Singleton() | Application():
+                pass
+            case Join(parts) | Str(parts):
+                waiting += parts
+            case Meet(parts):
+                waiting.append(_listed_part(parts))
+            case RecordType(fields):
+                waiting += (field for _, field in fields)
+            case _:
+                return False
+    return True
+
+
+@dataclass(frozen=True)
+class _Listing:
+    """Lists what is of a type with at least some degree, more than 0."""
+
+    facts: Assignment
+    least: float
+
+    def of(self, T: TypeNode) -> Iterator[Object]:
+        spend()
+        facts = self.facts
+        match T:
+            case Basic() | PType():
+                yield from facts.told_of(T, self._enough)
+            case Singleton(_, value):
+                value = reduced(facts, value)
+                if self._is_of(value, T):
+                    yield value
+            case Join(parts):
+                found = [sit for part in parts for sit in self.of(part)]
+                yield from {identity(sit): sit for sit in found}.values()
+            case Meet(parts):
+                source = _listed_part(parts)
+                yield from (sit for sit in self.of(source) if self._is_of(sit, T))
+            case Str(items):
+                choices = [tuple(self.of(item)) for item in items]
+                found = [string_of(items, pieces) for pieces in product(*choices)]
+                yield from {identity(sit): sit for sit in found}.values()
+            case RecordType():
+                yield from map(Record, self._filled(T))
+            case Application():
+                yield from self._worked_out(T)
+            case _:
+                raise Unsupported(
+                    f"what is of {T} cannot be listed, as there may be no end of it",
+                    hint="judge an object, or create a witness",
+                )
+
+    def _worked_out(self, T: Application) -> Iterator[Object]:
+        """What is of the type that a function gives, if it gives one."""
+        try:
+            value = reduced(self.facts, T)
+        except Refused:
+            return
+        if isinstance(value, TypeNode):
+            yield from self.of(value)
+
+    def _is_of(self, sit: Object, T: TypeNode) -> bool:
+        return self._enough(derivation(self.facts, sit, T).p)
+
+    def _enough(self, p: Degree) -> bool:
+        return p.hi > 0.0 and p.lo >= self.least
+
+    def _filled(self, T: RecordType) -> Iterator[dict[str, Object]]:
+        """The ways to fill the fields, one after the other; without recursion."""
+        labels = T.labels
+        waiting: list[Iterator[dict[str, Object]]] = [iter(({},))]
+        while waiting:
+            fields = next(waiting[-1], None)
+            if fields is None:
+                waiting.pop()
+            elif len(fields) == len(labels):
+                yield fields
+            else:
+                waiting.append(self._next(T, labels[len(fields)], fields))
+
+    def _next(
+        self, T: RecordType, label: str, fields: dict[str, Object]
+    ) -> Iterator[dict[str, Object]]:
+        """The fields with each witness of the next one, given those before it."""
+        spend(4)
+        try:
+            field = grounded(T[label], (fields,))
+        except Unresolved as unresolved:
+            raise Unsupported(
+                f"the records of {T} cannot be listed: {unresolved.message}",
+                hint="fields on a cycle can be judged, but not listed",
+            ) from None
+        for sit in self.of(field):
+            spend(4)
+            yield {**fields, label: sit}
+
+
+def _listed_part(parts: tuple[TypeNode, ...]) -> TypeNode:
+    """The part of a meet that is listed; its record types are merged into one."""
+    records = [part for part in parts if isinstance(part, RecordType)]
+    if records:
+        return reduce(merge, records[1:], cast(TypeNode, records[0]))
+    return next(filter(_is_listed, parts), parts[0])
+
+
+def _is_listed(T: TypeNode) -> bool:
+    return isinstance(T, Basic | PType | Singleton | RecordType | Str)

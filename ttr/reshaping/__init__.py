@@ -1,1 +1,0 @@
-"""Other types and records made of given ones: relabelled, flattened, generalised."""

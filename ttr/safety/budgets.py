@@ -1,0 +1,228 @@
+"""Budgets of steps: how much work a question may be before it is left.
+
+Types are small to write and can be large to answer questions about: each line of a
+theory may double the type of the line before. So every question counts its steps, and
+one that takes more than its budget ends with an honest answer: `unknown` where there is
+such an answer, else a `TooLargeError`. It never becomes a yes or a no.
+
+A question that is asked to answer another one spends the budget of the outermost. What
+ends it is no `Exception`, so that no handler on the way to the outermost question takes
+it for an error of the types and goes on; and what was not finished is remembered
+nowhere. Steps are counted, not seconds, and building a type that is there already
+counts as if it were new: the answers are the same on every machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import wraps
+from typing import ParamSpec, TypeVar, overload
+
+from ttr.errors import TooLargeError, TTRError, Unsupported
+
+__all__ = [
+    "STEPS",
+    "Purse",
+    "SharedPurse",
+    "Spent",
+    "budget",
+    "one_of_several",
+    "open_purse",
+    "purse_of_several",
+    "spend",
+    "steps_allowed",
+    "within_budget",
+]
+
+STEPS = 1_000_000
+"""How many steps a question may take where nobody says otherwise: some seconds."""
+
+SEVERAL = 4
+"""How many whole budgets the questions of one file may take together."""
+
+EACH = 1_000
+"""How many steps more they may take for each of them; most take some hundred."""
+
+
+class Spent(BaseException):
+    """The budget is used up; caught by whoever opened it and by nobody else."""
+
+
+class Purse:
+    """What is left of a budget. It has no `__init__`, as every question opens one."""
+
+    __slots__ = ("left",)
+
+    left: int
+
+
+class SharedPurse(Purse):
+    """What is left of the budget that the questions of one file have together."""
+
+    __slots__ = ("steps",)
+
+    def __init__(self, steps: int) -> None:
+        self.steps = self.left = steps
+
+    def allow(self, questions: int) -> None:
+        """Adds what so many more questions of the same file may take."""
+        self.steps += EACH * questions
+        self.left += EACH * questions
+
+
+def _too_large(reason: str) -> TooLargeError:
+    return TooLargeError(
+        f"too large: {reason}",
+        hint="ask for less, or allow more steps (ttr.budget, or --steps)",
+    )
+
+
+_purse: ContextVar[Purse | None] = ContextVar("purse", default=None)
+_allowed: ContextVar[int] = ContextVar("steps", default=STEPS)
+
+open_purse = _purse.get
+"""The budget that is being spent here, or None where no question is being asked."""
+
+
+def spend(steps: int = 1) -> None:
+    """Counts steps of the question that is being asked, if there is one."""
+    purse = open_purse()
+    if purse is not None:
+        purse.left -= steps
+        if purse.left < 0:
+            raise Spent
+
+
+def steps_allowed() -> int:
+    """How many steps a question may take that is asked here."""
+    return _allowed.get()
+
+
+@contextmanager
+def budget(*, steps: int) -> Iterator[None]:
+    """Lets each question that is asked inside take so many steps.
+
+    The default of 1,000,000 is some seconds. A question that takes more is answered
+    `unknown`; what has no such answer raises `TooLargeError`.
+
+    >>> from ttr.computing.subtyping import subtype
+    >>> from ttr.types.syntax import Basic, ListOf
+    >>> A = ListOf(Basic("A"))
+    >>> with budget(steps=2):
+    ...     print(subtype(A, ListOf(A)))
+    unknown: too large: it takes more than 2 steps
+    >>> subtype(A, ListOf(A)).no
+    True
+    """
+    if isinstance(steps, bool) or not isinstance(steps, int) or steps < 1:
+        raise TTRError(f"a budget is a whole number of steps from 1, found {steps!r}")
+    token = _allowed.set(steps)
+    try:
+        yield
+    finally:
+        _allowed.reset(token)
+
+
+def purse_of_several(questions: int = 0) -> SharedPurse:
+    """The budget that so many questions of one file have together."""
+    purse = SharedPurse(SEVERAL * steps_allowed())
+    purse.allow(questions)
+    return purse
+
+
+@contextmanager
+def one_of_several(purse: SharedPurse) -> Iterator[None]:
+    """Asks one of several questions that have a budget together, besides its own.
+
+    Raises `TooLargeError` where it takes more than it may, or than the others left.
+    """
+    around = open_purse()
+    left = purse.left if around is None else min(purse.left, around.left)
+    allowed = steps_allowed()
+    own = Purse()
+    own.left = mine = max(0, min(allowed, left))
+    token = _purse.set(own)
+    try:
+        yield
+    except Spent:
+        if mine == allowed:
+            raise _too_large(f"it takes more than {mine:,} steps") from None
+        raise _too_large(
+            f"with what comes before, it takes more than {purse.steps:,} steps"
+        ) from None
+    finally:
+        _purse.reset(token)
+        spent = mine - own.left
+        purse.left -= spent
+        if around is not None:
+            around.left -= spent
+
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+@overload
+def within_budget(function: Callable[P, R], /) -> Callable[P, R]: ...
+
+
+@overload
+def within_budget(
+    *, otherwise: Callable[..., R]
+) -> Callable[[Callable[P, R]], Callable[P, R]]: ...
+
+
+def within_budget(
+    function: Callable[P, R] | None = None,
+    /,
+    *,
+    otherwise: Callable[..., R] | None = None,
+) -> Callable[P, R] | Callable[[Callable[P, R]], Callable[P, R]]:
+    """Makes a function a question, which ends when it has spent its budget.
+
+    It then raises `TooLargeError`, or gives what `otherwise` makes of that error and
+    its arguments. Raises `Unsupported` where types nest too deep to be followed. Inside
+    another question it spends the budget of that one.
+    """
+    if function is None:
+        return lambda decorated: _within_budget(decorated, otherwise)
+    return _within_budget(function, otherwise)
+
+
+def _within_budget(
+    function: Callable[P, R], otherwise: Callable[..., R] | None
+) -> Callable[P, R]:
+    allowed = _allowed.get
+
+    @wraps(function)
+    def asked(*args: P.args, **kwargs: P.kwargs) -> R:
+        if open_purse() is not None:
+            try:
+                return function(*args, **kwargs)
+            except RecursionError:
+                raise _nests_too_deep() from None
+        purse = Purse()
+        purse.left = steps = allowed()
+        token = _purse.set(purse)
+        try:
+            return function(*args, **kwargs)
+        except RecursionError:
+            raise _nests_too_deep() from None
+        except Spent:
+            error = _too_large(f"it takes more than {steps:,} steps")
+        finally:
+            _purse.reset(token)
+        if otherwise is None:
+            raise error
+        return otherwise(error, *args, **kwargs)
+
+    return asked
+
+
+def _nests_too_deep() -> Unsupported:
+    return Unsupported(
+        "this nests deeper than can be followed",
+        hint="put fewer records, lists and types inside one another",
+    )

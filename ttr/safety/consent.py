@@ -1,0 +1,144 @@
+"""Consent: what a file may name that is then run, or read and perhaps shown.
+
+A file that the user names may run Python, and import theories, that lie in its own
+folder or below. For others it needs the user's consent: to a folder, or by naming the
+Python himself.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from shlex import quote
+
+from ttr.errors import TTRError
+
+__all__ = ["OWN_FOLDER", "Consent", "NotAllowed", "check_called", "is_below"]
+
+
+class NotAllowed(TTRError):
+    """Something that a file names, and that the user has not consented to."""
+
+
+def is_below(path: str | os.PathLike[str], folder: str | os.PathLike[str]) -> bool:
+    """Does a path lead to something in a folder or below it, whatever links it takes?
+
+    >>> is_below("games/door.ttr", "games"), is_below("games/../door.ttr", "games")
+    (True, False)
+    """
+    return _real(path).is_relative_to(_real(folder))
+
+
+def _real(path: str | os.PathLike[str]) -> Path:
+    try:
+        return Path(os.path.realpath(path))
+    except ValueError:  # no text with a zero in it is a path
+        raise NotAllowed(f"{str(path)!r} is no path of a file") from None
+
+
+def check_called(path: str | os.PathLike[str], suffix: str, named: str = "") -> None:
+    """Raises `NotAllowed` for what is called otherwise, also where links lead to it.
+
+    A mistake in a file is told with its lines. So no file is read as a theory or as a
+    story that is not called one: it could be anything. `named` is how a file names it.
+    """
+    real, told = _real(path), named or path
+    if Path(path).suffix != suffix:
+        raise NotAllowed(f"{told} is not used: expected a file called NAME{suffix}")
+    if real.suffix != suffix:
+        raise NotAllowed(
+            f"{told} is not used: it leads to a file not called NAME{suffix}"
+        )
+    if os.path.exists(real) and not (os.path.isfile(real) or os.path.isdir(real)):
+        raise NotAllowed(f"{told} is not used: it is no regular file")
+
+
+@dataclass(frozen=True)
+class Consent:
+    """What the user lets files use that they name.
+
+    These are files in `folders` and below; Python only if `python` is true, and of
+    modules that lie elsewhere only `modules`, which the user has named himself.
+
+    >>> consent = Consent.of(["games"])
+    >>> consent.check("games/door.ttr")
+    >>> consent.check("/etc/passwd")
+    Traceback (most recent call last):
+    ttr.safety.consent.NotAllowed: /etc/passwd lies in another folder: allow it with ...
+    """
+
+    folders: tuple[Path, ...] = ()
+    python: bool = True
+    modules: frozenset[str] = frozenset()
+
+    @classmethod
+    def of(
+        cls, allow: Iterable[str | os.PathLike[str]] = (), *, python: bool = True
+    ) -> Consent:
+        """The consent of a user who allows these folders; raises `TTRError`."""
+        if isinstance(allow, str | os.PathLike):
+            raise TTRError("allow takes a list of folders", hint=f"[{str(allow)!r}]")
+        return cls(python=python).adding(*allow)
+
+    def adding(self, *folders: str | os.PathLike[str]) -> Consent:
+        """The same with some folders more."""
+        new = [it for it in map(_real, folders) if it not in self.folders]
+        return replace(self, folders=(*self.folders, *dict.fromkeys(new)))
+
+    def naming(self, python: str, folder: Path) -> Consent:
+        """The same of a user who names a Python file in a folder, or a module."""
+        if python.endswith(".py"):
+            return self.adding((folder / python).parent)
+        return replace(self, modules=self.modules | {python})
+
+    def check(self, path: str | os.PathLike[str], named: str = "") -> None:
+        """Raises `NotAllowed` for a file that may not be used.
+
+        `named` is how a file names it.
+        """
+        if not self.folders:
+            raise NotAllowed(f"{named or path}: no other file may be used here")
+        if not any(is_below(path, folder) for folder in self.folders):
+            folder = _folder(path)
+            raise NotAllowed(
+                f"{named or path} lies in another folder: allow it with --allow "
+                f"{quote(folder)}, in Python with allow=[{folder!r}]"
+            )
+
+    def check_python(self, python: str, folder: Path) -> None:
+        """Raises `NotAllowed` for Python that is not to be run.
+
+        It is a file, named from a folder, or a module, which is looked for in all of
+        the folders that may be used.
+        """
+        if not self.python:
+            raise NotAllowed(f"{python} is Python, which may not be run here")
+        if python.endswith(".py"):
+            self.check(folder / python, python)
+        elif python not in self.modules and self.folder_of(python) is None:
+            raise NotAllowed(
+                f"there is no module {python} in this folder: write a file there that "
+                "imports what is needed, and name that"
+            )
+
+    def folder_of(self, module: str) -> Path | None:
+        """The first of the folders in which a module lies, by its dotted name."""
+        path = Path(*module.split("."))
+        for folder in self.folders:
+            for file in (folder / f"{path}.py", folder / path / "__init__.py"):
+                if os.path.isfile(file) and is_below(file, folder):
+                    return folder
+        return None
+
+
+def _folder(path: str | os.PathLike[str]) -> str:
+    """The folder of a path, as the user would write it here."""
+    folder = _real(path).parent
+    near = os.path.relpath(folder)
+    return near if near.count("..") < len(folder.parts) - 1 else str(folder)
+
+
+OWN_FOLDER = Consent()
+"""The consent of a user who has named a file and said nothing else."""

@@ -1,0 +1,373 @@
+"""From the tree of a sentence to its content: a type that is true if the sentence is.
+
+A noun phrase means what it makes of a property, a verb phrase a property, a clause a
+type. What stands further left has wider scope.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
+
+from ttr.building.constructors import rectype
+from ttr.semantics.fragment.content_types import (
+    Property,
+    Variables,
+    all_of,
+    placed,
+    same,
+)
+from ttr.semantics.fragment.determiner_meanings import determined
+from ttr.semantics.fragment.lexicon import Lexicon
+from ttr.semantics.fragment.sentence_parsing import OutsideFragment, Phrase
+from ttr.semantics.parametric_content import content, strong, weak
+from ttr.semantics.quantifiers import Determiner, absent, every, exist
+from ttr.types.objects import FiniteSet
+from ttr.types.syntax import (
+    BOUND,
+    Function,
+    Ind,
+    PType,
+    Singleton,
+    TypeNode,
+    as_type,
+    join,
+)
+
+__all__ = ["Antecedent", "composed"]
+
+NounPhrase: TypeAlias = Callable[[Property], TypeNode]
+"""What a noun phrase makes of what is said of it."""
+
+Antecedent: TypeAlias = FiniteSet
+"""The things that a pronoun can stand for."""
+
+MODIFIERS = 8
+"""How many modifiers of the kinds below a sentence may have."""
+
+REPEATING = (
+    *("INTENSIFIER", "MODADJ", "NEGADJ", "ADVERB", "vp_pp"),
+    *("the", "both", "neither"),
+)
+"""What says again what it modifies, so that contents double with each."""
+
+
+def composed(
+    tree: Phrase, words: Lexicon, picked: tuple[Antecedent, ...] = ()
+) -> TypeNode:
+    """The content of a sentence; `picked` are what pronouns can stand for, first first.
+
+    Raises `OutsideFragment` for what is read but has no meaning here.
+    """
+    if sum(1 for kind in REPEATING for _ in tree.below(kind)) > MODIFIERS:
+        raise OutsideFragment(
+            f"a sentence has at most {MODIFIERS} adverbs, words like very, "
+            "prepositions after a verb, adjectives that need a noun, the, both and "
+            "neither, counted together"
+        )
+    return _Composer(words, picked).clause(_only(tree))
+
+
+class _Composer:
+    def __init__(self, words: Lexicon, picked: tuple[Antecedent, ...]) -> None:
+        self._words, self._picked = words, picked
+        self._variables = Variables()
+        self._bound: list[str] = []
+
+    # --- clauses -------------------------------------------------------------------
+
+    def clause(self, tree: Phrase) -> TypeNode:
+        match tree.kind, tree.parts:
+            case "clause", [inner]:
+                return self.clause(inner)
+            case "denied", [inner]:
+                return absent(self.clause(inner))
+            case "both_clauses", [left, right]:
+                return all_of(self.clause(left), self.clause(right))
+            case "existence", [np]:
+                return self._existence(np)
+            case "predication", [np, vp]:
+                return self._predication(np, vp)
+        raise _outside(tree)
+
+    def _existence(self, np: Phrase) -> TypeNode:
+        """There is …: of those that are so, so many are there."""
+        if np.kind not in ("quantified", "bare"):
+            raise OutsideFragment(
+                "there is takes a noun phrase such as a dog, or no dogs"
+            )
+        nbar = np.parts[-1]
+        head, rest = self._divided(nbar)
+        if np.kind == "bare":
+            return exist(self._bind(head), self._bind(rest))
+        det = np.parts[0].kind
+        if det in ("every", "most", "both", "neither", "the", "not_every"):
+            raise OutsideFragment(f"there is takes no noun phrase with {det}")
+        if det in ("many", "few") and len(nbar.parts) == 1:
+            raise OutsideFragment(
+                f"there are {det} needs to say of which share, as in there are {det} "
+                "dogs in Rome"
+            )
+        return self._quantified(np.parts[0], head, rest)
+
+    def _divided(self, nbar: Phrase) -> tuple[Property, Property]:
+        """What the noun says, and what follows it, or the noun once more."""
+        modified, *rest = nbar.parts
+        head = self._modified(modified)
+        if not rest:
+            return head, head
+        return head, _both(*[self._postnominal(part) for part in rest])
+
+    def _predication(self, np: Phrase, vp: Phrase) -> TypeNode:
+        donkey = self._donkey(np, vp)
+        if donkey is not None:
+            return donkey
+        if np.kind == "bare":
+            return self._quantifier(every, self._nbar(np.parts[0]), self._vp(vp))
+        return self._np(np)(self._vp(vp))
+
+    # --- donkey sentences ----------------------------------------------------------
+
+    def _donkey(self, np: Phrase, vp: Phrase) -> TypeNode | None:
+        """Every farmer who owns a donkey beats it: the pronoun is about the donkeys.
+
+        Strong after a determiner that rises from all, else weak (decision 021).
+        """
+        found = _indefinite_below(np)
+        if found is None or not _has_object_pronoun(vp):
+            return None
+        verb, indefinite = found
+        owning, restriction = self._tv(verb), self._nbar(indefinite.parts[-1])
+        purified = strong if np.parts[0].kind == "every" else weak
+
+        def beating(x: str) -> TypeNode:
+            y = self._variables.fresh()
+            fields = {"c": restriction(y), "o": owning(x, y)}
+            bg = rectype(
+                y=Ind, **{k: as_type(placed(T, y, "y")) for k, T in fields.items()}
+            )
+            self._bound.append(y)
+            said = self._vp(vp)(x)
+            self._bound.pop()
+            fg = Function(bg, placed(said, y, BOUND, "y"), "r")
+            return purified(content(bg, fg))
+
+        return self._np(np)(beating)
+
+    # --- noun phrases --------------------------------------------------------------
+
+    def _np(self, tree: Phrase) -> NounPhrase:
+        match tree.kind, tree.parts:
+            case "name", [token]:
+                name = str(self._words.word("NAME", token.word).meaning)
+                return lambda said: said(name)
+            case "pronoun", [token]:
+                return self._pronoun(token.word)
+            case "bare", [nbar]:
+                some = self._nbar(nbar)
+                return lambda said: self._quantifier(exist, some, said)
+            case "quantified", [det, nbar]:
+                restriction = self._nbar(nbar)
+                return lambda said: self._quantified(det, restriction, said)
+        raise _outside(tree)
+
+    def _pronoun(self, form: str) -> NounPhrase:
+        if self._bound and form.lower() == "it":
+            bound = self._bound[-1]
+            return lambda said: said(bound)
+        plural = form.lower() in ("they", "them")
+        for things in self._picked:
+            if plural == (len(things) > 1):
+                return lambda said: self._of_things(things, said)
+        raise OutsideFragment(
+            f"{form!r} has nothing to stand for: no sentence before it is about "
+            f"{'several things' if plural else 'one thing'}"
+        )
+
+    def _of_things(self, things: Antecedent, said: Property) -> TypeNode:
+        """What is said of each of these things."""
+        if len(things) == 1:
+            return said(str(next(iter(things))))
+        one_of = join(*[Singleton(Ind, thing) for thing in things])
+        return every(one_of, self._bind(said))
+
+    def _quantified(self, det: Phrase, P: Property, Q: Property) -> TypeNode:
+        return determined(det, self._bind(P), self._bind(Q))
+
+    def _quantifier(self, q: Determiner, P: Property, Q: Property) -> PType:
+        return q(self._bind(P), self._bind(Q))
+
+    def _bind(self, said: Property) -> Function:
+        return self._variables.bind(said)
+
+    # --- nouns and what goes with them ---------------------------------------------
+
+    def _nbar(self, tree: Phrase) -> Property:
+        modified, *rest = tree.parts
+        return _both(
+            self._modified(modified), *[self._postnominal(part) for part in rest]
+        )
+
+    def _modified(self, tree: Phrase) -> Property:
+        match tree.kind, tree.parts:
+            case "noun", [token]:
+                return self._unary("NOUN", token)
+            case "with_adj", [adj, inner]:
+                return self._adjective(adj, self._modified(inner))
+        raise _outside(tree)
+
+    def _adjective(self, adj: Phrase, noun: Property) -> Property:
+        """What an adjective makes of what a noun says."""
+        *intensifiers, token = adj.parts
+        match adj.kind:
+            case "intersective":
+                said = _both(self._unary("ADJ", token), noun)
+            case "subsective" if token.kind == "ADJ":
+                said = _both(self._unary("ADJ", token), noun)
+            case "subsective":
+                said = self._modifying("MODADJ", token, noun)
+            case "privative":
+                fake = self._words.meaning("NEGADJ", token.word)
+                return lambda x: all_of(absent(noun(x)), fake(x, self._bind(noun)))
+            case _:
+                raise _outside(adj)
+        for intensifier in reversed(intensifiers):
+            said = self._modifying("INTENSIFIER", intensifier, said)
+        return said
+
+    def _postnominal(self, tree: Phrase) -> Property:
+        match tree.kind, tree.parts:
+            case "pp", [token, np]:
+                pred, of = self._words.meaning("PREP", token.word), self._np(np)
+                return lambda x: of(lambda y: pred(x, y))
+            case "subject_relative", [vp]:
+                return self._vp(vp)
+            case "object_relative", [np, verb]:
+                doing, who = self._tv(verb), self._np(np)
+                return lambda y: who(lambda x: doing(x, y))
+        raise _outside(tree)
+
+    # --- verb phrases --------------------------------------------------------------
+
+    def _vp(self, tree: Phrase) -> Property:
+        match tree.kind, tree.parts:
+            case "plain_vp", [inner]:
+                return self._vp(inner)
+            case "denied_vp", [inner]:
+                return _denied(self._vp(inner))
+            case "both_vps", [left, right]:
+                return _both(self._vp(left), self._vp(right))
+            case "modal_vp", [token, inner]:
+                return self._operator("MODAL", token, self._vp(inner))
+            case "denied_modal_vp", [token, inner]:
+                return _denied(self._operator("MODAL", token, self._vp(inner)))
+            case "attitude_vp", [token, inner]:
+                return self._operator("ATTITUDE", token, self._vp(inner))
+            case "intransitive", [token, *modifiers]:
+                return self._with(self._unary("IV", token), modifiers)
+            case "transitive", [token, np, *adverbs]:
+                doing, what = self._tv(token), self._np(np)
+                plain: Property = lambda x: what(lambda y: doing(x, y))  # noqa: E731
+                return self._with(plain, adverbs)
+            case "is_adj", [adj, *pps]:
+                return _both(
+                    self._predicative(adj), *[self._postnominal(pp) for pp in pps]
+                )
+            case "is_pp", [pp]:
+                return self._postnominal(pp)
+            case "is_np", [np]:
+                return self._nominal(np)
+        raise _outside(tree)
+
+    def _predicative(self, adj: Phrase) -> Property:
+        """An adjective on its own; one that needs a noun is of what is at all."""
+        if adj.kind == "privative":
+            raise OutsideFragment(f"{adj.parts[-1].word} needs a noun after it")
+        if adj.parts[-1].kind == "ADJ" and len(adj.parts) == 1:
+            return self._unary("ADJ", adj.parts[0])
+        return self._adjective(adj, _anything)
+
+    def _nominal(self, np: Phrase) -> Property:
+        """What "is a dog", "are dogs" or "is Fido" say."""
+        match np.kind, np.parts:
+            case "bare", [nbar]:
+                return self._nbar(nbar)
+            case "quantified", [det, nbar] if det.kind in ("exist", "the"):
+                return self._nbar(nbar)
+            case "name", [token]:
+                name = str(self._words.word("NAME", token.word).meaning)
+                return lambda x: same(x, name)
+        raise OutsideFragment("after is stands an adjective, a noun with a, or a name")
+
+    def _with(self, said: Property, modifiers: Sequence[Phrase]) -> Property:
+        """A verb phrase with what modifies it, from the inside to the outside."""
+        for modifier in modifiers:
+            said = self._modified_vp(said, modifier)
+        return said
+
+    def _modified_vp(self, said: Property, modifier: Phrase) -> Property:
+        if modifier.kind == "ADVERB":
+            return self._modifying("ADVERB", modifier, said)
+        if modifier.kind == "adverb":
+            return self._modifying("ADVERB", modifier.parts[0], said)
+        token, np = modifier.parts[0].parts
+        pred, of = self._words.meaning("PREP", token.word), self._np(np)
+        return lambda x: all_of(said(x), of(lambda y: pred(x, y, self._bind(said))))
+
+    def _modifying(self, terminal: str, token: Phrase, said: Property) -> Property:
+        """What is so, and so in a certain way: a skilful vet is a vet."""
+        way = self._operator(terminal, token, said)
+        return way if said is _anything else _both(said, way)
+
+    def _operator(self, terminal: str, token: Phrase, said: Property) -> Property:
+        pred = self._words.meaning(terminal, token.word)
+        return lambda x: pred(x, self._bind(said))
+
+    def _unary(self, terminal: str, token: Phrase) -> Property:
+        return self._words.meaning(terminal, token.word)
+
+    def _tv(self, token: Phrase) -> Callable[[str, str], PType]:
+        return self._words.meaning("TV", token.word)
+
+
+def _both(*said: Property) -> Property:
+    if len(said) == 1:
+        return said[0]
+    return lambda x: all_of(*[one(x) for one in said])
+
+
+def _denied(said: Property) -> Property:
+    return lambda x: absent(said(x))
+
+
+def _anything(x: str) -> TypeNode:
+    """What is true of everything."""
+    return Singleton(Ind, x)
+
+
+def _only(tree: Phrase) -> Phrase:
+    (inner,) = tree.parts
+    return inner
+
+
+def _indefinite_below(np: Phrase) -> tuple[Phrase, Phrase] | None:
+    """Of "every farmer who owns a donkey": the verb, and the indefinite."""
+    if np.kind != "quantified":
+        return None
+    for part in np.parts[-1].parts[1:]:
+        if part.kind != "subject_relative":
+            continue
+        for verb in part.below("transitive"):
+            token, thing, *_ = verb.parts
+            if thing.kind == "quantified" and thing.parts[0].kind == "exist":
+                return token, thing
+    return None
+
+
+def _has_object_pronoun(vp: Phrase) -> bool:
+    pronouns = [it.parts[0].word.lower() for it in vp.below("pronoun")]
+    return "it" in pronouns
+
+
+def _outside(tree: Phrase) -> OutsideFragment:
+    return OutsideFragment(f"the fragment gives no meaning to {tree.kind}")

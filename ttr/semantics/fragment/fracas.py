@@ -1,0 +1,145 @@
+"""The FraCaS problems on quantifiers, answered: right, wrong, or outside the fragment.
+
+The problem set is not part of this distribution; who has it as an XML file, in Bill
+MacCartney's format, can run its section 1, problems 1 to 80.
+Source: Cooper et al. 1996, Using the Framework.
+"""
+
+from __future__ import annotations
+
+import os
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal, NoReturn, TypeAlias
+from xml.parsers import expat
+
+from ttr.errors import TTRError
+from ttr.safety.files import why_unread
+from ttr.safety.inputs import read_bytes
+from ttr.safety.limits import PROBLEMS
+from ttr.semantics.fragment.inference import follows
+from ttr.semantics.fragment.lexicon import Lexicon
+from ttr.semantics.fragment.sentence_parsing import OutsideFragment
+from ttr.semantics.quantifiers import Thresholds
+
+__all__ = [
+    "LAST",
+    "Answered",
+    "Outcome",
+    "Problem",
+    "Unreadable",
+    "answered",
+    "problems",
+]
+
+LAST = 80
+"""The last problem of section 1."""
+
+DIGITS = 9
+"""How many digits the number of a problem may have."""
+
+ANSWERS = ("yes", "no", "unknown")
+
+Outcome: TypeAlias = Literal["right", "wrong", "outside", "open"]
+"""What came of a problem; open if the set gives no plain answer to compare with."""
+
+
+class Unreadable(TTRError):
+    """A file that is no FraCaS problem set."""
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Premises and a hypothesis, with the answer that the problem set gives."""
+
+    number: int
+    premises: tuple[str, ...]
+    hypothesis: str
+    answer: str
+
+
+@dataclass(frozen=True)
+class Answered:
+    """A problem, what came of it, the answer that was found, and why."""
+
+    problem: Problem
+    outcome: Outcome
+    found: str
+    why: str
+
+
+def problems(path: str | os.PathLike[str]) -> tuple[Problem, ...]:
+    """The problems of section 1 in a file, in their order; raises `Unreadable`."""
+    root = _parsed(path)
+    if root.tag != "fracas-problems":
+        raise Unreadable(
+            f"{path} is no FraCaS problem set: expected <fracas-problems>, "
+            f"found <{root.tag}>"
+        )
+    found = [_problem(path, it) for it in root.iter("problem")]
+    section = tuple(it for it in found if 1 <= it.number <= LAST)
+    if not section:
+        raise Unreadable(f"{path} has none of the problems 1 to {LAST}")
+    return section
+
+
+def _parsed(path: str | os.PathLike[str]) -> ET.Element:
+    try:
+        data = read_bytes(path, PROBLEMS)
+    except OSError as error:
+        raise Unreadable(why_unread(path, error)) from None
+    try:
+        _refuse_entities(path, data)
+        return ET.fromstring(data)
+    except (expat.ExpatError, ET.ParseError, LookupError, ValueError) as error:
+        raise Unreadable(f"{path} is no XML: {error}") from None
+
+
+def _refuse_entities(path: str | os.PathLike[str], data: bytes) -> None:
+    """Raises `Unreadable` where entities are declared: they grow, or read files."""
+
+    def refuse(name: str, *_: object) -> NoReturn:
+        raise Unreadable(f"{path} declares the entity {name}, which is not allowed")
+
+    parser = expat.ParserCreate()
+    parser.EntityDeclHandler = refuse
+    parser.Parse(data, True)
+
+
+def _problem(path: str | os.PathLike[str], it: ET.Element) -> Problem:
+    name = it.get("id", "")
+    if not name.isdecimal() or len(name) > DIGITS:
+        raise Unreadable(f"{path} has a problem whose id is no number: {name!r}")
+    premises = tuple(_text(p) for p in it.findall("p"))
+    return Problem(
+        int(name), premises, _text(it.find("h")), it.get("fracas_answer", "undef")
+    )
+
+
+def _text(element: ET.Element | None) -> str:
+    return "" if element is None else " ".join("".join(element.itertext()).split())
+
+
+def answered(
+    some: tuple[Problem, ...], words: Lexicon, thresholds: Thresholds | None = None
+) -> Iterator[Answered]:
+    """The problems with what came of each, one after the other."""
+    for problem in some:
+        yield _answered(problem, words, thresholds)
+
+
+def _answered(
+    problem: Problem, words: Lexicon, thresholds: Thresholds | None
+) -> Answered:
+    if not problem.hypothesis:
+        return Answered(problem, "outside", "", "the problem has no hypothesis")
+    try:
+        found = follows(problem.premises, problem.hypothesis, words, thresholds)
+    except OutsideFragment as outside:
+        why = "; ".join(filter(None, (outside.message, outside.hint)))
+        return Answered(problem, "outside", "", why)
+    if problem.answer not in ANSWERS:
+        return Answered(problem, "open", found.verdict, found.why)
+    right = found.verdict == problem.answer
+    return Answered(problem, "right" if right else "wrong", found.verdict, found.why)

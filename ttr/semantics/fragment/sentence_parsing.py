@@ -1,0 +1,128 @@
+"""From a sentence to its tree: the grammar, with the words of a lexicon."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.resources import files
+from typing import TYPE_CHECKING
+
+from ttr.errors import TTRError, suggestion
+from ttr.semantics.fragment.lexicon import Lexicon
+
+if TYPE_CHECKING:
+    from lark import Lark, Token, Tree
+
+__all__ = ["LONGEST", "OutsideFragment", "Phrase", "read"]
+
+LONGEST = 300
+"""How many characters a sentence may have."""
+
+
+@dataclass(frozen=True)
+class Phrase:
+    """A phrase with its parts, by a rule of the grammar; or a word of a terminal."""
+
+    kind: str
+    parts: tuple[Phrase, ...] = ()
+    word: str = ""
+
+    def below(self, kind: str) -> Iterator[Phrase]:
+        """The phrases of a kind in this one, itself too, from left to right."""
+        if self.kind == kind:
+            yield self
+        for part in self.parts:
+            yield from part.below(kind)
+
+
+class OutsideFragment(TTRError):
+    """A sentence with a word or a construction that the fragment does not have."""
+
+
+def read(text: str, words: Lexicon) -> Phrase:
+    """The sentence that a text is, as a phrase.
+
+    Raises `OutsideFragment`, which says what is outside.
+    """
+    from lark.exceptions import UnexpectedInput
+
+    if not isinstance(text, str):
+        raise OutsideFragment(f"a sentence is a text, found {text!r}")
+    if not text.strip(" .,!?\t\r\n"):
+        raise OutsideFragment("a sentence has words, but this text is empty")
+    if len(text) > LONGEST:
+        raise OutsideFragment(f"a sentence has at most {LONGEST} characters")
+    plain = " ".join(text.replace("’", "'").split())
+    grammar = _grammar(words)
+    _check_words(plain, words)
+    try:
+        return _phrase(grammar.parse(plain))
+    except UnexpectedInput as error:
+        raise OutsideFragment(_misread(plain, error.pos_in_stream)) from None
+
+
+def _phrase(found: Tree[Token] | Token) -> Phrase:
+    if isinstance(found, str):
+        return Phrase(found.type, (), str(found))
+    return Phrase(str(found.data), tuple(map(_phrase, found.children)))
+
+
+@lru_cache(maxsize=8)
+def _grammar(words: Lexicon) -> Lark:
+    """The grammar with the words of each class as a terminal."""
+    from lark import Lark
+
+    rules = files("ttr.grammars").joinpath("fragment.en.lark").read_text("utf-8")
+    terminals = [
+        f"{terminal}: /({'|'.join(_longest_first(forms)) or NEVER})(?!\\w)/i"
+        for terminal, forms in words.words.items()
+    ]
+    return Lark("\n".join([rules, *terminals]), parser="earley")
+
+
+NEVER = "(?!)"
+"""A pattern that nothing matches, for a class without words."""
+
+
+def _longest_first(forms: Iterable[str]) -> list[str]:
+    found = sorted(forms, key=lambda form: (-len(form), form))
+    return [_pattern(form) for form in found]
+
+
+def _pattern(form: str) -> str:
+    return r"\s+".join(re.escape(word).replace("/", r"\/") for word in form.split())
+
+
+_SMALL = frozenset(
+    re.findall(
+        r"\w+",
+        """a all an and any are at be both case did do does each every everyone exactly
+        few fewer he her him is it least less many more most neither no none not of one
+        or she several some than that the them there they true was were which who whom
+        will two three four five six seven eight nine ten eleven twelve""",
+    )
+)
+"""The words that the grammar itself knows."""
+
+
+def _check_words(text: str, words: Lexicon) -> None:
+    """Raises `OutsideFragment` for the first word that nobody knows."""
+    known = {part for form in words.forms for part in form.split()}
+    for word in re.findall(r"[\w'-]+", text):
+        if word.lower() not in known | _SMALL and not word.isdecimal():
+            raise OutsideFragment(
+                f"the lexicon has no word {word!r}",
+                hint=suggestion(word.lower(), known),
+            )
+
+
+def _misread(text: str, at: int | None) -> str:
+    """Where the sentence stops being one of the fragment."""
+    if at is None or at < 0 or at >= len(text.rstrip(" .!?")):
+        return f"the fragment has no sentence {text!r}: something is missing at its end"
+    word = re.match(r"\W*(\w*)", text[at:])
+    there = word[1] if word else text[at:]
+    before = text[:at].strip() or "its beginning"
+    return f"the fragment has no construction with {there!r} after {before!r}"

@@ -1,0 +1,128 @@
+"""Sentences with their contents, judged in a model; and what follows from what."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from ttr.errors import TTRError
+from ttr.judging.models import Model
+from ttr.probability import CERTAIN
+from ttr.semantics.fragment.composing_contents import Antecedent, composed
+from ttr.semantics.fragment.content_types import conjuncts
+from ttr.semantics.fragment.lexicon import Lexicon, lexicon_of
+from ttr.semantics.fragment.sentence_parsing import read
+from ttr.semantics.quantifiers import (
+    Quantification,
+    Thresholds,
+    Truth,
+    antecedents,
+    determiner_of,
+    settle,
+    truth,
+)
+from ttr.types.objects import FiniteSet, Object, Record
+from ttr.types.syntax import PType, TypeNode
+
+__all__ = ["Sentence", "picked_up", "understand"]
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """A sentence and its content: the type that is true if the sentence is.
+
+    >>> print(understand("Fido does not like Kim.").content)
+    absent(like(fido, kim))
+    """
+
+    text: str
+    content: TypeNode
+
+    def judge(self, M: Model, thresholds: Thresholds | None = None) -> Truth:
+        """How certain the sentence is in a model, and why.
+
+        Raises `Undefined` where it presupposes what is not so, as "most unicorns".
+        """
+        return truth(M, self.content, thresholds)
+
+
+def understand(
+    text: str, words: Lexicon | None = None, picked: Iterable[Antecedent] = ()
+) -> Sentence:
+    """The sentence that a text is; `picked` is what its pronouns may stand for.
+
+    Raises `OutsideFragment` for a word or a construction that is not known, and where
+    a pronoun has nothing to stand for.
+
+    >>> understand("Every pupy barks.")
+    Traceback (most recent call last):
+    ttr...OutsideFragment: the lexicon has no word 'pupy'
+    help: did you mean puppy?
+    """
+    chosen = lexicon_of(words)
+    tree = read(text, chosen)
+    return Sentence(text, composed(tree, chosen, _antecedents(picked)))
+
+
+def _antecedents(picked: object) -> tuple[Antecedent, ...]:
+    """What pronouns may stand for; raises `TTRError` where it is no sets of things."""
+    found = tuple(picked) if isinstance(picked, Iterable) else (picked,)
+    for things in found:
+        if not isinstance(things, FiniteSet | frozenset | set):
+            raise TTRError(
+                f"pronouns stand for sets of things, found {things!r}",
+                hint="write picked=[{'fido'}], or picked=picked_up(M, sentence)",
+            )
+    return tuple([FiniteSet(*things) for things in found])
+
+
+def picked_up(
+    M: Model, sentence: Sentence, thresholds: Thresholds | None = None
+) -> tuple[Antecedent, ...]:
+    """What pronouns can stand for after a sentence, by its witnesses in a model.
+
+    First who it is about, then whom its witnesses bring in: after "Every dog hugs a
+    boy" the dogs, and the boys that are hugged. Nothing, if it is not certainly true.
+
+    >>> from ttr.types.syntax import Ind
+    >>> from ttr.semantics.fragment import english
+    >>> dog = english().meaning("NOUN", "dog")
+    >>> M = Model(english().theory).given("s1", dog("fido")).given("fido", Ind)
+    >>> picked_up(M, understand("There is a dog."))
+    (FiniteSet('fido'),)
+    """
+    if sentence.judge(M, thresholds).p != CERTAIN:
+        return ()
+    found: list[Antecedent] = []
+    for claim in conjuncts(sentence.content):
+        if determiner_of(claim) is not None:
+            found += _of_quantification(settle(M, claim, thresholds))
+        else:
+            found += [FiniteSet(name) for name in _named(claim)]
+    return tuple(dict.fromkeys(X for X in found if len(X) > 0))
+
+
+def _of_quantification(found: Quantification) -> Iterator[Antecedent]:
+    sets = antecedents(found)
+    yield sets.refset
+    yield from _brought_in([it.situation for it in found.refset])
+    yield sets.maxset
+    if sets.compset is not None:
+        yield sets.compset
+
+
+def _brought_in(situations: list[Object]) -> Iterator[Antecedent]:
+    """The things that the situations are about, together, level by level."""
+    inner = [
+        it for it in situations if isinstance(it, Record) and set(it) == {"X", "f"}
+    ]
+    things = [x for it in inner for x in it._fields["X"]]
+    if things:
+        yield FiniteSet(*things)
+        pairs = [pair for it in inner for pair in it._fields["f"]]
+        yield from _brought_in([pair._fields["e"] for pair in pairs])
+
+
+def _named(T: TypeNode) -> list[str]:
+    """The things that a predication names."""
+    return [a for a in T.args if isinstance(a, str)] if isinstance(T, PType) else []

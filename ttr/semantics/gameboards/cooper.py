@@ -1,0 +1,175 @@
+"""The gameboard of Cooper: what is private, an agenda, and what is shared.
+
+What is to be done next is a list of types of events on the agenda; what has been agreed
+on is one record type, the commitments, which becomes more specific by merging. An
+assertion is not agreed on before it is acknowledged. Source: Cooper 2023, chapter 2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ttr.building.constructors import rectype
+from ttr.building.merging import merge
+from ttr.judging.models import Model
+from ttr.types.records import replace
+from ttr.types.syntax import (
+    Ind,
+    ListOf,
+    Pred,
+    Rec,
+    Record,
+    RecordType,
+    RecType,
+    TypeNode,
+    Universe,
+    outer,
+    record,
+    this,
+)
+from ttr.updates import Algorithm, Game, all_, first, rule
+
+__all__ = [
+    "ACKNOWLEDGEMENT",
+    "ALGORITHM",
+    "ASSERTION",
+    "BOARD",
+    "MOVE",
+    "acknowledge",
+    "acknowledging",
+    "assert_that",
+    "asserting",
+    "game",
+]
+
+assert_that = Pred("assert", Ind, Ind, RecType)
+acknowledge = Pred("acknowledge", Ind, Ind, RecType)
+
+MOVE: RecordType = rectype(spkr=Ind, addr=Ind, content=RecType)
+"""Moves: somebody says something to somebody."""
+
+ASSERTION: RecordType = rectype(
+    spkr=Ind,
+    addr=Ind,
+    content=RecType,
+    e=assert_that(this.spkr, this.addr, this.content),
+)
+
+ACKNOWLEDGEMENT: RecordType = rectype(
+    spkr=Ind,
+    addr=Ind,
+    content=RecType,
+    e=acknowledge(this.spkr, this.addr, this.content),
+)
+
+AGENDA = ListOf(Universe("RecType", 1))
+
+BOARD: RecordType = rectype(
+    private=rectype(self=Ind, agenda=AGENDA),
+    shared=rectype(latest=Rec, commitments=RecType),
+)
+"""The type of every gameboard; `self` is whose board it is.
+
+The types on the agenda mention types, those of what is to be said: so they are record
+types of level 1. Where nothing has been said yet, `latest` is the empty record.
+"""
+
+MINE = rectype(me=(Ind @ outer.s.private.self) @ outer.e.spkr)
+TO_ME = rectype(me=(Ind @ outer.s.private.self) @ outer.e.addr)
+
+
+@rule(when=BOARD, on=MOVE, where=MINE, kind="grounding")
+def make_move(s: Record, e: Record) -> Record:
+    """A move of one's own is off the agenda when it has been made."""
+    changes = {"private.agenda": s.private.agenda[1:], "shared.latest": e}
+    return replace(s, changes)
+
+
+@rule(when=BOARD, on=MOVE, where=TO_ME, kind="grounding")
+def hear_move(s: Record, e: Record) -> Record:
+    """What one is told is the latest move."""
+    return replace(s, {"shared.latest": e})
+
+
+@rule(
+    when=rectype(shared=rectype(latest=ASSERTION)),
+    on=ACKNOWLEDGEMENT,
+    where=rectype(said=(RecType @ outer.s.shared.latest.content) @ outer.e.content),
+    kind="integrate",
+)
+def integrate_acknowledgement(s: Record, e: Record, said: RecordType) -> Record:
+    """What was asserted and is acknowledged is agreed on from now on."""
+    return replace(s, {"shared.commitments": merge(s.shared.commitments, said)})
+
+
+@rule(
+    when=rectype(private=rectype(agenda=AGENDA @ ()), shared=rectype(latest=ASSERTION)),
+    where=rectype(me=(Ind @ outer.s.private.self) @ outer.s.shared.latest.addr),
+    kind="plan",
+)
+def plan_acknowledgement(s: Record) -> Record:
+    """Something was asserted to one: acknowledging it is on the agenda."""
+    said = s.shared.latest
+    planned = acknowledging(said.addr, said.spkr, said.content)
+    return replace(s, {"private.agenda": (planned,)})
+
+
+ALGORITHM: Algorithm = all_(
+    integrate_acknowledgement, first(make_move, hear_move), plan_acknowledgement
+)
+"""What is acknowledged is agreed on; what was said is the latest move; then plan."""
+
+
+def asserting(spkr: str, addr: str, content: TypeNode) -> RecordType:
+    """The type of the assertions in which spkr tells addr that this is so.
+
+    >>> print(asserting("a", "b", rectype(e=Pred("run", Ind)("sam"))))
+    ... # doctest: +NORMALIZE_WHITESPACE
+    [addr = b : Ind, content = [e : run(sam)] : RecType, spkr = a : Ind,
+     e : assert(spkr, addr, content)]
+    """
+    return _said(assert_that, spkr, addr, content)
+
+
+def acknowledging(spkr: str, addr: str, content: TypeNode) -> RecordType:
+    """The type of the acknowledgements of this by spkr."""
+    return _said(acknowledge, spkr, addr, content)
+
+
+def _said(act: Pred, spkr: str, addr: str, content: TypeNode) -> RecordType:
+    return rectype(
+        spkr=Ind @ spkr,
+        addr=Ind @ addr,
+        content=RecType @ content,
+        e=act(this.spkr, this.addr, this.content),
+    )
+
+
+def game(me: str, model: Model, agenda: Iterable[RecordType] = ()) -> Game:
+    """The game by the board of one participant, who is going to make these moves.
+
+    >>> from ttr.dialogues.encounters import Participant, meeting
+    >>> M = Model().given("a", Ind).given("b", Ind)
+    >>> runs = rectype(e=Pred("run", Ind)("sam"))
+    >>> a = game("a", M, [asserting("a", "b", runs)])
+    >>> talk = meeting(
+    ...     Participant("a", a, rectype(spkr=Ind @ "a")),
+    ...     Participant("b", game("b", M), rectype(spkr=Ind @ "b")),
+    ... )
+    >>> after = talk.in_turn()
+    >>> print(after.board("a").shared.commitments, after.board("b").shared.commitments)
+    [e : run(sam)] [e : run(sam)]
+    """
+    start = record(
+        private=record(self=me, agenda=list(agenda)),
+        shared=record(latest=record(), commitments=Rec),
+    )
+    return Game(
+        f"the board of {me}",
+        BOARD,
+        start,
+        ALGORITHM,
+        model,
+        agenda="private.agenda",
+        hears=(MOVE,),
+    )

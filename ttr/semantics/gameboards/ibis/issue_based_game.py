@@ -1,0 +1,62 @@
+"""IBiS1 for a domain, as a game that can be played.
+
+The update algorithm and the selection of moves are those of Larsson 2002, chapter 2;
+the system's moves are said as one utterance, which is then grounded and integrated as
+the user's are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ttr.judging.judgements import Judgement
+from ttr.semantics.gameboards.ibis.domains import Domain
+from ttr.semantics.gameboards.ibis.integrating import integration, own_integration
+from ttr.semantics.gameboards.ibis.planning import planning
+from ttr.semantics.gameboards.ibis.selecting import selection
+from ttr.semantics.gameboards.ibis.state import START, STATE, USER
+from ttr.semantics.gameboards.ibis.turn_grounding import GROUNDING, get_own_moves
+from ttr.theories.theory import Theory
+from ttr.updates import Algorithm, Game, first, maybe, seq
+
+__all__ = ["algorithm", "game"]
+
+
+def algorithm(domain: Domain) -> Algorithm:
+    """What comes of an utterance of the system's own, and what of one of the user's.
+
+    Both are grounded, integrated move by move, and the plan is carried out; after the
+    user's turn the system selects what to say, and after its own whether to go on.
+    """
+    carry_out, select = maybe(planning(domain)), selection(domain)
+    integrated = maybe(own_integration(domain))
+    own = seq(get_own_moves, integrated, carry_out, maybe(select.going_on))
+    users = seq(GROUNDING, maybe(integration(domain)), carry_out)
+    return first(own, seq(users, maybe(select.answering)))
+
+
+def game(
+    name: str,
+    domain: Domain,
+    *,
+    hear: Callable[[str], object] | None = None,
+    say: Callable[[Judgement], str] | None = None,
+    theory: Theory | None = None,
+) -> Game:
+    """The game in which a system answers questions about this domain.
+
+    `hear` reads the user's texts, and `say` words the system's utterances; `theory` has
+    the names that stories may use.
+    """
+    return Game(
+        name,
+        STATE,
+        START,
+        algorithm(domain),
+        domain.model,
+        agenda="output",
+        hears=(USER,),
+        hear=hear,
+        say=say,
+        theory=theory,
+    )

@@ -1,0 +1,219 @@
+"""What is said and done in IBiS1: moves, actions and propositions, as ptypes.
+
+A move is of the type of situations in which it is made: `ask(usr, q)`. What is on the
+agenda or in a plan is the type of what is to be done: `findout(q)`.
+
+Source: Larsson 2002, chapter 2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from ttr.judging.models import Model
+from ttr.semantics.questions import Question, is_question, with_questions
+from ttr.types.syntax import (
+    Basic,
+    ListOf,
+    Negation,
+    Object,
+    Pred,
+    PType,
+    RecordType,
+)
+
+__all__ = [
+    "SYS",
+    "USR",
+    "Action",
+    "Answer",
+    "Ask",
+    "Content",
+    "Feedback",
+    "Greet",
+    "Move",
+    "Participant",
+    "Program",
+    "Proposition",
+    "Quit",
+    "Unclear",
+    "answer",
+    "ask",
+    "consult",
+    "content_of",
+    "findout",
+    "greet",
+    "icm",
+    "if_then",
+    "no_answer",
+    "prompt",
+    "quit",
+    "raise_",
+    "respond",
+    "unclear",
+    "with_terms",
+]
+
+USR, SYS = "usr", "sys"
+"""The two participants."""
+
+Participant = Basic("Participant")
+"""Who takes part: `usr` and `sys`."""
+
+Proposition = Basic("Proposition")
+"""What is believed or agreed on: record types, and negations of them."""
+
+Content = Basic("Content")
+"""What an answer says: a proposition, or the name of an object, or yes or no."""
+
+Feedback = Basic("Feedback")
+"""What may be wrong with what was said: `per_neg` not heard, `und_neg` no use of it."""
+
+Program = Basic("Program")
+"""Whether the dialogue goes on: `run` or `quit`."""
+
+# --- moves ---------------------------------------------------------------------------
+
+Move = Basic("Move")
+"""Types of moves: of asking, answering, greeting and so on."""
+
+ask, answer = Pred("ask", Participant, Question), Pred("answer", Participant, Content)
+greet, quit = Pred("greet", Participant), Pred("quit", Participant)
+icm = Pred("icm", Participant, Feedback)
+"""Interactive communication management: the system says that it did not understand."""
+unclear = Pred("unclear", Participant)
+"""Something was said, but it is no move that the system knows."""
+prompt = Pred("prompt", Participant)
+"""The system asks to be asked."""
+
+Ask, Answer, Greet, Quit = Basic("Ask"), Basic("Answer"), Basic("Greet"), Basic("Quit")
+Unclear = Basic("Unclear")
+
+# --- actions -------------------------------------------------------------------------
+
+Action = Basic("Action")
+"""Types of what is to be done: of finding out, responding and so on."""
+
+findout = Pred("findout", Question)
+"""To get an answer to a question from the user."""
+raise_ = Pred("raise", Question)
+"""To ask a question once, whether or not it is answered."""
+consult = Pred("consult", Question)
+"""To look up the answer to a question in the database."""
+respond = Pred("respond", Question)
+"""To answer a question of the user's."""
+if_then = Pred("if_then", Proposition, ListOf(Action), ListOf(Action))
+"""To do the first list where the proposition is agreed on, else the second."""
+say = Pred("say", Move)
+"""To make a move."""
+
+no_answer = Pred("no_answer", Question)
+"""That a question has no answer that the system could find."""
+
+
+# --- what is one ----------------------------------------------------------------------
+
+
+def content_of(made: PType) -> Object:
+    """What a move or an action is about: its last argument.
+
+    >>> content_of(answer(USR, "paris"))
+    'paris'
+    """
+    return made.args[-1]
+
+
+def _is_proposition(value: Object) -> bool:
+    if isinstance(value, Negation):
+        value = value.body
+    return isinstance(value, RecordType)
+
+
+def _is_content(value: Object) -> bool:
+    return isinstance(value, str) or _is_proposition(value)
+
+
+def _is_action(value: Object) -> bool:
+    return _is_of(value, _ACTIONS)
+
+
+def _are_actions(value: Object) -> bool:
+    return isinstance(value, tuple) and all(map(_is_action, value))
+
+
+def _is_move(value: Object) -> bool:
+    return _is_of(value, _MOVES)
+
+
+def _is_of(value: Object, forms: Mapping[Pred, tuple[Check, ...]]) -> bool:
+    """Whether a value is a ptype of one of these predicates with right arguments."""
+    if not isinstance(value, PType) or value.pred not in forms:
+        return False
+    checks = forms[value.pred]
+    return all(check(arg) for check, arg in zip(checks, value.args, strict=True))
+
+
+Check = Callable[[Object], bool]
+
+_PARTICIPANTS = (USR, SYS)
+_FEEDBACK = ("per_neg", "und_neg")
+
+
+def _among(*words: str) -> Check:
+    return lambda value: isinstance(value, str) and value in words
+
+
+_is_participant, _is_feedback = _among(*_PARTICIPANTS), _among(*_FEEDBACK)
+
+_MOVES: Mapping[Pred, tuple[Check, ...]] = {
+    ask: (_is_participant, is_question),
+    answer: (_is_participant, _is_content),
+    greet: (_is_participant,),
+    quit: (_is_participant,),
+    icm: (_is_participant, _is_feedback),
+    unclear: (_is_participant,),
+    prompt: (_is_participant,),
+}
+
+_ACTIONS: Mapping[Pred, tuple[Check, ...]] = {
+    findout: (is_question,),
+    raise_: (is_question,),
+    consult: (is_question,),
+    respond: (is_question,),
+    if_then: (_is_proposition, _are_actions, _are_actions),
+    say: (_is_move,),
+}
+
+
+def _moves_of(pred: Pred) -> Check:
+    forms = {pred: _MOVES[pred]}
+    return lambda value: _is_of(value, forms)
+
+
+_FORMS: Mapping[Basic, Check] = {
+    Participant: _is_participant,
+    Proposition: _is_proposition,
+    Content: _is_content,
+    Feedback: _is_feedback,
+    Program: _among("run", "quit"),
+    Move: _is_move,
+    Action: _is_action,
+    Ask: _moves_of(ask),
+    Answer: _moves_of(answer),
+    Greet: _moves_of(greet),
+    Quit: _moves_of(quit),
+    Unclear: _moves_of(unclear),
+}
+
+
+def with_terms(model: Model) -> Model:
+    """The model in which what is of these types is so by its form.
+
+    >>> M = with_terms(Model())
+    >>> M.judge(ask(USR, "paris"), Move).holds
+    False
+    """
+    model = with_questions(model)
+    for T, check in _FORMS.items():
+        model = model.witnessed(T, by=check)
+    return model

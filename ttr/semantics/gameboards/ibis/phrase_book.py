@@ -1,0 +1,159 @@
+"""A phrase book: which moves some words stand for, and how moves are put into words.
+
+That is a toy language, but it is data: a table of phrases and one of wordings, both
+with terms of the notation. What is between the phrases of a text is passed over.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Self
+
+from ttr.errors import TTRError
+from ttr.judging.judgements import Judgement
+from ttr.judging.models import Model
+from ttr.semantics.gameboards.ibis.moves import (
+    USR,
+    Move,
+    content_of,
+    unclear,
+    with_terms,
+)
+from ttr.semantics.gameboards.ibis.state import utterance
+from ttr.semantics.questions import asked_of
+from ttr.theories.theory import Theory
+from ttr.types.printing import notation
+from ttr.types.syntax import Object, PType, Record, TypeNode
+
+__all__ = ["PhraseBook"]
+
+_SORT = re.compile(r"\{(\w+)\}")
+_MOVES = re.compile(r"\s*(\w+\(.*\)|\[.*\])\s*", re.DOTALL)
+
+
+@dataclass(frozen=True, eq=False)
+class PhraseBook:
+    """Reads texts as utterances of the user, and words utterances of the system.
+
+    `phrases` takes words to moves. `wordings` takes moves, what they are about and
+    their predicates to texts, the first of these that it has; `answers` takes questions
+    to texts for the positive answers to them, with what is asked for in braces.
+    """
+
+    theory: Theory
+    model: Model
+    phrases: Mapping[tuple[str, ...], Object]
+    wordings: Mapping[Object, str]
+    answers: Mapping[Object, str]
+
+    @classmethod
+    def of(
+        cls,
+        theory: Theory,
+        model: Model,
+        *,
+        phrases: Mapping[str, str],
+        wordings: Mapping[str, str],
+        answers: Mapping[str, str],
+    ) -> Self:
+        """The phrase book of tables of texts, with what they mean in the notation.
+
+        In a phrase the name of a sort in braces, "to {City}", stands for each object of
+        it. Raises `TTRError` where a phrase stands for no move.
+        """
+        meant = {
+            tuple(_words(said)): _move(move, theory, model)
+            for pattern, term in phrases.items()
+            for said, move in _filled(pattern, term, theory, model)
+        }
+        worded = {_term(term, theory): text for term, text in wordings.items()}
+        answered = {_term(term, theory): text for term, text in answers.items()}
+        return cls(theory, with_terms(model), meant, worded, answered)
+
+    # --- reading ---
+
+    def hear(self, text: str) -> Record:
+        """The utterance that a text is; moves may be written in the notation, too.
+
+        A text with nothing known in it is the move `unclear`, an empty one no move.
+        """
+        if _MOVES.fullmatch(text):
+            moves = self._written(text)
+        else:
+            moves = tuple(self._found(_words(text)))
+        return utterance(USR, moves or (unclear(USR),) * bool(text.strip()))
+
+    def _written(self, text: str) -> tuple[Object, ...]:
+        """The moves that a text writes in the notation; none where it does not."""
+        try:
+            found = self.theory.parse(text)
+        except TTRError:
+            return ()
+        moves = found if isinstance(found, tuple) else (found,)
+        right = all(self.model.judge(move, Move).holds for move in moves)
+        return moves if right else ()
+
+    def _found(self, words: Sequence[str]) -> Iterator[Object]:
+        """The moves of the phrases in a text, from left to right, the longest first."""
+        longest = max(map(len, self.phrases), default=0)
+        start = 0
+        while start < len(words):
+            sizes = range(min(longest, len(words) - start), 0, -1)
+            tried = (tuple(words[start : start + size]) for size in sizes)
+            phrase = next((one for one in tried if one in self.phrases), None)
+            if phrase is None:
+                start += 1
+                continue
+            yield self.phrases[phrase]
+            start += len(phrase)
+
+    # --- wording ---
+
+    def say(self, said: Judgement) -> str:
+        """The text of an utterance of the system."""
+        return " ".join(map(self.worded, said.sit.moves))
+
+    def worded(self, move: PType) -> str:
+        """The wording of a move: its own, or that of what it is about."""
+        content = content_of(move)
+        own = self.wordings.get(move) or self.wordings.get(content)
+        if own is not None:
+            return own
+        for question, wording in self.answers.items():
+            found = isinstance(content, TypeNode) and asked_of(
+                question, content, self.model
+            )
+            if isinstance(found, Record):
+                return wording.format_map(found._fields)
+        return self.wordings.get(move.pred) or f"{notation(move)}."
+
+
+def _words(text: str) -> list[str]:
+    return re.findall(r"[\w-]+", text.lower())
+
+
+def _term(text: str, theory: Theory) -> Object:
+    """What a text stands for: a predicate too, by its name."""
+    return theory[text] if text in theory.names else theory.parse(text)
+
+
+def _move(text: str, theory: Theory, model: Model) -> Object:
+    move = theory.parse(text)
+    if model.judge(move, Move).holds:
+        return move
+    raise TTRError(f"a phrase stands for a move, but {text} is none")
+
+
+def _filled(
+    words: str, term: str, theory: Theory, model: Model
+) -> Iterator[tuple[str, str]]:
+    """Both texts with each object of the sort that they have in braces, if any."""
+    slot = _SORT.search(words)
+    if slot is None:
+        yield words, term
+        return
+    sort = theory.parse(slot[1])
+    for one in model.witnesses(sort):
+        yield words.replace(slot[0], one), term.replace(slot[0], one)

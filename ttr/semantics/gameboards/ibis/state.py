@@ -1,0 +1,88 @@
+"""The information state of IBiS1, and the utterances that change it.
+
+Source: Larsson 2002, chapter 2, for `private` and `shared`; the fields beside them are
+what he calls module interface variables. `nim`, the moves of the latest utterance that
+are still to be integrated, is from IBiS2, chapter 3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ttr.building.constructors import rectype
+from ttr.semantics.gameboards.ibis.moves import (
+    SYS,
+    USR,
+    Action,
+    Move,
+    Participant,
+    Program,
+    Proposition,
+    greet,
+    say,
+)
+from ttr.semantics.questions import Question
+from ttr.types.syntax import ListOf, Object, PType, Record, RecordType, RecType, record
+
+__all__ = ["OWN", "STATE", "START", "USER", "utterance", "utterance_type"]
+
+STATE: RecordType = rectype(
+    private=rectype(
+        agenda=ListOf(Action),
+        plan=ListOf(Action),
+        bel=ListOf(Proposition),
+        nim=ListOf(Move),
+    ),
+    shared=rectype(
+        com=ListOf(Proposition),
+        qud=ListOf(Question),
+        lu=rectype(speaker=Participant, moves=ListOf(Move)),
+    ),
+    next_moves=ListOf(Move),
+    output=ListOf(RecType),
+    program=Program,
+)
+"""The type of every information state.
+
+What is on the agenda is to be done next, and the plan is how to get there; `bel` is
+what only the system holds to be so. Agreed on are the propositions in `com`; `qud` are
+the questions under discussion, the maximal one first; `lu` is the latest utterance.
+`next_moves` are the moves that the system has selected, and `output` the type of the
+utterance that it will make of them.
+"""
+
+START: Record = record(
+    private=record(agenda=[say(greet(SYS))], plan=[], bel=[], nim=[]),
+    shared=record(com=[], qud=[], lu=record(speaker=USR, moves=[])),
+    next_moves=[],
+    output=[],
+    program="run",
+)
+"""The state in which a dialogue begins: the system is going to greet."""
+
+USER: RecordType = rectype(spkr=Participant @ USR, moves=ListOf(Move))
+"""Utterances of the user."""
+
+OWN: RecordType = rectype(spkr=Participant @ SYS, moves=ListOf(Move))
+"""Utterances of the system."""
+
+
+def utterance(speaker: str, moves: Iterable[Object]) -> Record:
+    """An utterance of these moves.
+
+    >>> print(utterance(USR, [greet(USR)]))
+    {moves = [greet(usr)], spkr = usr}
+    """
+    return record(spkr=speaker, moves=tuple(moves))
+
+
+def utterance_type(speaker: str, moves: Iterable[PType]) -> RecordType:
+    """The type of the utterances of just these moves.
+
+    >>> print(utterance_type(SYS, [greet(SYS)]))
+    [moves = [greet(sys)] : list(Move), spkr = sys : Participant]
+    """
+    return rectype(
+        spkr=Participant @ speaker,
+        moves=ListOf(Move) @ tuple(moves),
+    )

@@ -1,0 +1,97 @@
+"""What a classifier sees of a situation: of which feature types it is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import reduce
+
+from ttr.building.merging import merge
+from ttr.computing.subtyping import consistent, subtype
+from ttr.errors import IllFormed, Refused
+from ttr.safety.budgets import within_budget
+from ttr.signature.signature import Signature
+from ttr.types.paths import escaping
+from ttr.types.syntax import Meet, RecordType, TypeNode, as_type, kind_of
+
+__all__ = ["Features", "feature_types", "features_of", "seen", "types_of"]
+
+Features = tuple[bool, ...]
+"""For each feature type, whether the type of the situation is below it."""
+
+
+@within_budget
+def feature_types(T: TypeNode, /) -> tuple[TypeNode, ...]:
+    """The feature types of a record type: each field with those that it depends on.
+
+    A field that is a meet gives a feature for each part. Any other type is a feature
+    itself.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> red, big = Pred("red", Ind), Pred("big", Ind)
+    >>> print(*feature_types(rectype(x=Ind, c=red(this.x), s=big(this.x))), sep="; ")
+    [x : Ind]; [x : Ind, c : red(x)]; [x : Ind, s : big(x)]
+    """
+    whole = as_type(T)
+    if isinstance(whole, Meet):
+        whole = reduce(merge, whole.parts)
+    if not isinstance(whole, RecordType):
+        return (whole,)
+    return tuple(dict.fromkeys(_by_field(whole)))
+
+
+def _by_field(T: RecordType) -> Iterator[TypeNode]:
+    for label, field in T.fields:
+        needed = _needed(T, label)
+        others = {one: f for one, f in T.fields if one in needed and one != label}
+        for part in field.parts if isinstance(field, Meet) else (field,):
+            fields = {**others, label: part}
+            yield RecordType(tuple((one, fields[one]) for one in T if one in fields))
+
+
+def _needed(T: RecordType, label: str) -> set[str]:
+    """The labels of the fields that one depends on, and its own."""
+    needed, waiting = {label}, [label]
+    while waiting:
+        field = T[waiting.pop()]
+        found = {path.labels[0] for path in escaping(field) if path.up == 0} - needed
+        needed |= found
+        waiting += found
+    return needed
+
+
+def types_of(values: Iterable[TypeNode], what: str) -> tuple[TypeNode, ...]:
+    """The values, if they are several types; else `IllFormed`."""
+    if isinstance(values, tuple | list):
+        return tuple(map(as_type, values))
+    raise IllFormed(f"expected a list of types as {what}, found {kind_of(values)}")
+
+
+def features_of(types: Iterable[TypeNode]) -> tuple[TypeNode, ...]:
+    """The types as the features of a classifier; raises `IllFormed` for one twice."""
+    found = types_of(types, "features")
+    twice = next((T for T in found if found.count(T) > 1), None)
+    if twice is not None:
+        raise IllFormed(f"the feature {twice} is given twice")
+    return found
+
+
+@within_budget
+def seen(
+    x: TypeNode, features: tuple[TypeNode, ...], theory: Signature | None = None
+) -> Features:
+    """Of which features everything of the type x is.
+
+    Raises `Refused` where nothing can be of x: then it would be of all of them.
+
+    >>> from ttr.types.syntax import Basic
+    >>> A, B = Basic("A"), Basic("B")
+    >>> seen(A, (A | B, B))
+    (True, False)
+    """
+    x = as_type(x)
+    if escaping(x):
+        raise IllFormed(f"{x} has paths that lead nowhere, so it is no evidence")
+    if consistent(x, theory=theory).no:
+        raise Refused(f"nothing can be of {x}, so it is no evidence")
+    return tuple(subtype(x, feature, theory).yes for feature in features)

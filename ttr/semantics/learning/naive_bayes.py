@@ -1,0 +1,149 @@
+"""Naive Bayes: classes by evidence that is taken as independent given the class.
+
+p(C | E₁, …, Eₙ) is p(C) · p(E₁|C) · … · p(Eₙ|C), normalised over the classes. Evidence
+that depends on other evidence is counted twice; `LogOdds` does not do that.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from ttr.errors import IllFormed
+from ttr.probability import UNKNOWN, Degree
+from ttr.safety.budgets import within_budget
+from ttr.semantics.learning.counts import NO_THEORY, Counts
+from ttr.semantics.learning.evidence import NO_EVIDENCE, Evidence
+from ttr.semantics.learning.evidence_based import Taught
+from ttr.semantics.learning.features import Features, features_of, seen, types_of
+from ttr.semantics.learning.smoothing import NO_SMOOTHING, Smoothing, as_smoothing
+from ttr.signature.signature import Signature, signature_of
+from ttr.types.syntax import TypeNode, kind_of
+
+__all__ = ["NaiveBayes", "posterior"]
+
+
+@within_budget
+def posterior(
+    judgements: Counts,
+    classes: Sequence[TypeNode],
+    evidence: Sequence[TypeNode] = (),
+    *,
+    smoothing: Smoothing = NO_SMOOTHING,
+) -> dict[TypeNode, Degree]:
+    """How probable each class is of something that is of all the types of evidence.
+
+    Priors and likelihoods are the frequencies of the judgements, likelihoods smoothed
+    as is said. [0, 1] for each class where the evidence is impossible in all of them.
+    Source: Cooper, Dobnik, Lappin and Larsson 2015. Raises `IllFormed` for no class.
+
+    >>> from ttr.judging.propositions import proposition
+    >>> from ttr.types.syntax import Basic
+    >>> Apple, Pear, Red = Basic("Apple"), Basic("Pear"), Basic("Red")
+    >>> J = Counts().learned(
+    ...     proposition("a", Apple & Red), proposition("b", Apple & Red),
+    ...     proposition("c", Pear & Red), proposition("d", Pear))
+    >>> print(posterior(J, [Apple, Pear], [Red])[Apple])
+    0.6667
+    """
+    if not isinstance(judgements, Counts):
+        raise IllFormed(f"the judgements are Counts, found {kind_of(judgements)}")
+    found = dict.fromkeys(types_of(evidence, "evidence"))
+    scores = {
+        C: _score(
+            judgements.p(C),
+            [judgements.p(E, given=C, smoothing=smoothing) for E in found],
+        )
+        for C in types_of(classes, "classes")
+    }
+    if not scores:
+        raise IllFormed("naive Bayes needs at least one class, found none")
+    return _normalised(scores)
+
+
+Score = tuple[float, float]
+"""The logarithms of the least and the most that a product of degrees can be."""
+
+
+def _score(prior: Degree, likelihoods: Iterable[Degree]) -> Score:
+    degrees = [prior, *likelihoods]
+    return sum(_log(p.lo) for p in degrees), sum(_log(p.hi) for p in degrees)
+
+
+def _log(p: float) -> float:
+    return math.log(p) if p > 0.0 else -math.inf
+
+
+C = TypeVar("C")
+
+
+def _normalised(scores: Mapping[C, Score]) -> dict[C, Degree]:
+    """Each score as a share of all, at its least and at its most."""
+    top = max(hi for _, hi in scores.values())
+    if top == -math.inf:
+        return dict.fromkeys(scores, UNKNOWN)
+    scaled = {
+        one: (math.exp(lo - top), math.exp(hi - top))
+        for one, (lo, hi) in scores.items()
+    }
+    return {one: _share(one, scaled) for one in scaled}
+
+
+def _share(one: C, scaled: Mapping[C, Score]) -> Degree:
+    lo, hi = scaled[one]
+    others = [score for other, score in scaled.items() if other != one]
+    least = lo / (lo + sum(score[1] for score in others)) if lo else 0.0
+    most = hi / (hi + sum(score[0] for score in others)) if hi else 0.0
+    return Degree(least, max(least, most))
+
+
+@dataclass(frozen=True, repr=False)
+class NaiveBayes(Taught):
+    """A naive Bayes classifier over types: which labels go with which features.
+
+    The evidence is what features a situation's type is below; features that it is not
+    known to be below say nothing. Equal where the same was learned under the same keys.
+
+    >>> from ttr.types.syntax import Basic
+    >>> Red, Round = Basic("Red"), Basic("Round")
+    >>> fruit = NaiveBayes((Red, Round)).learned(Red & Round, "apple", key=1)
+    >>> fruit = fruit.learned(Round, "pear", key=2)
+    >>> fruit.probabilities(Round)
+    {'apple': 0.5, 'pear': 0.5}
+    """
+
+    features: tuple[TypeNode, ...]
+    smoothing: Smoothing = NO_SMOOTHING
+    theory: Signature = NO_THEORY
+    evidence: Evidence = NO_EVIDENCE
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "features", features_of(self.features))
+        object.__setattr__(self, "theory", signature_of(self.theory))
+        as_smoothing(self.smoothing)
+
+    def probabilities(self, x: TypeNode) -> dict[str, float]:
+        """The probability of each label for what is of x.
+
+        All are 0 where no label is possible: what was seen was never seen together
+        with any of them, and nothing smooths it.
+        """
+        found = seen(x, self.features, self.theory)
+        total = sum(self.evidence.times.values())
+        scores = {
+            label: self._score(label, found, total) for label in self.evidence.labels
+        }
+        shares = _normalised(scores) if scores else {}
+        return {label: 0.0 if p == UNKNOWN else p.lo for label, p in shares.items()}
+
+    def _score(self, label: str, found: Features, total: int) -> Score:
+        """log p(label) + Σ log p(feature | label), over the features that are seen."""
+        mine = [(f, n) for f, one, n in self.evidence.rows() if one == label]
+        whole, extra = sum(n for _, n in mine), self.smoothing.pseudocount
+        score = math.log(whole / total)
+        for i in (i for i, is_seen in enumerate(found) if is_seen):
+            times = sum(n for features, n in mine if features[i])
+            score += _log(float((times + extra) / (whole + 2 * extra)))
+        return score, score

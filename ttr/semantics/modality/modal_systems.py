@@ -1,0 +1,202 @@
+"""Modal type systems: possibilities that share their types and differ in witnesses.
+
+A possibility is a model. As types and models are immutable values, what is judged in
+one possibility never shows in another. What is necessary or possible is asked of the
+system as a whole, by the restrictive or the inclusive notion (`notions`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+from ttr.errors import IllFormed, Refused, suggestion
+from ttr.judging.judgements import Judgement
+from ttr.judging.models import Model
+from ttr.safety.budgets import within_budget
+from ttr.semantics.modality.necessity import (
+    claims_of,
+    nec,
+)
+from ttr.semantics.modality.notions import Notion, everywhere, where_they_exist
+from ttr.types.objects import labelled
+from ttr.types.paths import occurring
+from ttr.types.printing import notation
+from ttr.types.syntax import (
+    Basic,
+    Object,
+    Pred,
+    PType,
+    TypeNode,
+    as_type,
+    freeze,
+    kind_of,
+)
+
+__all__ = ["ModalSystem", "modal_system"]
+
+Head = Basic | Pred
+"""What a possibility may lack: a basic type, or a predicate with its ptypes."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ModalSystem:
+    """Named possibilities over one theory. Built by `modal_system`.
+
+    >>> dog = Pred("dog", Basic("Ind"))
+    >>> w = modal_system(here=Model().given("s1", dog("fido")), there=Model())
+    >>> print(w.restrictive.necessary(dog("fido")))
+    no: nothing is of dog(fido) in there
+    >>> print(w.restrictive.possible(dog("fido")))
+    yes: something is of dog(fido) in here
+    >>> w = w.given("there", "s2", dog("fido"))
+    >>> w.restrictive.necessary(dog("fido")).yes
+    True
+    """
+
+    models: tuple[tuple[str, Model], ...]
+    lacking: Mapping[str, frozenset[Head]]
+
+    def __repr__(self) -> str:
+        return f"<ModalSystem of {', '.join(self.names)}>"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the possibilities, in the order they were given."""
+        return tuple(name for name, _ in self.models)
+
+    def __getitem__(self, name: str) -> Model:
+        """The model of a possibility; raises `IllFormed` where there is none so named.
+
+        >>> modal_system(w1=Model())["w2"]
+        Traceback (most recent call last):
+        ttr.errors.IllFormed: there is no possibility w2, only w1
+        """
+        for known, model in self.models if isinstance(name, str) else ():
+            if known == name:
+                return model
+        written = notation(freeze(name))
+        raise IllFormed(
+            f"there is no possibility {written}, only {', '.join(self.names)}",
+            hint=suggestion(written, self.names),
+        )
+
+    def given(
+        self, name: str, sit: object, T: TypeNode, /, p: object = 1.0
+    ) -> ModalSystem:
+        """The system in which also sit : T in one possibility, and in no other.
+
+        Raises what `Model.given` raises, and `IllFormed` where T does not exist there.
+        """
+        self._check(name, T)
+        changed = self[name].given(sit, T, p)
+        models = [(known, model) for known, model in self.models]
+        models[self.names.index(name)] = (name, changed)
+        return replace(self, models=tuple(models))
+
+    def without(self, name: str, /, *heads: Head) -> ModalSystem:
+        """The system in which a possibility lacks basic types or predicates.
+
+        A type exists in a possibility that lacks nothing of what occurs in it.
+
+        >>> Unicorn = Basic("Unicorn")
+        >>> w = modal_system(w1=Model(), w2=Model().given("u", Unicorn))
+        >>> print(w.without("w1", Unicorn).inclusive.necessary(Unicorn))
+        yes: something is of Unicorn in w2
+        >>> print(w.without("w1", Unicorn).restrictive.necessary(Unicorn))
+        no: Unicorn does not exist in w1
+        """
+        self[name]
+        for head in heads:
+            if not isinstance(head, Basic | Pred):
+                raise IllFormed(
+                    "what a possibility lacks is a basic type or a predicate, "
+                    f"found {kind_of(head)}"
+                )
+        lacked = self.lacking.get(name, frozenset()).union(heads)
+        return replace(self, lacking={**self.lacking, name: lacked})
+
+    def has(self, name: str, value: Object, /) -> bool:
+        """Whether a type, and all types in a proposition, exist in a possibility."""
+        self[name]
+        lacked = self.lacking.get(name)
+        if not lacked:
+            return True
+        return lacked.isdisjoint(
+            one for one in occurring([value]) if isinstance(one, Basic | Pred)
+        )
+
+    @within_budget
+    def judge(self, name: str, sit: object, T: TypeNode, /) -> Judgement:
+        """Is sit of T in this possibility? Box and diamond types ask the whole system.
+
+        Any situation of the possibility is of nec(T) as far as T is necessary, by the
+        restrictive notion.
+
+        >>> from ttr.semantics.modality import necessarily, possibly
+        >>> Rain = Basic("Rain")
+        >>> w = modal_system(w1=Model().given("r", Rain), w2=Model())
+        >>> w.judge("w1", "s", possibly(Rain) & ~necessarily(Rain)).holds
+        True
+        """
+        self._check(name, T)
+        model, asked = self[name], freeze(sit)
+        for part, kind in claims_of(asked, T):
+            with suppress(Refused):
+                model = self._told(model, part, kind)
+        return model.judge(asked, T)
+
+    def _told(self, model: Model, sit: Object, box: PType) -> Model:
+        """The model in which a box or diamond type is judged.
+
+        What it is about is worked out first; raises `Refused` where that cannot be.
+        """
+        kind = PType(box.pred, (model.reduced(box.args[0]),))
+        notion = self.restrictive
+        asks = notion.necessary if kind.pred is nec else notion.possible
+        return model.given(sit, kind, asks(kind.args[0]).p)
+
+    @property
+    def restrictive(self) -> Notion:
+        """What holds in all possibilities, of types that exist in all of them."""
+        return Notion(self, everywhere)
+
+    @property
+    def inclusive(self) -> Notion:
+        """What holds in all possibilities in which the types exist."""
+        return Notion(self, where_they_exist)
+
+    def _check(self, name: str, T: TypeNode) -> None:
+        self[name]
+        if not self.has(name, as_type(T)):
+            raise IllFormed(f"{T} does not exist in {name}")
+
+
+def modal_system(
+    models: Mapping[str, Model] | None = None, /, **named: Model
+) -> ModalSystem:
+    """The modal system of these possibilities, as keywords or as one mapping.
+
+    Raises `IllFormed` where there is none, and where they are not of one theory: they
+    must share axioms, exclusions and open types.
+    """
+    found = labelled("modal_system", models, named)
+    if not found:
+        raise IllFormed("a modal system has at least one possibility, found none")
+    for name, model in found.items():
+        if not isinstance(model, Model):
+            raise IllFormed(f"the possibility {name} is a model, found {model!r}")
+    first, *rest = found
+    for name in rest:
+        if _shared(found[name]) != _shared(found[first]):
+            raise IllFormed(
+                f"the possibilities {first} and {name} are of different theories",
+                hint="build their models with the same Model(theory)",
+            )
+    return ModalSystem(tuple(found.items()), {})
+
+
+def _shared(model: Model) -> tuple[object, ...]:
+    theory = model.theory
+    return theory.axioms, theory.exclusions, theory.opened

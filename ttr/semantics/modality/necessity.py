@@ -1,0 +1,153 @@
+"""What is necessary and what is possible: types that say so, and answers.
+
+Box and diamond types are ptypes, nec(T) and poss(T), so that they can stand in record
+types, meets and negations, and be written in the notation as any predicate of types.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+
+from ttr.judging.judgements import Judgement
+from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.safety.budgets import spend
+from ttr.types.objects import Unresolved
+from ttr.types.paths import occurring
+from ttr.types.substitution import Around, grounded
+from ttr.types.syntax import (
+    Join,
+    Meet,
+    Negation,
+    Object,
+    Pred,
+    PType,
+    Record,
+    RecordType,
+    Singleton,
+    Type,
+    TypeNode,
+    as_type,
+)
+
+__all__ = [
+    "ModalAnswer",
+    "claims_of",
+    "is_modal",
+    "mentions_modal",
+    "nec",
+    "necessarily",
+    "poss",
+    "possibly",
+]
+
+nec, poss = Pred("nec", Type), Pred("poss", Type)
+
+
+def necessarily(T: TypeNode, /) -> PType:
+    """□T, the type of situations of a system in which T is necessary: nec(T).
+
+    It is a ptype like others, so it can stand in record types, meets and negations.
+    `ModalSystem.judge` knows what is of it.
+
+    >>> from ttr.types.syntax import Basic
+    >>> print(necessarily(Basic("Rain")))
+    nec(Rain)
+    """
+    return nec(as_type(T))
+
+
+def possibly(T: TypeNode, /) -> PType:
+    """◇T, the type of situations of a system in which T is possible: poss(T).
+
+    >>> from ttr.types.syntax import Basic
+    >>> print(~possibly(Basic("Rain")))
+    ~poss(Rain)
+    """
+    return poss(as_type(T))
+
+
+def is_modal(T: TypeNode) -> bool:
+    """Whether a type is made of nec and poss by meets, joins and negations alone.
+
+    Then what is of it does not depend on the situation.
+    """
+    spend()
+    match T:
+        case Meet(parts) | Join(parts):
+            return all(map(is_modal, parts))
+        case Negation(body):
+            return is_modal(body)
+    return isinstance(T, PType) and T.pred in (nec, poss)
+
+
+def mentions_modal(T: Object) -> bool:
+    """Whether nec or poss occurs in a type."""
+    return any(one is nec or one is poss for one in occurring([T]))
+
+
+def claims_of(
+    sit: Object, T: TypeNode, around: Around = ()
+) -> Iterator[tuple[Object, PType]]:
+    """The box and diamond types that a judgement sit : T asks for, and of what.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Basic, record, this
+    >>> dog = Pred("dog", Basic("Ind"))
+    >>> T = rectype(x=Basic("Ind"), c=possibly(dog(this.x)))
+    >>> [(sit, str(kind)) for sit, kind in claims_of(record(x="fido", c="s1"), T)]
+    [('s1', 'poss(dog(fido))')]
+    """
+    spend()
+    match T:
+        case PType(pred, _) if pred in (nec, poss):
+            with suppress(Unresolved):
+                yield sit, grounded(T, around)
+        case Meet(parts) | Join(parts):
+            for part in parts:
+                yield from claims_of(sit, part, around)
+        case Negation(part) | Singleton(part, _):
+            yield from claims_of(sit, part, around)
+        case RecordType(fields) if isinstance(sit, Record):
+            inside = (sit._fields, *around)
+            for label, field in fields:
+                if label in sit:
+                    yield from claims_of(sit[label], field, inside)
+
+
+@dataclass(frozen=True)
+class ModalAnswer:
+    """How certain something is of a modal system, and why.
+
+    `possibility` is the name of the one that decides: where it is so, for what is
+    possible, or where it is not, for what is not necessary. `counter` is the judgement
+    there of a witness of S that is not of T, for subtyping and equivalence.
+    """
+
+    p: Degree
+    why: str
+    possibility: str | None = None
+    counter: Judgement | None = None
+
+    @property
+    def yes(self) -> bool:
+        """Certainly so."""
+        return self.p == CERTAIN
+
+    @property
+    def no(self) -> bool:
+        """Certainly not so."""
+        return self.p == REFUTED
+
+    @property
+    def unknown(self) -> bool:
+        """Neither: `p` says how far it is known."""
+        return not self.yes and not self.no
+
+    def __bool__(self) -> bool:
+        raise TypeError("an answer is yes, no or unknown: ask for .yes or .no")
+
+    def __str__(self) -> str:
+        verdict = "yes" if self.yes else "no" if self.no else f"unknown, p = {self.p}"
+        return f"{verdict}: {self.why}"

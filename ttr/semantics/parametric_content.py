@@ -1,0 +1,132 @@
+"""Parametric contents {bg, fg}: what is said, given what is presupposed.
+
+The background bg is a record type, of the contexts in which the content makes sense;
+the foreground fg is a function from these contexts to types. Purification does away
+with the context: in the weak way some context will do, in the strong way it must be
+all. For "Every farmer who owns a donkey beats it" these are its two readings. Source:
+Cooper 2023; Kanazawa 1994 for the readings.
+"""
+
+from __future__ import annotations
+
+from ttr.building.constructors import Pi, fun, rectype
+from ttr.computing.subtyping import subtype
+from ttr.errors import IllFormed
+from ttr.judging.models import Model
+from ttr.semantics.quantifiers.degrees_of_truth import Truth
+from ttr.semantics.quantifiers.thresholds import Thresholds
+from ttr.semantics.quantifiers.truth import truth
+from ttr.signature.signature import Signature
+from ttr.types.objects import Object, Record, record
+from ttr.types.paths import moved, replace_paths
+from ttr.types.syntax import (
+    BOUND,
+    Application,
+    Function,
+    FunType,
+    Path,
+    RecordType,
+    TypeNode,
+    as_type,
+    kind_of,
+)
+
+__all__ = ["apply", "content", "in_context", "strong", "weak"]
+
+
+def content(
+    bg: TypeNode, fg: Function | TypeNode, theory: Signature | None = None, /
+) -> Record:
+    """The parametric content {bg, fg}; a type as fg does not depend on the context.
+
+    Raises `IllFormed` where bg is no record type, or fg does not take its records.
+
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> donkey, bray = Pred("donkey", Ind), Pred("bray", Ind)
+    >>> Donkey = rectype(x=Ind, c=donkey(this.x))
+    >>> print(content(Donkey, fun(r=Donkey)(bray(this.r.x))))
+    {bg = [x : Ind, c : donkey(x)], fg = \\r:[x : Ind, c : donkey(x)]. bray(r.x)}
+    """
+    if not isinstance(bg, RecordType):
+        raise IllFormed(f"a background is a record type, found {kind_of(bg)}")
+    if not isinstance(fg, Function):
+        fg = fun(r=bg)(as_type(fg))
+    covered = subtype(bg, as_type(fg.domain), theory)
+    if not covered.yes:
+        raise IllFormed(
+            f"the foreground {fg} does not take what is of the background {bg}: "
+            f"{covered.why}"
+        )
+    return record(bg=bg, fg=fg)
+
+
+def weak(of: Record, /) -> RecordType:
+    """The weak purification: there is a context, and the foreground is true of it.
+
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> Donkey = rectype(x=Ind, c=Pred("donkey", Ind)(this.x))
+    >>> bray = fun(r=Donkey)(Pred("bray", Ind)(this.r.x))
+    >>> print(weak(content(Donkey, bray)))
+    [bg : [x : Ind, c : donkey(x)], fg : bray(bg.x)]
+    """
+    bg, fg = _parts(of)
+    return rectype(bg=as_type(moved(bg, 1)), fg=as_type(_at(fg, "bg")))
+
+
+def strong(of: Record, /) -> FunType:
+    """The strong purification: of whatever is a context, the foreground is true.
+
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> Donkey = rectype(x=Ind, c=Pred("donkey", Ind)(this.x))
+    >>> bray = fun(r=Donkey)(Pred("bray", Ind)(this.r.x))
+    >>> print(strong(content(Donkey, bray)))
+    ((bg : [x : Ind, c : donkey(x)]) -> bray(bg.x))
+    """
+    bg, fg = _parts(of)
+    return Pi(bg=bg)(as_type(_at(fg, "bg")))
+
+
+def apply(function: Record, argument: Record, /) -> Record:
+    """The content of a phrase whose parts have contents, one a function of the other.
+
+    Its context has a context for each part, under the labels f and a:
+    {bg = [f : bg₁, a : bg₂], fg = λr. fg₁(r.f)(fg₂(r.a))}.
+    """
+    bg_f, fg_f = _parts(function)
+    bg_a, fg_a = _parts(argument)
+    bg = rectype(f=as_type(moved(bg_f, 1)), a=as_type(moved(bg_a, 1)))
+    body = Application(_at(fg_f, "r", "f"), _at(fg_a, "r", "a"))
+    return record(bg=bg, fg=fun(r=bg)(body))
+
+
+def in_context(
+    M: Model, of: Record, r: object, thresholds: Thresholds | None = None, /
+) -> Truth:
+    """How certainly a content is true in one context.
+
+    Raises `Refused` where r is not certainly of the background.
+    """
+    _, fg = _parts(of)
+    return truth(M, as_type(M.apply(fg, r)), thresholds)
+
+
+def _parts(of: object) -> tuple[RecordType, Function]:
+    if isinstance(of, Record) and set(of) == {"bg", "fg"}:
+        bg, fg = of._fields["bg"], of._fields["fg"]
+        if isinstance(bg, RecordType) and isinstance(fg, Function):
+            return bg, fg
+    raise IllFormed(
+        f"a parametric content is a record {{bg, fg}}, found {kind_of(of)}",
+        hint="build it with content(bg, fg)",
+    )
+
+
+def _at(f: Function, *labels: str) -> Object:
+    """The body of a function, where its variable is what these labels lead to."""
+
+    def at(path: Path) -> Object:
+        if path.up > 0 or path.labels[0] != BOUND:
+            return path
+        return Path(0, (*labels, *path.labels[1:]))
+
+    return replace_paths(f.body, at)

@@ -1,0 +1,86 @@
+"""Meanings with classifiers inside, which change when somebody corrects them.
+
+A perceptual meaning is a record {params, bg, clf, interp}. It judges situations with
+percepts in them, in models too; it learns from feedback, which gives another meaning;
+and two speakers' meanings of one word can be compared. Points are made individuals,
+whose places are judged in frames of reference.
+"""
+
+from __future__ import annotations
+
+from ttr.semantics.perceptual.classifiers import Classifier, Method
+from ttr.semantics.perceptual.composition import combined_type, in_model, perceive
+from ttr.semantics.perceptual.estimators import as_learner
+from ttr.semantics.perceptual.frames import (
+    Frame,
+    Projective,
+    absolute,
+    coordinates,
+    intrinsic,
+    relative,
+)
+from ttr.semantics.perceptual.interpretations import interpretation
+from ttr.semantics.perceptual.learners import ByLearner, Learner, learner_params
+from ttr.semantics.perceptual.meanings import Meaning, meaning
+from ttr.semantics.perceptual.perceptron import GradedPerceptron, Perceptron, blank
+from ttr.semantics.perceptual.regions import (
+    INDIVIDUATE,
+    Individual,
+    PointMap,
+    Points,
+    Region,
+    clusters,
+    detected,
+    individuated,
+)
+from ttr.semantics.perceptual.similarity import (
+    Agreement,
+    Convergence,
+    agreement,
+    convergence,
+    difference,
+)
+from ttr.semantics.perceptual.speakers import Speaker, exchange, history, says
+from ttr.semantics.perceptual.vectors import RealVector
+
+__all__ = [
+    "INDIVIDUATE",
+    "Agreement",
+    "ByLearner",
+    "Classifier",
+    "Convergence",
+    "Frame",
+    "GradedPerceptron",
+    "Individual",
+    "Learner",
+    "Meaning",
+    "Method",
+    "Perceptron",
+    "PointMap",
+    "Points",
+    "Projective",
+    "RealVector",
+    "Region",
+    "Speaker",
+    "absolute",
+    "agreement",
+    "as_learner",
+    "blank",
+    "clusters",
+    "combined_type",
+    "convergence",
+    "coordinates",
+    "detected",
+    "difference",
+    "exchange",
+    "history",
+    "in_model",
+    "individuated",
+    "interpretation",
+    "intrinsic",
+    "learner_params",
+    "meaning",
+    "perceive",
+    "relative",
+    "says",
+]

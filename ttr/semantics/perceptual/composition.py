@@ -1,0 +1,50 @@
+"""Several meanings at once: a red cup is what both classifiers judge to be so."""
+
+from __future__ import annotations
+
+from functools import reduce
+
+from ttr.building.merging import merge
+from ttr.errors import TTRError
+from ttr.judging.judgements import Judgement
+from ttr.judging.models import Model
+from ttr.semantics.perceptual.argument_checks import several
+from ttr.semantics.perceptual.meanings import Meaning, as_meaning
+from ttr.types.syntax import Record, TypeNode
+
+__all__ = ["combined_type", "in_model", "perceive"]
+
+
+def combined_type(*meanings: Meaning) -> TypeNode:
+    """The type of the situations in which all of the words hold: a merge.
+
+    >>> from ttr.building.constructors import fun, rectype
+    >>> from ttr.semantics.perceptual import Perceptron, RealVector, meaning
+    >>> from ttr.types.syntax import Ind, Pred, outer, record
+    >>> def word(name, percept):
+    ...     bg = rectype({"x": Ind, percept: RealVector})
+    ...     interp = fun(r=bg)(rectype(c=Pred(name, Ind)(outer.r.x)))
+    ...     return meaning(interp, Perceptron(), record(w=[1], t=0.5), of=percept)
+    >>> red, cup = word("red", "colour"), word("cup", "shape")
+    >>> print(combined_type(red, cup))  # doctest: +NORMALIZE_WHITESPACE
+    [colour : RealVector, shape : RealVector, x : Ind, c : cup(x) /\\ red(x)]
+    """
+    if not meanings:
+        raise TTRError("a combined type is one of one meaning or more, found none")
+    types: list[TypeNode] = [as_meaning(it).type for it in meanings]
+    return reduce(merge, types)
+
+
+def in_model(M: Model, meanings: tuple[Meaning, ...], *situations: Record) -> Model:
+    """The model in which all of these meanings judge; see `Meaning.in_model`."""
+    for it in several(meanings, "meanings"):
+        M = as_meaning(it).in_model(M, *situations)
+    return M
+
+
+def perceive(M: Model, r: Record, *meanings: Meaning) -> Judgement:
+    """The judgement that the situation is one in which all of the words hold.
+
+    Each classifier judges its percept, and distinct judgements are independent.
+    """
+    return in_model(M, meanings, r).perceive(r, combined_type(*meanings))

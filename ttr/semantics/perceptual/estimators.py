@@ -1,0 +1,129 @@
+"""Estimators in the manner of scikit-learn, as learners from one example at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from ttr.errors import TTRError
+from ttr.semantics.perceptual.argument_checks import several, shown
+from ttr.semantics.perceptual.vectors import Vector, vector
+from ttr.types.printing import notation
+
+__all__ = ["Incremental", "Refitted", "as_learner"]
+
+
+def as_learner(
+    estimator: Any, classes: Iterable[object] = ()
+) -> Incremental | Refitted:
+    """The estimator as a learner with `learn_one` and `predict_proba_one`.
+
+    One with `partial_fit` is taught example by example, and has to know all its classes
+    beforehand; one with `fit` alone is fitted anew to all examples. Raises `TTRError`
+    for what is no probabilistic classifier.
+    """
+    labels = several(classes, "classes")
+    if not callable(getattr(estimator, "predict_proba", None)):
+        raise TTRError(
+            f"{type(estimator).__name__} has no predict_proba, "
+            "so it has no degrees to judge by"
+        )
+    if callable(getattr(estimator, "partial_fit", None)):
+        return Incremental(estimator, labels)
+    if callable(getattr(estimator, "fit", None)):
+        return Refitted(estimator)
+    raise TTRError(f"{type(estimator).__name__} has neither partial_fit nor fit")
+
+
+class Incremental:
+    """An estimator that is taught by `partial_fit`, on lists of numbers."""
+
+    def __init__(self, estimator: Any, classes: Iterable[object] = ()) -> None:
+        self.estimator = estimator
+        self.labels = _plain(getattr(estimator, "classes_", tuple(classes)))
+        if not self.labels:
+            raise TTRError(
+                f"{type(estimator).__name__} learns by partial_fit, so it has to know "
+                "its classes beforehand: as_learner(estimator, classes)"
+            )
+
+    @property
+    def name(self) -> str:
+        """What kind of estimator it is."""
+        return type(self.estimator).__name__
+
+    def learn_one(self, x: object, y: object) -> None:
+        """Take x as an example of the class; `TTRError` where it is none of its own."""
+        if not any(y is label or _is_same(y, label) for label in self.labels):
+            known = ", ".join(map(notation, self.labels))
+            raise TTRError(f"{shown(y)} is none of the classes {known}")
+        with _naming(self):
+            self.estimator.partial_fit([vector(x)], [y], classes=list(self.labels))
+
+    def predict_proba_one(self, x: object) -> dict[Any, float]:
+        """The degree of each class; nothing before the first example."""
+        return _degrees(self, x)
+
+
+class Refitted:
+    """An estimator that is fitted anew to all examples, which are kept."""
+
+    def __init__(self, estimator: Any) -> None:
+        self.estimator = estimator
+        self.examples: tuple[tuple[Vector, object], ...] = ()
+
+    @property
+    def name(self) -> str:
+        """What kind of estimator it is."""
+        return type(self.estimator).__name__
+
+    def learn_one(self, x: object, y: object) -> None:
+        """Take x as an example of the class, and fit if there are two classes.
+
+        Raises `TTRError` where it cannot be fitted; the example is not kept then.
+        """
+        examples = (*self.examples, (vector(x), y))
+        classes = [label for _, label in examples]
+        with _naming(self):
+            if len(set(classes)) > 1:
+                self.estimator.fit([x for x, _ in examples], classes)
+        self.examples = examples
+
+    def predict_proba_one(self, x: object) -> dict[Any, float]:
+        """The degree of each class; nothing before there are examples of two."""
+        return _degrees(self, x)
+
+
+@contextmanager
+def _naming(learner: Incremental | Refitted) -> Iterator[None]:
+    """Tells errors of an estimator as such."""
+    try:
+        yield
+    except TTRError:
+        raise
+    except Exception as error:
+        fault = " ".join(str(error).split())
+        raise TTRError(
+            f"{learner.name} failed: {type(error).__name__}: {fault}"
+        ) from error
+
+
+def _is_same(one: object, label: object) -> bool:
+    """Whether a class is this one; arrays, which have no one answer, are not."""
+    same = one == label
+    return same if isinstance(same, bool) else False
+
+
+def _degrees(learner: Incremental | Refitted, x: object) -> dict[Any, float]:
+    estimator = learner.estimator
+    if not hasattr(estimator, "classes_"):
+        return {}
+    with _naming(learner):
+        (row,) = estimator.predict_proba([vector(x)])
+    return dict(zip(_plain(estimator.classes_), map(float, row), strict=True))
+
+
+def _plain(classes: Any) -> tuple[Any, ...]:
+    """Classes as plain Python objects, where they are an array."""
+    return tuple(classes.tolist() if hasattr(classes, "tolist") else classes)

@@ -1,0 +1,159 @@
+"""Where things are from one another: coordinates in a frame of reference.
+
+A frame is a record {origin, axes = {right, front}} of points and directions on a plane.
+What is to the right of the tree depends on whose right it is: the tree's own, that of
+the map, or that of who looks at it. Sources: Levinson 2003 on the three frames; Dobnik,
+Cooper and Larsson 2013 on predicates over two regions in one; Logan and Sadler 1996 on
+spatial templates.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ttr.building.constructors import rectype
+from ttr.errors import TTRError, Unsupported
+from ttr.semantics.perceptual.argument_checks import shown
+from ttr.semantics.perceptual.regions import PointMap
+from ttr.semantics.perceptual.vectors import RealVector, Vector, dot, number, vector
+from ttr.types.syntax import Object, Record, RecordType, record
+
+__all__ = [
+    "Frame",
+    "Projective",
+    "absolute",
+    "coordinates",
+    "intrinsic",
+    "relative",
+]
+
+Frame: RecordType = rectype(
+    origin=RealVector, axes=rectype(right=RealVector, front=RealVector)
+)
+"""The type of frames of reference."""
+
+
+def absolute(ground: Object) -> Record:
+    """The frame of the map, at the ground: right is along x, front along y.
+
+    >>> print(absolute([2, 3]))  # doctest: +NORMALIZE_WHITESPACE
+    {axes = {front = [0.0, 1.0], right = [1.0, 0.0]}, origin = [2.0, 3.0]}
+    """
+    return _frame(_place(ground, "the ground"), (0.0, 1.0))
+
+
+def intrinsic(ground: Object, facing: Object) -> Record:
+    """The frame of a ground that faces somewhere: its own front and right."""
+    return _frame(_place(ground, "the ground"), _direction(facing, "facing"))
+
+
+def relative(ground: Object, viewer: Object) -> Record:
+    """The frame of who looks at a ground: front is towards the viewer, right is theirs.
+
+    So front and back are those of someone who faces the viewer, and left and right are
+    the viewer's own, as in English.
+    """
+    place, eye = _place(ground, "the ground"), _place(viewer, "the viewer")
+    x, y = _direction([eye[0] - place[0], eye[1] - place[1]], "the way to the viewer")
+    axes = record(right=(0.0 - y, x), front=(x, y))
+    return record(origin=place, axes=axes)
+
+
+def coordinates(thing: Object, frame: Record) -> Vector:
+    """Where a thing is in a frame: how far to the right, and how far to the front.
+
+    The thing is a point, or a point map with its centre. Law: what is right of a ground
+    in the relative frame of a viewer is left of it for a viewer opposite.
+
+    >>> coordinates([1, 0], relative([0, 0], viewer=[0, -5]))
+    (1.0, 0.0)
+    >>> coordinates([1, 0], relative([0, 0], viewer=[0, 5]))
+    (-1.0, 0.0)
+    """
+    try:
+        origin, axes = frame.origin, (frame.axes.right, frame.axes.front)
+    except AttributeError:
+        raise TTRError(
+            f"a frame is a record {{origin, axes = {{right, front}}}}, "
+            f"found {shown(frame)}"
+        ) from None
+    x, y = _place(thing, "the thing")
+    ox, oy = _place(origin, "the origin")
+    right, front = (_place(axis, "an axis") for axis in axes)
+    apart = (x - ox, y - oy)
+    return dot(apart, right), dot(apart, front)
+
+
+@dataclass(frozen=True)
+class Projective:
+    """A spatial template of an axis: as far as max(0, cos θ) to a power, `sharpness`.
+
+    θ is the angle between `params.axis` and where the percept, coordinates in a frame,
+    lies. So the degree is 1 along the axis, and 0 from 90° on. It does not learn: for
+    that a perceptron may take the same coordinates.
+
+    >>> template = Projective()
+    >>> template.degree(record(axis=[1, 0]), (2.0, 0.0))
+    1.0
+    >>> round(template.degree(record(axis=[1, 0]), (1.0, 1.0)), 3)
+    0.707
+    """
+
+    sharpness: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not number(self.sharpness, "the sharpness of a template") > 0.0:
+            raise TTRError(
+                f"the sharpness of a template is above 0, found {self.sharpness!r}"
+            )
+
+    def __str__(self) -> str:
+        return "a spatial template"
+
+    def degree(self, params: Record, x: Object, /) -> float:
+        """The cosine to its power; 0 at the origin, which is in no direction."""
+        if not isinstance(params, Record) or "axis" not in params:
+            raise TTRError(
+                f"a spatial template has {{axis = […]}}, found {shown(params)}"
+            )
+        axis, place = vector(params.axis, "axis"), vector(x)
+        if len(axis) != len(place):
+            raise TTRError(
+                f"the axis has {len(axis)} numbers, but the percept {len(place)}"
+            )
+        lengths = math.hypot(*axis) * math.hypot(*place)
+        if lengths == 0.0:
+            return 0.0
+        cosine = min(1.0, max(0.0, dot(axis, place) / lengths))
+        return math.pow(cosine, self.sharpness)
+
+    def confirmed(self, _: Record, x: Object, /) -> Record:
+        """A template is given, not learned: `Unsupported`."""
+        raise Unsupported(f"a spatial template does not learn, as from {shown(x)}")
+
+    rejected = confirmed
+
+
+def _frame(origin: Vector, front: Vector) -> Record:
+    """The frame of what faces the front: its right is a quarter turn clockwise."""
+    x, y = front
+    return record(origin=origin, axes=record(right=(y, 0.0 - x), front=front))
+
+
+def _place(value: Object, what: str) -> Vector:
+    """A point of the plane, or the centre of a point map."""
+    if isinstance(value, PointMap):
+        value = value.centre
+    found = vector(value, what)
+    if len(found) != 2:
+        raise TTRError(f"{what} is a point of a plane, found {list(found)}")
+    return found
+
+
+def _direction(value: Object, what: str) -> Vector:
+    x, y = _place(value, what)
+    length = math.hypot(x, y)
+    if length == 0.0:
+        raise TTRError(f"{what} leads nowhere: its length is 0")
+    return x / length, y / length

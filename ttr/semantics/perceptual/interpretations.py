@@ -1,0 +1,55 @@
+r"""Interpretations, λr:bg. [c : p(r.x)]: what type a word gives a situation."""
+
+from __future__ import annotations
+
+from ttr.building.constructors import fun
+from ttr.building.formation import checked
+from ttr.errors import IllFormed
+from ttr.semantics.perceptual.argument_checks import shown
+from ttr.types.forms import order_fields
+from ttr.types.paths import replace_paths
+from ttr.types.syntax import BOUND, Function, Path, PType, RecordType, kind_of
+
+__all__ = ["claim_of", "interpretation"]
+
+
+def claim_of(interp: object) -> tuple[str, PType]:
+    """The one field of an interpretation, and its ptype; else `IllFormed`."""
+    match interp:
+        case Function(RecordType(), RecordType(((label, PType() as claim),))):
+            return label, claim
+    raise IllFormed(
+        "an interpretation takes situations to a record type with one ptype, as in "
+        f"\\r:[x : Ind]. [c : cup(r.x)], found {interp}"
+    )
+
+
+def interpretation(T: RecordType, label: str) -> Function:
+    r"""The λr:bg. [ℓ : p(…)] whose fixed-point type is T, which has ℓ : p(…).
+
+    Law: fix(interpretation(T, ℓ)) is T. Raises `IllFormed` where T has no ptype there.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> print(interpretation(rectype(x=Ind, c=Pred("cup", Ind)(this.x)), "c"))
+    \r:[x : Ind]. [c : cup(r.x)]
+    """
+    is_there = isinstance(T, RecordType) and isinstance(label, str)
+    claim = T.get(label) if is_there else None
+    if not isinstance(claim, PType):
+        found = T if isinstance(T, RecordType) else kind_of(T)
+        raise IllFormed(
+            f"an interpretation is of a record type with a ptype at {shown(label)}, "
+            f"found {found}"
+        )
+    bg = checked(
+        RecordType(order_fields({k: S for k, S in T.fields if k != label})), None
+    )
+    return fun(r=bg)(RecordType(((label, replace_paths(claim, _into_the_situation)),)))
+
+
+def _into_the_situation(path: Path) -> Path:
+    """A path from the record as a path from the variable, one scope further out."""
+    if path.up == 0:
+        return Path(1, (BOUND, *path.labels))
+    return Path(path.up + 1, path.labels)

@@ -1,0 +1,58 @@
+"""What a record has to be like to be a perceptual meaning."""
+
+from __future__ import annotations
+
+from ttr.errors import TTRError
+from ttr.semantics.perceptual.classifiers import Classifier
+from ttr.semantics.perceptual.interpretations import claim_of
+from ttr.types.printing import notation
+from ttr.types.syntax import Basic, Function, PType, Record, RecordType, freeze
+
+__all__ = ["check_record"]
+
+_FIELDS: dict[str, tuple[type, str]] = {
+    "params": (Record, "a record"),
+    "bg": (RecordType, "a record type"),
+    "clf": (Classifier, "a Classifier"),
+    "interp": (Function, "a function"),
+}
+
+
+def check_record(found: object) -> None:
+    """Refuses what is no record {params, bg, clf, interp}, with a `TTRError`.
+
+    Its interp takes the situations of its bg, and its clf looks for a percept in them.
+    """
+    if not isinstance(found, Record) or set(found) != set(_FIELDS):
+        raise TTRError(
+            f"a perceptual meaning is a record {{params, bg, clf, interp}}, "
+            f"found {notation(freeze(found))}"
+        )
+    for label, (kind, name) in _FIELDS.items():
+        if not isinstance(found[label], kind):
+            raise TTRError(
+                f"the {label} of a meaning is {name}, found {notation(found[label])}"
+            )
+    if found.interp.domain is not found.bg:
+        raise TTRError(
+            f"the interp of a meaning takes situations of its bg {found.bg}, "
+            f"found {found.interp}"
+        )
+    claim_of(found.interp)
+    for path in found.clf.of:
+        _check_place(found.bg, path)
+
+
+def _check_place(bg: RecordType, path: str) -> None:
+    """Refuses a path of a percept that situations of the background do not have."""
+    T: object = bg
+    for label in path.split("."):
+        if isinstance(T, Basic | PType) or (
+            isinstance(T, RecordType) and label not in T
+        ):
+            raise TTRError(
+                f"the percept is to be found at {path}, which the bg {bg} lacks"
+            )
+        if not isinstance(T, RecordType):
+            return
+        T = T[label]

@@ -1,0 +1,199 @@
+"""Perceptrons in plain Python, whose parameters are weights and a threshold.
+
+Both change by the same rule, with the error e = wanted − said for a percept x:
+
+    w' = w + rate · e · x        t' = t − threshold_rate · e
+
+They differ in what is said: a perceptron says yes or no, a graded one how far.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ttr.errors import TTRError
+from ttr.semantics.perceptual.argument_checks import in_one_line, shown
+from ttr.semantics.perceptual.vectors import Vector, dot, number, vector
+from ttr.types.syntax import Object, Record, record
+
+__all__ = ["GradedPerceptron", "Perceptron", "blank"]
+
+_LONGEST = 1_000_000
+"""How many numbers a percept may have."""
+
+_STEEPEST = 700.0
+"""Beyond this the exponential function overflows."""
+
+
+def blank(dimensions: int) -> Record:
+    """The parameters of who has learned nothing: weights and threshold 0.
+
+    >>> print(blank(2))
+    {t = 0.0, w = [0.0, 0.0]}
+    """
+    if type(dimensions) is not int or not 1 <= dimensions <= _LONGEST:
+        raise TTRError(
+            f"a percept has 1 number or more, found {in_one_line(dimensions)}",
+            hint=f"it may have {_LONGEST} at most",
+        )
+    return record(w=[0.0] * dimensions, t=0.0)
+
+
+@dataclass(frozen=True)
+class Perceptron:
+    """Yes where w · x > t, else no; it learns from its mistakes only.
+
+    A correction is one step of Rosenblatt's rule: where it says no and should say yes,
+    the percept is added to the weights, `rate` times, and the threshold falls by
+    `threshold_rate`; the other way round where it says yes and should not. Where it is
+    right, nothing changes. The threshold is learned as the weight of a constant −1, at
+    the same rate, unless `threshold_rate` says otherwise; at 0 it stays. Source:
+    Larsson 2013; see docs/decisions/017-corrections.md.
+
+    >>> right = record(w=[0.8, 0.01], t=0.09)
+    >>> Perceptron().degree(right, (0.9, 0.1)), Perceptron().degree(right, (0.1, 0.5))
+    (1.0, 0.0)
+    >>> print(Perceptron(rate=0.5).confirmed(right, (0.1, 0.5)))
+    {t = -0.41000000000000003, w = [0.8500000000000001, 0.26]}
+    """
+
+    rate: float = 1.0
+    threshold_rate: float | None = None
+
+    def __post_init__(self) -> None:
+        _check_rates(self.rate, self.threshold_rate)
+
+    def __str__(self) -> str:
+        return f"a perceptron{_at_rates(self.rate, self.threshold_rate)}"
+
+    def score(self, params: Record, x: Object, /) -> float:
+        """w · x, which is set against the threshold."""
+        w, _, x = _weighed(params, x)
+        return dot(w, x)
+
+    def degree(self, params: Record, x: Object, /) -> float:
+        """1 if w · x > t, else 0."""
+        w, t, x = _weighed(params, x)
+        return float(dot(w, x) > t)
+
+    def confirmed(self, params: Record, x: Object, /) -> Record:
+        """The parameters after a step towards yes, if it is needed."""
+        return self._step(params, x, 1.0)
+
+    def rejected(self, params: Record, x: Object, /) -> Record:
+        """The parameters after a step towards no, if it is needed."""
+        return self._step(params, x, 0.0)
+
+    def _step(self, params: Record, x: Object, wanted: float) -> Record:
+        w, t, x = _weighed(params, x)
+        error = wanted - (dot(w, x) > t)
+        return _stepped(params, x, error, self.rate, self.threshold_rate)
+
+
+@dataclass(frozen=True)
+class GradedPerceptron:
+    """As far as 1 / (1 + exp(−steepness · (w · x − t))), the logistic function.
+
+    It learns from every lesson, in proportion to how far it is from what is wanted
+    (the delta rule, which for this function is a step of logistic regression).
+
+    >>> right = record(w=[0.8, 0.01], t=0.09)
+    >>> round(GradedPerceptron(steepness=5).degree(right, (0.9, 0.1)), 3)
+    0.959
+    """
+
+    rate: float = 1.0
+    threshold_rate: float | None = None
+    steepness: float = 10.0
+
+    def __post_init__(self) -> None:
+        _check_rates(self.rate, self.threshold_rate)
+        if not number(self.steepness, "the steepness of a perceptron") > 0.0:
+            raise TTRError(
+                f"the steepness of a perceptron is above 0, found {self.steepness!r}"
+            )
+
+    def __str__(self) -> str:
+        rates = _at_rates(self.rate, self.threshold_rate)
+        return f"a graded perceptron{rates}, steepness {self.steepness:g}"
+
+    def score(self, params: Record, x: Object, /) -> float:
+        """w · x, which is set against the threshold."""
+        w, _, x = _weighed(params, x)
+        return dot(w, x)
+
+    def degree(self, params: Record, x: Object, /) -> float:
+        """The logistic function of how far w · x is above t."""
+        w, t, x = _weighed(params, x)
+        return self._squashed(dot(w, x) - t)
+
+    def confirmed(self, params: Record, x: Object, /) -> Record:
+        """The parameters after a step towards yes."""
+        return self._step(params, x, 1.0)
+
+    def rejected(self, params: Record, x: Object, /) -> Record:
+        """The parameters after a step towards no."""
+        return self._step(params, x, 0.0)
+
+    def _squashed(self, above: float) -> float:
+        steep = min(max(-self.steepness * above, -_STEEPEST), _STEEPEST)
+        return 1.0 / (1.0 + math.exp(steep))
+
+    def _step(self, params: Record, x: Object, wanted: float) -> Record:
+        w, t, x = _weighed(params, x)
+        error = wanted - self._squashed(dot(w, x) - t)
+        return _stepped(params, x, error, self.rate, self.threshold_rate)
+
+
+def _weighed(params: Record, x: Object) -> tuple[Vector, float, Vector]:
+    """Weights, threshold and percept, if they fit one another."""
+    try:
+        w, t = vector(params.w, "w"), number(params.t, "t")
+    except AttributeError:
+        raise TTRError(
+            f"the parameters of a perceptron are {{t = …, w = […]}}, "
+            f"found {shown(params)}"
+        ) from None
+    x = vector(x)
+    if len(x) != len(w):
+        raise TTRError(
+            f"there are {len(w)} weights, but the percept has {len(x)} numbers"
+        )
+    return w, t, x
+
+
+def _stepped(
+    params: Record, x: Vector, error: float, rate: float, threshold_rate: float | None
+) -> Record:
+    """The parameters after one step of the rule; the same ones where nothing is wrong.
+
+    Other fields than the weights and the threshold stay.
+    """
+    if error == 0.0:
+        return params
+    step = rate * error
+    lower = step if threshold_rate is None else threshold_rate * error
+    w = tuple([wi + step * xi for wi, xi in zip(params.w, x, strict=True)])
+    t = params.t - lower
+    if not all(map(math.isfinite, (*w, t))):
+        raise TTRError(f"a step at rate {rate:g} takes the weights out of all bounds")
+    return Record({**params._fields, "w": w, "t": t})
+
+
+def _at_rates(rate: float, threshold_rate: float | None) -> str:
+    """The rates as they are printed: not where both are 1."""
+    if threshold_rate is not None:
+        return f" at the rates {rate:g} and {threshold_rate:g}"
+    return "" if rate == 1.0 else f" at the rate {rate:g}"
+
+
+def _check_rates(rate: float, threshold_rate: float | None) -> None:
+    if not number(rate, "the rate of a perceptron") > 0.0:
+        raise TTRError(f"a perceptron learns at a rate above 0, found {rate!r}")
+    if threshold_rate is None:
+        return
+    if not number(threshold_rate, "the rate of the threshold") >= 0.0:
+        raise TTRError(
+            f"the threshold is learned at a rate of 0 or more, found {threshold_rate!r}"
+        )

@@ -1,0 +1,232 @@
+r"""From points to individuals: point maps, regions in them, and who is there.
+
+A detector finds regions in a point map, records {reg, pfun, p}: the points, the
+property of the thing there, and how certain that is. An individual is then assumed for
+each.
+Source: Dobnik, Cooper and Larsson 2013.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from itertools import product
+from typing import NamedTuple
+
+from ttr.building.constructors import fun, rectype
+from ttr.errors import TTRError
+from ttr.judging.models import Model, as_model
+from ttr.semantics.perceptual.argument_checks import several
+from ttr.semantics.perceptual.meanings import Meaning, as_meaning
+from ttr.semantics.perceptual.vectors import Vector, number, vector
+from ttr.types.substitution import grounded
+from ttr.types.syntax import (
+    BOUND,
+    Basic,
+    Function,
+    Ind,
+    Path,
+    PType,
+    Record,
+    RecordType,
+    Type,
+    outer,
+    record,
+    this,
+)
+
+__all__ = [
+    "INDIVIDUATE",
+    "Individual",
+    "PointMap",
+    "Points",
+    "Region",
+    "clusters",
+    "detected",
+    "individuated",
+]
+
+Points = Basic("PointMap")
+"""The type of point maps."""
+
+Region = rectype(reg=Points, pfun=Ind >> Type)
+"""The type of what a detector finds: some points, and a property of what is there."""
+
+INDIVIDUATE = fun(r=Region)(
+    rectype(a=Ind, loc=Points @ outer.r.reg, c=outer.r.pfun(this.a))
+)
+r"""λr:Region. [a : Ind, loc = r.reg : PointMap, c : r.pfun(a)]"""
+
+
+@dataclass(frozen=True)
+class PointMap:
+    """Points of one dimension, each a list of numbers. It prints as how many it has."""
+
+    points: tuple[Vector, ...]
+
+    def __init__(self, points: Iterable[object]) -> None:
+        try:
+            listed = tuple(points)
+        except TypeError:
+            listed = (points,)
+        found = tuple([vector(point, "a point") for point in listed])
+        if not found or len({len(point) for point in found}) > 1:
+            raise TTRError(
+                "a point map has one point or more, all with as many numbers, found "
+                + (", ".join(sorted({str(len(p)) for p in found})) or "no points")
+            )
+        object.__setattr__(self, "points", found)
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    @property
+    def centre(self) -> Vector:
+        """The mean of the points."""
+        return tuple(
+            [math.fsum(axis) / len(axis) for axis in zip(*self.points, strict=True)]
+        )
+
+    @property
+    def size(self) -> Vector:
+        """How far the points reach along each axis."""
+        return tuple([max(axis) - min(axis) for axis in zip(*self.points, strict=True)])
+
+
+def clusters(points: PointMap | Iterable[object], reach: float) -> tuple[PointMap, ...]:
+    """The regions of points that are joined by steps shorter than `reach`.
+
+    In the order of their first points. Steps are followed in cells of that size.
+
+    >>> [len(it) for it in clusters([[0, 0], [5, 5], [0, 1]], 2)]
+    [2, 1]
+    """
+    if not number(reach, "the reach") > 0.0:
+        raise TTRError(f"the reach of a step is above 0, found {reach!r}")
+    points = points if isinstance(points, PointMap) else PointMap(points)
+    cells: dict[Cell, list[int]] = {}
+    for i, point in enumerate(points.points):
+        cells.setdefault(_cell(point, reach), []).append(i)
+    found: list[PointMap] = []
+    taken: set[int] = set()
+    for i in range(len(points)):
+        if i in taken:
+            continue
+        region = _joined(points.points, i, cells, reach)
+        taken.update(region)
+        found.append(PointMap([points.points[j] for j in sorted(region)]))
+    return tuple(found)
+
+
+PLAIN = 3
+"""In how many dimensions all cells around one are looked at."""
+
+Cell = tuple[int, ...]
+"""A cube of space, by its number along each axis."""
+
+
+def _cell(point: Vector, reach: float) -> Cell:
+    try:
+        return tuple([math.floor(x / reach) for x in point])
+    except OverflowError:
+        raise TTRError(
+            f"the reach {reach:g} is too small for a point like {list(point)}"
+        ) from None
+
+
+def _joined(
+    points: tuple[Vector, ...], start: int, cells: dict[Cell, list[int]], reach: float
+) -> list[int]:
+    """The points that steps lead to from one, which are then gone from the cells."""
+    region = [start]
+    cells[_cell(points[start], reach)].remove(start)
+    for i in region:
+        for cell in _around(_cell(points[i], reach), cells):
+            inside = cells.get(cell)
+            if inside:
+                apart = [math.dist(points[i], points[j]) for j in inside]
+                pairs = list(zip(inside, apart, strict=True))
+                region += [j for j, step in pairs if step < reach]
+                cells[cell] = [j for j, step in pairs if not step < reach]
+    return region
+
+
+def _around(cell: Cell, cells: Iterable[Cell]) -> Iterator[Cell]:
+    """The cells next to one, and itself; of many dimensions only those that there are.
+
+    There are 3ⁿ of them around one, which soon are more than the points.
+    """
+    if len(cell) > PLAIN:
+        yield from [
+            one
+            for one in cells
+            if all(abs(x - y) <= 1 for x, y in zip(one, cell, strict=True))
+        ]
+        return
+    for step in product((-1, 0, 1), repeat=len(cell)):
+        yield tuple([c + s for c, s in zip(cell, step, strict=True)])
+
+
+# --- what is in the regions ----------------------------------------------------------
+
+
+def detected(regions: Iterable[PointMap], *words: Meaning) -> tuple[Record, ...]:
+    r"""The regions in which something is detected, as records {reg, pfun, p}.
+
+    The meanings classify `reg`, and say something of one individual. A region is of the
+    word with the highest degree, if that is at least a half; the first of equal ones.
+    """
+    found: list[Record] = []
+    meanings = [as_meaning(word) for word in words]
+    for reg in several(regions, "regions"):
+        best, p = None, 0.5
+        for word in meanings:
+            degree = word.degree(record(reg=reg)).lo
+            if degree > p or (best is None and degree == p):
+                best, p = word, degree
+        if best is not None:
+            found.append(record(reg=reg, pfun=fun(x=Ind)(best.predicate(this.x)), p=p))
+    return tuple(found)
+
+
+class Individual(NamedTuple):
+    """Who is assumed to be in a region: a record of a type, and the model with it."""
+
+    sit: Record
+    type: RecordType
+    model: Model
+
+
+def individuated(M: Model, region: Record) -> Individual:
+    r"""A new individual for a region {reg, pfun, p}, by `INDIVIDUATE`.
+
+    It is certain that there is one, and as probable as the region says that it has the
+    property; certain where there is no p. Raises `Refused` for what is no region.
+
+    >>> from ttr.types.syntax import Pred
+    >>> seen = record(reg=PointMap([[0, 1], [1, 0]]), pfun=fun(x=Ind)(
+    ...     Pred("dog", Ind)(this.x)), p=0.8)
+    >>> found = individuated(Model(), seen)
+    >>> print(found.sit)
+    {a = a1, c = s2, loc = <PointMap 2>}
+    >>> print(found.type)
+    [a : Ind, loc = <PointMap 2> : PointMap, c : dog(a)]
+    >>> print(found.model.judge(found.sit, found.type).p)
+    0.8
+    """
+    seeing = as_model(M).witnessed(Points, by=lambda value: isinstance(value, PointMap))
+    T = seeing.apply(INDIVIDUATE, region)
+    sit, after = seeing.create(T)
+    claim = after.reduced(region.pfun(sit.a))
+    if "p" in region and isinstance(claim, PType):
+        after = after.given(sit.c, claim, region.p)
+    return Individual(sit, _worked_out(T, region.pfun), after)
+
+
+def _worked_out(T: RecordType, pfun: Function) -> RecordType:
+    """The type of the individual, with p(a) for (λx:Ind. p(x))(a)."""
+    if not isinstance(pfun.body, PType):
+        return T
+    claim = grounded(pfun.body, ({BOUND: Path(0, ("a",))},))
+    return rectype({**dict(T.fields), "c": claim})

@@ -1,0 +1,120 @@
+"""How alike two meanings are: what they judge alike, and in what they differ."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from ttr.errors import TTRError
+from ttr.probability import Degree
+from ttr.semantics.perceptual.argument_checks import several
+from ttr.semantics.perceptual.meanings import Meaning, as_meaning
+from ttr.semantics.perceptual.speakers import Speaker, as_speaker
+from ttr.types.records import differences
+from ttr.types.syntax import Record
+
+__all__ = ["Agreement", "Convergence", "agreement", "convergence", "difference"]
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """How two meanings judge the same situations.
+
+    `both`, `first`, `second` and `neither` count the situations in which that many
+    would say the word; `apart` is the mean distance of their degrees, of an interval
+    its middle.
+    """
+
+    both: int
+    first: int
+    second: int
+    neither: int
+    apart: float
+
+    @property
+    def count(self) -> int:
+        """The number of situations."""
+        return self.both + self.first + self.second + self.neither
+
+    @property
+    def share(self) -> float:
+        """The share of situations that they judge alike."""
+        return (self.both + self.neither) / self.count
+
+    @property
+    def kappa(self) -> float | None:
+        """Cohen's κ, how far they agree beyond chance: (share − chance) / (1 − chance).
+
+        None where chance alone makes them agree: both always say the word, or never.
+        """
+        yes = (self.both + self.first) * (self.both + self.second)
+        no = (self.neither + self.first) * (self.neither + self.second)
+        chance = (yes + no) / self.count**2
+        return None if chance == 1.0 else (self.share - chance) / (1.0 - chance)
+
+    def __str__(self) -> str:
+        kappa = "undefined" if self.kappa is None else f"{self.kappa:.2f}"
+        return f"{self.share:.0%} alike, κ {kappa}, {self.apart:.2f} apart"
+
+
+def agreement(one: Meaning, other: Meaning, situations: Iterable[Record]) -> Agreement:
+    """How alike two meanings judge situations; `TTRError` where there are none."""
+    one, other = as_meaning(one), as_meaning(other)
+    pairs = [
+        (one.degree(r), other.degree(r)) for r in several(situations, "situations")
+    ]
+    if not pairs:
+        raise TTRError("two meanings are compared over one situation or more, not none")
+    said = [(p.lo >= 0.5, q.lo >= 0.5) for p, q in pairs]
+    apart = sum(abs(_middle(p) - _middle(q)) for p, q in pairs) / len(pairs)
+    return Agreement(
+        both=said.count((True, True)),
+        first=said.count((True, False)),
+        second=said.count((False, True)),
+        neither=said.count((False, False)),
+        apart=apart,
+    )
+
+
+def _middle(p: Degree) -> float:
+    return (p.lo + p.hi) / 2
+
+
+@dataclass(frozen=True)
+class Convergence:
+    """How alike two speakers were over a series of exchanges, the first before any."""
+
+    series: tuple[Agreement, ...]
+
+    def __str__(self) -> str:
+        width = len(str(len(self.series) - 1))
+        lines = [f"after {i:{width}}: {it}" for i, it in enumerate(self.series)]
+        return "\n".join(lines)
+
+
+def convergence(
+    teacher: Speaker, pupils: Sequence[Speaker], word: str, situations: Iterable[Record]
+) -> Convergence:
+    """How alike the teacher and each of the pupils judge these situations."""
+    probes = several(situations, "situations")
+    meant = as_speaker(teacher)[word]
+    learned = [as_speaker(it)[word] for it in several(pupils, "pupils")]
+    return Convergence(tuple([agreement(meant, it, probes) for it in learned]))
+
+
+def difference(one: Meaning, other: Meaning) -> tuple[str, ...]:
+    """What is different in the other meaning, path by path.
+
+    Meanings may be given as their records, here and in `agreement`.
+
+    >>> from ttr.building.constructors import fun, rectype
+    >>> from ttr.semantics.perceptual import Perceptron, RealVector, meaning
+    >>> from ttr.types.syntax import Ind, Pred, outer, record
+    >>> interp = fun(r=rectype(x=Ind, pos=RealVector))(
+    ...     rectype(c=Pred("right", Ind)(outer.r.x))
+    ... )
+    >>> mine = meaning(interp, Perceptron(), record(w=[1.0, 0.0], t=0.5), of="pos")
+    >>> difference(mine, mine.with_params(record(w=[1.0, 0.0], t=0.25)))
+    ('params.t: 0.5 → 0.25',)
+    """
+    return tuple(differences(as_meaning(one).record, as_meaning(other).record))

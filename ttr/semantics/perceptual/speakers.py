@@ -1,0 +1,148 @@
+"""Speakers, each with a meaning of its own for a word, and how one corrects another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from ttr.errors import TTRError, suggestion
+from ttr.probability import Degree
+from ttr.semantics.perceptual.argument_checks import several, shown
+from ttr.semantics.perceptual.learners import Handle
+from ttr.semantics.perceptual.meanings import Meaning, as_meaning
+from ttr.types.syntax import Record
+
+__all__ = ["Speaker", "exchange", "history", "says"]
+
+
+def says(meaning: Meaning, r: Record) -> bool:
+    """Whether one would say the word: its degree is surely at least a half."""
+    return meaning.degree(r).lo >= 0.5
+
+
+@dataclass(frozen=True)
+class Speaker:
+    """An agent with meanings of words. Learning gives one with other meanings.
+
+    Meanings of one speaker that have the same learner keep having the same one: what it
+    learns for one of them, it has learned for all.
+    """
+
+    name: str
+    meanings: Mapping[str, Meaning]
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.meanings, Mapping):
+            raise TTRError(
+                "a speaker has a mapping from words to meanings, "
+                f"found {type(self.meanings).__name__}"
+            )
+        own = {_word(word): as_meaning(it) for word, it in self.meanings.items()}
+        object.__setattr__(self, "meanings", MappingProxyType(own))
+
+    def __hash__(self) -> int:
+        return hash((self.name, frozenset(self.meanings)))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Speaker, (self.name, dict(self.meanings))
+
+    def __str__(self) -> str:
+        return f"{self.name}, who knows {', '.join(sorted(self.meanings))}"
+
+    def __getitem__(self, word: str) -> Meaning:
+        if isinstance(word, str) and word in self.meanings:
+            return self.meanings[word]
+        written = repr(word) if isinstance(word, str) else shown(word)
+        raise TTRError(
+            f"{self.name} has no meaning of {written}",
+            hint=suggestion(written, self.meanings),
+        )
+
+    def degrees(self, r: Record) -> dict[str, Degree]:
+        """The degree of each word that can be said of a situation, the best first."""
+        found = {
+            word: it.degree(r)
+            for word, it in self.meanings.items()
+            if it.clf.has_percept(r)
+        }
+        order = sorted(found, key=lambda word: (-found[word].lo, -found[word].hi, word))
+        return {word: found[word] for word in order}
+
+    def with_meaning(self, word: str, meaning: Meaning) -> Speaker:
+        """The speaker with this meaning of the word."""
+        return Speaker(self.name, {**self.meanings, _word(word): meaning})
+
+    def confirmed(self, word: str, r: Record) -> Speaker:
+        """The speaker after somebody agreed that the word holds."""
+        return self._having(word, self[word].confirmed(r))
+
+    def rejected(self, word: str, r: Record) -> Speaker:
+        """The speaker after somebody denied that the word holds."""
+        return self._having(word, self[word].rejected(r))
+
+    def corrected(self, r: Record, *, said: str, right: str) -> Speaker:
+        """The speaker after "No, this is a …": one word is rejected, the other learned.
+
+        Where the two words have one learner, that is one lesson, of the right word: as
+        degrees sum to 1 at most, the other loses what it gains. Raises what
+        `Meaning.rejected` and `Meaning.confirmed` raise; nothing is learned then.
+        """
+        wrong, wanted = self[said], self[right]
+        if said == right:
+            raise TTRError(f"{said!r} cannot be what is corrected and what is right")
+        shared = _learner(wrong)
+        if shared is not None and shared is _learner(wanted):
+            return self.confirmed(right, r)
+        return self.rejected(said, r).confirmed(right, r)
+
+    def _having(self, word: str, learned: Meaning) -> Speaker:
+        """The speaker after a lesson, in the meanings of all with the same learner."""
+        old = _learner(self[word])
+        changed = {
+            other: it.with_params(learned.params)
+            for other, it in self.meanings.items()
+            if old is not None and _learner(it) is old
+        }
+        return Speaker(self.name, {**self.meanings, **changed, word: learned})
+
+
+def as_speaker(value: object) -> Speaker:
+    """The speaker itself; `TTRError` for what is none."""
+    if isinstance(value, Speaker):
+        return value
+    raise TTRError(f"expected a speaker, found {shown(value)}")
+
+
+def _word(value: object) -> str:
+    if isinstance(value, str):
+        return value
+    raise TTRError(f"a word is a text, found {shown(value)}")
+
+
+def exchange(teacher: Speaker, pupil: Speaker, word: str, r: Record) -> Speaker:
+    """The pupil after both have said whether a word holds in a situation.
+
+    Where they agree nothing changes. Where they do not, the pupil is corrected. Source:
+    the game of Larsson 2013.
+    """
+    teacher, pupil = as_speaker(teacher), as_speaker(pupil)
+    wanted = says(teacher[word], r)
+    if says(pupil[word], r) == wanted:
+        return pupil
+    return pupil.confirmed(word, r) if wanted else pupil.rejected(word, r)
+
+
+def history(
+    teacher: Speaker, pupil: Speaker, word: str, situations: Iterable[Record]
+) -> tuple[Speaker, ...]:
+    """The pupil before any exchange, and after the exchange about each situation."""
+    pupils = [as_speaker(pupil)]
+    for r in several(situations, "situations"):
+        pupils.append(exchange(teacher, pupils[-1], word, r))
+    return tuple(pupils)
+
+
+def _learner(meaning: Meaning) -> Handle | None:
+    found = meaning.params._fields.get("learner")
+    return found if isinstance(found, Handle) else None

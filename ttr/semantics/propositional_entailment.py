@@ -1,0 +1,94 @@
+"""What follows from propositions."""
+
+from __future__ import annotations
+
+from ttr.computing.subtyping import Answer, subtype
+from ttr.judging.propositions import borne_out, claim, probabilistic_claim
+from ttr.probability import CERTAIN, Degree, complement
+from ttr.probability.degrees import ordered
+from ttr.safety.budgets import within_budget
+from ttr.signature.signature import Signature
+from ttr.types.printing import notation
+from ttr.types.syntax import Basic, Object, PType, TypeNode, freeze, identity
+
+__all__ = ["entails", "equivalent"]
+
+
+@within_budget
+def entails(
+    first: object, second: object, theory: Signature | None = None, /
+) -> Answer:
+    """Is the second proposition true wherever the first is?
+
+    Of types, and of Austinian propositions of one situation: is the first type below
+    the second? A type is true as well where something is certainly of it. From p(s : S)
+    in [lo, hi] follows that p(s : T) is at least lo where S ⊑ T, at most hi where
+    T ⊑ S, at least 1 − hi where ¬S ⊑ T, and at most 1 − lo where S ⊑ ¬T. Raises
+    `IllFormed` for what is no proposition.
+
+    >>> from ttr.judging.propositions import probabilistic, proposition
+    >>> from ttr.types.syntax import Basic
+    >>> A, B = Basic("A"), Basic("B")
+    >>> print(entails(proposition("s", A & B), proposition("s", A)).verdict)
+    yes
+    >>> print(entails(probabilistic("s", A, 0.7), probabilistic("s", A | B, (0.5, 1))))
+    yes: p(s : A \\/ B) is in [0.7, 1]
+    """
+    P, Q = freeze(first), freeze(second)
+    if isinstance(Q, TypeNode):
+        return _some(P, Q, theory)
+    sit, _ = claim(Q)
+    if isinstance(P, TypeNode):
+        return Answer("unknown", f"what is of {P} may be other than {notation(sit)}")
+    return _austinian(P, Q, theory)
+
+
+def equivalent(
+    first: object, second: object, theory: Signature | None = None, /
+) -> Answer:
+    """Does each of two propositions entail the other?"""
+    answers = [entails(first, second, theory), entails(second, first, theory)]
+    return min(answers, key=lambda answer: _WORST_FIRST.index(answer.verdict))
+
+
+_WORST_FIRST = ("no", "unknown", "yes")
+
+
+def _some(P: Object, T: TypeNode, theory: Signature | None) -> Answer:
+    """Does it follow that something is of T?"""
+    if isinstance(P, TypeNode):
+        return subtype(P, T, theory)
+    sit, S, claimed = probabilistic_claim(P)
+    if claimed == CERTAIN:
+        return subtype(S, T, theory)
+    return Answer("unknown", f"{notation(sit)} is not said to be certainly of {S}")
+
+
+def _austinian(P: Object, Q: Object, theory: Signature | None) -> Answer:
+    sit, S, claimed = probabilistic_claim(P)
+    other, T, wanted = probabilistic_claim(Q)
+    if identity(sit) != identity(other):
+        apart = f"{notation(sit)} and {notation(other)} may be different situations"
+        return Answer("unknown", apart)
+    if claimed == wanted == CERTAIN:
+        return subtype(S, T, theory)
+    follows = _follows(claimed, S, T, theory)
+    why = f"p({notation(sit)} : {T}) is in {follows}"
+    if borne_out(wanted, follows) == CERTAIN:
+        return Answer("yes", why)
+    refuted = (S is T or ~S is T) and isinstance(S, Basic | PType)
+    return Answer("no" if refuted else "unknown", why)
+
+
+def _follows(p: Degree, S: TypeNode, T: TypeNode, theory: Signature | None) -> Degree:
+    """How probable it is that a situation is of T, where p says so for S."""
+    least, most = [0.0], [1.0]
+    if subtype(S, T, theory).yes:
+        least.append(p.lo)
+    if subtype(T, S, theory).yes:
+        most.append(p.hi)
+    if subtype(~S, T, theory).yes:
+        least.append(complement(p.hi))
+    if subtype(S, ~T, theory).yes:
+        most.append(complement(p.lo))
+    return ordered(max(least), min(most))

@@ -1,0 +1,54 @@
+"""What a pronoun can pick up after a quantified sentence, by its sets of witnesses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ttr.semantics.quantifiers.extension_pairs import Case
+from ttr.semantics.quantifiers.quantified_propositions import Quantification
+from ttr.types.objects import FiniteSet
+
+__all__ = ["Antecedents", "antecedents"]
+
+
+@dataclass(frozen=True)
+class Antecedents:
+    """The sets that a later pronoun may stand for.
+
+    `refset` are those of P that are Q, `maxset` all of P, and `compset` those of P that
+    are not Q. The last is there only after a quantifier that falls, as in "Few dogs
+    bark. They sleep instead.", where P is not empty.
+    """
+
+    refset: FiniteSet
+    maxset: FiniteSet
+    compset: FiniteSet | None
+
+    @property
+    def plural(self) -> tuple[FiniteSet, ...]:
+        """What "they" can stand for, what is most accessible first."""
+        found = (self.refset, self.maxset, self.compset)
+        return tuple([X for X in dict.fromkeys(found) if X is not None and len(X) > 1])
+
+    @property
+    def singular(self) -> tuple[object, ...]:
+        """What "it", "he" or "she" can stand for: who alone is P and Q."""
+        return self.refset.items if len(self.refset) == 1 else ()
+
+
+def antecedents(found: Quantification) -> Antecedents:
+    """The anaphora sets of a quantification (Moxey and Sanford 1987).
+
+    >>> from ttr.semantics.quantifiers import Extension, few, quantify
+    >>> dogs = Extension.of(["fido", "rex", "sam", "kim"], "dog")
+    >>> found = quantify(few, dogs, Extension.of(["fido"], "bark"))
+    >>> print(*antecedents(found).plural)
+    {fido, kim, rex, sam} {kim, rex, sam}
+    """
+    falls = not any(one.rising for one in found.asked)
+    compset = _set(found.compset) if falls and found.compset else None
+    return Antecedents(_set(found.refset), _set(found.maxset), compset)
+
+
+def _set(cases: tuple[Case, ...]) -> FiniteSet:
+    return FiniteSet(*[it.sit for it in cases])

@@ -1,0 +1,145 @@
+"""Degrees of truth with their reasons, and how several are true together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Iterable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from ttr.judging.assignments import head
+from ttr.judging.judgements import Why
+from ttr.judging.models import Model
+from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.types.objects import Missing
+from ttr.types.syntax import (
+    Basic,
+    Object,
+    PType,
+    Record,
+    RecordType,
+    TypeNode,
+    identity,
+)
+
+__all__ = [
+    "SHOWN",
+    "Atoms",
+    "Truth",
+    "all_true",
+    "derived",
+    "in_fields",
+    "one_true",
+    "own",
+]
+
+Atoms: TypeAlias = frozenset[Hashable]
+"""The uncertain judgements that something rests on, or what stands for several."""
+
+SHOWN = 5
+"""How many grounds of one kind are shown."""
+
+
+@dataclass(frozen=True)
+class Truth:
+    """How certain something is, why, and on which uncertain judgements it rests.
+
+    What has none of these `atoms` in common is independent.
+    """
+
+    p: Degree
+    why: Why
+    atoms: Atoms = frozenset()
+
+    def __str__(self) -> str:
+        return str(self.why)
+
+    @property
+    def witness(self) -> Object:
+        """What is of the type, as far as something is."""
+        return self.why.sit
+
+
+def own(M: Model, p: Degree, T: TypeNode) -> Atoms:
+    """What is uncertain in itself rests on itself."""
+    if p in (CERTAIN, REFUTED):
+        return frozenset()
+    return frozenset({_atom(M, Missing(), T)})
+
+
+def derived(M: Model, why: Why) -> Truth:
+    """What a derivation says, with the uncertain judgements in it."""
+    steps = why.uncertain()
+    atoms = frozenset(_atom(M, identity(step.sit), step.type) for step in steps)
+    return Truth(why.p, why, atoms)
+
+
+def _atom(M: Model, sit: object, T: TypeNode) -> Hashable:
+    """A judgement, or what stands for all that may depend on it.
+
+    Where the model states how judgements depend on one another, it is one for all; of
+    an object and the types that an axiom or an exclusion is about, it is one, too.
+    """
+    if M.facts.links:
+        return "linked"
+    if isinstance(T, Basic | PType) and head(T) in M.theory.axiom_heads:
+        return sit, frozenset(T.args) if isinstance(T, PType) else "related"
+    return sit, T
+
+
+def in_fields(T: RecordType, parts: list[tuple[str, Truth]]) -> Truth:
+    """The fields together."""
+    p, atoms = all_true([found for _, found in parts])
+    sit = Record({label: found.witness for label, found in parts})
+    whys = tuple(_at(label, found.why) for label, found in parts)
+    return Truth(p, Why(sit, T, p, "field by field", whys), atoms)
+
+
+def _at(label: str, why: Why) -> Why:
+    return Why(why.sit, why.type, why.p, why.rule, why.parts, label, why.how, why.facts)
+
+
+def all_true(grounds: list[Truth]) -> tuple[Degree, Atoms]:
+    """How certain it is that all hold; bounds, where they rest on the same."""
+    degrees = [found.p for found in grounds]
+    atoms = frozenset[Hashable]().union(*(found.atoms for found in grounds))
+    if REFUTED in degrees:
+        return REFUTED, frozenset()
+    if _apart(grounds, atoms):
+        lo, hi = math.prod(p.lo for p in degrees), math.prod(p.hi for p in degrees)
+        return Degree(lo, hi), atoms
+    low = sum(p.lo for p in degrees) - (len(degrees) - 1)
+    return Degree(max(0.0, low), min(p.hi for p in degrees)), atoms
+
+
+def one_true(T: TypeNode, truths: Iterable[Truth], rule: str) -> Truth:
+    """How certain it is that one holds; bounds, where they rest on the same."""
+    grounds = list(truths)
+    sure = next((found for found in grounds if found.p == CERTAIN), None)
+    if sure is not None:
+        return Truth(CERTAIN, _under(T, sure, CERTAIN, rule, [sure]))
+    degrees = [found.p for found in grounds]
+    atoms = frozenset[Hashable]().union(*(found.atoms for found in grounds))
+    if _apart(grounds, atoms):
+        low = 1.0 - math.prod(1.0 - p.lo for p in degrees)
+        p = Degree(low, 1.0 - math.prod(1.0 - p.hi for p in degrees))
+    else:
+        high = min(1.0, sum(p.hi for p in degrees))
+        p = Degree(max(p.lo for p in degrees), high)
+    best = max(grounds, key=lambda found: found.p.lo, default=None)
+    shown = sorted(grounds, key=lambda found: -found.p.hi)[:SHOWN]
+    return Truth(p, _under(T, best, p, rule, shown), atoms)
+
+
+def _apart(grounds: list[Truth], atoms: Atoms) -> bool:
+    return len(atoms) == sum(len(found.atoms) for found in grounds)
+
+
+def _under(
+    T: TypeNode, best: Truth | None, p: Degree, rule: str, grounds: list[Truth]
+) -> Why:
+    whys = tuple(found.why for found in grounds)
+    if len(whys) == 1 and whys[0].type is T:
+        return whys[0]
+    sit = best.witness if best is not None and p != REFUTED else Missing()
+    return Why(sit, T, p, rule, whys, how="any")

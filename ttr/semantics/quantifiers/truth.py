@@ -1,0 +1,281 @@
+"""How certain it is that a type is true: that something is of it.
+
+Other than `Model.true` it works out quantified types, sentence negation and functions
+that stand for "whatever is of S", and takes the situations that were told to be of a
+type for all that there are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ttr.errors import IllFormed, Refused, Unsupported
+from ttr.hooks import hook
+from ttr.judging.judgements import Why
+from ttr.judging.models import Model, as_model
+from ttr.judging.witnesses import candidates
+from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
+from ttr.safety.budgets import spend, within_budget
+from ttr.semantics.quantifiers.degrees_of_truth import (
+    SHOWN,
+    Truth,
+    all_true,
+    derived,
+    in_fields,
+    one_true,
+    own,
+)
+from ttr.semantics.quantifiers.determiners import determiner_of
+from ttr.semantics.quantifiers.thresholds import Thresholds, thresholds_of
+from ttr.types.objects import Missing, Unresolved
+from ttr.types.paths import escaping, occurring
+from ttr.types.printing import notation
+from ttr.types.substitution import grounded
+from ttr.types.syntax import (
+    BOUND,
+    Application,
+    Basic,
+    Function,
+    FunType,
+    Join,
+    Object,
+    Pred,
+    PType,
+    Record,
+    RecordType,
+    Type,
+    TypeNode,
+    as_type,
+)
+
+__all__ = ["absent", "instance", "known", "thing", "truth"]
+
+absent = Pred("absent", Type)
+"""Sentence negation: `absent(T)` is true if nothing is of T.
+
+It is not `~T`, which whatever is not of T is of.
+"""
+
+
+@hook
+def truth_of_quantified(M: Model, T: PType, thresholds: Thresholds) -> Truth:
+    """How certain a quantified type is, which asks this of its parts: `settle`."""
+    raise NotImplementedError
+
+
+@within_budget
+def truth(M: Model, T: TypeNode, thresholds: Thresholds | None = None) -> Truth:
+    """How certain it is that something is of T, by what M has been told.
+
+    Of a ptype it is how probable the situations are together that were told to be of
+    it; its witness function where it has one; unknown where it is open. Raises
+    `IllFormed` for a type with a path that leads out of it.
+
+    >>> from ttr.semantics.quantifiers import no
+    >>> from ttr.types.syntax import Ind
+    >>> dog, bark = Pred("dog", Ind), Pred("bark", Ind)
+    >>> M = Model().given("fido", Ind).given("s1", dog("fido"))
+    >>> print(truth(M, absent(bark("fido"))).why)
+    ✓ {} : absent(bark(fido))   (nothing is of it)
+      ✗ nothing : bark(fido)   (nothing says so)
+    """
+    as_model(M)
+    T = as_type(T)
+    if escaping(T):
+        raise IllFormed(f"{T} has paths that lead nowhere, so it is not true or false")
+    return _Truths(M, thresholds_of(thresholds)).of(T)
+
+
+class _Truths:
+    def __init__(self, M: Model, thresholds: Thresholds) -> None:
+        self._M, self._thresholds = M, thresholds
+
+    def of(self, T: TypeNode) -> Truth:
+        spend()
+        match T:
+            case PType() if determiner_of(T) is not None:
+                return truth_of_quantified(self._M, T, self._thresholds)
+            case PType(pred, (TypeNode() as denied,)) if pred is absent:
+                return self._absent(T, denied)
+            case Basic() | PType():
+                return _told(self._M, T)
+            case RecordType():
+                return self._record(T)
+            case Join(parts):
+                return one_true(T, map(self.of, parts), "one part is true")
+            case FunType(domain, result):
+                return self._whatever(T, domain, result)
+            case Application():
+                return self._applied(T)
+        return self._listed(T)
+
+    def _absent(self, T: TypeNode, denied: TypeNode) -> Truth:
+        found = self.of(denied)
+        p = Degree(1.0 - found.p.hi, 1.0 - found.p.lo)
+        rules = {CERTAIN: "nothing is of it", REFUTED: "something is of it"}
+        rule = rules.get(p, "as far as nothing is of it")
+        why = Why(Record({}), T, p, rule, (found.why,), how="none")
+        return Truth(p, why, found.atoms)
+
+    def _record(self, T: RecordType) -> Truth:
+        """A record type is true if its fields can be filled."""
+        needed = {path.labels[0] for _, S in T.fields for path in escaping(S)}
+        if needed.isdisjoint(T.labels):
+            parts = [(label, self.of(S)) for label, S in T.fields]
+            return in_fields(T, parts)
+        ways = [in_fields(T, way) for way in self.ways(T)]
+        if not ways:
+            p = UNKNOWN if _may_have_more(self._M, T) else REFUTED
+            return Truth(
+                p, Why(Missing(), T, p, "nothing known is of it"), own(self._M, p, T)
+            )
+        if len(ways) == 1 and not _may_have_more(self._M, T):
+            return ways[0]
+        found = one_true(T, ways, "there is one")
+        if found.p != CERTAIN and _may_have_more(self._M, T):
+            p = Degree(found.p.lo, 1.0)
+            return Truth(p, found.why, found.atoms | own(self._M, p, T))
+        return found
+
+    def ways(self, T: RecordType) -> Iterator[list[tuple[str, Truth]]]:
+        """The ways to fill the fields by known objects; without recursion."""
+        paths = [path for _, S in T.fields for path in escaping(S)]
+        needed = {path.labels[0] for path in paths if path.up == 0}
+        needed |= {label for label, S in T.fields if not isinstance(S, PType)}
+        waiting: list[Iterator[list[tuple[str, Truth]]]] = [iter(([],))]
+        while waiting:
+            way = next(waiting[-1], None)
+            if way is None:
+                waiting.pop()
+            elif len(way) == len(T.fields):
+                yield way
+            else:
+                waiting.append(self._longer(T, way, needed))
+
+    def _longer(
+        self, T: RecordType, way: list[tuple[str, Truth]], needed: set[str]
+    ) -> Iterator[list[tuple[str, Truth]]]:
+        """The ways to fill one field more; each object, where others depend on it."""
+        spend()
+        label, field = T.fields[len(way)]
+        try:
+            S = grounded(field, ({k: found.witness for k, found in way},))
+        except Unresolved as lost:
+            raise Unsupported(f"{T} cannot be followed: {lost.message}") from None
+        if label not in needed:
+            found = self.of(S)
+            yield from [[*way, (label, found)]] if found.p != REFUTED else []
+            return
+        for sit, p in known(self._M, S, self._thresholds):
+            found = derived(self._M, Why(sit, S, p, "given"))
+            yield [*way, (label, found)]
+
+    def _whatever(self, T: FunType, domain: TypeNode, result: TypeNode) -> Truth:
+        """((x : S) → T) is true if for whatever is of S, T is true of it."""
+        grounds = []
+        for sit, p in known(self._M, domain, self._thresholds):
+            found = self.of(_worked_out(self._M, grounded(result, ({BOUND: sit},))))
+            if p != CERTAIN:
+                found = Truth(Degree(found.p.lo, 1.0), found.why, found.atoms)
+            grounds.append(found)
+        p, atoms = all_true(grounds)
+        if _may_have_more(self._M, domain) and p != REFUTED:
+            p, atoms = Degree(0.0, p.hi), atoms | own(self._M, UNKNOWN, T)
+        failing = [found.why for found in grounds if found.p != CERTAIN]
+        shown = failing or [found.why for found in grounds]
+        rule = f"for each of {len(grounds)} of {domain}"
+        if failing:
+            rule = f"not for {len(failing)} of {len(grounds)} of {domain}"
+        return Truth(p, Why(Missing(), T, p, rule, tuple(shown[:SHOWN])), atoms)
+
+    def _applied(self, T: Application) -> Truth:
+        return self.of(_worked_out(self._M, T))
+
+    def _listed(self, T: TypeNode) -> Truth:
+        """Any other type is true as the model says."""
+        found = next((sit for sit, p in known(self._M, T) if p == CERTAIN), None)
+        if found is not None:
+            return derived(self._M, self._M.judge(found, T).why)
+        p = self._M.true(T)
+        return Truth(p, Why(Missing(), T, p, "as far as is known"), own(self._M, p, T))
+
+
+# --- what the model has been told ----------------------------------------------------
+
+
+def _told(M: Model, T: Basic | PType) -> Truth:
+    """How probable the situations are together that were told to be of T."""
+    facts = M.facts
+    seen = facts.perceived(Missing(), T) if isinstance(T, PType) else None
+    if seen is not None:
+        why = Why(Missing(), T, seen, "by the witness function")
+        return Truth(seen, why, own(M, seen, T))
+    possible = known(M, T)
+    sure = next((sit for sit, p in possible if p == CERTAIN), None)
+    if sure is not None:
+        return Truth(CERTAIN, Why(sure, T, CERTAIN, "given"))
+    if possible:
+        grounds = [derived(M, Why(sit, T, p, "given")) for sit, p in possible]
+        return one_true(T, grounds, "one of these is of it")
+    if facts.leaves_open(T):
+        why = Why(Missing(), T, UNKNOWN, "nothing is known of it")
+        return Truth(UNKNOWN, why, own(M, UNKNOWN, T))
+    return Truth(REFUTED, Why(Missing(), T, REFUTED, "nothing says so"))
+
+
+def known(
+    M: Model, T: TypeNode, thresholds: Thresholds | None = None
+) -> list[tuple[Object, Degree]]:
+    """The objects that are, or may be, of T by what was told, in the order told.
+
+    Of a record type they are records of such objects, with one situation for each
+    field that no other field mentions. Raises `Unsupported` for a type of which there
+    may be others without end.
+    """
+    if isinstance(T, RecordType):
+        ways = _Truths(M, thresholds_of(thresholds)).ways(T)
+        records = [in_fields(T, way) for way in ways]
+        return [(found.witness, found.p) for found in records]
+    if not isinstance(T, Basic | PType):
+        return [(sit, CERTAIN) for sit in M.witnesses(T)]
+    return [(sit, _how_surely(M, sit, T)) for sit in candidates(M.facts, T)]
+
+
+def _how_surely(M: Model, sit: Object, T: Basic | PType) -> Degree:
+    """How probably an object is of a type, in the light of what it depends on."""
+    p, _ = M.facts.degree_of(sit, T)
+    return p if p == CERTAIN else M.judge(sit, T).p
+
+
+def _may_have_more(M: Model, T: TypeNode) -> bool:
+    """Whether more may be of T than what was told, by what it is made of."""
+    return any(
+        M.facts.leaves_open(part)
+        for part in occurring([T])
+        if isinstance(part, Basic | PType)
+    )
+
+
+def thing(M: Model, sit: Object, T: TypeNode) -> Truth:
+    """How certain it is that one object is of T."""
+    return derived(M, M.judge(sit, T).why)
+
+
+def instance(M: Model, f: Function, sit: Object, thresholds: Thresholds) -> Truth:
+    """How certain it is that what a function gives for an object is true."""
+    body = _worked_out(M, grounded(f.body, ({BOUND: sit},)))
+    return _Truths(M, thresholds).of(body)
+
+
+def _worked_out(M: Model, value: Object) -> TypeNode:
+    if any(isinstance(part, Application) for part in _quick(value)):
+        value = M.reduced(value)
+    if isinstance(value, TypeNode):
+        return value
+    raise Refused(f"{notation(value)} is no type, so it is neither true nor false")
+
+
+def _quick(value: Object) -> Iterable[Object]:
+    if isinstance(value, PType) and all(isinstance(arg, str) for arg in value.args):
+        return ()
+    return occurring([value])

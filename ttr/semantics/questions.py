@@ -1,0 +1,430 @@
+"""Questions, what answers them, and the questions under discussion.
+
+A question is a propositional abstract: a function from situations to types. *Whether
+she left* is `\\r:Rec. [e : leave(she)]`, *who left* `\\r:[x : Ind]. [e : leave(r.x)]`.
+An alternative question is the set of some questions whether. What is about a question,
+and what resolves it, follows from these functions: an answer is about a question if the
+question can be applied to it.
+
+Source: Ginzburg 2012, chapters 3 and 4; Larsson 2002, chapter 2, who gives the three
+relations between questions and answers their names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from functools import lru_cache, reduce
+from typing import TypeGuard
+
+from ttr.building.constructors import fun, rectype
+from ttr.building.merging import merge
+from ttr.errors import TTRError
+from ttr.judging.certainty import certainly
+from ttr.judging.models import Model
+from ttr.safety.budgets import spend
+from ttr.types.objects import Unresolved
+from ttr.types.substitution import grounded
+from ttr.types.syntax import (
+    BOUND,
+    Basic,
+    FiniteSet,
+    Function,
+    Meet,
+    Negation,
+    Object,
+    Path,
+    Pred,
+    PType,
+    Rec,
+    Record,
+    RecordType,
+    Singleton,
+    TypeNode,
+    as_type,
+    identity,
+    kind_of,
+    outer,
+)
+
+__all__ = [
+    "NO",
+    "YES",
+    "Question",
+    "asked_of",
+    "combine",
+    "downdate",
+    "is_polar",
+    "is_question",
+    "pop",
+    "push",
+    "relevant",
+    "resolves",
+    "resolving",
+    "top",
+    "whether",
+    "which",
+    "which_of",
+    "with_questions",
+]
+
+MATCHES = 4096
+"""Of how many propositions it is kept which argument of a question they are about."""
+
+YES, NO = "yes", "no"
+"""The short answers to questions whether."""
+
+Question = Basic("Question")
+"""The type of questions; `with_questions` makes a model know what is one."""
+
+
+# --- questions -----------------------------------------------------------------------
+
+
+def whether(T: TypeNode) -> Function:
+    r"""The question whether there is a situation of T: λr:Rec. T.
+
+    >>> leave = Pred("leave", Basic("Ind"))
+    >>> print(whether(rectype(e=leave("kim"))))
+    \r:Rec. [e : leave(kim)]
+    """
+    return fun(r=Rec)(T)
+
+
+def which(pred: Pred) -> Function:
+    r"""The question which object a predicate holds of: λr:[x : S]. [e : p(r.x)].
+
+    Raises `TTRError` for a predicate that takes no single object.
+
+    >>> print(which(Pred("leave", Basic("Ind"))))
+    \r:[x : Ind]. [e : leave(r.x)]
+    """
+    if not isinstance(pred, Pred):
+        raise TTRError(f"a question which asks for a predicate, found {kind_of(pred)}")
+    places = [arity for arity in pred.arities if len(arity) == 1]
+    if not places:
+        raise TTRError(
+            f"{pred.name} has no place that a question could ask for",
+            hint=r"write the function, as in \r:[x : S]. [e : p(r.x, a)]",
+        )
+    return fun(r=rectype(x=places[0][0]))(rectype(e=pred(outer.r.x)))
+
+
+def which_of(*types: TypeNode) -> FiniteSet:
+    """The alternative question which of these is the case: the questions whether.
+
+    Raises `TTRError` for less than two alternatives.
+
+    >>> leave = Pred("leave", Basic("Ind"))
+    >>> len(which_of(rectype(e=leave("kim")), rectype(e=leave("sam"))))
+    2
+    """
+    if len(types) < 2:
+        raise TTRError("an alternative question has two alternatives at least")
+    return FiniteSet(*map(whether, types))
+
+
+def is_question(value: Object) -> bool:
+    """Whether an object is a question: a function from records to types, or a set.
+
+    >>> is_question(whether(Rec)), is_question(Rec)
+    (True, False)
+    """
+    spend()
+    if isinstance(value, FiniteSet):
+        return len(value) > 1 and all(map(is_polar, value))
+    return (
+        isinstance(value, Function)
+        and isinstance(value.domain, RecordType)
+        and isinstance(value.body, TypeNode)
+    )
+
+
+def is_polar(value: Object) -> TypeGuard[Function]:
+    """Whether an object is a question whether: one that asks for no object."""
+    spend()
+    return is_question(value) and isinstance(value, Function) and value.domain is Rec
+
+
+def with_questions(model: Model) -> Model:
+    """The model in which questions are of the type `Question`, by their form."""
+    return model.witnessed(Question, by=is_question)
+
+
+# --- answers -------------------------------------------------------------------------
+
+
+def relevant(answer: Object, question: Object, model: Model) -> bool:
+    """Whether an answer is about a question.
+
+    Of a question whether T these are yes, no, T and ¬T; of a question which, an object
+    that it can be applied to, what it then gives, and the negation of that; of an
+    alternative question, what is about one of the alternatives but yes and no.
+    Propositions may be more specific than what was asked for.
+
+    >>> City = Basic("City")
+    >>> dest = Pred("dest_city", City)
+    >>> M = Model().given("paris", City)
+    >>> where_to = which(dest)
+    >>> relevant("paris", where_to, M), relevant("yes", where_to, M)
+    (True, False)
+    >>> relevant(~rectype(e=dest("paris")), where_to, M)
+    True
+    """
+    return _combined(answer, question, model) is not None
+
+
+def resolves(answer: Object, question: Object, model: Model) -> bool:
+    """Whether an answer settles a question.
+
+    What is about a question whether resolves it; of the others it is only what is not
+    negative: that it is not Paris does not settle where it is to go.
+
+    >>> City = Basic("City")
+    >>> dest = Pred("dest_city", City)
+    >>> M = Model().given("paris", City)
+    >>> resolves(rectype(e=dest("paris")), which(dest), M)
+    True
+    >>> resolves(~rectype(e=dest("paris")), which(dest), M)
+    False
+    """
+    found = _combined(answer, question, model)
+    if found is None:
+        return False
+    return is_polar(question) or not isinstance(_affirmed(found), Negation)
+
+
+def combine(question: Object, answer: Object, model: Model) -> TypeNode:
+    """The proposition that an answer conveys as an answer to a question.
+
+    A short answer to a question which is what the question is applied to; yes and no
+    give T and ¬T; a proposition is what it is. Raises `TTRError` for an answer that is
+    not about the question.
+
+    >>> City = Basic("City")
+    >>> dest, back = Pred("dest_city", City), Pred("return_trip", ())
+    >>> M = Model().given("paris", City)
+    >>> print(combine(which(dest), "paris", M))
+    [e : dest_city(paris)]
+    >>> print(combine(whether(rectype(e=back())), "no", M))
+    ~[e : return_trip()]
+    """
+    found = _combined(answer, question, model)
+    if found is None:
+        raise TTRError(f"{kind_of(answer)} is no answer to the question {question}")
+    return found
+
+
+def resolving(
+    question: Object, propositions: Iterable[Object], model: Model
+) -> TypeNode | None:
+    """The first of these propositions that resolves a question, or None.
+
+    >>> back = Pred("return_trip", ())
+    >>> known = [~rectype(e=back())]
+    >>> print(resolving(whether(rectype(e=back())), known, Model()))
+    ~[e : return_trip()]
+    """
+    for one in _several(propositions):
+        if isinstance(one, TypeNode) and resolves(one, question, model):
+            return one
+    return None
+
+
+def asked_of(question: Function, P: TypeNode, model: Model) -> Record | None:
+    """The r that a question q can be applied to so that P ⊑ q(r), or None.
+
+    Raises `TTRError` for what is no question.
+
+    >>> City = Basic("City")
+    >>> dest = Pred("dest_city", City)
+    >>> M = Model().given("paris", City)
+    >>> print(asked_of(which(dest), rectype(e=dest("paris")), M))
+    {x = paris}
+    """
+    if not isinstance(question, Function):
+        raise _no_question(question)
+    found = _argument_of(question, P) if isinstance(P, TypeNode) else None
+    if found is None or not certainly(model.facts, found, question.domain):
+        return None
+    return found
+
+
+@lru_cache(MATCHES)
+def _argument_of(question: Function, P: TypeNode) -> Record | None:
+    """The r with P ⊑ q(r), by their forms alone; `TTRError` for no question."""
+    if not is_question(question):
+        raise _no_question(question)
+    bound: dict[str, Object] = {}
+    return Record(bound) if _matches(question.body, _plain(P), 0, bound) else None
+
+
+def _no_question(found: Object) -> TTRError:
+    return TTRError(f"nothing is asked for by {kind_of(found)}")
+
+
+def _combined(answer: Object, question: Object, model: Model) -> TypeNode | None:
+    """What an answer comes to, or None where it is not about the question."""
+    spend()
+    if isinstance(question, FiniteSet):
+        found = (_combined(answer, one, model) for one in question)
+        plain = isinstance(answer, TypeNode)
+        return next((one for one in found if one is not None), None) if plain else None
+    if not isinstance(question, Function) or not is_question(question):
+        raise TTRError(f"this is no question: {kind_of(question)}")
+    if isinstance(answer, TypeNode):
+        return answer if _is_instance(answer, question, model) else None
+    if question.domain is Rec:
+        if not isinstance(answer, str) or answer not in (YES, NO):
+            return None
+        body = as_type(question.body)
+        return body if answer == YES else ~body
+    given = _as_argument(answer, question.domain)
+    if given is None or not certainly(model.facts, given, question.domain):
+        return None
+    return _applied(question, given)
+
+
+def _as_argument(answer: Object, domain: TypeNode) -> Record | None:
+    """The record that a question is applied to: {x = a} where [x : S] is asked for."""
+    if isinstance(answer, Record):
+        return answer
+    labels = domain.labels if isinstance(domain, RecordType) else ()
+    return Record({labels[0]: answer}) if len(labels) == 1 else None
+
+
+def _applied(question: Function, argument: Record) -> TypeNode:
+    found: TypeNode = grounded(question.body, ({BOUND: argument},))
+    return found
+
+
+def _is_instance(P: TypeNode, question: Function, model: Model) -> bool:
+    """Whether P ⊑ q(r), or P is ¬q(r), for an r that the question can be applied to."""
+    P = _affirmed(P)
+    if asked_of(question, P, model) is not None:
+        return True
+    denied = P.body if isinstance(P, Negation) else ~P
+    about = asked_of(question, denied, model)
+    return about is not None and _applied(question, about) is denied
+
+
+def _affirmed(P: TypeNode) -> TypeNode:
+    """The type without negations that cancel one another: ¬¬T is T."""
+    while isinstance(P, Negation) and isinstance(P.body, Negation):
+        P = P.body.body
+    return P
+
+
+def _plain(P: TypeNode) -> TypeNode:
+    """A record type with what its manifest fields are set to in place of paths there.
+
+    So [x = paris : City, e : dest_city(x)] is matched as [e : dest_city(paris)] is.
+    """
+    P = _merged(P)
+    if not isinstance(P, RecordType):
+        return P
+    fields: dict[str, TypeNode] = {}
+    known: dict[str, Object] = {}
+    for label, field in P.fields:
+        with suppress(Unresolved):
+            field = grounded(field, (known,))
+        fields[label] = field
+        if isinstance(field, Singleton):
+            known[label] = field.value
+    return RecordType(tuple(fields.items()))
+
+
+def _merged(P: TypeNode) -> TypeNode:
+    """The one record type that a meet of record types is."""
+    if isinstance(P, Meet) and all(isinstance(part, RecordType) for part in P.parts):
+        return reduce(merge, P.parts)
+    return P
+
+
+def _matches(
+    pattern: Object, found: Object, out: int, bound: dict[str, Object]
+) -> bool:
+    """Whether `found` is below the pattern, with objects for the question's variable.
+
+    `out` is how many record types further in than the variable the pattern stands.
+    """
+    spend()
+    if isinstance(pattern, RecordType):
+        return isinstance(found, RecordType) and all(
+            label in found and _matches(field, found[label], out + 1, bound)
+            for label, field in pattern.fields
+        )
+    if isinstance(pattern, PType):
+        return (
+            isinstance(found, PType)
+            and found.pred is pattern.pred
+            and len(found.args) == len(pattern.args)
+            and all(
+                _matches(a, b, out, bound)
+                for a, b in zip(pattern.args, found.args, strict=True)
+            )
+        )
+    if isinstance(pattern, Path) and (pattern.up, pattern.labels[0]) == (out, BOUND):
+        if isinstance(found, Path) or len(pattern.labels) != 2:
+            return False
+        known = bound.setdefault(pattern.labels[1], found)
+        return bool(identity(known) == identity(found))
+    if isinstance(pattern, Singleton) and isinstance(found, Singleton):
+        return _matches(pattern.base, found.base, out, bound) and _matches(
+            pattern.value, found.value, out, bound
+        )
+    return bool(identity(pattern) == identity(found))
+
+
+# --- questions under discussion ------------------------------------------------------
+# A list of questions, the maximal one first, each once: a linear order that the partial
+# order of Ginzburg's QUD is part of, and the stack without repetition of IBiS.
+
+
+def push(qud: Iterable[Object], question: Object) -> tuple[Object, ...]:
+    """The questions with this one on top; one that was there is moved, not doubled.
+
+    Raises `TTRError` for what is no question.
+
+    >>> a, b = (whether(Basic(name)) for name in "AB")
+    >>> push(push([a], b), a) == (a, b)
+    True
+    """
+    if not is_question(question):
+        raise TTRError(f"only questions are under discussion, not {kind_of(question)}")
+    return question, *_without(_several(qud), question)
+
+
+def top(qud: Iterable[Object]) -> Object | None:
+    """The maximal question under discussion, or None where there is none."""
+    return next(iter(_several(qud)), None)
+
+
+def pop(qud: Iterable[Object], question: Object) -> tuple[Object, ...]:
+    """The questions without this one, which was dropped or resolved."""
+    return tuple(_without(_several(qud), question))
+
+
+def downdate(
+    qud: Iterable[Object], facts: Iterable[Object], model: Model
+) -> tuple[Object, ...]:
+    """The questions that no fact resolves.
+
+    >>> back = rectype(e=Pred("return_trip", ())())
+    >>> downdate([whether(back), whether(Rec)], [~back], Model()) == (whether(Rec),)
+    True
+    """
+    known = _several(facts)
+    return tuple(q for q in _several(qud) if resolving(q, known, model) is None)
+
+
+def _several(found: Iterable[Object]) -> tuple[Object, ...]:
+    """A list of questions or propositions; raises `TTRError` for one alone."""
+    with suppress(TypeError):
+        if not isinstance(found, str | bytes):
+            return tuple(found)
+    raise TTRError(f"a list is expected here, found {kind_of(found)}")
+
+
+def _without(qud: Iterable[Object], question: Object) -> Iterator[Object]:
+    return (one for one in qud if identity(one) != identity(question))

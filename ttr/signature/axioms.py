@@ -1,0 +1,132 @@
+"""What declared axioms put above and below a type, schematic ones instantiated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+from typing import cast
+
+from ttr.signature.signature import Axiom, Exclusion, Signature
+from ttr.types.paths import replace_paths
+from ttr.types.syntax import Basic, Object, Path, Pred, PType, identity
+
+__all__ = ["above", "below", "excluding", "match_schema", "uppers"]
+
+Binding = Mapping[Path, Object]
+
+Atom = Basic | PType
+
+
+def above(
+    T: Basic | PType, axioms: tuple[Axiom, ...]
+) -> Iterator[tuple[Axiom, Basic | PType]]:
+    """Every type that the axioms put above T, each once, with the last axiom used.
+
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> dog, puppy = Pred("dog", Ind), Pred("puppy", Ind)
+    >>> for axiom, upper in above(puppy("rex"), (Axiom(puppy(this.x), dog(this.x)),)):
+    ...     print(upper, "by", axiom)
+    dog(rex) by puppy(x) <: dog(x)
+    """
+    yield from _reached(T, [(axiom, axiom.lower, axiom.upper) for axiom in axioms])
+
+
+def below(
+    T: Basic | PType, axioms: tuple[Axiom, ...]
+) -> Iterator[tuple[Axiom, Basic | PType]]:
+    """Every type that the axioms put below T, each once, with the last axiom used.
+
+    A schematic variable that only the lower side has stays in it as a path.
+    """
+    yield from _reached(T, [(axiom, axiom.upper, axiom.lower) for axiom in axioms])
+
+
+def uppers(T: Atom, theory: Signature) -> frozenset[Atom]:
+    """The types that the axioms put above T."""
+    found = theory._memo.get(T)
+    if found is None:
+        found = frozenset(upper for _, upper in above(T, theory.axioms))
+        theory._memo[T] = found
+    return cast(frozenset[Atom], found)
+
+
+def excluding(S: Atom, T: Atom, theory: Signature) -> Exclusion | None:
+    """The exclusion by which nothing is of both types, or of what is above them.
+
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> dog, cat = Pred("dog", Ind), Pred("cat", Ind)
+    >>> theory = Signature(exclusions=(Exclusion(dog(this.x), cat(this.x)),))
+    >>> print(excluding(cat("felix"), dog("felix"), theory))
+    dog(x) <: ~cat(x)
+    >>> excluding(cat("felix"), dog("fido"), theory)
+    """
+    if not theory.exclusions:
+        return None
+    if (S, T) not in theory._memo:
+        theory._memo[S, T] = _excluding(S, T, theory)
+    return cast(Exclusion | None, theory._memo[S, T])
+
+
+def _excluding(S: Atom, T: Atom, theory: Signature) -> Exclusion | None:
+    mine, theirs = (S, *uppers(S, theory)), (T, *uppers(T, theory))
+    for exclusion in theory.exclusions:
+        sides = exclusion.left, exclusion.right
+        for one, other in product(mine, theirs):
+            if _match_both(sides, (one, other)) or _match_both(sides, (other, one)):
+                return exclusion
+    return None
+
+
+def _match_both(schemas: tuple[Atom, Atom], types: tuple[Atom, Atom]) -> bool:
+    """Whether both types are what the schemas stand for, with the same variables."""
+    left, right = (match_schema(*pair) for pair in zip(schemas, types, strict=True))
+    if left is None or right is None:
+        return False
+    return all(
+        identity(left[path]) == identity(right[path]) for path in left if path in right
+    )
+
+
+def _reached(
+    T: Atom, steps: Sequence[tuple[Axiom, Atom, Atom]]
+) -> Iterator[tuple[Axiom, Atom]]:
+    if not steps:
+        return
+    by_head: dict[Basic | Pred, list[tuple[Axiom, Atom, Atom]]] = {}
+    for step in steps:
+        by_head.setdefault(_head(step[1]), []).append(step)
+    found, waiting = {T}, [T]
+    for current in waiting:
+        for axiom, start, end in by_head.get(_head(current), ()):
+            bound = match_schema(start, current)
+            if bound is None:
+                continue
+            reached = _instance(end, bound)
+            if reached not in found:
+                found.add(reached)
+                waiting.append(reached)
+                yield axiom, reached
+
+
+def _head(T: Atom) -> Basic | Pred:
+    return T if isinstance(T, Basic) else T.pred
+
+
+def match_schema(schema: Basic | PType, T: Basic | PType) -> Binding | None:
+    """What the schema's variables must be for it to be T, or None."""
+    if isinstance(schema, Basic) or isinstance(T, Basic):
+        return {} if schema is T else None
+    if schema.pred is not T.pred or len(schema.args) != len(T.args):
+        return None
+    bound: dict[Path, Object] = {}
+    for wanted, arg in zip(schema.args, T.args, strict=True):
+        known = bound.setdefault(wanted, arg) if isinstance(wanted, Path) else wanted
+        if identity(known) != identity(arg):
+            return None
+    return bound
+
+
+def _instance(schema: Basic | PType, bound: Binding) -> Basic | PType:
+    """The schema with its variables replaced."""
+    found: Basic | PType = replace_paths(schema, lambda path: bound.get(path, path))
+    return found

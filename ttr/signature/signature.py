@@ -1,0 +1,175 @@
+"""What a theory assumes: axioms, exclusions, open types, judgements that are given."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from immutables import Map
+
+from ttr.aliases import Alias
+from ttr.errors import IllFormed, Span
+from ttr.escapes import json_text
+from ttr.types.interning import as_notation
+from ttr.types.syntax import (
+    Basic,
+    Object,
+    Path,
+    Pred,
+    PType,
+    Record,
+    RecordType,
+    TypeNode,
+    kind_of,
+)
+
+if TYPE_CHECKING:
+    from ttr.updates.algorithms import Algorithm
+
+__all__ = [
+    "Axiom",
+    "Exclusion",
+    "Expected",
+    "Given",
+    "Interval",
+    "Opening",
+    "Signature",
+    "signature_of",
+]
+
+Interval = tuple[float, float]
+"""An interval of probability [lo, hi] with 0 <= lo <= hi <= 1."""
+
+
+@dataclass(frozen=True)
+class Axiom:
+    """A declared subtyping S <: T; paths in it are schematic variables.
+
+    `right(x, y) <: left(y, x)` says that every situation in which x is right of y is
+    one in which y is left of x, whatever x and y are.
+    """
+
+    lower: Basic | PType
+    upper: Basic | PType
+
+    def __str__(self) -> str:
+        return f"{_schema(self.lower)} <: {_schema(self.upper)}"
+
+
+@dataclass(frozen=True)
+class Exclusion:
+    """A declared S <: ~T: nothing is of both; paths in it are schematic variables.
+
+    `dog(x) <: ~cat(x)` says that no situation makes x a dog and a cat.
+    """
+
+    left: Basic | PType
+    right: Basic | PType
+
+    def __str__(self) -> str:
+        return f"{_schema(self.left)} <: ~{_schema(self.right)}"
+
+
+def _schema(T: Basic | PType) -> str:
+    """The type with its variables bare and the names of objects quoted."""
+    if isinstance(T, Basic):
+        return T.name
+    return f"{T.pred.name}({', '.join(map(_schematic, T.args))})"
+
+
+def _schematic(arg: Object) -> str:
+    match arg:
+        case Path(_, labels):
+            return labels[0]
+        case str():
+            return json_text(arg)
+    return as_notation(arg)
+
+
+@dataclass(frozen=True)
+class Given:
+    """A judgement a theory starts from: a : T with a probability.
+
+    Where `when` names other judgements, it is the probability if they hold.
+    """
+
+    sit: Object
+    type: TypeNode
+    p: Interval = (1.0, 1.0)
+    span: Span | None = None
+    when: tuple[tuple[Object, TypeNode], ...] = ()
+
+
+@dataclass(frozen=True)
+class Expected:
+    """p(T || S₁, …): how probably whatever is of the conditions is of T, too."""
+
+    type: TypeNode
+    when: tuple[TypeNode, ...]
+    p: Interval
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
+class Opening:
+    """How a theory declares a game: all of it but the model in which it is played.
+
+    `start` is its first state, of `type`; `agenda` the path of what it plans, `hears`
+    the types of the events that come from outside, where it says which.
+    """
+
+    name: str
+    type: RecordType
+    start: Record
+    algorithm: Algorithm
+    agenda: str | None = None
+    span: Span | None = None
+    hears: tuple[TypeNode, ...] = ()
+
+
+def _nothing() -> Mapping[str, Object]:
+    return Map()
+
+
+@dataclass(frozen=True, eq=False)
+class Signature:
+    """What models and subtyping need of a theory: axioms, open types, judgements."""
+
+    axioms: tuple[Axiom, ...] = ()
+    opened: frozenset[Basic | Pred] = frozenset()
+    givens: tuple[Given | Expected, ...] = ()
+    definitions: Mapping[str, Object] = field(default_factory=_nothing)
+    exclusions: tuple[Exclusion, ...] = ()
+
+    @cached_property
+    def _memo(self) -> dict[object, Any]:
+        """What follows from the axioms, as `ttr.signature.axioms` has found out."""
+        return {}
+
+    @cached_property
+    def axiom_heads(self) -> frozenset[Basic | Pred]:
+        """The basic types and predicates that an axiom or an exclusion is about."""
+        axioms = [T for one in self.axioms for T in (one.lower, one.upper)]
+        exclusions = [T for one in self.exclusions for T in (one.left, one.right)]
+        types = (*axioms, *exclusions)
+        return frozenset(T if isinstance(T, Basic) else T.pred for T in types)
+
+    related = Alias("axiom_heads")
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.axioms, tuple):
+            raise IllFormed(
+                f"a theory is made of a tuple of axioms, found {kind_of(self.axioms)}",
+                hint="to read a text, write Theory.parse(text)",
+            )
+
+
+def signature_of(theory: object) -> Signature:
+    """The theory, or the empty one for None; raises `IllFormed` for what is none."""
+    if theory is None:
+        return Signature()
+    if not isinstance(theory, Signature):
+        raise IllFormed(f"expected a theory, found {kind_of(theory)}")
+    return theory

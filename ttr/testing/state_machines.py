@@ -1,0 +1,95 @@
+"""A game as a Hypothesis state machine, to be extended with rules of one's own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
+
+from ttr.errors import TTRError
+from ttr.escapes import terminal_text
+from ttr.testing.catalogue import ALL
+from ttr.testing.failure_story import story
+from ttr.testing.properties import Property, chosen
+from ttr.testing.strategies.discourse_roles import Roles
+from ttr.testing.strategies.playthroughs import Dialogue
+from ttr.testing.strategies.random_states import event_of, heard_by
+from ttr.types.syntax import Object, TypeNode, kind_of
+from ttr.updates.games import Game
+
+__all__ = ["machine"]
+
+
+def machine(
+    game: Game,
+    *,
+    properties: Iterable[Property | str] = ALL,
+    roles: Roles | None = None,
+) -> type[RuleBasedStateMachine]:
+    """A state machine that takes any event the game hears, and checks the properties.
+
+    Its rules are one for each type of event, and the empty turn; `self.dialogue` is
+    what was played. `machine(game).TestCase` is a test that pytest runs; rules and
+    invariants of one's own are added in a subclass. Raises `TTRError` for what is no
+    game, and for properties of other names.
+
+    >>> from hypothesis import settings
+    >>> from hypothesis.stateful import run_state_machine_as_test
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.records import replace
+    >>> from ttr.types.syntax import Ind, ListOf
+    >>> from ttr.updates import rule
+    >>> Board = rectype(heard=ListOf(Ind))
+    >>> @rule(when=Board, on=Ind)
+    ... def note(s, e):
+    ...     return replace(s, heard=[*s.heard, e])
+    >>> notes = machine(Game("notes", Board, {"heard": []}, note))
+    >>> run_state_machine_as_test(notes, settings=settings(max_examples=5))
+    """
+    if not isinstance(game, Game):
+        raise TTRError(f"a machine is made of a game, found {kind_of(game)}")
+    asked = chosen(properties, ALL)
+    who = roles or Roles.of(game.type)
+
+    class Machine(RuleBasedStateMachine):
+        """Plays one dialogue."""
+
+        def __init__(self) -> None:
+            super().__init__()
+            self.dialogue = Dialogue(game)
+
+        def take(self, event: Object) -> None:
+            """Goes on with the dialogue, if nothing went wrong in it."""
+            if self.dialogue.fault is None:
+                self.dialogue = self.dialogue.then(event)
+
+        @rule()
+        def nothing_happens(self) -> None:
+            """The tutor is silent."""
+            self.take(None)
+
+        @invariant()
+        def properties_hold(self) -> None:
+            """What was played so far breaks no property."""
+            __tracebackhide__ = True
+            for one in asked:
+                if breach := one.breach(self.dialogue, who):
+                    shown = story(self.dialogue, str(one))
+                    told = terminal_text(f"{breach}\n\n{shown}")
+                    raise AssertionError(told) from None
+
+    for number, T in enumerate(heard_by(game), start=1):
+        setattr(Machine, f"event_{number}", rule(data=st.data())(_happening(T)))
+    Machine.__name__ = Machine.__qualname__ = f"Machine_{game.name}"
+    return Machine
+
+
+def _happening(T: TypeNode) -> Callable[..., None]:
+    """What a machine does where an event of the type happens."""
+
+    def happens(self: Any, data: st.DataObject) -> None:
+        self.take(data.draw(event_of(T, self.dialogue.now.model)))
+
+    return happens

@@ -1,0 +1,61 @@
+"""Strategies for models of a theory."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hypothesis import strategies as st
+
+from ttr.errors import Refused, TTRError
+from ttr.judging.models import Model
+from ttr.testing.strategies import arbitrary
+from ttr.testing.strategies.arbitrary import Words
+from ttr.theories.theory import Theory
+from ttr.types.syntax import Basic, Object, PType, TypeNode
+
+__all__ = ["facts", "models"]
+
+
+def models(
+    theory: Theory | None = None, *, degrees: st.SearchStrategy[Any] | None = None
+) -> st.SearchStrategy[Model]:
+    """Models of a theory with random facts about few objects.
+
+    `degrees` draws how probable they are, as numbers or intervals; else all are
+    certain. Raises `TTRError` for degrees that no strategy draws.
+    """
+    if degrees is None:
+        degrees = st.just(1.0)
+    if not isinstance(degrees, st.SearchStrategy):
+        raise TTRError(
+            f"degrees are drawn by a strategy, as in st.floats(0, 1), found {degrees!r}"
+        )
+    return facts(Words.of(theory), theory, degrees)
+
+
+@st.composite
+def facts(
+    draw: st.DrawFn,
+    words: Words,
+    theory: Theory | None,
+    degrees: st.SearchStrategy[Any],
+) -> Model:
+    """Models of the theory with random facts about the words' names."""
+    M = Model(theory)
+    for T in words.basics:
+        for name in draw(st.lists(st.sampled_from(words.names), unique=True)):
+            M = _with_fact(M, name, T, draw(degrees))
+    facts = st.tuples(st.sampled_from(words.names), arbitrary.ptypes(words, (), 0))
+    for sit, ptype in draw(st.lists(facts, max_size=8)):
+        M = _with_fact(M, sit, ptype, draw(degrees))
+    return M
+
+
+def _with_fact(M: Model, sit: Object, T: TypeNode, degree: object) -> Model:
+    """The model with the fact, or without it where an axiom speaks against it."""
+    if not isinstance(T, Basic | PType):
+        return M
+    try:
+        return M.given(sit, T, degree)
+    except Refused:
+        return M

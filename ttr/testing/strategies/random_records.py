@@ -1,0 +1,166 @@
+"""Strategies for records of a type."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from typing import Any
+
+from hypothesis import strategies as st
+
+from ttr.computing.strings.pieces import string_of
+from ttr.errors import IllFormed, Refused, TTRError
+from ttr.judging.models import Model
+from ttr.testing.strategies import arbitrary
+from ttr.testing.strategies.arbitrary import Words
+from ttr.testing.strategies.random_models import facts
+from ttr.theories.theory import Theory
+from ttr.types.objects import Unresolved
+from ttr.types.substitution import grounded
+from ttr.types.syntax import (
+    Basic,
+    FiniteSet,
+    FunType,
+    Join,
+    ListOf,
+    Meet,
+    NonEmpty,
+    Object,
+    Plus,
+    PType,
+    Record,
+    RecordType,
+    SetOf,
+    Singleton,
+    Str,
+    TypeNode,
+    Universe,
+    as_type,
+    kind_of,
+)
+
+__all__ = ["records", "shaped", "told_of"]
+
+
+def records(T: TypeNode, model: Model | None = None) -> st.SearchStrategy[Any]:
+    """Records for a record type, or for a meet or join of record types.
+
+    With a model they have the shape of T, over the model's objects and new ones; many
+    are of T, others nearly so. Without one they are pairs (record, model) in which the
+    record is of T; drawing raises `Refused` where no such record can be made up. Raises
+    `IllFormed` for what is no record type.
+
+    >>> from hypothesis import find
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> T = rectype(x=Ind, c=Pred("dog", Ind)(this.x))
+    >>> r, M = find(records(T), lambda pair: True)
+    >>> M.judge(r, T).holds
+    True
+    """
+    if not is_of_records(as_type(T)):
+        raise IllFormed(f"records are drawn for a record type, found {kind_of(T)}")
+    if model is None:
+        return _witnesses(T)
+    if not isinstance(model, Model):
+        raise TTRError(f"records are drawn over a model, found {kind_of(model)}")
+    return shaped(T, model)
+
+
+def is_of_records(T: TypeNode) -> bool:
+    """Whether by its form only records are of it."""
+    match T:
+        case RecordType():
+            return True
+        case Singleton(base, _):
+            return is_of_records(base)
+        case Meet(parts):
+            return any(map(is_of_records, parts))
+        case Join(parts):
+            return all(map(is_of_records, parts))
+    return False
+
+
+@st.composite
+def _witnesses(draw: st.DrawFn, T: TypeNode) -> tuple[Object, Model]:
+    """A record of the shape of T that a model is told is of T; else one made up."""
+    M = draw(facts(Words.of(Theory.of(T)), None, st.just(1.0)))
+    told = told_of(M, draw(shaped(T, M)), T)
+    if told is not None and draw(st.booleans()):
+        return told
+    for model in (M, Model()):
+        with suppress(Refused):
+            return model.create(T)
+    return told or Model().create(T)
+
+
+def told_of(M: Model, r: Object, T: TypeNode) -> tuple[Object, Model] | None:
+    """The record with the model in which it is of T, if it can be."""
+    try:
+        M = M.given(r, T)
+        return (r, M) if M.judge(r, T).holds else None
+    except TTRError:
+        return None
+
+
+def shaped(T: TypeNode, M: Model) -> st.SearchStrategy[Object]:
+    """Objects of the shape of T, over the names that the model knows and new ones."""
+    known = [name for name in M.facts.known if isinstance(name, str)]
+    names = [*sorted(known), *(f"new{number}" for number in range(1, 4))]
+    return _shapes(T, M, tuple(names))
+
+
+@st.composite
+def _shapes(draw: st.DrawFn, T: TypeNode, M: Model, names: tuple[str, ...]) -> Object:
+    """Objects of the shape of T; mostly of T, where it is a basic type or a ptype."""
+    match T:
+        case RecordType(kinds):
+            fields: dict[str, Object] = {}
+            for label, field in kinds:
+                fields[label] = draw(_shapes_in(fields, field, M, names))
+            return Record(fields)
+        case Meet(parts) if is_of_records(T):
+            whole = [draw(_shapes(part, M, names)) for part in parts]
+            several = [r for r in whole if isinstance(r, Record)]
+            return Record({k: v for r in several for k, v in r._fields.items()})
+        case Meet(parts) | Join(parts):
+            return draw(_shapes(draw(st.sampled_from(parts)), M, names))
+        case Singleton(_, value):
+            return value
+        case Str(kinds):
+            return string_of(kinds, [draw(_shapes(kind, M, names)) for kind in kinds])
+        case Plus(item):
+            found = draw(st.lists(_shapes(item, M, names), min_size=1, max_size=2))
+            return string_of([item] * len(found), found)
+        case ListOf(item) | NonEmpty(item) | SetOf(item):
+            least = int(isinstance(T, NonEmpty))
+            found = draw(st.lists(_shapes(item, M, names), min_size=least, max_size=2))
+            return _MADE_OF[type(T)](*found)
+        case FunType() | Universe():
+            return draw(arbitrary.forms(Words.of(Theory.of(T)), (), 1, T))
+        case Basic() | PType() if M.witnesses(T):
+            likely = st.sampled_from(M.witnesses(T))
+            return draw(st.one_of(likely, likely, likely, st.sampled_from(names)))
+    return draw(st.sampled_from(names))
+
+
+def _tuple(*items: Object) -> Object:
+    return items
+
+
+_MADE_OF: dict[type[TypeNode], Callable[..., Object]] = {
+    ListOf: _tuple,
+    NonEmpty: _tuple,
+    SetOf: FiniteSet,
+}
+"""What makes an object of a type of collections."""
+
+
+def _shapes_in(
+    fields: Mapping[str, Object], T: TypeNode, M: Model, names: tuple[str, ...]
+) -> st.SearchStrategy[Object]:
+    """Objects of the shape of a field, in a record that has these fields already."""
+    try:
+        return _shapes(grounded(T, (fields,)), M, names)
+    except Unresolved:
+        return st.sampled_from(names)

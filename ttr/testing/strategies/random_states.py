@@ -1,0 +1,228 @@
+"""Strategies for information states, and for the events that are played to them."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from math import prod
+from typing import Self
+
+from hypothesis import strategies as st
+
+from ttr.building.constructors import rectype
+from ttr.computing.subtyping import subtype
+from ttr.errors import IllFormed, TTRError
+from ttr.judging.models import Model, as_model
+from ttr.testing.strategies.random_records import records, shaped, told_of
+from ttr.types.paths import escaping
+from ttr.types.syntax import (
+    Basic,
+    Object,
+    PType,
+    Record,
+    RecordType,
+    Singleton,
+    TypeNode,
+    as_type,
+    identity,
+    kind_of,
+)
+from ttr.updates.games import Game
+
+__all__ = ["events", "states"]
+
+KNOWN = 6
+"""How many known objects a field of an event is set to, at most."""
+
+TRIED = 100
+"""How many ways to set the fields of an event are tried, where all would do."""
+
+
+def states(
+    T: RecordType, model: Model | None = None
+) -> st.SearchStrategy[tuple[Record, Model]]:
+    """Pairs (state, model) in which the state certainly is of the record type.
+
+    States are made of what the model knows and of new objects, about which the model
+    that is drawn with them knows more. Raises `IllFormed` for what is no record type;
+    drawing raises `Refused` where no state can be made up.
+
+    >>> from hypothesis import find
+    >>> from ttr.types.syntax import Ind, ListOf
+    >>> Board = rectype(speaker=Ind, agenda=ListOf(Ind))
+    >>> state, M = find(states(Board), lambda pair: len(pair[0].agenda) == 2)
+    >>> M.judge(state, Board).holds
+    True
+    """
+    if not isinstance(T, RecordType):
+        raise IllFormed(f"states are drawn for a record type, found {kind_of(T)}")
+    return records(T) if model is None else _over(T, as_model(model))
+
+
+@st.composite
+def _over(draw: st.DrawFn, T: RecordType, M: Model) -> tuple[Object, Model]:
+    """A state over what the model knows; one made up, where that is none."""
+    told = told_of(M, draw(shaped(T, M)), T)
+    return told if told is not None else M.create(T)
+
+
+# --- events --------------------------------------------------------------------------
+
+
+def events(
+    source: Game | Iterable[TypeNode], model: Model | None = None
+) -> st.SearchStrategy[Object]:
+    """Events of the types that a game hears, or of these: a game can take each.
+
+    Most are drawn as the *types* of events, with some of their fields set to objects
+    that the model knows: `[x = fido : Ind, c : bark(x)]`. A game creates an event of
+    such a type. Of a type that is no record type, known objects are drawn as well.
+    Raises `TTRError` where there is no type to draw events of.
+
+    >>> from hypothesis import find
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> M = Model().given("fido", Ind)
+    >>> Barking = rectype(x=Ind, c=Pred("bark", Ind)(this.x))
+    >>> print(find(events([Barking], M), lambda event: event is not Barking))
+    [x = fido : Ind, c : bark(x)]
+    """
+    if isinstance(source, Game):
+        kinds, model = heard_by(source), model or source.model
+    else:
+        kinds = tuple(map(as_type, source))
+    if not kinds:
+        raise TTRError("events are drawn of a type at least, and there is none")
+    model = Model() if model is None else as_model(model)
+    return st.one_of([event_of(T, model) for T in kinds])
+
+
+@lru_cache(maxsize=64)
+def heard_by(game: Game) -> tuple[TypeNode, ...]:
+    """The types of the events that a game hears: by default, what any rule takes.
+
+    What the game's theory defines as more specific ones is among them, such as asking
+    whether it rains among asking.
+    """
+    taken = tuple(rule.on for rule in game.rules if rule.on is not None)
+    defined = game.theory.definitions.values() if game.theory else ()
+    special = (
+        T
+        for T in defined
+        if isinstance(T, RecordType) and any(_is_below(T, on, game) for on in taken)
+    )
+    return game.hears or tuple(dict.fromkeys((*taken, *special)))
+
+
+def _is_below(T: RecordType, on: TypeNode, game: Game) -> bool:
+    """Whether T asks for all that another record type does, and for more."""
+    return isinstance(on, RecordType) and subtype(T, on, game.theory).yes
+
+
+def event_of(
+    T: TypeNode, M: Model, about: Record | None = None
+) -> st.SearchStrategy[Object]:
+    """Events of one type: itself, or what it becomes for objects that are known.
+
+    If they are about a state, they are of objects that occur in it, where there are
+    any of the right types.
+    """
+    ways = _Ways.of(T, M, about)
+    if ways.number == 1:
+        return st.just(T)
+    return st.integers(0, ways.number - 1).map(ways)
+
+
+def variants(T: TypeNode, M: Model, about: Record) -> Iterator[Object]:
+    """Events of one type that are about a state, the plain one first; not too many."""
+    ways = _Ways.of(T, M, about)
+    return map(ways, range(min(ways.number, TRIED)))
+
+
+@dataclass(frozen=True)
+class _Ways:
+    """The ways to make a type more specific, by number; in way 0 nothing is set."""
+
+    T: TypeNode
+    open_fields: Mapping[tuple[str, ...], tuple[Object, ...]]
+
+    @classmethod
+    def of(cls, T: TypeNode, M: Model, about: Record | None) -> Self:
+        if not isinstance(T, RecordType):
+            return cls(T, {(): _known(T, M)})
+        if about is not None:
+            among = set(map(identity, _names_in(about)))
+            settable = dict(_settable(T, M, (), among))
+            if settable:
+                return cls(T, settable)
+        return cls(T, dict(_settable(T, M, (), None)))
+
+    @cached_property
+    def number(self) -> int:
+        """How many there are."""
+        return prod(1 + len(values) for values in self.open_fields.values())
+
+    def __call__(self, way: int) -> Object:
+        """The type in this way, or the object that there is of it."""
+        if not isinstance(self.T, RecordType):
+            return (self.T, *self.open_fields[()])[way]
+        return _set(self.T, self.open_fields, way)
+
+
+def _names_in(value: Object) -> Iterator[Object]:
+    """The names in a state, in its records and lists."""
+    match value:
+        case str():
+            yield value
+        case Record():
+            for inner in value._fields.values():
+                yield from _names_in(inner)
+        case tuple():
+            for inner in value:
+                yield from _names_in(inner)
+
+
+def _settable(
+    T: RecordType, M: Model, path: tuple[str, ...], among: Container[object] | None
+) -> Iterator[tuple[tuple[str, ...], tuple[Object, ...]]]:
+    """The paths of fields that depend on nothing, and the objects known of each."""
+    for label, field in T.fields:
+        if isinstance(field, RecordType):
+            yield from _settable(field, M, (*path, label), among)
+        elif values := _known(field, M, among):
+            yield (*path, label), values
+
+
+def _known(
+    T: TypeNode, M: Model, among: Container[object] | None = None
+) -> tuple[Object, ...]:
+    """Objects that the model knows of a type: the first, and the last, if many."""
+    if not isinstance(T, Basic | PType) or escaping(T):
+        return ()
+    found = M.witnesses(T)
+    if among is not None:
+        found = tuple(one for one in found if identity(one) in among)
+    return (
+        found if len(found) <= KNOWN else (*found[: KNOWN // 2], *found[-KNOWN // 2 :])
+    )
+
+
+def _set(
+    T: RecordType, fields: Mapping[tuple[str, ...], tuple[Object, ...]], way: int
+) -> RecordType:
+    """The type with the fields set in one of the possible ways; in way 0 none is."""
+    for path, values in fields.items():
+        way, choice = divmod(way, 1 + len(values))
+        if choice:
+            T = _with_value(T, path, values[choice - 1])
+    return T
+
+
+def _with_value(T: RecordType, path: tuple[str, ...], value: Object) -> RecordType:
+    label, *rest = path
+    field = T[label]
+    if rest and isinstance(field, RecordType):
+        inner: TypeNode = _with_value(field, tuple(rest), value)
+    else:
+        inner = Singleton(field, value)
+    return rectype({**dict(T.fields), label: inner})

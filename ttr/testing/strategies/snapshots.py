@@ -1,0 +1,92 @@
+"""What a state looked like, to find out whether anybody has tampered with it.
+
+Records, lists and types cannot be changed by plain means; but a rule written in Python
+may change an object that it finds in a record, or a record's own inside.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from typing import TypeAlias
+
+from ttr.types.syntax import EventString, FiniteSet, Object, Record, TypeNode
+
+__all__ = ["Snapshot", "changed_since", "copied", "snapshot"]
+
+Snapshot: TypeAlias = "dict[str, Snapshot] | tuple[object, ...]"
+
+
+def snapshot(value: Object) -> Snapshot:
+    """What the object is made of now: a dictionary for a record, else a tuple.
+
+    >>> from ttr.types.syntax import record
+    >>> snapshot(record(x="a")) == snapshot(record(x="a"))
+    True
+    """
+    match value:
+        case Record():
+            return {label: snapshot(inner) for label, inner in value._fields.items()}
+        case tuple() | list():
+            return (type(value), *map(snapshot, value))
+        case FiniteSet() | EventString():
+            return (type(value), *map(snapshot, value.items))
+        case str() | int() | float() | None | TypeNode():
+            return (type(value), value)
+    return (type(value), id(value), *_inside(value))
+
+
+def _inside(value: object) -> Iterator[object]:
+    """What an object of another kind has in it: its bytes, or its own attributes.
+
+    Of what is no plain collection there it is only known which object it is.
+    """
+    with suppress(TypeError):
+        yield memoryview(value).tobytes()  # type: ignore[arg-type]
+    for name, one in getattr(value, "__dict__", {}).items():
+        yield name, _plain(one)
+
+
+def _plain(value: object) -> object:
+    match value:
+        case list() | tuple():
+            return (type(value), *map(_plain, value))
+        case dict():
+            return tuple((_plain(k), _plain(v)) for k, v in value.items())
+        case set() | frozenset():
+            return frozenset(map(_plain, value))
+        case str() | int() | float() | None:
+            return value
+    return id(value)
+
+
+def copied(value: Object) -> Object:
+    """The same object with records of its own in it, so that nobody else's are changed.
+
+    >>> from ttr.types.syntax import record
+    >>> r = record(x=record(y="a"))
+    >>> copied(r) == r, copied(r).x is r.x
+    (True, False)
+    """
+    if not isinstance(value, Record):
+        return value
+    return Record({label: copied(inner) for label, inner in value._fields.items()})
+
+
+def changed_since(before: Snapshot, value: Object) -> str:
+    """The first path at which the object is no longer what it was, or an empty text."""
+    return next(_changes(before, snapshot(value), ""), "")
+
+
+def _changes(before: Snapshot, after: Snapshot, path: str) -> Iterator[str]:
+    if before == after:
+        return
+    if not isinstance(before, dict) or not isinstance(after, dict):
+        yield path or "the state itself"
+        return
+    for label in sorted({*before, *after}):
+        inner = f"{path}.{label}" if path else label
+        if label not in before or label not in after:
+            yield inner
+        else:
+            yield from _changes(before[label], after[label], inner)

@@ -1,0 +1,98 @@
+"""Nothing that can be heard is dropped for ever: P27."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ttr.computing.subtyping import subtype
+from ttr.testing.coverage import Coverage
+from ttr.testing.properties import Property
+from ttr.testing.strategies.random_states import heard_by
+from ttr.theories.theory import Theory
+from ttr.types.paths import occurring
+from ttr.types.syntax import Object, PType, RecordType, TypeNode
+from ttr.updates.algorithms import rules_of
+from ttr.updates.games import Game
+from ttr.updates.rules import Body, Rule
+
+__all__ = ["NOTHING_DROPPED"]
+
+
+def _dropped(coverage: Coverage) -> str:
+    untaken = tuple(untaken_by(coverage.game))
+    if not untaken:
+        return ""
+    names = ", ".join(untaken)
+    if len(untaken) == 1:
+        return f"{names} looks like an event, but no rule of the game takes it"
+    return f"{names} look like events, but no rule of the game takes them"
+
+
+def untaken_by(game: Game) -> Iterator[str]:
+    """The names of what a theory defines as events that no rule takes.
+
+    They are closed record types with a proof object of the same label as all events of
+    the game have; what a rule plans, asks for or speaks of is something else.
+    """
+    theory = game.theory
+    if theory is None or game.name not in theory.openings:
+        return
+    taken = [rule.on for rule in _played(theory) if rule.on is not None]
+    labels = _labels(taken)
+    if not labels:
+        return
+    used = _used(theory)
+    for name, T in theory.definitions.items():
+        if not isinstance(T, RecordType) or T in used or not labels & _proofs(T):
+            continue
+        if not any(_meet(T, on, theory) for on in (*taken, *heard_by(game))):
+            yield name
+
+
+def _played(theory: Theory) -> Iterator[Rule]:
+    """The rules of all the games of a theory."""
+    for opening in theory.openings.values():
+        yield from rules_of(opening.algorithm)
+
+
+def _labels(taken: list[TypeNode]) -> frozenset[str]:
+    """The labels under which every event that is taken has a proof object."""
+    sets = [_proofs(T) for T in taken if isinstance(T, RecordType)]
+    return frozenset.intersection(*sets) if sets else frozenset()
+
+
+def _proofs(T: RecordType) -> frozenset[str]:
+    return frozenset(label for label, one in T.fields if isinstance(one, PType))
+
+
+def _used(theory: Theory) -> frozenset[TypeNode]:
+    """The types that stand in a rule, a start, a fact or another ptype as objects."""
+    values: list[Object] = [
+        given.type for given in theory.givens if hasattr(given, "type")
+    ]
+    for rule in _played(theory):
+        effect = rule.effect.value if isinstance(rule.effect, Body) else None
+        values += [one for one in (rule.when, rule.where, effect) if one is not None]
+    for opening in theory.openings.values():
+        values += [opening.start, opening.type]
+    for T in theory.definitions.values():
+        values += [part for part in occurring((T,)) if isinstance(part, PType)]
+    return frozenset(
+        part
+        for value in values
+        for part in occurring((value,))
+        if isinstance(part, RecordType)
+    )
+
+
+def _meet(T: RecordType, on: TypeNode, theory: Theory) -> bool:
+    """Whether one of two types is more specific than the other."""
+    return subtype(T, on, theory).yes or subtype(on, T, theory).yes
+
+
+NOTHING_DROPPED = Property(
+    "P27",
+    "nothing heard is dropped",
+    "whatever the theory defines as an event is taken by some rule.",
+    overall=_dropped,
+)

@@ -1,0 +1,120 @@
+"""What a `check` statement asks, as a query with its types and objects."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ttr.errors import IllFormed, TTRError
+from ttr.notation import syntax_trees as trees
+from ttr.notation.names import is_declared
+from ttr.notation.reader import Reader
+from ttr.notation.syntax_trees import Application, Name, Term
+from ttr.theories.queries import (
+    Check,
+    Creates,
+    Expects,
+    HasDegree,
+    IsBelow,
+    IsOf,
+    IsSame,
+    IsTrue,
+    IsWellFormed,
+    Merges,
+    Query,
+    Updates,
+)
+from ttr.types.objects import Unresolved
+from ttr.types.syntax import Object, TypeNode
+from ttr.updates.rules import Rule
+
+__all__ = ["Asking"]
+
+_MERGES = ("merge", "amerge")
+
+
+@dataclass(frozen=True)
+class Asking:
+    """Reads questions in the reader's theory."""
+
+    reader: Reader
+
+    def check(self, tree: trees.Question) -> Check:
+        """The check that a statement states; raises `NotationError` if it is none."""
+        source = self.reader.source
+        text = " ".join(source.text[tree.start : tree.end].split())
+        return Check(tree.expected, self._query(tree.query), source.span(tree), text)
+
+    def _query(self, tree: trees.Query) -> Query | TTRError:
+        """What is asked; a type that cannot be built is an answer, not a mistake."""
+        try:
+            return self._asked(tree)
+        except (IllFormed, Unresolved) as error:
+            return error
+
+    def _asked(self, tree: trees.Query) -> Query:
+        read, kind = self._object, self._type
+        match tree:
+            case trees.Judged(_, _, sit, T):
+                return IsOf(read(sit), kind(T))
+            case trees.Comparison(_, _, "<=", left, right):
+                return IsBelow(kind(left), kind(right))
+            case trees.Comparison(_, _, _, left, right):
+                return self._equation(left, right)
+            case trees.Probability(_, _, Name(_, _, ("P",)), sit, T, _, when):
+                on = tuple([(read(one), kind(S)) for one, S in when])
+                relation, interval = self.reader.chance(tree)
+                return HasDegree(read(sit), kind(T), relation, interval, on)
+            case trees.Expectation(_, _, Name(_, _, ("P",)), T, types):
+                of = tuple(map(kind, types))
+                return Expects(kind(T), of, *self.reader.chance(tree))
+            case trees.Claim(_, _, Application(_, _, Name(_, _, ("create",)), (T,))):
+                return Creates(kind(T))
+            case trees.Claim(
+                _, _, Application(_, _, Name(_, _, ("wellformed",)), (T,))
+            ):
+                return IsWellFormed(self._built(T))
+        self.reader.refuse(
+            tree,
+            "this is nothing that can be checked",
+            "ask a : T, S <= T, S = T, f(a) = b, merge(S, T) = U, amerge(S, T) = U, "
+            "create(T), wellformed(T), P(a : T) = p, P(a : T) in [lo, hi], "
+            "P(a : T | b : S) = p, P(T || S) = p or P(T) = p",
+        )
+
+    def _equation(self, left: Term, right: Term) -> Query:
+        match left:
+            case Application(_, _, Name(_, _, (operation,)), (S, T)) if (
+                operation in _MERGES
+            ):
+                result = self._type(right)
+                return Merges(operation, self._type(S), self._type(T), result)
+            case Application(_, _, Name(_, _, ("P",)), (T,)) if not is_declared(
+                self.reader.theory, "P"
+            ):
+                degree = trees.Degree(right.start, right.end, "=", right)
+                return IsTrue(self._type(T), self.reader.degree(degree))
+            case Application(_, _, Name(_, _, (name,), None)) if (
+                name in self.reader.theory.rules
+            ):
+                return Updates(*self.step(left, name), self._object(right))
+        return IsSame(self._object(left), self._object(right))
+
+    def step(self, term: Application, name: str) -> tuple[Rule, tuple[Object, ...]]:
+        """A rule that is written like a function, with its state and its event."""
+        rule = self.reader.theory.rules[name]
+        if len(term.args) != len(rule.names):
+            wanted = "the state and the event" if rule.on else "the state alone"
+            self.reader.refuse(term, f"{name} takes {wanted}, but has {len(term.args)}")
+        return rule, tuple(map(self._object, term.args))
+
+    def _built(self, term: Term) -> TypeNode | TTRError:
+        try:
+            return self._type(term)
+        except IllFormed as error:
+            return error
+
+    def _object(self, term: Term) -> Object:
+        return self.reader.object(term, ())
+
+    def _type(self, term: Term) -> TypeNode:
+        return self.reader.type(term, ())

@@ -1,0 +1,224 @@
+"""What a theory claims of itself, `check …`, and whether it holds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, assert_never
+
+from ttr.building.merging import amerge, merge
+from ttr.computing.cycles import circle
+from ttr.computing.subtyping import subtype
+from ttr.errors import Span, TooLargeError, TTRError, Undecided
+from ttr.judging.models import model_of
+from ttr.safety.budgets import SharedPurse, one_of_several, purse_of_several
+from ttr.signature.signature import Interval
+from ttr.theories.queries import (
+    Creates,
+    Expects,
+    HasDegree,
+    IsBelow,
+    IsOf,
+    IsSame,
+    IsTrue,
+    IsWellFormed,
+    Merges,
+    Query,
+    Updates,
+)
+from ttr.theories.reports import Failure, Report
+from ttr.theories.theory import Theory
+from ttr.types.printing import notation
+from ttr.types.records import differences
+from ttr.types.syntax import TypeNode, identity, kind_of
+from ttr.updates.checks import Fault, faults_alone, faults_of
+from ttr.updates.rule_application import stepped
+from ttr.updates.rules import Rule
+
+if TYPE_CHECKING:
+    from ttr.judging.models import Model
+
+__all__ = ["asked", "check"]
+
+TOLERANCE = 1e-9
+"""How far two probabilities may be apart and still count as the same number."""
+
+
+@dataclass(frozen=True)
+class _Answer:
+    """An answer yes, no, unknown or error, what was found, and why."""
+
+    verdict: str
+    found: str
+    why: str = ""
+
+
+def check(theory: Theory) -> Report:
+    """Asks the theory's checks, of the model in which just its givens are judged.
+
+    Its rules are looked at as well, before anything runs: those of each game together,
+    and each of the others alone. Raises `Refused` where the givens contradict one
+    another, and `UpdateError` where the start of a game is not of its type.
+
+    >>> theory = Theory.parse("basic A, B\\nA <: B\\ncheck A <= B\\ncheck not B <= A")
+    >>> print(check(theory))
+    2 checks hold
+    """
+    report = asked(theory)
+    rules = [one for one in theory.rules.values() if _is_own(one.span, theory)]
+    return replace(report, rules=len(rules), faults=_faults(theory, rules))
+
+
+def asked(theory: Theory) -> Report:
+    """Asks the theory's checks, and looks at no rule; raises as `check` does."""
+    if not isinstance(theory, Theory):
+        raise TTRError(f"check takes a theory, found {kind_of(theory)}")
+    purse = purse_of_several(len(theory.givens) + len(theory.checks))
+    model = model_of(theory, purse)
+    failures = []
+    for one in theory.checks:
+        answer = _answered(one.query, theory, model, purse)
+        if answer.verdict != one.expected:
+            failures.append(Failure(one, answer.found, answer.why))
+    return Report(len(theory.checks), tuple(failures))
+
+
+def _faults(theory: Theory, rules: list[Rule]) -> tuple[Fault, ...]:
+    """What is wrong with the rules and games that are declared here, not imported."""
+    own = [k for k, one in theory.openings.items() if _is_own(one.span, theory)]
+    games = [theory.games[name] for name in own]
+    played = {id(one) for game in games for one in game.rules}
+    alone = [one for one in rules if id(one) not in played]
+    found = [fault for game in games for fault in faults_of(game)]
+    found += [fault for one in alone for fault in faults_alone(one)]
+    return tuple({(one.message, one.span): one for one in found}.values())
+
+
+def _is_own(span: Span | None, theory: Theory) -> bool:
+    return span is not None and span.source == theory.source
+
+
+def _answered(
+    query: Query | TTRError, theory: Theory, model: Model, purse: SharedPurse
+) -> _Answer:
+    if isinstance(query, TooLargeError):
+        return _Answer("unknown", "unknown", query.message)
+    if isinstance(query, TTRError):
+        return _Answer("error", "error", query.message)
+    try:
+        with one_of_several(purse):
+            return _asked(_reduced(query, model), theory, model)
+    except TooLargeError as error:
+        return _Answer("unknown", "unknown", error.message)
+    except TTRError as error:
+        return _Answer("error", "error", error.message)
+    except RecursionError:
+        return _Answer("error", "error", "the types nest too deep to be compared here")
+
+
+def _reduced(query: Query, model: Model) -> Query:
+    """The query with every application in it worked out.
+
+    Raises `Refused` where an argument is not of the domain of the function.
+    """
+    if isinstance(query, IsWellFormed | Updates):
+        return query
+    inside = {part.name: getattr(query, part.name) for part in fields(query)}
+    return replace(query, **{k: model.reduced(v) for k, v in inside.items()})
+
+
+def _asked(query: Query, theory: Theory, model: Model) -> _Answer:
+    match query:
+        case IsOf():
+            return _is_of(query, model)
+        case IsBelow(lower, upper):
+            answer = subtype(lower, upper, theory)
+            return _Answer(answer.verdict, answer.verdict, answer.why)
+        case IsSame(left, right):
+            same = identity(left) == identity(right)
+            return _yes_or_no(same, f"{notation(left)} is not {notation(right)}")
+        case Merges():
+            return _merges(query, theory)
+        case Creates(T):
+            model.create(T)
+            return _Answer("yes", "yes")
+        case IsWellFormed(T):
+            return _is_well_formed(T)
+        case HasDegree():
+            judgement = model.judge(query.sit, query.type, when=query.when)
+            return _has_degree(query, judgement.p, str(judgement.why))
+        case Expects(T, when):
+            found = model.chance(T, when=when)
+            return _has_degree(query, found.p, str(found))
+        case IsTrue(T, interval):
+            p = model.true(T)
+            why = f"{'a' if p.lo == 1.0 else 'no'} certain witness of {T} is known"
+            return _Answer("yes" if _same(p, interval) else "no", _interval(p), why)
+        case Updates():
+            return _updates(query, model)
+    assert_never(query)
+
+
+def _yes_or_no(holds: bool, why_not: str) -> _Answer:
+    return _Answer("yes", "yes") if holds else _Answer("no", "no", why_not)
+
+
+def _is_of(query: IsOf, model: Model) -> _Answer:
+    judgement = model.judge(query.sit, query.type)
+    try:
+        verdict = "yes" if judgement.holds else "no"
+    except Undecided:
+        verdict = "unknown"
+    found = verdict if verdict != "unknown" else f"unknown, {_interval(judgement.p)}"
+    return _Answer(verdict, found, str(judgement.why))
+
+
+def _merges(query: Merges, theory: Theory) -> _Answer:
+    operations: dict[str, Callable[[], TypeNode]] = {
+        "merge": lambda: merge(query.left, query.right, theory),
+        "amerge": lambda: amerge(query.left, query.right, theory),
+    }
+    merged = operations[query.operation]()
+    if merged is query.result:
+        return _Answer("yes", "yes")
+    return _Answer("no", str(merged), f"it is not {query.result}")
+
+
+def _updates(query: Updates, model: Model) -> _Answer:
+    """Whether the rule gives the state; an error where it does not apply."""
+    wanted = model.reduced(query.result)
+    after = stepped(query.rule, [*map(model.reduced, query.args)], model).state
+    if identity(after) == identity(wanted):
+        return _Answer("yes", "yes")
+    return _Answer("no", notation(after), "\n".join(differences(wanted, after)))
+
+
+def _is_well_formed(T: TypeNode | TTRError) -> _Answer:
+    if isinstance(T, TTRError):
+        return _Answer("no", "no", T.message)
+    return _yes_or_no(not circle(T), f"its paths go in a circle: {circle(T)}")
+
+
+def _has_degree(query: HasDegree | Expects, p: Interval, why: str) -> _Answer:
+    least, most = query.interval
+    if query.relation == "=":
+        holds = _same(p, query.interval)
+    else:
+        holds = least - TOLERANCE <= p[0] and p[1] <= most + TOLERANCE
+    return _Answer("yes" if holds else "no", _interval(p), why)
+
+
+def _same(p: Interval, wanted: Interval) -> bool:
+    """Whether both ends are the same, but for rounding."""
+    ends = zip(p, wanted, strict=True)
+    return all(abs(end - other) <= TOLERANCE for end, other in ends)
+
+
+def _interval(p: Interval) -> str:
+    """p = 0.5 where the interval is a number, else p in [0.2, 0.4].
+
+    >>> _interval((0.5, 0.5)), _interval((0.0, 1.0))
+    ('p = 0.5', 'p in [0, 1]')
+    """
+    lo, hi = p
+    return f"p = {lo:.6g}" if lo == hi else f"p in [{lo:.6g}, {hi:.6g}]"

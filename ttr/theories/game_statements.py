@@ -1,0 +1,108 @@
+"""Games as statements: `game g({x = a} : S, acts on next, hears A, B) := strategy`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from ttr.building.formation import target
+from ttr.errors import IllFormed, TTRError
+from ttr.judging.models import model_of
+from ttr.notation.reader import Reader
+from ttr.notation.syntax_trees import GameStatement, Name, Term
+from ttr.signature.signature import Opening
+from ttr.theories.rule_statements import record_type
+from ttr.theories.strategy_statements import algorithm
+from ttr.types.syntax import (
+    ListOf,
+    NonEmpty,
+    Path,
+    Record,
+    RecordType,
+    Singleton,
+    TypeNode,
+)
+from ttr.updates.games import Game
+
+if TYPE_CHECKING:
+    from ttr.theories.theory import Theory
+
+__all__ = ["opened", "opening_of"]
+
+
+def opening_of(tree: GameStatement, reader: Reader) -> Opening:
+    """How a statement declares a game; raises `NotationError` or `IllFormed`."""
+    state = record_type(tree.type, reader)
+    start = reader.object(tree.begin, ())
+    if not isinstance(start, Record):
+        reader.refuse(
+            tree.begin,
+            f"a game starts from a state, a record, found {reader.written(tree.begin)}",
+            "write {x = a, …}",
+        )
+    played = algorithm(tree.value, reader)
+    agenda = _agenda(tree.agenda, state, reader) if tree.agenda else None
+    span = reader.source.span(tree.begin)
+    hears = tuple(reader.type(T, ()) for T in tree.hears)
+    return Opening(tree.name.text, state, start, played, agenda, span, hears)
+
+
+def _agenda(term: Term, state: RecordType, reader: Reader) -> str:
+    """The path of a list of types in the state."""
+    match term:
+        case Name(_, _, labels, None):
+            path = Path(0, labels)
+        case _:
+            found = reader.written(term)
+            reader.refuse(
+                term,
+                f"a game acts on the path of a list of types, found {found}",
+                "write acts on agenda, or acts on shared.next",
+            )
+    try:
+        found_type = target(path, state)
+    except IllFormed as error:
+        raise error.at(reader.source.span(term)) from None
+    if not _may_be_list(found_type):
+        reader.refuse(
+            term,
+            f"a game acts on a list of types, but {reader.written(term)} is of "
+            f"{found_type}",
+        )
+    return ".".join(labels)
+
+
+def _may_be_list(T: TypeNode) -> bool:
+    match T:
+        case Singleton(base, _):
+            return _may_be_list(base)
+        case ListOf() | NonEmpty():
+            return True
+    return False
+
+
+def opened(theory: Theory) -> Mapping[str, Game]:
+    """The games of a theory, played in the model of its givens.
+
+    Raises `TTRError`, with its place, for givens that contradict one another and for a
+    start that is not of its type.
+    """
+    if not theory.openings:
+        return {}
+    model = model_of(theory)
+    games: dict[str, Game] = {}
+    for one in theory.openings.values():
+        try:
+            games[one.name] = Game(
+                one.name,
+                one.type,
+                one.start,
+                one.algorithm,
+                model,
+                agenda=one.agenda,
+                hears=one.hears,
+                theory=theory,
+            )
+        except TTRError as error:
+            raise error.at(one.span) if one.span else error from None
+    return games

@@ -1,0 +1,285 @@
+"""Reading theories: from a text or a file, statement by statement, with its imports.
+
+A mistake spoils its own statement only: reading goes on, and what mentions a name that
+a spoilt statement should have declared is passed over, so each mistake is told once.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ttr.errors import Mistakes, NotationError, Span, TooLargeError, TTRError
+from ttr.notation import syntax_trees as trees
+from ttr.notation.names import Names, is_declared, meaning
+from ttr.notation.plain import plain_statement
+from ttr.notation.scanning import blocks, vetted
+from ttr.notation.syntax_trees import Part, Source, Statement
+from ttr.safety.budgets import SharedPurse, one_of_several, purse_of_several
+from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowed, check_called
+from ttr.safety.files import why_unread
+from ttr.safety.inputs import read_text
+from ttr.safety.limits import THEORY
+from ttr.theories.drafts import Draft
+from ttr.theories.statements import Declaring, mentioned
+from ttr.types.interning import identity
+
+__all__ = ["Unreadable", "draft_of_file", "draft_of_text"]
+
+IMPORTS = 50
+"""How long a chain of files may be that import one another."""
+
+MISTAKES = 100
+"""After how many mistakes a text is read no further."""
+
+
+class Unreadable(TTRError):
+    """A file that is not there, or is no text."""
+
+
+def draft_of_text(
+    text: str, source: str = "<text>", consent: Consent | None = None
+) -> Draft:
+    """What a text declares of a theory; an import is relative to the working directory.
+
+    It imports what lies there or below, or else what there is consent to. Raises the
+    mistake in it, or `Mistakes` where there are several.
+    """
+    allowed = Consent.of([""]) if consent is None else consent
+    return _sound(_Files(allowed, {}).read(Source.of(text, source), Path(), ()))
+
+
+def draft_of_file(path: Path, consent: Consent = OWN_FOLDER) -> Draft:
+    """What a file declares of a theory.
+
+    It, and what it imports, may import what lies in its folder or below; other folders
+    with the user's consent. Raises `Unreadable`, the mistake in it, or `Mistakes`.
+    """
+    return _sound(_Files(consent.adding(path.parent), {}).file(path, ()))
+
+
+@dataclass(frozen=True)
+class _Reading:
+    """What has been read of a theory, and the mistakes in it.
+
+    `spoilt` are the names that should have been declared.
+    """
+
+    draft: Draft
+    spoilt: frozenset[str] = frozenset()
+    mistakes: tuple[TTRError, ...] = ()
+
+
+def _sound(reading: _Reading) -> Draft:
+    if not reading.mistakes:
+        return reading.draft
+    if len(reading.mistakes) == 1:
+        raise reading.mistakes[0]
+    raise Mistakes.of(reading.mistakes)
+
+
+@dataclass(frozen=True)
+class _Files:
+    """The files read so far, each once, however often it is imported."""
+
+    consent: Consent
+    known: dict[Path, _Reading]
+    purse: SharedPurse = field(default_factory=purse_of_several)
+
+    def imported(self, path: Path, named: str, chain: tuple[Path, ...]) -> _Reading:
+        """What a file declares that another imports by this name.
+
+        Nothing is read, and so nothing told, but theory files to which there is
+        consent: who writes an import could be shown the lines of any other file.
+        """
+        check_called(path, ".ttr", named)
+        self.consent.check(path, named)
+        return self.file(path, chain)
+
+    def file(self, path: Path, chain: tuple[Path, ...]) -> _Reading:
+        """What a file declares; `chain` are the files whose imports led to it."""
+        key, text = _contents(path)
+        if key in chain:
+            names = " → ".join(step.name for step in (*chain[chain.index(key) :], key))
+            raise NotationError(f"the imports go in a circle: {names}")
+        if len(chain) >= IMPORTS:
+            raise NotationError(f"imports lead on over at most {IMPORTS} files")
+        if key not in self.known:
+            source = Source(text, str(path))
+            self.known[key] = self.read(source, path.parent, (*chain, key))
+        return self.known[key]
+
+    def read(self, source: Source, folder: Path, chain: tuple[Path, ...]) -> _Reading:
+        """What a text declares; `folder` is where its imports are."""
+        try:
+            vetted(source)
+        except NotationError as error:
+            return _Reading(Draft(source.name), mistakes=(error,))
+        places = list(blocks(source.text))
+        self.purse.allow(len(places))
+        later: dict[str, int] = {}
+        for start, _ in places:
+            for name in _announced(source.text, start):
+                later.setdefault(name, source.line(start))
+        draft = Draft(source.name)
+        file = _File(Declaring(draft, source, later), folder, chain, self)
+        for start, end in places:
+            if len(file.mistakes) >= MISTAKES:
+                file.give_up(start, end)
+                break
+            file.go_on(start, end)
+            if file.is_refused:
+                break
+        return _Reading(draft, frozenset(file.spoilt), tuple(file.mistakes))
+
+
+def _contents(path: Path) -> tuple[Path, str]:
+    """A file's one true path and its text; raises `Unreadable`."""
+    try:
+        return path.resolve(), read_text(path, THEORY)
+    except (OSError, UnicodeDecodeError) as error:
+        raise Unreadable(why_unread(path, error)) from None
+    except (ValueError, RuntimeError):
+        raise Unreadable(f"{str(path)!r} is no path of a file") from None
+
+
+def _statement(source: Source, start: int, end: int) -> Statement:
+    """text[start:end] as a statement; the grammar is made ready where it is needed."""
+    plain = plain_statement(source, start, end)
+    if plain is not None:
+        return plain
+    from ttr.notation import grammar
+
+    return grammar.statement(source, start, end)
+
+
+_DECLARES = re.compile(
+    r"(basic|pred|object)\s+(.*)|(?:rule|strategy|game)\s+(\w+)|(\w+)\s*:="
+)
+
+
+def _announced(text: str, start: int) -> list[str]:
+    """The names that the statement starting there seems to declare."""
+    found = _DECLARES.match(text, start)
+    if found is None:
+        return []
+    if found[3] or found[4]:
+        return [found[3] or found[4]]
+    return list(_listed(found[2]))
+
+
+def _listed(text: str) -> Iterator[str]:
+    """The names in a list of them, but for those in brackets or behind a colon."""
+    depth = 0
+    for sign in re.findall(r"\w+|[\[({\])}:#]", text):
+        if sign in (":", "#"):
+            return
+        depth += (sign in "[({") - (sign in "])}")
+        if depth == 0 and sign not in "])}":
+            yield sign
+
+
+@dataclass(eq=False)
+class _File:
+    """One text that is being read: where it is, and the mistakes so far.
+
+    `spoilt` are the names that should have been declared.
+    """
+
+    declaring: Declaring
+    folder: Path
+    chain: tuple[Path, ...]
+    files: _Files
+    spoilt: set[str] = field(default_factory=set)
+    mistakes: list[TTRError] = field(default_factory=list)
+
+    @property
+    def source(self) -> Source:
+        """The text."""
+        return self.declaring.source
+
+    @property
+    def is_refused(self) -> bool:
+        """Is there an import that is not allowed, without which nothing can be told?"""
+        return any(isinstance(one, NotAllowed) for one in self.mistakes)
+
+    def go_on(self, start: int, end: int) -> None:
+        """Reads the statement text[start:end]."""
+        try:
+            tree = _statement(self.source, start, end)
+            if not mentioned(tree).isdisjoint(self.spoilt):
+                self._spoil(start)
+            elif isinstance(tree, trees.Import):
+                self._import(tree)
+            else:
+                with one_of_several(self.files.purse):
+                    self.declaring.declare(tree)
+        except TooLargeError as error:
+            span = self.source.span(Part(start, end))
+            self.mistakes.append(error.at(span))
+            self._spoil(start)
+        except TTRError as error:
+            self.mistakes.append(error)
+            self._spoil(start)
+        except RecursionError:
+            span = self.source.span(Part(start, end))
+            deep = NotationError("this nests too deep to be read here", span=span)
+            self.mistakes.append(deep)
+            self._spoil(start)
+
+    def give_up(self, start: int, end: int) -> None:
+        """Says that reading goes no further than text[start:end]."""
+        span = self.source.span(Part(start, end))
+        last = NotationError(f"reading stops after {MISTAKES} mistakes", span=span)
+        self.mistakes.append(last)
+
+    def _spoil(self, start: int) -> None:
+        """What the statement starting there should have declared is missing."""
+        names = _announced(self.source.text, start)
+        draft = self.declaring.draft
+        self.spoilt.update(name for name in names if not is_declared(draft, name))
+
+    def _import(self, tree: trees.Import) -> None:
+        span = self.source.span(tree)
+        try:
+            path = self.folder / tree.path
+            found = self.files.imported(path, tree.path, self.chain)
+        except TTRError as error:
+            raise error.at(span) from None
+        _join(self.declaring.draft, found.draft, span)
+        self.spoilt |= found.spoilt
+        self.mistakes += [one for one in found.mistakes if one not in self.mistakes]
+
+
+def _join(mine: Draft, other: Draft, span: Span) -> None:
+    """Adds what another theory declares, but for its checks.
+
+    Raises `NotationError` where a name means something else in the other.
+    """
+    for name in sorted(mine.names & other.names):
+        if _meaning(mine, name) != _meaning(other, name):
+            message = f"{name} is declared in another way in the import"
+            raise NotationError(message, span=span)
+    mine.basics.update(other.basics)
+    mine.predicates.update(other.predicates)
+    mine.definitions.update(other.definitions)
+    mine.rules.update(other.rules)
+    mine.strategies.update(other.strategies)
+    mine.openings.update(other.openings)
+    mine.objects |= other.objects
+    mine.opened |= other.opened
+    mine.axioms.update(other.axioms)
+    mine.exclusions.update(other.exclusions)
+    known = set(mine.givens)  # a fact imported twice is one fact
+    mine.givens += [given for given in other.givens if given not in known]
+    mine.settled.update(other.predicates)
+
+
+def _meaning(theory: Names, name: str) -> object:
+    """What a name is declared as, in a form that can be compared."""
+    for kind in (theory.rules, theory.strategies, theory.openings):
+        if name in kind:
+            return kind[name]
+    return name if name in theory.objects else ("", identity(meaning(theory, name)))

@@ -1,0 +1,142 @@
+"""What can be asked of a theory, `check Q`, as values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from ttr.errors import Span, TTRError
+from ttr.signature.signature import Interval
+from ttr.types.syntax import Object, TypeNode
+from ttr.updates.rules import Rule
+
+__all__ = [
+    "Check",
+    "Creates",
+    "Expects",
+    "HasDegree",
+    "IsBelow",
+    "IsOf",
+    "IsSame",
+    "IsTrue",
+    "IsWellFormed",
+    "Merges",
+    "Query",
+    "Updates",
+]
+
+
+@dataclass(frozen=True)
+class IsOf:
+    """a : T."""
+
+    sit: Object
+    type: TypeNode
+
+
+@dataclass(frozen=True)
+class IsBelow:
+    """S <= T, under the axioms of the theory."""
+
+    lower: TypeNode
+    upper: TypeNode
+
+
+@dataclass(frozen=True)
+class IsSame:
+    """S = T: the same type, or the same object; f(a) is what the function gives."""
+
+    left: Object
+    right: Object
+
+
+@dataclass(frozen=True)
+class Merges:
+    """merge(S, T) = U, or amerge(S, T) = U; `operation` is its name."""
+
+    operation: str
+    left: TypeNode
+    right: TypeNode
+    result: Object
+
+
+@dataclass(frozen=True)
+class Creates:
+    """create(T): a fresh witness of T can be made."""
+
+    type: TypeNode
+
+
+@dataclass(frozen=True)
+class IsWellFormed:
+    """wellformed(T): every path leads to a field that fits, and none in a circle.
+
+    Where T cannot even be built, `type` is the error that says why.
+    """
+
+    type: TypeNode | TTRError
+
+
+@dataclass(frozen=True)
+class HasDegree:
+    """P(a : T | b : S, …) = [lo, hi] (`relation` is "="), or within it (it is "in")."""
+
+    sit: Object
+    type: TypeNode
+    relation: str
+    interval: Interval
+    when: tuple[tuple[Object, TypeNode], ...] = ()
+
+
+@dataclass(frozen=True)
+class Expects:
+    """P(T || S, …) = [lo, hi], or within it: of any known object."""
+
+    type: TypeNode
+    when: tuple[TypeNode, ...]
+    relation: str
+    interval: Interval
+
+
+@dataclass(frozen=True)
+class IsTrue:
+    """P(T) = [lo, hi]: so certainly something is of T."""
+
+    type: TypeNode
+    interval: Interval
+
+
+@dataclass(frozen=True)
+class Updates:
+    """r(s, e) = a: the rule takes the state, with the event if it has one, to a."""
+
+    rule: Rule
+    args: tuple[Object, ...]
+    result: Object
+
+
+Query: TypeAlias = (
+    IsOf
+    | IsBelow
+    | IsSame
+    | Merges
+    | Creates
+    | IsWellFormed
+    | HasDegree
+    | Expects
+    | IsTrue
+    | Updates
+)
+
+
+@dataclass(frozen=True)
+class Check:
+    """A claim: the query's answer is the expected one, yes, no, unknown or error.
+
+    Where the query mentions a type that cannot be built, `query` is the error.
+    """
+
+    expected: str
+    query: Query | TTRError
+    span: Span
+    text: str

@@ -1,0 +1,284 @@
+"""Rules of update as statements: `rule name(s : S, e : E) where [x = s.y : T] := body`.
+
+The state and the event are variables, and so is what `where` binds: a path begins with
+the name of one of them. So far as the types of these say what a path leads to, a path
+that leads nowhere is refused where it is written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import NoReturn
+
+from ttr.building.formation import checked_within, target
+from ttr.building.merging import merge
+from ttr.errors import IllFormed, TTRError
+from ttr.notation.error_location import culprit, refused
+from ttr.notation.reader import Reader
+from ttr.notation.syntax_trees import (
+    Degree,
+    Items,
+    Name,
+    Parameter,
+    Part,
+    RuleStatement,
+    Term,
+    Word,
+    inside,
+)
+from ttr.probability import CERTAIN
+from ttr.probability import Degree as Probability
+from ttr.types.paths import escaping, replace_paths
+from ttr.types.syntax import (
+    Application,
+    Meet,
+    Object,
+    Path,
+    Record,
+    RecordType,
+    Singleton,
+    TypeNode,
+)
+from ttr.updates.rules import Body, Rule
+
+__all__ = ["record_type", "rule_of"]
+
+_MODEL = "model"
+"""As which the effect of a rule gets its model, so that nothing else is called so."""
+
+_BIND = "bind it: where [{name} = … : T]"
+
+
+def rule_of(tree: RuleStatement, reader: Reader) -> Rule:
+    """The rule that a statement declares; raises `NotationError` or `IllFormed`."""
+    return _Ruling(tree, reader).rule()
+
+
+def record_type(term: Term, reader: Reader) -> RecordType:
+    """The term as a record type: one that is written so, or a meet of such ones."""
+    found = _merged(reader.type(term, ()), reader)
+    if isinstance(found, RecordType):
+        return found
+    reader.refuse(
+        term,
+        f"a state is a record, but {reader.written(term)} is no record type",
+        "write a record type, [x : T], or the name of one",
+    )
+
+
+def _merged(value: Object, reader: Reader) -> Object:
+    """A meet of record types as the one record type that it is."""
+    match value:
+        case Meet((first, *rest)):
+            for part in rest:
+                first = merge(first, part, reader.theory.signature)
+            return first
+    return value
+
+
+@dataclass(frozen=True)
+class _Ruling:
+    """Reads one rule."""
+
+    tree: RuleStatement
+    reader: Reader
+
+    @property
+    def given(self) -> tuple[Parameter, ...]:
+        """The state and the event."""
+        return self.tree.parameters
+
+    @property
+    def within(self) -> Reader:
+        """Reads what has variables, and says how there is one more."""
+        way_out = _BIND if len(self.given) > 1 else f"name the event so, or {_BIND}"
+        return replace(self.reader, way_out=way_out)
+
+    def rule(self) -> Rule:
+        """The rule, if all of it fits together."""
+        tree = self.tree
+        when, on, p = self._parameters()
+        names = tuple(one.name.text for one in self.given)
+        types = (when,) if on is None else (when, on)
+        around = RecordType(tuple(zip(names, types, strict=True)))
+        where = self._where(around)
+        if where is not None:
+            around = RecordType((*around.fields, *_alongside(where)))
+        return Rule(
+            tree.name.text,
+            Body(self._body(around), names),
+            when,
+            on=on,
+            where=where,
+            kind=tree.kind.text if tree.kind else "",
+            p=p,
+            takes=frozenset((_MODEL, *(where or ()))),
+            names=names,
+            doc=str(tree.doc.value) if tree.doc else "",
+            span=self.reader.source.span(tree.name),
+            text=self.reader.source.text[tree.name.start : tree.end],
+        )
+
+    # --- the state and the event ---
+
+    def _parameters(self) -> tuple[RecordType, TypeNode | None, Probability]:
+        state, *events = self.given
+        for parameter in self.given:
+            self._check_name(parameter.name)
+        self.reader.distinct([one.name for one in self.given])
+        if len(events) > 1:
+            self.reader.refuse(
+                events[1],
+                "a rule takes the state and at most one event",
+                "what else it needs is bound by where [x = … : T]",
+            )
+        if state.degree is not None:
+            self.reader.refuse(
+                state.degree,
+                "the state is certain: only the event has a probability",
+            )
+        when = record_type(state.type, self.reader)
+        if not events:
+            return when, None, CERTAIN
+        return when, self._event(events[0].type, state.name), self._certainty(events[0])
+
+    def _event(self, term: Term, state: Word) -> TypeNode:
+        """The type of the events, which is the same in all states."""
+        found = self.reader.type(term, (frozenset((state.text,)),))
+        for path in sorted(escaping(found), key=lambda one: one.labels):
+            self.reader.refuse(
+                _place(term, path),
+                "the type of an event cannot mention the state, found "
+                f"{'.'.join(path.labels)}",
+                "ask it of the event: where [c = e : T]; an object is quoted: 'a'",
+            )
+        return found
+
+    def _certainty(self, event: Parameter) -> Probability:
+        """How probable the event must be of its type."""
+        match event.degree:
+            case None:
+                return CERTAIN
+            case Degree(_, _, _, Items(_, _, (_, _))):
+                return Probability(*self.reader.degree(event.degree))
+        self.reader.refuse(
+            event.degree.value,
+            "how probable the event must be is an interval",
+            "write e : E in [0.7, 1] for 0.7 at least",
+        )
+
+    def _check_name(self, word: Word) -> None:
+        if word.text == _MODEL:
+            self.reader.refuse(
+                word,
+                f"{_MODEL} means something else in rules",
+                "call it another way, as m",
+            )
+
+    # --- what is bound ---
+
+    def _where(self, around: RecordType) -> RecordType | None:
+        """The bindings, a record type with paths to state and event."""
+        term = self.tree.where
+        if term is None:
+            return None
+        for part in term.fields:
+            self._check_name(part.label)
+        given = [one.name for one in self.given]
+        self.reader.distinct([*given, *(part.label for part in term.fields)])
+        found = self.within.type(term, (frozenset(around),))
+        assert isinstance(found, RecordType)
+        self._check_fits(term, found, around)
+        return found
+
+    # --- the effect ---
+
+    def _body(self, around: RecordType) -> Object:
+        """What the rule gives: a record type, a record, or what comes to be one."""
+        term = self.tree.value
+        found = self.within.object(term, (frozenset(around),))
+        found = _merged(found, self.reader)
+        if not isinstance(found, RecordType | Record | Path | Application):
+            self.reader.refuse(
+                term,
+                f"a rule gives a record type or the next state, found "
+                f"{self.reader.written(term)}",
+                "write what is new: [x = a : T] changes x and leaves the rest",
+            )
+        self._check_fits(term, found, around)
+        self._check_makes(term, found, around)
+        return found
+
+    # --- paths ---
+
+    def _check_fits(self, term: Term, value: Object, around: RecordType) -> None:
+        """Refuses a path that leads nowhere in what is bound, or to a misfit."""
+        signature = self.reader.theory.signature
+        for path in sorted(escaping(value), key=lambda one: one.labels):
+            try:
+                target(path, around)
+            except IllFormed as error:
+                self._refuse_path(term, path, error)
+        try:
+            checked_within(value, around, signature)
+        except IllFormed as error:
+
+            def is_wrong(part: Object) -> bool:
+                return refused(lambda: checked_within(part, around, signature))
+
+            wrong = culprit(term, value, is_wrong)
+            raise error.at(self.reader.source.span(wrong)) from None
+
+    def _check_makes(self, term: Term, value: Object, around: RecordType) -> None:
+        """Refuses a field that is set by itself, as nothing can be made of that.
+
+        So it is where a label hides what the rule calls by the same name.
+        """
+        for path in _by_themselves(value):
+            label = path.labels[0]
+            hidden = f"{label} of the rule cannot be seen here: call it another way"
+            self.reader.refuse(
+                _place(term, path),
+                f"the field {label} is set by itself: {label} is a label here",
+                hidden if label in around else "say what it is set to",
+            )
+
+    def _refuse_path(self, term: Term, path: Path, error: TTRError) -> NoReturn:
+        """Underlines the path where it is written, and says who tells what is there."""
+        variable = path.labels[0]
+        if not error.hint and variable in [one.name.text for one in self.given]:
+            hint = f"what {variable} has is said in the brackets: {variable} : [x : T]"
+            error = type(error)(error.message, hint=hint)
+        raise error.at(self.reader.source.span(_place(term, path))) from None
+
+
+def _by_themselves(value: Object) -> Iterator[Path]:
+    """The paths from a field of a record type to this field."""
+    if not isinstance(value, RecordType):
+        return
+    for label, field in value.fields:
+        if isinstance(field, RecordType):
+            yield from _by_themselves(field)
+        for path in sorted(escaping(field), key=lambda one: one.labels):
+            if (path.up, path.labels[0]) == (0, label):
+                yield path
+
+
+def _place(term: Term, path: Path) -> Part:
+    """Where a path is written in a term."""
+    names = (part for part in inside(term) if isinstance(part, Name))
+    return next((one for one in names if one.labels == path.labels), term)
+
+
+def _alongside(where: RecordType) -> Iterator[tuple[str, TypeNode]]:
+    """The fields of bindings as fields beside the state and the event."""
+
+    def at(path: Path) -> Path:
+        return Path(0, path.labels)
+
+    for label, field in where.fields:
+        T = field.base if isinstance(field, Singleton) else field
+        moved = replace_paths(T, at)
+        assert isinstance(moved, TypeNode)
+        yield label, moved

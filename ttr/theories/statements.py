@@ -1,0 +1,271 @@
+"""What each statement of a theory file adds to what was read before it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from ttr.errors import suggestion
+from ttr.notation import syntax_trees as trees
+from ttr.notation.names import is_declared
+from ttr.notation.reader import LOGICAL, Reader
+from ttr.notation.syntax_trees import (
+    Application,
+    Arity,
+    Name,
+    Source,
+    Statement,
+    Term,
+    Word,
+    inside,
+)
+from ttr.signature.signature import Axiom, Exclusion, Expected, Given
+from ttr.theories.check_statements import Asking
+from ttr.theories.drafts import Draft
+from ttr.theories.game_statements import opening_of
+from ttr.theories.rule_statements import rule_of
+from ttr.theories.strategy_statements import algorithm, gathered
+from ttr.types.paths import escaping
+from ttr.types.printing import RESERVED
+from ttr.types.syntax import Basic, Object, Path, Pred, PType
+
+__all__ = ["Declaring", "mentioned"]
+
+
+@dataclass(frozen=True)
+class Declaring:
+    """Reads the statements of one text into a draft.
+
+    `later` says in which line a name is declared that the draft does not have yet.
+    """
+
+    draft: Draft
+    source: Source
+    later: Mapping[str, int] = field(default_factory=dict)
+
+    @cached_property
+    def reader(self) -> Reader:
+        """Reads terms with the names that the draft has by then."""
+        return Reader(self.draft, self.source, self.later)
+
+    def declare(self, tree: Statement) -> None:
+        """Adds what a statement declares; raises `NotationError` or `IllFormed`.
+
+        A statement with a mistake adds nothing.
+        """
+        match tree:
+            case trees.BasicNames(_, _, names):
+                self._basic(names)
+            case trees.Predicates(_, _, arities):
+                self._predicates(arities)
+            case trees.OpenNames(_, _, names):
+                self.draft.opened.update([self._openable(word) for word in names])
+            case trees.ObjectNames():
+                self._objects(tree)
+            case trees.GivenFact():
+                self._given(tree)
+            case trees.GivenChance():
+                self._given_chance(tree)
+            case trees.Definition():
+                self._definition(tree)
+            case trees.RuleStatement():
+                self._rule(tree)
+            case trees.StrategyStatement():
+                self._strategy(tree)
+            case trees.GameStatement():
+                self._game(tree)
+            case trees.AxiomClaim():
+                self._axiom(tree)
+            case trees.Question():
+                self.draft.checks.append(Asking(self.reader).check(tree))
+            case _:
+                raise AssertionError(tree)
+        self.draft.settled |= mentioned(tree)
+
+    def _basic(self, names: tuple[Word, ...]) -> None:
+        for word in names:
+            self._claim(word, "a basic type", self.draft.basics)
+        self.draft.basics.update({word.text: Basic(word.text) for word in names})
+
+    def _predicates(self, arities: tuple[Arity, ...]) -> None:
+        found: dict[str, Pred] = {}
+        for one in arities:
+            self._claim(one.name, "a predicate", self.draft.predicates)
+            arity = tuple(self.reader.type(T, ()) for T in one.types)
+            name = one.name.text
+            pred = found.get(name, self.draft.predicates.get(name))
+            known = pred.arities if pred is not None else ()
+            if arity in known:
+                continue
+            if name in self.draft.settled:
+                self.reader.refuse(
+                    one,
+                    f"{name} gets another arity after it has been used",
+                    f"declare all arities of {name} before its first use",
+                )
+            found[name] = Pred(name, *known, arity)
+        self.draft.predicates.update(found)
+
+    def _openable(self, word: Word) -> Basic | Pred:
+        for declared in (self.draft.basics, self.draft.predicates):
+            if word.text in declared:
+                return declared[word.text]
+        known = [*self.draft.basics, *self.draft.predicates]
+        self.reader.refuse(
+            word,
+            f"there is no basic type or predicate {word.text} to be open",
+            suggestion(word.text, known),
+        )
+
+    def _objects(self, tree: trees.ObjectNames) -> None:
+        kind = self.reader.type(tree.type, ())
+        for word in tree.names:
+            self._claim(word, "an object", self.draft.objects)
+        span = self.source.span(tree)
+        self.draft.objects.update([word.text for word in tree.names])
+        self.draft.givens += [Given(word.text, kind, span=span) for word in tree.names]
+
+    def _given(self, tree: trees.GivenFact) -> None:
+        kind = self.reader.type(tree.type, ())
+        declares: tuple[str, ...] = ()
+        sit: Object
+        match tree.sit:
+            case Name(start, end, (name,), None) if not is_declared(self.draft, name):
+                self._claim(Word(start, end, name), "an object", ())
+                declares, sit = (name,), name
+            case term:
+                sit = self.reader.object(term, ())
+        p = self.reader.degree(tree.degree) if tree.degree else (1.0, 1.0)
+        self.draft.objects.update(declares)
+        self.draft.givens.append(Given(sit, kind, p, self.source.span(tree)))
+
+    def _given_chance(self, tree: trees.GivenChance) -> None:
+        """p(a : T | b : S), of particular objects, or p(T || S), of whatever object."""
+        span, read = self.source.span(tree), self.reader
+        match tree.chance:
+            case trees.Probability(_, _, Name(_, _, ("P",)), sit, T, _, when):
+                on = [(read.object(one, ()), read.type(S, ())) for one, S in when]
+                _, p = read.chance(tree.chance)
+                subject = read.object(sit, ())
+                given = Given(subject, read.type(T, ()), p, span, tuple(on))
+                self.draft.givens.append(given)
+            case trees.Expectation(_, _, Name(_, _, ("P",)), T, types):
+                of = tuple([read.type(S, ()) for S in types])
+                _, p = read.chance(tree.chance)
+                self.draft.givens.append(Expected(read.type(T, ()), of, p, span))
+            case other:
+                found = read.written(other.head)
+                read.refuse(
+                    other.head, f"a probability is written P(…), found {found}(…)"
+                )
+
+    def _definition(self, tree: trees.Definition) -> None:
+        self._claim(tree.name, "defined", ())
+        self.draft.definitions[tree.name.text] = self.reader.object(tree.value, ())
+
+    def _rule(self, tree: trees.RuleStatement) -> None:
+        self._claim(tree.name, "a rule", ())
+        self._check_gathered(tree)
+        self.draft.rules[tree.name.text] = rule_of(tree, self.reader)
+
+    def _check_gathered(self, tree: trees.RuleStatement) -> None:
+        """Refuses a rule of a kind whose rules have been gathered without it."""
+        if tree.kind is None:
+            return
+        kind = tree.kind.text
+        if kind in self.draft.gathered:
+            self.reader.refuse(
+                tree.kind,
+                f"{self.draft.gathered[kind]} has been made of the rules of {kind} "
+                "before",
+                "move the rule up",
+            )
+
+    def _strategy(self, tree: trees.StrategyStatement) -> None:
+        self._claim(tree.name, "a strategy", ())
+        self.draft.strategies[tree.name.text] = algorithm(tree.value, self.reader)
+        self._gather(tree.name, tree.value)
+
+    def _game(self, tree: trees.GameStatement) -> None:
+        self._claim(tree.name, "a game", ())
+        self.draft.openings[tree.name.text] = opening_of(tree, self.reader)
+        self._gather(tree.name, tree.value)
+
+    def _gather(self, name: Word, value: Term) -> None:
+        """Remembers which kinds of rules have been gathered, and in what."""
+        for kind in sorted(gathered(value)):
+            self.draft.gathered.setdefault(kind, name.text)
+
+    def _axiom(self, tree: trees.AxiomClaim) -> None:
+        lower = self._schema(tree.lower)
+        if isinstance(tree.upper, trees.Denial):
+            excluded = self._schema(tree.upper.body)
+            self.draft.exclusions[Exclusion(lower, excluded)] = None
+            return
+        upper = self._schema(tree.upper)
+        for path in sorted(escaping(upper) - escaping(lower), key=str):
+            self.reader.refuse(
+                tree.upper,
+                f"the variable {path.labels[0]} stands on the right only",
+                f"quote it to name the object: '{path.labels[0]}'",
+            )
+        self.draft.axioms[Axiom(lower, upper)] = None
+
+    def _schema(self, term: Term) -> Basic | PType:
+        """A side of an axiom: the bare names in it that are no types are variables."""
+        terms = term.args if isinstance(term, Application) else (term,)
+        found_in = (part for one in terms for part in inside(one))
+        names = {part for part in found_in if isinstance(part, Name)}
+        for name in names:
+            if name.up is not None or len(name.labels) > 1:
+                self.reader.refuse(
+                    name, "in an axiom only names stand for objects, not paths"
+                )
+        heads = {name.labels[0] for name in names}
+        variables = frozenset(name for name in heads if not self._is_type(name))
+        found = self.reader.type(term, (variables,))
+        args = found.args if isinstance(found, PType) else ()
+        nested = any(not isinstance(arg, Path) and escaping(arg) for arg in args)
+        if nested or not isinstance(found, Basic | PType):
+            self.reader.refuse(
+                term,
+                "an axiom relates basic types and predicates applied to names, "
+                f"found {self.reader.written(term)}",
+            )
+        return found
+
+    def _is_type(self, name: str) -> bool:
+        draft = self.draft
+        kinds = (LOGICAL, draft.basics, draft.predicates, draft.definitions)
+        return any(name in kind for kind in kinds)
+
+    def _claim(self, word: Word, kind: str, mine: Collection[str]) -> None:
+        """Refuses a name that means something else already."""
+        if word.text in RESERVED:
+            self.reader.refuse(word, f"{word.text} is a word of the notation itself")
+        if word.text not in mine and is_declared(self.draft, word.text):
+            self.reader.refuse(word, f"{word.text} is already {self._kind(word.text)}")
+
+    def _kind(self, name: str) -> str:
+        kinds = {
+            "defined": self.draft.definitions,
+            "a basic type": self.draft.basics,
+            "a predicate": self.draft.predicates,
+            "a rule": self.draft.rules,
+            "a strategy": self.draft.strategies,
+            "a game": self.draft.openings,
+        }
+        return next((k for k, names in kinds.items() if name in names), "an object")
+
+
+def mentioned(tree: Statement) -> frozenset[str]:
+    """The names that a statement rests on, not those it declares."""
+    match tree:
+        case trees.OpenNames(_, _, words):
+            return frozenset(word.text for word in words)
+        case trees.Predicates(_, _, arities):
+            parts = [part for one in arities for T in one.types for part in inside(T)]
+        case _:
+            parts = list(inside(tree))
+    return frozenset(part.labels[0] for part in parts if isinstance(part, Name))

@@ -1,0 +1,256 @@
+"""A theory: what is declared, defined, assumed and claimed, as one immutable value."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Protocol, overload
+
+from ttr.errors import IllFormed, Mistakes, TTRError, suggestion
+from ttr.notation.names import vocabulary_of
+from ttr.notation.reader import read_term
+from ttr.safety.consent import OWN_FOLDER, Consent
+from ttr.signature.signature import (
+    Axiom,
+    Exclusion,
+    Expected,
+    Given,
+    Interval,
+    Opening,
+    Signature,
+    signature_of,
+)
+from ttr.theories.drafts import Draft
+from ttr.theories.game_statements import opened
+from ttr.theories.loading import draft_of_file, draft_of_text
+from ttr.types.syntax import Basic, Object, Pred, kind_of
+
+if TYPE_CHECKING:
+    from ttr.theories.queries import Check
+    from ttr.updates.algorithms import Algorithm
+    from ttr.updates.games import Game
+    from ttr.updates.rules import Rule
+
+__all__ = [
+    "Axiom",
+    "Exclusion",
+    "Expected",
+    "Given",
+    "Interval",
+    "Mistakes",
+    "Opening",
+    "Signature",
+    "Theory",
+    "theory_of_draft",
+    "load",
+    "signature_of",
+    "theory_of_file",
+    "theory_of_text",
+]
+
+
+class _ReadTheory(Protocol):
+    def __call__(self, text: str, source: str = "<text>") -> Theory: ...
+
+
+class _Parse:
+    """Reads a theory when asked of the class, a type or object when asked of a theory.
+
+    Both are what `parse` means there, `Theory.parse(file)` and `theory.parse(term)`;
+    a descriptor is how one name can be a class method and a method.
+    """
+
+    @overload
+    def __get__(self, theory: None, owner: type[Theory]) -> _ReadTheory: ...
+
+    @overload
+    def __get__(
+        self, theory: Theory, owner: type[Theory]
+    ) -> Callable[[str], Object]: ...
+
+    def __get__(
+        self, theory: Theory | None, owner: type[Theory]
+    ) -> _ReadTheory | Callable[[str], Object]:
+        if theory is None:
+            return _parse_theory
+        return lambda text: read_term(text, theory)
+
+
+def _parse_theory(text: str, source: str = "<text>") -> Theory:
+    """The theory that a text declares; raises `NotationError`, `IllFormed`, `Mistakes`.
+
+    An `import` in it is relative to the working directory, and of what lies there or
+    below.
+    """
+    return theory_of_text(text, source)
+
+
+@dataclass(frozen=True, eq=False)
+class Theory(Signature):
+    """A signature with the names declared in it, and the checks that it states.
+
+    Its definitions, basic types and predicates are its items and its attributes; where
+    a name is also the name of one of the attributes below, the item is meant.
+
+    >>> kennel = Theory.parse('''
+    ...     basic Ind
+    ...     pred  dog(Ind), puppy(Ind)
+    ...     Dog := [x : Ind, c : dog(x)]
+    ...     puppy(x) <: dog(x)
+    ... ''')
+    >>> print(kennel.Dog)
+    [x : Ind, c : dog(x)]
+    >>> kennel.parse("[x : Ind, c : dog(x)]") is kennel["Dog"]
+    True
+    >>> kennel.Dgo
+    Traceback (most recent call last):
+    AttributeError: the theory has no Dgo: did you mean Dog?
+    """
+
+    basics: Mapping[str, Basic] = field(default_factory=dict)
+    predicates: Mapping[str, Pred] = field(default_factory=dict)
+    objects: frozenset[str] = frozenset()
+    checks: tuple[Check, ...] = ()
+    source: str = "<text>"
+    rules: Mapping[str, Rule] = field(default_factory=dict)
+    strategies: Mapping[str, Algorithm] = field(default_factory=dict)
+    openings: Mapping[str, Opening] = field(default_factory=dict)
+
+    parse = _Parse()
+
+    @classmethod
+    def of(cls, *values: object) -> Theory:
+        """The theory that declares everything that occurs in the values, and no more.
+
+        Law: Theory.of(T).parse(str(T)) is T. Raises `IllFormed` where two predicates of
+        one name occur: no text could tell them apart.
+
+        >>> from ttr.types.syntax import Ind
+        >>> sorted(Theory.of(Pred("dog", Ind)("fido")).names)
+        ['Ind', 'dog', 'fido']
+        """
+        said = vocabulary_of(*values)
+        return cls(
+            basics=said.basics,
+            predicates=said.predicates,
+            objects=frozenset(said.objects),
+        )
+
+    @property
+    def signature(self) -> Signature:
+        """The theory without its names and checks."""
+        return Signature(
+            self.axioms, self.opened, self.givens, self.definitions, self.exclusions
+        )
+
+    @cached_property
+    def games(self) -> Mapping[str, Game]:
+        """The games, played in the model of the theory's givens.
+
+        Raises `TTRError` where the givens contradict one another, or where the start of
+        a game is not of its type.
+        """
+        return opened(self)
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Every name declared in the theory, objects and rules too."""
+        played = (self.rules, self.strategies, self.openings)
+        return self.objects.union(
+            self.definitions, self.basics, self.predicates, *played
+        )
+
+    def __getitem__(self, name: str) -> Object:
+        if not isinstance(name, str):
+            raise IllFormed(f"a theory is asked for a name, found {kind_of(name)}")
+        for declared in (self.definitions, self.basics, self.predicates):
+            if name in declared:
+                return declared[name]
+        raise KeyError(self._missing(name))
+
+    def __contains__(self, name: object) -> bool:
+        """Whether a definition, basic type or predicate has the name."""
+        known = (self.definitions, self.basics, self.predicates)
+        return any(name in declared for declared in known)
+
+    def __getattr__(self, name: str) -> Object:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(self._missing(name)) from None
+
+    def _missing(self, name: str) -> str:
+        played = {
+            "rules": self.rules,
+            "strategies": self.strategies,
+            "games": self.openings,
+        }
+        for kind, names in played.items():
+            if name in names:
+                return f"{name} is one of the {kind}: theory.{kind}[{name!r}]"
+        terms = [*self.definitions, *self.basics, *self.predicates]
+        hint = suggestion(name, [*terms, *(one for k in played.values() for one in k)])
+        return f"the theory has no {name}" + f": {hint}" * bool(hint)
+
+    def __repr__(self) -> str:
+        return f"<Theory {self.source}: {', '.join(sorted(self.names))}>"
+
+
+# --- reading --------------------------------------------------------------------------
+
+
+def load(
+    path: str | os.PathLike[str], *, allow: Iterable[str | os.PathLike[str]] = ()
+) -> Theory:
+    """The theory in a file; raises `TTRError` where it cannot be read.
+
+    An `import` in it is relative to the file, and of what lies in the file's folder or
+    below; `allow` names other folders from which may be imported, too.
+    """
+    if not isinstance(path, str | os.PathLike):
+        raise TTRError(f"load takes the path of a file, found {kind_of(path)}")
+    return theory_of_file(FilePath(path), Consent.of(allow))
+
+
+def theory_of_text(
+    text: str, source: str = "<text>", consent: Consent | None = None
+) -> Theory:
+    """The theory that a text declares; an import is relative to the working directory.
+
+    It imports what lies there or below, or else what there is consent to. Raises the
+    mistake in it, or `Mistakes` where there are several.
+    """
+    return theory_of_draft(draft_of_text(text, source, consent))
+
+
+def theory_of_file(path: FilePath, consent: Consent = OWN_FOLDER) -> Theory:
+    """The theory in a file; raises `Unreadable`, the mistake in it, or `Mistakes`.
+
+    It, and what it imports, may import what lies in its folder or below; other folders
+    with the user's consent.
+    """
+    return theory_of_draft(draft_of_file(path, consent))
+
+
+def theory_of_draft(draft: Draft) -> Theory:
+    """The theory that has been read; the draft may go on without changing it."""
+    return Theory(
+        axioms=tuple(draft.axioms),
+        exclusions=tuple(draft.exclusions),
+        opened=frozenset(draft.opened),
+        givens=tuple(draft.givens),
+        definitions=dict(draft.definitions),
+        basics=dict(draft.basics),
+        predicates=dict(draft.predicates),
+        objects=frozenset(draft.objects),
+        checks=tuple(draft.checks),
+        source=draft.source,
+        rules=dict(draft.rules),
+        strategies=dict(draft.strategies),
+        openings=dict(draft.openings),
+    )

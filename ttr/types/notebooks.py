@@ -1,0 +1,36 @@
+"""Values that draw themselves in a notebook."""
+
+from __future__ import annotations
+
+from ttr.hooks import hook
+
+__all__ = ["Drawn", "as_html", "as_latex"]
+
+
+@hook
+def as_html(value: object) -> str:
+    """The value as HTML: `ttr.display.render.html`."""
+    raise NotImplementedError
+
+
+@hook
+def as_latex(value: object) -> str:
+    """The value as LaTeX: `ttr.display.render.latex`."""
+    raise NotImplementedError
+
+
+class Drawn:
+    """Something that a notebook shows as it is drawn in papers.
+
+    >>> from ttr.types.syntax import Ind
+    >>> Ind._repr_latex_()
+    '$\\\\displaystyle \\\\mathit{Ind}$'
+    """
+
+    __slots__ = ()
+
+    def _repr_html_(self) -> str:
+        return as_html(self)
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {as_latex(self)}$"

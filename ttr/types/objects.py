@@ -1,0 +1,510 @@
+"""What types are about: objects, records of them, and paths into records.
+
+Objects are any Python values. A Python string is a name; a list is a tuple; a record is
+a `Record`, a set a `FiniteSet`, a string of events an `EventString`; an array is
+itself, compared by identity; a type is an object as well.
+"""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Callable, Iterator, Mapping
+from itertools import chain, groupby
+from types import NoneType
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+
+from ttr.errors import IllFormed, TTRError
+from ttr.hooks import hook
+from ttr.safety.budgets import spend, within_budget
+from ttr.types.interning import Node, as_notation, as_python, identity, node
+from ttr.types.notebooks import Drawn
+
+__all__ = [
+    "BOUND",
+    "EventString",
+    "FiniteSet",
+    "Missing",
+    "Object",
+    "Operation",
+    "Path",
+    "Record",
+    "Unresolved",
+    "check_label",
+    "concat",
+    "freeze",
+    "fst",
+    "in_print",
+    "labelled",
+    "lasts",
+    "outer",
+    "record",
+    "rst",
+    "this",
+]
+
+Object: TypeAlias = Any
+"""Any Python value; containers are frozen by `freeze`."""
+
+_Value = TypeVar("_Value")
+
+
+class Unresolved(TTRError):
+    """An object that is not there: a path to nowhere, the first of an empty list."""
+
+
+def freeze(value: object) -> Object:
+    """The value as an object of the theory: lists become tuples, `this.x` a path.
+
+    Only plain lists, tuples and dictionaries are taken for notation; an object of a
+    class of its own stays what it is.
+
+    >>> freeze([1, {"x": "fido"}])
+    (1, record(x='fido'))
+    """
+    kind = type(value)
+    if kind is list or kind is tuple:
+        return _frozen(tuple(value))  # type: ignore[arg-type]
+    if kind is dict:
+        return Record(value)  # type: ignore[arg-type]
+    if kind is set or kind is frozenset:
+        return FiniteSet(*value)  # type: ignore[misc]
+    return value._path() if isinstance(value, PathTo) else value
+
+
+def _frozen(values: tuple[object, ...]) -> tuple[Object, ...]:
+    """The values as objects: the same tuple where all of them are objects already."""
+    spend()
+    if _TAKEN_FOR_NOTATION.isdisjoint(map(type, values)):
+        return values
+    return tuple(map(freeze, values))
+
+
+# --- paths ---------------------------------------------------------------------------
+
+
+BOUND = "•"
+"""The first label of a path to a bound variable; no label that can be written."""
+
+
+@node
+class Path(Node):
+    """A path into a record: `up` scopes outwards, then along the labels.
+
+    Every record type is a scope of its labels, and every binder one of its variable,
+    which has no name there but `BOUND`: so names of variables never matter.
+    """
+
+    up: int
+    labels: tuple[str, ...]
+
+    @staticmethod
+    def _key(up: int, labels: tuple[str, ...]) -> tuple[object, ...]:
+        return up, labels
+
+
+@node
+class Missing(Node):
+    """What a record has where it lacks a label: no object at all."""
+
+
+class Applied:
+    """What stands for what a function gives: `ttr.types.syntax.Application`."""
+
+    __slots__ = ()
+
+
+@hook
+def as_application(function: object, *args: object) -> Any:
+    """f(a), as written: `ttr.types.syntax.applied`."""
+    raise NotImplementedError
+
+
+class PathTo:
+    """Writes paths as Python attributes: `this.x`, `outer.x`, `this["bg.x"]`."""
+
+    __slots__ = ("_labels", "_up")
+
+    def __init__(self, up: int, labels: tuple[str, ...] = ()) -> None:
+        self._up, self._labels = up, labels
+
+    def __getattr__(self, label: str) -> PathTo:
+        if label.startswith("_"):
+            raise AttributeError(label)
+        return self[label]
+
+    def __getitem__(self, path: str) -> PathTo:
+        labels = path.split(".") if isinstance(path, str) else [path]
+        for label in labels:
+            check_label(label)
+        return PathTo(self._up, (*self._labels, *labels))
+
+    def __iter__(self) -> Iterator[object]:
+        raise TypeError("a path is no list: write its labels, as in this['bg.x']")
+
+    def __call__(self, *args: Any) -> Any:
+        """`outer(2)` is two scopes out; `this.f(a)` applies what a path leads to."""
+        if self._labels:
+            return as_application(self._path(), *args)
+        if self._up == 0 or len(args) != 1:
+            raise IllFormed("only outer can be called, as in outer(2).x")
+        if type(args[0]) is not int or args[0] < 1:
+            raise IllFormed(
+                f"outer takes how many scopes out, 1 or more, found {args[0]!r}"
+            )
+        return PathTo(args[0])
+
+    def __add__(self, other: object) -> Object:
+        return concat(self, other)
+
+    def __radd__(self, other: object) -> Object:
+        return concat(other, self)
+
+    def __repr__(self) -> str:
+        return as_python(Path(self._up, self._labels))
+
+    def _path(self) -> Path:
+        """The path written so far; raises `IllFormed` where it has no label."""
+        if not self._labels:
+            raise IllFormed("a path needs a label, as in this.x or outer.x")
+        return Path(self._up, self._labels)
+
+
+this = PathTo(0)
+"""The record in which a field stands: `this.x`, or `this["bg.x"]` for a text path."""
+
+outer = PathTo(1)
+"""The record one further out, `^.x`; `outer(2).x` is two further out."""
+
+
+# --- sets, strings of events and what is computed -------------------------------------
+
+
+_TAKEN_FOR_NOTATION = frozenset((list, tuple, dict, set, frozenset, PathTo))
+"""What Python has its own way of writing for; other objects stay what they are."""
+
+
+@node
+class FiniteSet(Node):
+    """{a, b}: a finite set of objects, each there once, in whatever order written.
+
+    >>> FiniteSet("b", "a") is FiniteSet("a", "b", "a"), len(FiniteSet())
+    (True, 0)
+    """
+
+    items: tuple[Object, ...]
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *items: object) -> None: ...
+
+    @staticmethod
+    def _normal(*items: object) -> tuple[object, ...]:
+        once = {identity(item): item for item in map(freeze, items)}
+        if len(once) < 2:
+            return (tuple(once.values()),)
+        return (tuple(sorted(once.values(), key=in_print)),)
+
+    @staticmethod
+    def _key(items: tuple[Object, ...]) -> tuple[object, ...]:
+        return (frozenset(map(identity, items)),)
+
+    def __iter__(self) -> Iterator[Object]:
+        return iter(self.items)
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def __contains__(self, value: object) -> bool:
+        return identity(freeze(value)) in map(identity, self.items)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return FiniteSet, self.items
+
+
+@node
+class EventString(Node):
+    """<a b>: a string of events, one after the other.
+
+    >>> print(EventString("e1", "e2") + EventString("e3"))
+    <e1 e2 e3>
+    """
+
+    items: tuple[Object, ...]
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *items: object) -> None: ...
+
+    @staticmethod
+    def _normal(*items: object) -> tuple[object, ...]:
+        return (tuple(map(freeze, items)),)
+
+    def __iter__(self) -> Iterator[Object]:
+        return iter(self.items)
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def __add__(self, other: object) -> Object:
+        return concat(self, other)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return EventString, self.items
+
+
+@node
+class Operation(Node):
+    """A list or string computed from others: a + b, fst(a) or rst(a).
+
+    It stands where a part of it is a path or an application; else `concat`, `fst` and
+    `rst` give what it comes to.
+    """
+
+    name: str
+    args: tuple[Object, ...]
+
+    def __add__(self, other: object) -> Object:
+        return concat(self, other)
+
+
+def concat(*parts: object) -> Object:
+    """a + b: the concatenation of lists, or of strings of events.
+
+    Raises `Unresolved` for what is neither.
+
+    >>> concat(["a"], ["b", "c"])
+    ('a', 'b', 'c')
+    >>> print(concat(["a"], this.x))
+    [a] + .x
+    """
+    flat: list[Object] = []
+    for part in map(freeze, parts):
+        flat += part.args if _is_operation(part, "+") else (part,)
+    if not flat:
+        raise IllFormed("a concatenation needs at least one list or string")
+    for piece in flat:
+        if not _stays(piece) and not isinstance(piece, tuple | EventString):
+            raise Unresolved(f"only lists and strings can be concatenated, not {piece}")
+    joined: list[Object] = []
+    for stays, group in groupby(flat, _stays):
+        pieces = list(group)
+        joined += pieces if stays else [_joined(pieces)]
+    return joined[0] if len(joined) == 1 else Operation("+", tuple(joined))
+
+
+def _joined(pieces: list[Object]) -> Object:
+    """Lists, or strings, one after the other."""
+    kinds = {type(piece) for piece in pieces}
+    if len(kinds) > 1:
+        whole = Operation("+", tuple(pieces))
+        raise Unresolved(f"two lists or two strings can be concatenated, not {whole}")
+    if len(pieces) == 1:
+        return pieces[0]
+    events = tuple(chain.from_iterable(pieces))
+    return EventString(*events) if kinds == {EventString} else events
+
+
+def fst(value: object) -> Object:
+    """The first element of a list; raises `Unresolved` where there is none.
+
+    >>> fst(["a", "b"])
+    'a'
+    """
+    value = freeze(value)
+    if _stays(value):
+        return Operation("fst", (value,))
+    return _elements(value, "first element")[0]
+
+
+def rst(value: object) -> Object:
+    """A list without its first element; raises `Unresolved` where it has none.
+
+    >>> rst(["a", "b"])
+    ('b',)
+    """
+    value = freeze(value)
+    return Operation("rst", (value,)) if _stays(value) else _elements(value, "rest")[1:]
+
+
+def _elements(value: Object, wanted: str) -> tuple[Object, ...]:
+    if isinstance(value, tuple) and value:
+        return value
+    kind = "an empty list" if isinstance(value, tuple) else "no list"
+    raise Unresolved(f"there is no {wanted}: it is {kind}")
+
+
+def _is_operation(value: Object, name: str) -> bool:
+    return isinstance(value, Operation) and value.name == name
+
+
+def _stays(value: Object) -> bool:
+    """Whether what an object is depends on what a path or an application leads to."""
+    return isinstance(value, Path | Operation | Applied)
+
+
+def in_print(value: object) -> tuple[str, str]:
+    """A key for putting objects in an order that does not depend on addresses."""
+    return str(value), repr(value)
+
+
+# --- records -------------------------------------------------------------------------
+
+
+class Record(Drawn):
+    """A record {ℓ = a, …}: labels are its attributes, and it has no public methods.
+
+    Two records are equal when they have the same labels with the same objects.
+
+    >>> r = record(x="fido", bg=record(size=3))
+    >>> r.x, r["bg.size"], r == record({"bg": {"size": 3}, "x": "fido"})
+    ('fido', 3, True)
+    """
+
+    __slots__ = ("__weakref__", "_fields", "_hash", "_lasts", "_noted")
+
+    # `ttr.judging.certainty` notes what a record was found to be of.
+    _fields: dict[str, Object]
+    _hash: int | None
+    _lasts: bool | None
+    _noted: dict[Any, tuple[Any, ...]] | None
+
+    def __init__(self, fields: Mapping[str, object]) -> None:
+        spend(1 + len(fields))
+        for label in fields:
+            check_label(label)
+        object.__setattr__(self, "_fields", {k: freeze(v) for k, v in fields.items()})
+        object.__setattr__(self, "_hash", None)
+        object.__setattr__(self, "_lasts", None)
+        object.__setattr__(self, "_noted", None)
+
+    def __getattr__(self, label: str) -> Object:
+        try:
+            return _fields_of(self)[label]
+        except KeyError:
+            raise AttributeError(f"no label {label} in {self}") from None
+
+    def __getitem__(self, path: str) -> Object:
+        value: Object = self
+        for label in path.split(".") if isinstance(path, str) else (path,):
+            if not isinstance(value, Record) or label not in value._fields:
+                raise KeyError(path)
+            value = value._fields[label]
+        return value
+
+    def __contains__(self, label: object) -> bool:
+        return label in self._fields
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._fields)
+
+    def __len__(self) -> int:
+        return len(self._fields)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Record):
+            return NotImplemented
+        if self is other:
+            return True
+        spend()
+        mine, theirs = self._fields, other._fields
+        return mine.keys() == theirs.keys() and all(
+            identity(v) == identity(theirs[k]) for k, v in mine.items()
+        )
+
+    def __hash__(self) -> int:
+        if self._hash is None:
+            key = frozenset((k, identity(v)) for k, v in self._fields.items())
+            object.__setattr__(self, "_hash", hash(key))
+        return self._hash  # type: ignore[return-value]
+
+    def __setattr__(self, label: str, value: object) -> None:
+        raise TTRError(
+            f"a record does not change, so {label} cannot be set",
+            hint=f"replace(r, {label}=…) gives a new record",
+        )
+
+    def __delattr__(self, label: str) -> None:
+        raise TTRError(f"a record does not change, so {label} cannot be deleted")
+
+    @within_budget
+    def __str__(self) -> str:
+        return as_notation(self)
+
+    @within_budget
+    def __repr__(self) -> str:
+        return as_python(self)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Record, (self._fields,)
+
+    def __copy__(self) -> Record:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Record:
+        return self
+
+
+_fields_of: Callable[[Record], dict[str, Object]] = Record._fields.__get__  # type: ignore[misc, attr-defined]
+"""The fields of a record, however it is asked for them: labels are asked for often."""
+
+
+def record(fields: Mapping[str, object] | None = None, /, **labels: object) -> Record:
+    """The record with these labels, as keywords or as one mapping.
+
+    Raises `IllFormed` for what is no label, and for a label that is there twice.
+
+    >>> print(record(x="fido", c="s1"))
+    {c = s1, x = fido}
+    """
+    return Record(labelled("record", fields, labels))
+
+
+def lasts(value: Object) -> bool:
+    """Whether nothing inside an object can change: other people's objects may.
+
+    >>> lasts(record(x=("a", 1))), lasts(record(x=bytearray()))
+    (True, False)
+    """
+    if type(value) is str:
+        return True
+    if isinstance(value, Record):
+        if value._lasts is None:
+            found = all(map(lasts, value._fields.values()))
+            object.__setattr__(value, "_lasts", found)
+        return value._lasts  # type: ignore[return-value]
+    if isinstance(value, tuple):
+        return all(map(lasts, value))
+    return isinstance(value, _LASTING)
+
+
+_LASTING = (str, int, float, complex, bytes, NoneType, Node)
+"""The kinds of objects that never change."""
+
+
+def labelled(
+    what: str, fields: Mapping[str, _Value] | None, labels: Mapping[str, _Value]
+) -> dict[str, _Value]:
+    """The labels of a mapping and of keywords together; a label is there once."""
+    if fields is None:
+        return dict(labels)
+    if not isinstance(fields, Mapping):
+        raise IllFormed(
+            f"{what} takes labels as keywords or as one mapping, found {fields!r}"
+        )
+    twice = sorted(fields.keys() & labels.keys())
+    if twice:
+        raise IllFormed(f"the label {twice[0]} is there twice")
+    return {**fields, **labels}
+
+
+def check_label(label: object) -> None:
+    """Refuses what is no label: labels are identifiers that do not start with `_`.
+
+    Nor may Python read another identifier for it: `r.ﬁ` would look for `fi`.
+    """
+    if isinstance(label, str) and label.isidentifier() and label[0] != "_":
+        if label.isascii() or unicodedata.normalize("NFKC", label) == label:
+            return
+        usual = unicodedata.normalize("NFKC", label)
+        raise IllFormed(f"the label {label!r} is written {usual} in Python")
+    raise IllFormed(f"a label is an identifier that does not start with _: {label!r}")

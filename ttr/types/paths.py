@@ -1,0 +1,253 @@
+"""The parts of types and objects, and the paths in them that lead out.
+
+A record type and a binder are scopes: what stands in them stands one scope further in,
+and a path says how many scopes out it starts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+
+from ttr.safety.budgets import spend
+from ttr.types.interning import cache_on_node
+from ttr.types.objects import Unresolved, concat, fst, rst
+from ttr.types.syntax import (
+    Application,
+    EventString,
+    FiniteSet,
+    Function,
+    FunType,
+    Join,
+    ListOf,
+    Meet,
+    Negation,
+    NonEmpty,
+    Object,
+    Operation,
+    Path,
+    Plus,
+    Pred,
+    PType,
+    Record,
+    RecordType,
+    SetOf,
+    Singleton,
+    Str,
+    TypeNode,
+    join,
+    meet,
+)
+
+__all__ = [
+    "escaping",
+    "mentions",
+    "moved",
+    "occurring",
+    "parts",
+    "rebuilt",
+    "replace_paths",
+]
+
+Parts = tuple[Object, ...]
+
+
+def parts(value: Object) -> tuple[Parts, Parts]:
+    """The parts that stand in the same scope as the value, and those one further in.
+
+    >>> from ttr.types.syntax import Ind
+    >>> parts(Function(Ind, "a"))
+    ((Basic('Ind'),), ('a',))
+    """
+    match value:
+        case PType(_, inner) | Meet(inner) | Join(inner) | Str(inner):
+            spend(len(inner))
+            return inner, ()
+        case RecordType(fields):
+            spend(len(fields))
+            return (), tuple([T for _, T in fields])
+        case Singleton(base, obj):
+            return (base, obj), ()
+        case ListOf(item) | NonEmpty(item) | SetOf(item) | Plus(item) | Negation(item):
+            spend()
+            return (item,), ()
+        case FunType(domain, inside) | Function(domain, inside):
+            spend()
+            return (domain,), (inside,)
+        case Application(function, argument):
+            spend()
+            return (function, argument), ()
+        case EventString(inner) | FiniteSet(inner) | Operation(_, inner):
+            spend(len(inner))
+            return inner, ()
+        case Record():
+            spend(len(value))
+            return tuple(value._fields.values()), ()
+        case tuple():
+            spend(len(value))
+            return value, ()
+    return (), ()
+
+
+def rebuilt(value: Object, change: Callable[[Object, int], Object]) -> Object:
+    """The value with change(part, deeper) for each of its parts, made anew.
+
+    `deeper` is 1 for a part that stands one scope further in, else 0. As a change never
+    refers to a nested record, the order of its fields stays what it is.
+    """
+    match value:
+        case PType(pred, args):
+            return PType(pred, tuple([change(arg, 0) for arg in args]))
+        case RecordType(fields):
+            return RecordType(tuple([(k, change(T, 1)) for k, T in fields]))
+        case Singleton(base, obj):
+            return Singleton(change(base, 0), change(obj, 0))
+        case Meet(inner):
+            return meet(*[change(part, 0) for part in inner])
+        case Join(inner):
+            return join(*[change(part, 0) for part in inner])
+        case ListOf() | NonEmpty() | SetOf() | Plus():
+            return type(value)(change(value.item, 0))
+        case Negation(body):
+            return Negation(change(body, 0))
+        case Str(inner) | EventString(inner) | FiniteSet(inner):
+            return type(value)(*[change(part, 0) for part in inner])
+        case FunType(domain, inside, hint) | Function(domain, inside, hint):
+            return type(value)(change(domain, 0), change(inside, 1), hint)
+        case Application(function, argument):
+            return Application(change(function, 0), change(argument, 0))
+        case Operation(name, args):
+            return _operated(name, tuple([change(arg, 0) for arg in args]))
+        case Record():
+            return Record({k: change(v, 0) for k, v in value._fields.items()})
+        case tuple():
+            return tuple([change(part, 0) for part in value])
+    return value
+
+
+_OPERATIONS: dict[str, Callable[..., Object]] = {"+": concat, "fst": fst, "rst": rst}
+
+
+def _operated(name: str, args: Parts) -> Object:
+    """What an operation comes to; where there is no such object, it stays as it is."""
+    try:
+        return _OPERATIONS[name](*args)
+    except Unresolved:
+        return Operation(name, args)
+
+
+def occurring(values: Iterable[Object]) -> Iterator[Object]:
+    """The values and everything in them, each node once; without recursion."""
+    waiting, seen = list(values), set()
+    while waiting:
+        value = waiting.pop()
+        if isinstance(value, TypeNode | Pred | Function):
+            if value in seen:
+                continue
+            seen.add(value)
+        yield value
+        same, inner = parts(value)
+        waiting += same
+        waiting += inner
+        if isinstance(value, PType):
+            waiting.append(value.pred)
+        if isinstance(value, Pred):
+            waiting += (T for arity in value.arities for T in arity)
+
+
+def mentions(value: Object, kind: type[TypeNode]) -> bool:
+    """Does a type of this kind stand in the value, or is it one?
+
+    >>> from ttr.types.syntax import Ind
+    >>> mentions(ListOf(~Ind), Negation), mentions(ListOf(Ind), Negation)
+    (True, False)
+    """
+    return kind in _kinds(value)
+
+
+def _kinds(value: Object) -> frozenset[type]:
+    """The kinds of the types in a value, in it too."""
+    if type(value) is str:
+        return _NO_KINDS
+    return _kinds_in(value) if isinstance(value, TypeNode) else _kinds_of(value)
+
+
+def _kinds_of(value: Object) -> frozenset[type]:
+    same, inner = parts(value)
+    return frozenset((type(value),)).union(*map(_kinds, same), *map(_kinds, inner))
+
+
+_kinds_in: Callable[[TypeNode], frozenset[type]] = cache_on_node(_kinds_of)
+
+_NO_KINDS: frozenset[type] = frozenset()
+
+
+# --- paths that lead out -------------------------------------------------------------
+
+
+def escaping(value: Object) -> frozenset[Path]:
+    """The paths in a type or object that start outside it.
+
+    Paths are as seen from where the value stands: `up` 0 is the scope around it.
+
+    >>> from ttr.types.syntax import Ind, this
+    >>> dog = Pred("dog", Ind)
+    >>> escaping(dog(this.x)), escaping(RecordType((("x", Ind), ("c", dog(this.x)))))
+    (frozenset({this.x}), frozenset())
+    """
+    if type(value) is str:
+        return _NONE
+    if not isinstance(value, TypeNode):
+        return frozenset((value,)) if isinstance(value, Path) else _in_parts(value)
+    return _of_type(value)
+
+
+def _in_parts(value: Object) -> frozenset[Path]:
+    same, inner = parts(value)
+    found = frozenset[Path]().union(*map(escaping, same)) if same else _NONE
+    if inner:
+        further = _NONE.union(*map(escaping, inner))
+        found |= {Path(path.up - 1, path.labels) for path in further if path.up > 0}
+    return found
+
+
+_of_type: Callable[[TypeNode], frozenset[Path]] = cache_on_node(_in_parts)
+
+_NONE: frozenset[Path] = frozenset()
+
+
+def replace_paths(
+    value: Object, at: Callable[[Path], Object], depth: int = 0
+) -> Object:
+    """The value with every path that escapes it replaced by at(path).
+
+    `at` sees a path as from where the value stands and gives what stands for it there;
+    further in, the replacement is moved along, so that nothing captures it.
+    """
+    if isinstance(value, Path):
+        if depth == 0:
+            return at(value)
+        if value.up < depth:
+            return value
+        return moved(at(Path(value.up - depth, value.labels)), depth)
+    if isinstance(value, TypeNode) and not _reaches(value, depth):
+        return value
+    if isinstance(value, str):
+        return value
+
+    def change(part: Object, deeper: int) -> Object:
+        return replace_paths(part, at, depth + deeper)
+
+    return rebuilt(value, change)
+
+
+def _reaches(T: TypeNode, depth: int) -> bool:
+    """Whether a path in T leads at least so many scopes out."""
+    found = escaping(T)
+    return bool(found) and (depth == 0 or any(path.up >= depth for path in found))
+
+
+def moved(value: Object, depth: int) -> Object:
+    """The value as it must be written `depth` scopes further in."""
+    if depth == 0:
+        return value
+    return replace_paths(value, lambda path: Path(path.up + depth, path.labels))

@@ -1,0 +1,117 @@
+"""Where the notation needs brackets, and its words: one rule for printing and display.
+
+From the loosest to the tightest: the dot of a function, arrow, join, meet, sum,
+negation, `@`, application. An arrow always stands in brackets of its own.
+"""
+
+from __future__ import annotations
+
+from ttr.types.paths import escaping
+from ttr.types.syntax import (
+    Application,
+    Basic,
+    Function,
+    FunType,
+    Join,
+    ListOf,
+    Meet,
+    Negation,
+    NonEmpty,
+    Object,
+    Operation,
+    Path,
+    Plus,
+    SetOf,
+    Singleton,
+    Str,
+)
+
+__all__ = [
+    "WORDS",
+    "begins_with_bracket",
+    "binds",
+    "holds_as_head",
+    "is_loose",
+    "is_loose_beside",
+]
+
+WORDS: dict[type, str] = {
+    ListOf: "list",
+    NonEmpty: "nelist",
+    SetOf: "set",
+    Plus: "plus",
+    Str: "str",
+}
+"""Types that are written as a word with types in brackets."""
+
+
+def is_loose(value: Object) -> bool:
+    r"""Whether it needs brackets as a part of a meet, join or negation, or as a result.
+
+    >>> from ttr.types.syntax import Ind
+    >>> A = Basic("A")
+    >>> is_loose(Ind & A), is_loose(~Ind)
+    (True, False)
+    >>> print(A & (Ind | A), ~Ind & A)
+    A /\ (A \/ Ind) A /\ ~Ind
+    """
+    return isinstance(value, Meet | Join | Singleton | Function)
+
+
+def is_loose_beside(value: Object) -> bool:
+    """Whether it needs brackets beside `@` or `+`, before an arrow, or as an event.
+
+    >>> from ttr.types.syntax import Ind
+    >>> is_loose_beside(~Ind), is_loose_beside(ListOf(Ind))
+    (True, False)
+    >>> print(~Ind @ "a", ListOf(Ind) @ "l")
+    (~Ind)@a list(Ind)@l
+    """
+    match value:
+        case Negation() | Operation("+", _):
+            return True
+    return is_loose(value)
+
+
+def holds_as_head(function: Object) -> bool:
+    """Whether it can be applied without brackets: a path, a name or an application.
+
+    A basic type is here a name that is put for a function, as in a folded display.
+
+    >>> from ttr.building.constructors import fun
+    >>> from ttr.types.syntax import Ind
+    >>> [holds_as_head(f) for f in (Path(0, ("f",)), "f", fun(x=Ind)("a"))]
+    [True, True, False]
+    """
+    return isinstance(function, Path | str | Basic | Application)
+
+
+def begins_with_bracket(event: Object) -> bool:
+    """Whether an event begins with `(`: it would be an argument of the one before it.
+
+    >>> from ttr.building.constructors import fun
+    >>> from ttr.types.syntax import Ind, Type, this
+    >>> begins_with_bracket(Ind >> Type), begins_with_bracket(fun(x=Ind)(this.x))
+    (True, True)
+    >>> begins_with_bracket(Application(fun(x=Ind)(this.x), "a"))
+    True
+    >>> begins_with_bracket(Application("f", "a"))
+    False
+    """
+    match event:
+        case FunType():
+            return True
+        case Application(function, _):
+            return not holds_as_head(function) or begins_with_bracket(function)
+    return is_loose_beside(event)
+
+
+def binds(inside: Object) -> bool:
+    """Whether the inside of a binder mentions its variable, which then needs a name.
+
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> dog = Pred("dog", Ind)
+    >>> binds(dog(this.x)), binds(dog("fido"))
+    (True, False)
+    """
+    return any(path.up == 0 for path in escaping(inside))

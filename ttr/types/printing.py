@@ -1,0 +1,404 @@
+"""One-line printing: `notation` is the blackboard, `python` evaluates back.
+
+A path is written in the shortest form that reads back to the same path: bare where the
+nearest enclosing record type with its first label is the one meant, else with a dot
+(`.x`, the record where the field stands) or carets (`^.x`, one record further out).
+"""
+
+from __future__ import annotations
+
+import keyword
+import math
+from collections.abc import Iterable, Sequence
+
+from ttr.escapes import json_text
+from ttr.safety.budgets import spend
+from ttr.types.interning import as_notation, as_python
+from ttr.types.objects import Missing
+from ttr.types.paths import occurring, replace_paths
+from ttr.types.paths import parts as contents
+from ttr.types.precedence import (
+    WORDS,
+    begins_with_bracket,
+    binds,
+    holds_as_head,
+    is_loose,
+    is_loose_beside,
+)
+from ttr.types.syntax import (
+    BOUND,
+    Application,
+    Basic,
+    EventString,
+    FiniteSet,
+    Function,
+    FunType,
+    Join,
+    ListOf,
+    Meet,
+    Negation,
+    NonEmpty,
+    Object,
+    Operation,
+    Path,
+    Plus,
+    Pred,
+    PType,
+    Record,
+    RecordType,
+    SetOf,
+    Singleton,
+    Str,
+    TypeNode,
+    Universe,
+)
+
+__all__ = ["Scope", "as_object", "head", "notation", "python", "variable"]
+
+Scope = tuple[frozenset[str] | str, ...]
+"""The scopes around, innermost first: the labels of a record type, or a variable."""
+
+
+def notation(value: Object, scope: Scope = ()) -> str:
+    """The value in the notation of the papers, on one line.
+
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.types.syntax import Ind, outer
+    >>> run = Pred("run", Ind)
+    >>> inner = rectype(x=Ind, c=run(outer.x))
+    >>> print(notation(rectype(x=Ind, y=inner)))
+    [x : Ind, y : [c : run(^.x), x : Ind]]
+    """
+    match value:
+        case Basic(name) | Universe(name, 0) | Pred(name):
+            return name
+        case Universe(name, level):
+            return f"{name}^{level}"
+        case PType(pred, args):
+            return f"{pred.name}({_objects(args, scope)})"
+        case RecordType(()):
+            return "Rec"
+        case RecordType(fields):
+            spend(len(fields))
+            inner = (frozenset(value.labels), *scope)
+            return f"[{', '.join(_field(k, f, inner) for k, f in fields)}]"
+        case Singleton(base, obj):
+            return f"{_tight(base, scope)}@{_tight_object(obj, scope)}"
+        case Meet(parts):
+            return " /\\ ".join(_operand(part, scope) for part in parts)
+        case Join(parts):
+            return " \\/ ".join(_operand(part, scope) for part in parts)
+        case Negation(body):
+            return f"~{_operand(body, scope)}"
+        case FunType() | Function():
+            return _binder(value, scope)
+        case Application(function, argument):
+            return f"{head(function, scope)}({_objects((argument,), scope)})"
+        case Operation("+", args):
+            return " + ".join([_tight_object(arg, scope) for arg in args])
+        case Operation(name, args):
+            return f"{name}({_objects(args, scope)})"
+        case Path():
+            return _path(value, scope)
+    if type(value) in WORDS:
+        types, _ = contents(value)
+        spend(len(types))
+        inside = ", ".join([notation(T, scope) for T in types])
+        return f"{WORDS[type(value)]}({inside})"
+    return _object(value, scope)
+
+
+def _field(label: str, field: TypeNode, scope: Scope) -> str:
+    match field:
+        case Singleton(base, obj):
+            given = notation(as_object(obj, scope), scope)
+            return f"{label} = {given} : {notation(base, scope)}"
+    return f"{label} : {notation(field, scope)}"
+
+
+def _operand(value: Object, scope: Scope) -> str:
+    """A part of a meet, join or negation: in brackets unless it binds closer."""
+    spend()
+    text = notation(value, scope)
+    return f"({text})" if is_loose(value) else text
+
+
+def _tight(value: Object, scope: Scope) -> str:
+    """A part beside @, + or an arrow: in brackets unless it holds together."""
+    spend()
+    text = notation(value, scope)
+    return f"({text})" if is_loose_beside(value) else text
+
+
+# --- where an object stands ----------------------------------------------------------
+
+
+def as_object(value: Object, scope: Scope) -> Object:
+    """What to write for it where an object stands, as an argument or after `=` or `@`.
+
+    There a label or variable of the name of a type hides the type. T ∧ T is T, and in
+    a meet names are types.
+
+    >>> from ttr.types.syntax import Ind
+    >>> near, far = frozenset({"x"}), frozenset({"Ind"})
+    >>> print(as_object(Ind, (near,)))
+    Ind
+    >>> print(as_object(Ind, (near, far)))
+    Ind /\\ Ind
+    """
+    if not isinstance(value, TypeNode):
+        return value
+    match value:
+        case Basic(name) | Universe(name, 0) if _hides(scope, name):
+            return Meet((value, value))
+        case RecordType(()) if _hides(scope, "Rec"):
+            return Meet((value, value))
+    return value
+
+
+def _hides(scope: Scope, name: str) -> bool:
+    return any(name == names or name in _labels(names) for names in scope)
+
+
+def _objects(values: Sequence[Object], scope: Scope) -> str:
+    spend(len(values))
+    return ", ".join([notation(as_object(v, scope), scope) for v in values])
+
+
+def _tight_object(value: Object, scope: Scope) -> str:
+    return _tight(as_object(value, scope), scope)
+
+
+# --- functions and their variables ---------------------------------------------------
+
+
+def _binder(value: FunType | Function, scope: Scope) -> str:
+    match value:
+        case Function(domain, body):
+            name = variable(value, scope)
+            inside = (name, *scope)
+            inner = notation(as_object(body, inside), inside)
+            return f"\\{name}:{_tight(domain, scope)}. {inner}"
+        case FunType(domain, result):
+            if not binds(result):
+                inner = _operand(result, ("", *scope))
+                return f"({_tight(domain, scope)} -> {inner})"
+            name = variable(value, scope)
+            inner = _operand(result, (name, *scope))
+            return f"(({name} : {notation(domain, scope)}) -> {inner})"
+
+
+def variable(value: FunType | Function, scope: Scope) -> str:
+    """The name to write for the variable: its hint, unless that would be misread.
+
+    It is another than the variables around, and than the labels, predicates and basic
+    types in the body.
+    """
+    inside = value.body if isinstance(value, Function) else value.result
+    taken = {name for name in scope if isinstance(name, str)} | RESERVED
+    for part in occurring([inside]):
+        match part:
+            case RecordType():
+                taken.update(part)
+            case Pred(name) | Basic(name):
+                taken.add(name)
+    name, number = value.hint, 1
+    while name in taken:
+        name, number = f"{value.hint}{number}", number + 1
+    return name
+
+
+def head(function: Object, scope: Scope) -> str:
+    """What is applied, as it stands before its argument.
+
+    A path has a dot and a name has quotes, so that neither is read as a predicate.
+
+    >>> print(head(Path(0, ("f",)), (frozenset({"f"}),)), head("f", ()), head(3, ()))
+    .f "f" (3)
+    """
+    match function:
+        case Path(up, labels) if labels[0] != BOUND:
+            return _dotted(up, labels, scope)
+        case str():
+            return json_text(function)
+    text = notation(function, scope)
+    return text if holds_as_head(function) else f"({text})"
+
+
+def _path(path: Path, scope: Scope) -> str:
+    if path.labels[0] == BOUND:
+        return _bound(path, scope)
+    for up, names in enumerate(scope):
+        if path.labels[0] == names or path.labels[0] in _labels(names):
+            if up == path.up:
+                return ".".join(path.labels)
+            break
+    return _dotted(path.up, path.labels, scope)
+
+
+def _bound(path: Path, scope: Scope) -> str:
+    """A variable, or a path from it; where it is bound outside, a dot says so."""
+    around = scope[path.up] if path.up < len(scope) else ""
+    name = around if isinstance(around, str) else ""
+    return ".".join([name or BOUND, *path.labels[1:]])
+
+
+def _dotted(up: int, labels: tuple[str, ...], scope: Scope) -> str:
+    """The path with a caret for each record type that it leads out of."""
+    binders = sum(isinstance(names, str) for names in scope[:up])
+    return f"{'^' * (up - binders)}.{'.'.join(labels)}"
+
+
+def _labels(names: frozenset[str] | str) -> frozenset[str]:
+    return names if isinstance(names, frozenset) else frozenset()
+
+
+# --- other objects -------------------------------------------------------------------
+
+
+def _object(value: Object, scope: Scope) -> str:
+    kind = type(value)
+    if kind is str:
+        return _name(value, scope)
+    if kind is tuple:
+        return f"[{_objects(value, scope)}]"
+    if kind is int or (kind is float and math.isfinite(value)):
+        return repr(value)
+    match value:
+        case Record():
+            spend(len(value))
+            items = sorted(value._fields.items())
+            inside = [f"{k} = {notation(as_object(v, scope), scope)}" for k, v in items]
+            return f"{{{', '.join(inside)}}}"
+        case Missing():
+            return "nothing"
+        case FiniteSet(items):
+            return f"{'' if items else 'set'}{{{_objects(items, scope)}}}"
+        case EventString(items):
+            return _string([as_object(item, scope) for item in items], scope)
+    return f"<{kind.__name__} {_size(value)}>"
+
+
+def _string(events: list[Object], scope: Scope) -> str:
+    """<a b>, with commas where an event could be read as an argument of the last."""
+    between = ", " if any(map(begins_with_bracket, events)) else " "
+    return f"<{between.join([_tight(event, scope) for event in events])}>"
+
+
+def _name(name: str, scope: Scope) -> str:
+    """A name, quoted where it would be read as a label or as something else."""
+    bare = name.isidentifier() and name not in RESERVED
+    if bare and not _hides(scope, name):
+        return name
+    return json_text(name)
+
+
+RESERVED = frozenset((*WORDS.values(), "Type", "RecType", "Rec", "fst", "rst", "fun"))
+"""The words of the notation, which name nothing else."""
+
+
+def _size(value: object) -> object:
+    """What tells an object without notation from others: its length, else its value."""
+    try:
+        return len(value)  # type: ignore[arg-type]
+    except TypeError:
+        return value
+
+
+def python(value: Object) -> str:
+    """The value as Python that evaluates back, with the names of `ttr` imported.
+
+    >>> from ttr import *
+    >>> T = rectype(x=Ind, c=Pred("run", Ind)(this.x))
+    >>> T
+    rectype(x=Basic('Ind'), c=Pred('run', Basic('Ind'))(this.x))
+    >>> eval(repr(T)) is T
+    True
+    """
+    spend(2)
+    match value:
+        case Basic(name):
+            return f"Basic({name!r})"
+        case Universe(name, 0):
+            return name
+        case Universe(name, level):
+            return f"Universe({name!r}, {level})"
+        case Pred(name, arities):
+            return f"Pred({', '.join([repr(name), *_arities(arities)])})"
+        case PType(pred, args):
+            return f"{python(pred)}({', '.join(map(python, args))})"
+        case Singleton(base, obj):
+            return f"Singleton({python(base)}, {python(obj)})"
+        case Meet(parts) | Join(parts):
+            return f"{type(value).__name__.lower()}({', '.join(map(python, parts))})"
+        case ListOf() | NonEmpty() | SetOf() | Plus() | Negation():
+            ((part,), _) = contents(value)
+            return f"{type(value).__name__}({python(part)})"
+        case Str(items) | EventString(items) | FiniteSet(items):
+            return f"{type(value).__name__}({', '.join(map(python, items))})"
+        case FunType() | Function():
+            return _python_binder(value)
+        case Application(function, argument):
+            return f"Application({python(function)}, {python(argument)})"
+        case Operation(name, args):
+            call = "concat" if name == "+" else name
+            return f"{call}({', '.join(map(python, args))})"
+        case Missing():
+            return "Missing()"
+        case RecordType(()):
+            return "Rec"
+        case RecordType(fields):
+            return f"rectype({_keywords(fields)})"
+        case Path(up, labels):
+            return _python_path(up, labels)
+        case Record():
+            return f"record({_keywords(sorted(value._fields.items()))})"
+        case tuple() if type(value) is tuple:
+            inner = ", ".join(map(python, value))
+            return f"({inner}{',' * (len(value) == 1)})"
+    return repr(value)
+
+
+def _python_binder(value: FunType | Function) -> str:
+    match value:
+        case Function(domain, body, hint):
+            call, inside = "fun", body
+        case FunType(domain, result) if not binds(result):
+            outside = replace_paths(result, lambda p: Path(p.up - 1, p.labels))
+            return f"({python(domain)} >> {python(outside)})"
+        case FunType(domain, inside, hint):
+            call = "Pi"
+    named = replace_paths(inside, lambda path: _named(path, hint))
+    return f"{call}({_keywords([(hint, domain)])})({python(named)})"
+
+
+def _named(path: Path, variable: str) -> Path:
+    """The path, with the name of the variable if it is the innermost one."""
+    if path.up > 0 or path.labels[0] != BOUND:
+        return path
+    return Path(0, (variable, *path.labels[1:]))
+
+
+def _arities(arities: tuple[tuple[TypeNode, ...], ...]) -> list[str]:
+    if len(arities) == 1:
+        return [python(T) for T in arities[0]]
+    return [python(arity) for arity in arities]
+
+
+def _keywords(items: Iterable[tuple[str, Object]]) -> str:
+    pairs = list(items)
+    if any(keyword.iskeyword(label) for label, _ in pairs):
+        inner = ", ".join(f"{k!r}: {python(v)}" for k, v in pairs)
+        return f"{{{inner}}}"
+    return ", ".join(f"{k}={python(v)}" for k, v in pairs)
+
+
+def _python_path(up: int, labels: tuple[str, ...]) -> str:
+    start = {0: "this", 1: "outer"}.get(up, f"outer({up})")
+    if any(keyword.iskeyword(label) for label in labels):
+        return f"{start}[{'.'.join(labels)!r}]"
+    return ".".join([start, *labels])
+
+
+as_notation.provided_by(notation)
+as_python.provided_by(python)

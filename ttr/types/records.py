@@ -1,0 +1,139 @@
+"""Records as values: a changed copy of a record."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ttr.errors import TTRError, suggestion
+from ttr.safety.budgets import spend
+from ttr.types.objects import labelled, lasts
+from ttr.types.printing import notation
+from ttr.types.syntax import Object, Record, freeze, identity
+
+__all__ = ["differences", "replace"]
+
+
+def replace(
+    r: Record, changes: Mapping[str, object] | None = None, /, **labels: object
+) -> Record:
+    """The record with other objects at these labels or paths.
+
+    A path is written with dots, in a mapping. Raises `TTRError` for a path that is not
+    in the record: replacing never adds a label.
+
+    >>> from ttr.types.syntax import record
+    >>> r = record(x="fido", bg=record(size=3))
+    >>> print(replace(r, {"bg.size": 4}, x="sam"))
+    {bg = {size = 4}, x = sam}
+    """
+    new = _Changing(r)
+    for path, value in labelled("replace", changes, labels).items():
+        if not isinstance(path, str):
+            raise TTRError(f"a path is written as a text, as in 'bg.x', found {path!r}")
+        new.set(path.split("."), freeze(value))
+    return new.record
+
+
+class _Changing:
+    """A record that is being changed: what is in it is copied once, where it changes.
+
+    Nobody else has seen the copies, so that they may be written to until they are done.
+    """
+
+    def __init__(self, r: Record) -> None:
+        self.record = r
+        self._copies: dict[int, Record] = {}
+
+    def set(self, path: list[str], value: Object) -> None:
+        """Puts a frozen object at a path that is there."""
+        *outer, last = path
+        here = self.record = self._copy(self.record)
+        on_the_way = [here]
+        for label in outer:
+            inner = self._copy(_at(here, label, path))
+            here._fields[label] = inner
+            here = inner
+            on_the_way.append(here)
+        _at(here, last, path)
+        here._fields[last] = value
+        if not lasts(value):
+            for one in on_the_way:
+                _write(one, "_lasts", None)
+
+    def _copy(self, r: Object) -> Record:
+        """The record if it is a copy, or its copy; what is no record is as it is."""
+        if id(r) in self._copies or not isinstance(r, Record):
+            return r  # type: ignore[no-any-return]
+        copy = object.__new__(Record)
+        _write(copy, "_fields", {**r._fields})
+        _write(copy, "_hash", None)
+        _write(copy, "_lasts", r._lasts or None)
+        _write(copy, "_noted", None)
+        self._copies[id(copy)] = copy
+        return copy
+
+
+_write = object.__setattr__
+
+
+def _at(r: Object, label: str, path: list[str]) -> Object:
+    """What a record has at a label on the way along a path."""
+    if isinstance(r, Record) and label in r._fields:
+        return r._fields[label]
+    raise TTRError(
+        f"{'.'.join(path)} is not in {r}, so it cannot be replaced",
+        hint=suggestion(label, r if isinstance(r, Record) else ()),
+    )
+
+
+def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:
+    """What is different, path by path, as lines `path: old → new`.
+
+    Of a list that has only got longer or shorter, what came (+) or went (−) is told.
+
+    >>> from ttr.types.syntax import record
+    >>> list(differences(record(x="a", y=["b"]), record(x="c", y=["b", "d"])))
+    ['x: a → c', 'y: + d']
+    """
+    spend()
+    if isinstance(before, tuple) and isinstance(after, tuple):
+        yield from _list_differences(before, after, path)
+        return
+    if not isinstance(before, Record) or not isinstance(after, Record):
+        if identity(before) != identity(after):
+            yield f"{path}: {notation(before)} → {notation(after)}"
+        return
+    for label in sorted({*before, *after}):
+        inner = f"{path}.{label}" if path else label
+        if label not in after:
+            yield f"{inner}: {notation(before[label])} → nothing"
+        elif label not in before:
+            yield f"{inner}: nothing → {notation(after[label])}"
+        else:
+            yield from differences(before[label], after[label], inner)
+
+
+def _list_differences(
+    before: tuple[Object, ...], after: tuple[Object, ...], path: str
+) -> Iterator[str]:
+    """What is different between two lists, element by element where that is plain."""
+    came, went = _beyond(after, before), _beyond(before, after)
+    if came is None and went is None:
+        yield f"{path}: {notation(before)} → {notation(after)}"
+        return
+    yield from (f"{path}: + {notation(a)}" for a in came or ())
+    yield from (f"{path}: − {notation(a)}" for a in went or ())
+
+
+def _beyond(
+    long: tuple[Object, ...], short: tuple[Object, ...]
+) -> tuple[Object, ...] | None:
+    """What a list has besides another that it begins or ends with, else None."""
+    rest = len(long) - len(short)
+    if rest < 0:
+        return None
+    if identity(long[: len(short)]) == identity(short):
+        return long[len(short) :]
+    if identity(long[rest:]) == identity(short):
+        return long[:rest]
+    return None

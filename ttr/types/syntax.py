@@ -1,0 +1,583 @@
+"""What may be written: types, predicates and record types, as immutable values.
+
+Nodes are interned: two nodes of the same structure are the same Python object, so that
+`is` is structural identity, a hash is an address and a type can be a key. The classes
+with capital letters only hold data, to be matched on; types are built with `rectype`,
+`meet`, `join`, `fun`, `Pi`, `Pred.__call__` and the operators, which normalise and
+refuse the ill-formed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import field
+from typing import TYPE_CHECKING, NoReturn
+
+from ttr.errors import IllFormed
+from ttr.hooks import hook
+from ttr.safety.budgets import within_budget
+from ttr.types.interning import Node, identity, node
+from ttr.types.objects import (
+    BOUND,
+    Applied,
+    EventString,
+    FiniteSet,
+    Object,
+    Operation,
+    Path,
+    PathTo,
+    Record,
+    as_application,
+    check_label,
+    concat,
+    freeze,
+    in_print,
+    outer,
+    record,
+    this,
+)
+
+__all__ = [
+    "BOUND",
+    "Application",
+    "Basic",
+    "EventString",
+    "FiniteSet",
+    "FunType",
+    "Function",
+    "Ind",
+    "Join",
+    "ListOf",
+    "Meet",
+    "Negation",
+    "NonEmpty",
+    "Object",
+    "Operation",
+    "PType",
+    "Path",
+    "Plus",
+    "Pred",
+    "Rec",
+    "RecType",
+    "Record",
+    "RecordType",
+    "SetOf",
+    "Singleton",
+    "Str",
+    "Type",
+    "TypeNode",
+    "Universe",
+    "applied",
+    "as_type",
+    "freeze",
+    "identity",
+    "join",
+    "kind_of",
+    "meet",
+    "outer",
+    "record",
+    "this",
+]
+
+
+@hook
+def is_subtype(S: TypeNode, T: TypeNode, /) -> bool:
+    """S ⊑ T: `ttr.computing.subtyping.subtype`."""
+    raise NotImplementedError
+
+
+@hook
+def as_function_type(domain: TypeNode, result: TypeNode, /) -> TypeNode:
+    """(S → T): `ttr.types.forms.function_type`."""
+    raise NotImplementedError
+
+
+class TypeNode(Node):
+    """A type, with the signs of the notation as operators.
+
+    `S & T` is the meet, `S | T` the join, `~T` the negation, `S >> T` the type of
+    functions from S to T, `T @ a` a singleton; `S <= T` asks for subtyping.
+    """
+
+    __slots__ = ()
+
+    def __le__(self, other: object) -> bool:
+        return is_subtype(self, as_type(other))
+
+    def __ge__(self, other: object) -> bool:
+        return as_type(other) <= self
+
+    def __and__(self, other: object) -> TypeNode:
+        return meet(self, as_type(other))
+
+    def __or__(self, other: object) -> TypeNode:
+        return join(self, as_type(other))
+
+    def __invert__(self) -> TypeNode:
+        return Negation(self)
+
+    def __rshift__(self, other: object) -> TypeNode:
+        return as_function_type(self, as_type(other))
+
+    def __matmul__(self, value: object) -> TypeNode:
+        return Singleton(self, freeze(value))
+
+
+def as_type(value: object) -> TypeNode:
+    """The value, if it is a type; else `IllFormed` says what it is."""
+    if isinstance(value, TypeNode):
+        return value
+    raise _no_type(value)
+
+
+def _no_type(found: object) -> IllFormed:
+    return IllFormed(f"expected a type, found {kind_of(found)}")
+
+
+def kind_of(value: object) -> str:
+    """What a value is, in a word or two, for an error."""
+    match value:
+        case Pred():
+            domain = ", ".join(map(str, value.arities[0]))
+            return f"the predicate {value.name}: apply it to objects of ({domain})"
+        case Record():
+            return f"the record {value}"
+        case Function():
+            return f"the function {value}"
+        case PathTo() | Path() | Operation():
+            return f"the object {value}"
+        case str():
+            return f"the object {value!r}"
+        case TypeNode():
+            return f"the type {value}"
+        case type():
+            return f"the class {value.__name__}"
+        case None:
+            return "None"
+    return f"{type(value).__name__} {value!r}"
+
+
+@node
+class Basic(TypeNode):
+    """A basic type: a name, and whatever a model judges to be of it."""
+
+    name: str
+
+    @staticmethod
+    def _normal(name: str) -> tuple[str]:
+        if not isinstance(name, str) or not name:
+            raise IllFormed(f"a basic type is named by a string, found {kind_of(name)}")
+        return (str(name),)
+
+
+@node
+class Universe(TypeNode):
+    """Typeⁿ, RecTypeⁿ: the types of level n at most, and the record types among them.
+
+    A type is of level 0 if it mentions no type of types, and of level n + 1 if the
+    highest that it mentions is of level n. So Type itself is of Type^1, not of Type.
+    """
+
+    name: str
+    level: int = 0
+
+    @staticmethod
+    def _normal(name: str, level: int = 0) -> tuple[str, int]:
+        if not isinstance(name, str) or name not in ("Type", "RecType"):
+            raise IllFormed(
+                f"a type of types is Type or RecType, found {kind_of(name)}"
+            )
+        if type(level) is not int or level < 0:
+            raise IllFormed(f"a level of types is 0 or more, found {level!r}")
+        return name, level
+
+
+@node
+class PType(TypeNode):
+    """p(a₁, …, aₙ): the type of the situations that make a predication true."""
+
+    pred: Pred
+    args: tuple[Object, ...]
+
+    @staticmethod
+    def _normal(pred: Pred, args: object) -> tuple[object, ...]:
+        if not isinstance(pred, Pred):
+            raise IllFormed(f"a ptype is of a predicate, found {kind_of(pred)}")
+        if not isinstance(args, tuple | list):
+            raise IllFormed(
+                f"the arguments of {pred} are a tuple, found {kind_of(args)}"
+            )
+        frozen = tuple(map(freeze, args))
+        for arity in pred.arities:
+            if len(arity) == len(frozen):
+                return pred, frozen
+        raise IllFormed(_wrong_arity(pred, len(frozen)))
+
+
+def _wrong_arity(pred: Pred, found: int) -> str:
+    wanted = " or ".join(
+        f"{len(arity)} argument{'s' * (len(arity) != 1)} ({', '.join(map(str, arity))})"
+        for arity in pred.arities
+    )
+    return f"{pred.name} takes {wanted}, but has {found}"
+
+
+@node
+class Singleton(TypeNode):
+    """T@a, T restricted to a: b is of it iff b is of T and b is a."""
+
+    base: TypeNode
+    value: Object
+
+    @staticmethod
+    def _normal(base: TypeNode, value: object) -> tuple[object, ...]:
+        return as_type(base), freeze(value)
+
+    @staticmethod
+    def _key(base: TypeNode, value: Object) -> tuple[object, ...]:
+        return base, identity(value)
+
+
+@node
+class Meet(TypeNode):
+    """S ∧ T: a is of it iff a is of every part. Built by `meet`."""
+
+    parts: tuple[TypeNode, ...]
+
+    @staticmethod
+    def _key(parts: tuple[TypeNode, ...]) -> tuple[object, ...]:
+        return (frozenset(parts),)
+
+
+@node
+class Join(TypeNode):
+    """S ∨ T: a is of it iff a is of one of the parts. Built by `join`."""
+
+    parts: tuple[TypeNode, ...]
+
+    @staticmethod
+    def _key(parts: tuple[TypeNode, ...]) -> tuple[object, ...]:
+        return (frozenset(parts),)
+
+
+@node
+class Negation(TypeNode):
+    """¬T: a is of it iff a is not of T."""
+
+    body: TypeNode
+
+    @staticmethod
+    def _normal(body: TypeNode) -> tuple[object, ...]:
+        return (as_type(body),)
+
+
+# --- collections and strings ---------------------------------------------------------
+
+
+class _Of(TypeNode):
+    """A type of things that are made of objects of one type."""
+
+    __slots__ = ()
+
+    @staticmethod
+    def _normal(item: TypeNode) -> tuple[object, ...]:
+        return (as_type(item),)
+
+
+@node
+class ListOf(_Of):
+    """list(T): the type of the finite lists of objects of T."""
+
+    item: TypeNode
+
+
+@node
+class NonEmpty(_Of):
+    """nelist(T): the lists of objects of T that have a first element and a rest."""
+
+    item: TypeNode
+
+
+@node
+class SetOf(_Of):
+    """set(T): the type of the finite sets of objects of T."""
+
+    item: TypeNode
+
+
+@node
+class Plus(_Of):
+    """plus(T), T⁺: the strings that are one or more strings or events of T in a row."""
+
+    item: TypeNode
+
+
+@node
+class Str(TypeNode):
+    """str(T₁, …, Tₙ): the strings of n pieces, the first of T₁ and so on.
+
+    A piece is an event of Tᵢ; where by its form Tᵢ is a type of strings, it is a string
+    of Tᵢ. So concatenation is associative, and written in one way only: str(str(R, S),
+    T) is str(R, S, T).
+
+    >>> A, B, C = Basic("A"), Basic("B"), Basic("C")
+    >>> Str(Str(A, B), C) is Str(A, Str(B, C)) is Str(A, B, Str(), C)
+    True
+    """
+
+    items: tuple[TypeNode, ...]
+
+    if TYPE_CHECKING:
+
+        def __init__(self, *items: object) -> None: ...
+
+    @staticmethod
+    def _normal(*items: object) -> tuple[object, ...]:
+        pieces: list[TypeNode] = []
+        for item in map(as_type, items):
+            pieces += item.items if isinstance(item, Str) else (item,)
+        return (tuple(pieces),)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Str, self.items
+
+
+# --- functions -----------------------------------------------------------------------
+
+
+class _Binder(Node):
+    """Something with a bound variable of a domain; the variable's name is a hint.
+
+    Inside, the variable is the path `BOUND`, so its name is no part of identity.
+    """
+
+    __slots__ = ()
+
+    @staticmethod
+    def _key(domain: TypeNode, inside: object, hint: str) -> tuple[object, ...]:
+        return domain, identity(inside)
+
+
+@node
+class FunType(_Binder, TypeNode):
+    """((x : S) → T), the functions that take each x of S to an object of T.
+
+    Where T does not mention x it is written (S → T). Built by `S >> T` and `Pi`.
+    """
+
+    domain: TypeNode
+    result: TypeNode
+    hint: str = "x"
+
+    @staticmethod
+    def _normal(
+        domain: TypeNode, result: TypeNode, hint: str = "x"
+    ) -> tuple[object, ...]:
+        check_label(hint)
+        return as_type(domain), as_type(result), hint
+
+
+@node
+class Function(_Binder):
+    """λx:S. body, the function that takes each x of S to the body. Built by `fun`."""
+
+    domain: TypeNode
+    body: Object
+    hint: str = "x"
+
+    @staticmethod
+    def _normal(domain: TypeNode, body: object, hint: str = "x") -> tuple[object, ...]:
+        check_label(hint)
+        return as_type(domain), freeze(body), hint
+
+    def __call__(self, *args: object) -> Application:
+        """The application of the function, as written; `Model.apply` works it out."""
+        return applied(self, *args)
+
+
+@node
+class Application(Applied, TypeNode):
+    """f(a): what a function gives for an argument, a type or any other object."""
+
+    function: Object
+    argument: Object
+
+    @staticmethod
+    def _normal(function: object, argument: object) -> tuple[object, ...]:
+        return freeze(function), freeze(argument)
+
+    def __call__(self, *args: object) -> Application:
+        """What the result, a function, gives for another argument: f(a)(b)."""
+        return applied(self, *args)
+
+    def __add__(self, other: object) -> Object:
+        return concat(self, other)
+
+
+def applied(function: object, *args: object) -> Application:
+    """f(a), or f(a)(b) and so on where there are more arguments."""
+    if not args:
+        raise IllFormed(f"a function is applied to an argument: {function}(…)")
+    for arg in args:
+        function = Application(function, arg)
+    return function  # type: ignore[return-value]
+
+
+as_application.provided_by(applied)
+
+
+# --- records and predicates ----------------------------------------------------------
+
+
+@node
+class RecordType(TypeNode):
+    """[ℓ₁ : T₁, …]: r is of it iff each r.ℓᵢ is of Tᵢ. Built by `rectype`.
+
+    Paths in a field's type start in the record where the field stands.
+    """
+
+    fields: tuple[tuple[str, TypeNode], ...]
+    _types: Mapping[str, TypeNode] = field(init=False)
+
+    @staticmethod
+    def _key(fields: tuple[tuple[str, TypeNode], ...]) -> tuple[object, ...]:
+        return (fields,) if type(fields) is tuple else (identity(fields),)
+
+    def __post_init__(self) -> None:
+        try:
+            types = dict(self.fields if isinstance(self.fields, tuple) else (None,))
+        except (TypeError, ValueError):
+            raise IllFormed(
+                "RecordType holds pairs of a label and a type: build it with rectype"
+            ) from None
+        object.__setattr__(self, "_types", types)
+
+    def __getitem__(self, label: str) -> TypeNode:
+        """The type of the field with this label; raises `KeyError` if there is none.
+
+        >>> RecordType((("x", Ind),))["x"]
+        Basic('Ind')
+        """
+        return self._types[label]
+
+    def get(self, label: str) -> TypeNode | None:
+        """The type of the field with this label, or None if there is none."""
+        return self._types.get(label)
+
+    def __contains__(self, label: object) -> bool:
+        return label in self._types
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._types)
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels, dependencies first."""
+        return tuple(self._types)
+
+
+@node
+class Pred(Node):
+    """A predicate: a name and one or more arities, each a tuple of types.
+
+    >>> Pred("hug", Ind, Ind)("a", "b")
+    Pred('hug', Basic('Ind'), Basic('Ind'))('a', 'b')
+    >>> Pred("open", (Ind,), (Ind, Ind)).arities[1]
+    (Basic('Ind'), Basic('Ind'))
+    """
+
+    name: str
+    arities: tuple[tuple[TypeNode, ...], ...]
+
+    if TYPE_CHECKING:
+
+        def __init__(self, name: str, *arities: object) -> None: ...
+
+    @staticmethod
+    def _normal(name: str, *arities: object) -> tuple[object, ...]:
+        if not isinstance(name, str) or not name.isidentifier():
+            raise IllFormed(f"a predicate is named by an identifier, found {name!r}")
+        several = [arity for arity in arities if isinstance(arity, tuple)]
+        if not several or len(several) < len(arities):
+            several = [arities]
+        found = {tuple(map(as_type, arity)): None for arity in several}
+        return str(name), tuple(sorted(found, key=_shortest_first))
+
+    @staticmethod
+    def _key(
+        name: str, arities: tuple[tuple[TypeNode, ...], ...]
+    ) -> tuple[object, ...]:
+        return name, frozenset(arities)
+
+    def __call__(self, *args: object) -> PType:
+        """The ptype of situations in which the predicate holds of these objects."""
+        return PType(self, args)
+
+    def _refuse(self, *_: object) -> NoReturn:
+        """Says that the signs for types take no predicate."""
+        raise _no_type(self)
+
+    __and__ = __or__ = __invert__ = __rshift__ = __matmul__ = _refuse
+    __le__ = __ge__ = _refuse
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Pred, (self.name, *self.arities)
+
+
+def _shortest_first(arity: tuple[TypeNode, ...]) -> tuple[int, str, str]:
+    return len(arity), *in_print(arity)
+
+
+# --- meets and joins -----------------------------------------------------------------
+
+
+@within_budget
+def meet(*parts: TypeNode) -> TypeNode:
+    """The meet S ∧ T: flat, each part once, in one order whatever the order of writing.
+
+    >>> A, B = Basic("A"), Basic("B")
+    >>> meet(B, A) is meet(A, meet(A, B)), meet(A, A) is A
+    (True, True)
+    """
+    flat = _flat(Meet, parts)
+    if not flat:
+        raise IllFormed("a meet needs at least one type")
+    return flat[0] if len(flat) == 1 else Meet(flat)
+
+
+@within_budget
+def join(*parts: TypeNode) -> TypeNode:
+    """The join S ∨ T: flat, each part once, in one order whatever the order of writing.
+
+    >>> A, B = Basic("A"), Basic("B")
+    >>> print(join(B, A, B))
+    A \\/ B
+    """
+    flat = _flat(Join, parts)
+    if not flat:
+        raise IllFormed("a join needs at least one type")
+    return flat[0] if len(flat) == 1 else Join(flat)
+
+
+def _flat(
+    kind: type[Meet] | type[Join], parts: tuple[TypeNode, ...]
+) -> tuple[TypeNode, ...]:
+    """The parts without those of the same kind around them, each once, in order."""
+    once: dict[TypeNode, None] = {}
+    for part in map(as_type, parts):
+        inner = part.parts if isinstance(part, kind) else (part,)
+        once.update(dict.fromkeys(inner))
+    return tuple(once) if len(once) < 2 else tuple(sorted(once, key=in_print))
+
+
+Ind = Basic("Ind")
+"""The basic type of individuals."""
+
+Type = Universe("Type")
+"""The type of all types of level 0, those that mention neither Type nor RecType."""
+
+RecType = Universe("RecType")
+"""The type of all record types of level 0."""
+
+Rec = RecordType(())
+"""The record type without fields: every record is of it."""

@@ -1,0 +1,88 @@
+"""One rule on one state: what it comes to, or why it does not apply."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ttr.errors import UpdateError
+from ttr.judging.models import Model
+from ttr.types.printing import notation
+from ttr.types.syntax import Object, Rec, Record, RecordType, TypeNode
+from ttr.updates.matching import found
+from ttr.updates.nbest import NBest, heard
+from ttr.updates.rules import Rule
+from ttr.updates.running import Run, run
+
+__all__ = ["stepped", "why_not"]
+
+
+def stepped(rule: Rule, args: Sequence[Object], model: Model) -> Run:
+    """What the rule makes of a state and, if it takes one, of an event.
+
+    The state may be of any type: of which, is a matter of the games that have the rule.
+    Raises `UpdateError` where the rule does not apply, and says why.
+
+    >>> from ttr.theories.theory import Theory
+    >>> from ttr.types.syntax import record
+    >>> count = Theory.parse('''
+    ...     basic Int
+    ...     Board := [told : list(Int)]
+    ...     rule forget(s : [told : nelist(Int)]) := [told = rst(s.told) : list(Int)]
+    ... ''')
+    >>> M, forget = Model(count).given(1, count.Int), count.rules["forget"]
+    >>> print(stepped(forget, [record(told=[1])], M).state)
+    {told = []}
+    >>> stepped(forget, [record(told=[])], M)
+    Traceback (most recent call last):
+    ttr.errors.UpdateError: forget does not apply: told: [] : nelist(Int), it is empty
+    """
+    state, *events = args
+    if not isinstance(state, Record):
+        raise UpdateError(f"a state is a record, found {notation(state)}")
+    after = run(rule, state, type=Rec, model=model, events=events)
+    if after.trace:
+        return after
+    reason = why_not(rule, state, events[0] if events else None, model)
+    raise UpdateError(f"{rule} does not apply: {reason}")
+
+
+def why_not(rule: Rule, state: Record, event: Object | NBest, model: Model) -> str:
+    """Why a rule does not apply to a state and an event; empty where it may."""
+    if rule.on is not None:
+        if event is None:
+            return f"it waits for an event of {rule.on}"
+        if heard(event, rule.on, rule.p, model) is None:
+            return _unheard(event, rule, rule.on, model)
+    return _failed(state, rule.when, model) or _unbound(rule, state, event, model)
+
+
+def _unheard(event: Object | NBest, rule: Rule, on: TypeNode, model: Model) -> str:
+    """Why an event is not taken: it is none of the type, or not as probably."""
+    failed = "" if isinstance(event, NBest) else _failed(event, on, model)
+    return failed or f"an event of {on} is not as probable as {rule.p}"
+
+
+def _failed(value: Object, T: TypeNode, model: Model) -> str:
+    """The step at which a judgement fails, or nothing where it is certain."""
+    why = model.judge(value, T).why
+    failed = why.failure()
+    if failed is None:
+        return ""
+    where = f"{why.path()}: " if why.path() else ""
+    return f"{where}{notation(failed.sit)} : {failed.type}, {failed.because}"
+
+
+def _unbound(rule: Rule, state: Record, event: Object | NBest, model: Model) -> str:
+    """The first binding for which nothing is found with those before it."""
+    if rule.where is None:
+        return ""
+    if rule.on is not None:
+        taken = heard(event, rule.on, rule.p, model)
+        event = taken.event if taken else None
+    variables = dict(zip(rule.names, (state, event), strict=False))
+    for count, (label, field) in enumerate(rule.where.fields, start=1):
+        some = RecordType(rule.where.fields[:count])
+        if found(some, variables, model) is None:
+            scope = (frozenset(rule.where), frozenset(rule.names))
+            return f"nothing is found for {label} : {notation(field, scope)}"
+    return ""
