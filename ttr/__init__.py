@@ -11,6 +11,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ttr import updates
+from ttr.aliases import find_former_modules
 from ttr.building.constructors import Pi, fun, rectype
 from ttr.building.flattening import flatten, unflatten
 from ttr.building.formation import wellformed
@@ -179,6 +180,9 @@ _LATER = {
     "load": "ttr.theories.theory",
     "parse": "ttr.notation.reader",
 }
+
+
+find_former_modules()
 
 
 def _render(form: str, value: object) -> str:

@@ -14,10 +14,46 @@ Dog.noise is now Dog.sound
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Mapping, Sequence
+from importlib import import_module
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec
+from types import ModuleType
 from typing import Any
 from warnings import warn
 
-__all__ = ["Alias"]
+__all__ = ["FORMER_MODULES", "Alias", "find_former_modules"]
+
+FORMER_MODULES = {
+    "ttr.acts": "ttr.judging.type_acts",
+    "ttr.claims": "ttr.semantics.propositional_entailment",
+    "ttr.consent": "ttr.safety.consent",
+    "ttr.contents": "ttr.semantics.parametric_content",
+    "ttr.courses": "ttr.semantics.string_prediction",
+    "ttr.encounters": "ttr.dialogues.encounters",
+    "ttr.fragment": "ttr.semantics.fragment",
+    "ttr.gameboards": "ttr.semantics.gameboards",
+    "ttr.gameboards.ibis.terms": "ttr.semantics.gameboards.ibis.moves",
+    "ttr.learning": "ttr.semantics.learning",
+    "ttr.logs": "ttr.dialogues.logs",
+    "ttr.perceptual": "ttr.semantics.perceptual",
+    "ttr.possibilities": "ttr.semantics.modality",
+    "ttr.propositions": "ttr.judging.propositions",
+    "ttr.quantifiers": "ttr.semantics.quantifiers",
+    "ttr.questions": "ttr.semantics.questions",
+    "ttr.records": "ttr.types.records",
+    "ttr.stories": "ttr.dialogues.stories",
+    "ttr.strategies": "ttr.testing.strategies",
+    "ttr.stratifying": "ttr.building.level_inference",
+    "ttr.syntax": "ttr.types.syntax",
+    "ttr.topoi": "ttr.semantics.topoi",
+    "ttr.transcripts": "ttr.dialogues.transcripts",
+    "ttr.updates.stepping": "ttr.updates.rule_application",
+    "ttr.updates.writing": "ttr.updates.rule_notation",
+    "ttr.variables": "ttr.semantics.random_variables",
+}
+"""Where the modules are now that users could know by another name."""
 
 
 class Alias:
@@ -39,3 +75,51 @@ class Alias:
         message = f"{which}.{self.name} is now {which}.{self.now}"
         warn(message, DeprecationWarning, stacklevel=2)
         return getattr(owner if instance is None else instance, self.now)
+
+
+class _FormerModules(MetaPathFinder):
+    """Finds modules, and what is in them, by the names that they had before."""
+
+    def __init__(self, names: Mapping[str, str]) -> None:
+        self.names = names
+
+    def find_spec(
+        self,
+        fullname: str,
+        path: Sequence[str] | None = None,
+        target: ModuleType | None = None,
+    ) -> ModuleSpec | None:
+        """How to load a module that has another name now; None for all others."""
+        former, inside = fullname, ""
+        while former:
+            if former in self.names:
+                return ModuleSpec(fullname, _Renamed(self.names[former] + inside))
+            former, _, last = former.rpartition(".")
+            inside = f".{last}{inside}"
+        return None
+
+
+class _Renamed(Loader):
+    def __init__(self, now: str) -> None:
+        self.now = now
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Puts the module that is meant in the place of the one to be loaded."""
+        message = f"{module.__name__} is now {self.now}"
+        warn(message, DeprecationWarning, stacklevel=2)
+        sys.modules[module.__name__] = import_module(self.now)
+
+
+def find_former_modules() -> None:
+    """From now on, imports of `FORMER_MODULES` find them, with a warning.
+
+    >>> import warnings
+    >>> find_former_modules()
+    >>> with warnings.catch_warnings(record=True) as said:
+    ...     warnings.simplefilter("always")
+    ...     from ttr.quantifiers.truth import truth
+    >>> print(said[-1].message)
+    ttr.quantifiers.truth is now ttr.semantics.quantifiers.truth
+    """
+    if not any(isinstance(one, _FormerModules) for one in sys.meta_path):
+        sys.meta_path.insert(0, _FormerModules(FORMER_MODULES))

@@ -1,8 +1,13 @@
 """The names a user writes, and where they come from."""
 
+import subprocess
+import sys
+from importlib import import_module
+
 import pytest
 
 import ttr
+from ttr.aliases import FORMER_MODULES
 
 
 def test_every_public_name_is_there():
@@ -29,3 +34,36 @@ def test_a_name_that_something_had_before_warns_and_works():
     theory = ttr.Theory()
     with pytest.warns(DeprecationWarning, match="Theory.related is now .*axiom_heads"):
         assert theory.related == theory.axiom_heads
+
+
+IMPORT = """
+import sys, warnings
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    import {former} as former
+assert former is sys.modules["{now}"], former
+assert [str(it.message) for it in said][-1:] == ["{former} is now {now}"], said
+assert said[-1].filename == "<string>"
+"""
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+@pytest.mark.parametrize("former", sorted(FORMER_MODULES))
+def test_a_former_module_is_the_one_that_took_its_place(former):
+    now = FORMER_MODULES[former]
+    sys.modules.pop(former, None)
+    with pytest.warns(DeprecationWarning, match=f"{former} is now {now}"):
+        assert import_module(former) is import_module(now)
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_module_that_never_was_is_not_found_in_a_former_package():
+    with pytest.raises(ModuleNotFoundError, match="nonesuch"):
+        import_module("ttr.gameboards.nonesuch")
+
+
+def test_a_former_module_warns_where_it_is_imported():
+    former = "ttr.gameboards.ibis.terms"
+    text = IMPORT.format(former=former, now=FORMER_MODULES[former])
+    run = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)
+    assert run.stderr == ""
