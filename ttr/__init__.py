@@ -7,94 +7,147 @@ objects are judged to be of which types; `judge`, `perceive` and `create` ask it
 
 from __future__ import annotations
 
-from functools import partial
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from ttr import updates
 from ttr.aliases import find_former_modules
-from ttr.building.constructors import Pi, fun, rectype
-from ttr.building.flattening import flatten, unflatten
-from ttr.building.formation import wellformed
-from ttr.building.functions import fix, restrict
-from ttr.building.generalisation import common_supertype
-from ttr.building.merging import amerge, merge
-from ttr.building.relabelling import relabel
-from ttr.building.subtraction import subtract
-from ttr.computing.normal_forms import join_normal_form, meet_normal_form
-from ttr.computing.subtyping import Answer, consistent, subtype
-from ttr.errors import (
-    Endless,
-    IllFormed,
-    NoState,
-    NotationError,
-    NotHeard,
-    Refused,
-    RuleFailed,
-    TooLargeError,
-    TTRError,
-    Undecided,
-    Unexpected,
-    Unsupported,
-    UpdateError,
-)
-from ttr.judging import counterexamples as counterexamples  # provides a hook
-from ttr.judging.judgements import Judgement, Why
-from ttr.judging.models import Model
-from ttr.judging.propositions import proposition
-from ttr.probability import Degree
-from ttr.safety.budgets import budget
-from ttr.types import notebooks
-from ttr.types.objects import concat, fst, rst
-from ttr.types.records import replace
-from ttr.types.syntax import (
-    Application,
-    Basic,
-    EventString,
-    FiniteSet,
-    Function,
-    FunType,
-    Ind,
-    Join,
-    ListOf,
-    Meet,
-    Negation,
-    NonEmpty,
-    Operation,
-    Path,
-    Plus,
-    Pred,
-    PType,
-    Rec,
-    Record,
-    RecordType,
-    RecType,
-    SetOf,
-    Singleton,
-    Str,
-    Type,
-    TypeNode,
-    Universe,
-    join,
-    meet,
-    outer,
-    record,
-    this,
-)
+from ttr.hooks import set_providers
 
 if TYPE_CHECKING:
+    from ttr import updates
+    from ttr.building.constructors import Pi, fun, rectype
+    from ttr.building.flattening import flatten, unflatten
+    from ttr.building.formation import wellformed
+    from ttr.building.functions import fix, restrict
+    from ttr.building.generalisation import common_supertype
+    from ttr.building.merging import amerge, merge
+    from ttr.building.relabelling import relabel
+    from ttr.building.subtraction import subtract
+    from ttr.computing.normal_forms import join_normal_form, meet_normal_form
+    from ttr.computing.subtyping import Answer, consistent, subtype
     from ttr.display.render import box, html, latex
+    from ttr.errors import (
+        Endless,
+        IllFormed,
+        NoState,
+        NotationError,
+        NotHeard,
+        Refused,
+        RuleFailed,
+        TooLargeError,
+        TTRError,
+        Undecided,
+        Unexpected,
+        Unsupported,
+        UpdateError,
+    )
+    from ttr.judging.judgements import Judgement, Why
+    from ttr.judging.models import Model
+    from ttr.judging.propositions import proposition
     from ttr.notation.reader import parse
+    from ttr.probability import Degree
+    from ttr.safety.budgets import budget
     from ttr.theories.checking import check
     from ttr.theories.theory import Theory, load
+    from ttr.types.objects import concat, fst, rst
+    from ttr.types.records import replace
+    from ttr.types.syntax import (
+        Application,
+        Basic,
+        EventString,
+        FiniteSet,
+        Function,
+        FunType,
+        Ind,
+        Join,
+        ListOf,
+        Meet,
+        Negation,
+        NonEmpty,
+        Operation,
+        Path,
+        Plus,
+        Pred,
+        PType,
+        Rec,
+        Record,
+        RecordType,
+        RecType,
+        SetOf,
+        Singleton,
+        Str,
+        Type,
+        TypeNode,
+        Universe,
+        join,
+        meet,
+        outer,
+        record,
+        this,
+    )
+
+PROVIDERS = {
+    "ttr.types.interning.as_notation": "ttr.types.printing",
+    "ttr.types.interning.as_python": "ttr.types.printing",
+    "ttr.types.notebooks.as_html": "ttr.display.render",
+    "ttr.types.notebooks.as_latex": "ttr.display.render",
+    "ttr.types.objects.as_application": "ttr.types.syntax",
+    "ttr.types.syntax.as_function_type": "ttr.types.forms",
+    "ttr.types.syntax.is_subtype": "ttr.computing.subtyping",
+    "ttr.computing.subtyping.counterexample": "ttr.judging.counterexamples",
+    "ttr.judging.evaluator.made_up": "ttr.judging.creation",
+    "ttr.semantics.quantifiers.truth.truth_of_quantified": (
+        "ttr.semantics.quantifiers.quantified_propositions"
+    ),
+}
+"""Which module provides what is declared below it (`ttr.hooks`)."""
+
+set_providers(PROVIDERS)
+find_former_modules()
+
+_HOMES = {
+    "ttr.building.constructors": "Pi fun rectype",
+    "ttr.building.flattening": "flatten unflatten",
+    "ttr.building.formation": "wellformed",
+    "ttr.building.functions": "fix restrict",
+    "ttr.building.generalisation": "common_supertype",
+    "ttr.building.merging": "amerge merge",
+    "ttr.building.relabelling": "relabel",
+    "ttr.building.subtraction": "subtract",
+    "ttr.computing.normal_forms": "join_normal_form meet_normal_form",
+    "ttr.computing.subtyping": "Answer consistent subtype",
+    "ttr.display.render": "box html latex",
+    "ttr.errors": (
+        "Endless IllFormed NoState NotHeard NotationError Refused RuleFailed "
+        "TTRError TooLargeError Undecided Unexpected Unsupported UpdateError"
+    ),
+    "ttr.judging.judgements": "Judgement Why",
+    "ttr.judging.models": "Model",
+    "ttr.judging.propositions": "proposition",
+    "ttr.notation.reader": "parse",
+    "ttr.probability": "Degree",
+    "ttr.safety.budgets": "budget",
+    "ttr.theories.checking": "check",
+    "ttr.theories.theory": "Theory load",
+    "ttr.types.objects": "concat fst rst",
+    "ttr.types.records": "replace",
+    "ttr.types.syntax": (
+        "Application Basic EventString FiniteSet FunType Function Ind Join ListOf "
+        "Meet Negation NonEmpty Operation PType Path Plus Pred Rec RecType Record "
+        "RecordType SetOf Singleton Str Type TypeNode Universe join meet outer "
+        "record this"
+    ),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names.split()}
 
 __all__ = [
     "Answer",
     "Application",
     "Basic",
     "Degree",
+    "Endless",
     "EventString",
     "FiniteSet",
-    "Endless",
     "FunType",
     "Function",
     "IllFormed",
@@ -105,8 +158,8 @@ __all__ = [
     "Meet",
     "Model",
     "Negation",
-    "NonEmpty",
     "NoState",
+    "NonEmpty",
     "NotHeard",
     "NotationError",
     "Operation",
@@ -171,35 +224,17 @@ __all__ = [
     "wellformed",
 ]
 
-_LATER = {
-    "Theory": "ttr.theories.theory",
-    "box": "ttr.display.render",
-    "check": "ttr.theories.checking",
-    "html": "ttr.display.render",
-    "latex": "ttr.display.render",
-    "load": "ttr.theories.theory",
-    "parse": "ttr.notation.reader",
-}
-
-
-find_former_modules()
-
-
-def _render(form: str, value: object) -> str:
-    from ttr.display import render
-
-    drawn: str = getattr(render, form)(value)
-    return drawn
-
-
-notebooks.as_html.provided_by(partial(_render, "html"))
-notebooks.as_latex.provided_by(partial(_render, "latex"))
-
 
 def __getattr__(name: str) -> Any:
-    """Loads what needs the parser, or draws, only when it is asked for."""
-    if name in _LATER:
-        from importlib import import_module
+    """Loads what a name needs when it is first asked for."""
+    if name == "updates":
+        return import_module("ttr.updates")
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'ttr' has no attribute {name!r}")
+    value = getattr(import_module(_HOME_OF[name]), name)
+    globals()[name] = value
+    return value
 
-        return getattr(import_module(_LATER[name]), name)
-    raise AttributeError(f"module 'ttr' has no attribute {name!r}")
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -3,11 +3,13 @@
 import subprocess
 import sys
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 
 import ttr
 from ttr.aliases import FORMER_MODULES
+from ttr.hooks import Hook, hook
 
 
 def test_every_public_name_is_there():
@@ -67,3 +69,36 @@ def test_a_former_module_warns_where_it_is_imported():
     text = IMPORT.format(former=former, now=FORMER_MODULES[former])
     run = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)
     assert run.stderr == ""
+
+
+def test_every_declared_operation_is_provided_by_one_module():
+    declared = {}
+    for name, provider in ttr.PROVIDERS.items():
+        module, _, operation = name.rpartition(".")
+        declared[name] = getattr(import_module(module), operation)
+        assert isinstance(declared[name], Hook)
+        assert f"{operation}.provided_by" in Path(
+            import_module(provider).__file__
+        ).read_text(encoding="utf-8")
+    modules = [sys.modules[name] for name in sorted(sys.modules) if name[:4] == "ttr."]
+    found = {it for one in modules for it in vars(one).values() if isinstance(it, Hook)}
+    assert found <= set(declared.values())
+    assert len(declared) <= 10
+
+
+def test_an_operation_that_nobody_provides():
+    @hook
+    def bark(how_loud: int) -> str:
+        raise AssertionError
+
+    with pytest.raises(NotImplementedError, match=r"nothing provides .*bark"):
+        bark(3)
+
+
+def test_little_is_loaded_until_it_is_asked_for():
+    text = "import sys, ttr\nprint(len([it for it in sys.modules if it[:4] == 'ttr.']))"
+    text += "\nfrom ttr import Ind; print('ttr.judging' in sys.modules, Ind <= Ind)"
+    run = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True)
+    count, rest = run.stdout.split("\n", 1)
+    assert int(count) < 5
+    assert rest == "False True\n"

@@ -15,7 +15,7 @@ from ttr.errors import IllFormed
 from ttr.judging.judgements import Judgement, Why, mark
 from ttr.safety.budgets import within_budget
 from ttr.types.interning import Node
-from ttr.types.notebooks import Drawn
+from ttr.types.notebooks import Drawn, as_html, as_latex
 from ttr.types.syntax import Object, Record, freeze
 
 if TYPE_CHECKING:
@@ -156,3 +156,7 @@ def _guilty(why: Why, failing: Why | None) -> Why | None:
     if failing is None or why is failing:
         return None
     return next(part for part in why.parts if part.failure() is failing)
+
+
+as_html.provided_by(html)
+as_latex.provided_by(latex)
