@@ -9,7 +9,7 @@ from ttr.types.paths import escaping
 from ttr.types.printing import notation
 from ttr.types.syntax import identity
 from ttr.updates.algorithms import Algorithm, All, ByClass, Maybe, Repeat
-from ttr.updates.checks.accounts import Write
+from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault, Severity
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.rules import Rule
@@ -61,8 +61,8 @@ def _overlap(rules: RuleSet, one: Rule, other: Rule) -> bool:
 def _differently(
     rules: RuleSet, one: Rule, other: Rule, what: str, severity: Severity
 ) -> Iterator[Fault]:
-    for mine in rules.accounts[one].writes:
-        for theirs in rules.accounts[other].writes:
+    for mine in rules.summaries[one].writes:
+        for theirs in rules.summaries[other].writes:
             if mine.path == theirs.path and _differ(rules, mine, theirs):
                 path = ".".join(mine.path)
                 message = (

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ttr.types.objects import Operation
 from ttr.types.syntax import Path, TypeNode
 from ttr.updates.algorithms import Algorithm, ByClass, Maybe, Repeat, rules_of
-from ttr.updates.checks.accounts import Write
+from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.state_layout import Labels, leaves
@@ -29,7 +29,7 @@ def endless(rules: RuleSet) -> Iterator[Fault]:
     """
     for loop in _loops(rules.algorithm):
         going = _going(rules, rules_of(loop.part))
-        sure = [rule for rule in going if not rules.accounts[rule].refuses]
+        sure = [rule for rule in going if not rules.summaries[rule].may_refuse]
         for rule in (sure or going)[:1]:
             hint = "say how often at most, or what gets smaller, as in repeat(…, qud)"
             if sure:
@@ -77,7 +77,7 @@ def _loops(algorithm: Algorithm) -> Iterator[Repeat]:
 
 def _ends(rules: RuleSet, rule: Rule, members: tuple[Rule, ...]) -> bool:
     """Whether a rule can apply only so often, whatever the others do."""
-    if not rules.accounts[rule].whole:
+    if not rules.summaries[rule].complete:
         return False
     if _shortens(rules, rule, members):
         return True
@@ -99,7 +99,7 @@ def _shortens(rules: RuleSet, rule: Rule, members: tuple[Rule, ...]) -> bool:
 
 def _denies(rules: RuleSet, rule: Rule, path: Labels, T: TypeNode) -> bool:
     """Whether a rule always leaves a place as it surely is not of a type."""
-    outcomes = rules.accounts[rule].outcomes
+    outcomes = rules.summaries[rule].outcomes
     return all(
         any(_excludes(rules, rule, write, T) for write in outcome if write.path == path)
         for outcome in outcomes
@@ -113,8 +113,8 @@ def _excludes(rules: RuleSet, rule: Rule, write: Write, T: TypeNode) -> bool:
 
 def _lists(rules: RuleSet, rule: Rule) -> Iterator[Labels]:
     """The lists of the state that a rule always takes the first element off."""
-    outcomes = rules.accounts[rule].outcomes
-    for write in rules.accounts[rule].writes:
+    outcomes = rules.summaries[rule].outcomes
+    for write in rules.summaries[rule].writes:
         if all(any(_is_rest(rule, w, write.path) for w in one) for one in outcomes):
             yield write.path
 
@@ -128,8 +128,8 @@ def _is_rest(rule: Rule, write: Write, path: Labels) -> bool:
 
 def _touches(rules: RuleSet, rule: Rule, path: Labels) -> bool:
     """Whether a rule may set a list in another way than to take off its first."""
-    told = rules.accounts[rule]
-    if not told.whole:
+    told = rules.summaries[rule]
+    if not told.complete:
         return True
     shared = (
         write.path[: len(path)] == path[: len(write.path)] for write in told.writes

@@ -1,4 +1,4 @@
-"""Accounts of effects that are written in the notation."""
+"""What effects written in the notation read and write."""
 
 from __future__ import annotations
 
@@ -13,21 +13,22 @@ from ttr.types.syntax import (
     Singleton,
     TypeNode,
 )
-from ttr.updates.checks.accounts import Access, Account, Write
+from ttr.updates.checks.effect_summaries import Access, EffectSummary, Write
 from ttr.updates.checks.source_positions import place
 from ttr.updates.checks.state_layout import Labels, Term
 from ttr.updates.rules import Body, Rule
 
-__all__ = ["written"]
+__all__ = ["summarise_notation"]
 
 
-def written(rule: Rule, body: Body) -> Account:
-    """The account of an effect in the notation: it never refuses, and says it all."""
+def summarise_notation(rule: Rule, body: Body) -> EffectSummary:
+    """Summarise an effect in the notation: it never refuses, and nothing is hidden."""
     value = body.value
     reads = tuple(_reads(rule, value))
     if not isinstance(value, RecordType | Record):
-        return Account(reads, refuses=False)
-    return Account(reads, (tuple(_writes(rule, value)),), True, False)
+        return EffectSummary(reads, may_refuse=False)
+    outcomes = (tuple(_writes(rule, value)),)
+    return EffectSummary(reads, outcomes, complete=True, may_refuse=False)
 
 
 def _reads(rule: Rule, value: Object) -> Iterator[Access]:
@@ -46,28 +47,28 @@ def _writes(rule: Rule, value: Object, at: Labels = ()) -> Iterator[Write]:
             for label, field in fields:
                 yield from _writes(rule, field, (*at, label))
         case Singleton(base, term):
-            told = _outside(term, len(at))
-            yield Write(at, told, base, place(rule, at[-1], at))
+            outside = _seen_from_outside(term, len(at))
+            yield Write(at, outside, base, place(rule, at[-1], at))
         case TypeNode():
             yield Write(at, None, value, place(rule, at[-1], at))
         case Record() if not at:
             for label in value:
-                yield from _set(rule, value[label], (label,))
+                yield from _writes_of_state(rule, value[label], (label,))
 
 
-def _set(rule: Rule, value: Object, at: Labels) -> Iterator[Write]:
+def _writes_of_state(rule: Rule, value: Object, at: Labels) -> Iterator[Write]:
     """What a record that is the next state sets, field by field."""
     if isinstance(value, Record) and len(value):
         for label in value:
-            yield from _set(rule, value[label], (*at, label))
+            yield from _writes_of_state(rule, value[label], (*at, label))
         return
     yield Write(at, Term(value), None, place(rule, at[-1], at))
 
 
-def _outside(term: Object, depth: int) -> Term | None:
-    """An object that stands so many records further in, as it is seen from outside.
+def _seen_from_outside(term: Object, depth: int) -> Term | None:
+    """A term that is `depth` records further in, with its paths counted from outside.
 
-    None where it depends on what it stands beside.
+    None where it depends on other fields of these records.
     """
     if any(path.up < depth for path in escaping(term)):
         return None

@@ -1,4 +1,7 @@
-"""Where a Python effect is written: its syntax tree, and places in its file."""
+"""The source of an effect written in Python: its syntax tree, and places in its file.
+
+Below are the functions that walk such a tree.
+"""
 
 from __future__ import annotations
 
@@ -13,23 +16,33 @@ from typing import TypeAlias
 
 from ttr.errors import Span
 
-__all__ = ["FunctionNode", "Source", "source_of"]
+__all__ = [
+    "Source",
+    "assigned_names",
+    "guarded_labels",
+    "may_fall_through",
+    "prefixes",
+    "returned_values",
+    "source_of",
+    "tested_expressions",
+    "walk_untried",
+]
 
-FunctionNode: TypeAlias = ast.FunctionDef | ast.Lambda
+_FunctionNode: TypeAlias = ast.FunctionDef | ast.Lambda
 
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """A function with its syntax tree and the text of the file that it stands in."""
+    """A function with its syntax tree, and the tree of the file that it is in."""
 
     function: FunctionType
-    node: FunctionNode
+    node: _FunctionNode
     file: str
     module: ast.Module
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:
-        """The names of its parameters, as the state and the event come first."""
+        """The names of its positional parameters, in order."""
         given = self.node.args
         return tuple(a.arg for a in (*given.posonlyargs, *given.args))
 
@@ -42,14 +55,14 @@ class Source:
 
     @cached_property
     def names(self) -> Mapping[str, object]:
-        """What its names that are not its own stand for."""
+        """The values of the names that it takes from outside."""
         cells = self.function.__closure__ or ()
         free = dict(zip(self.function.__code__.co_freevars, cells, strict=True))
         filled = {name: c.cell_contents for name, c in free.items() if _is_filled(c)}
         return {**vars(builtins), **self.function.__globals__, **filled}
 
-    def meant(self, expression: ast.expr) -> object:
-        """What a name, or an attribute of a module, stands for; else None."""
+    def value_of(self, expression: ast.expr) -> object:
+        """The value of a name, or of an attribute of a module; None for others."""
         match expression:
             case ast.Name(name):
                 return self.names.get(name)
@@ -59,7 +72,7 @@ class Source:
         return None
 
     def span(self, node: ast.expr | ast.keyword, last: int = 0) -> Span:
-        """The place of an expression, or of as many characters at its end."""
+        """The place of an expression, or of its `last` so many characters."""
         line = (last and node.end_lineno) or node.lineno
         text = linecache.getline(self.file, line).rstrip("\n")
         start = _characters(text, node.col_offset)
@@ -71,19 +84,19 @@ class Source:
         shown = text.replace("\t", " ")
         return Span(self.file, line, start + 1, max(1, end - start), shown)
 
-    def opening(self, node: ast.keyword, label: str) -> Span:
-        """The place of the label that a keyword argument begins with."""
+    def label_span(self, node: ast.keyword, label: str) -> Span:
+        """The place of the label of a keyword argument."""
         text = linecache.getline(self.file, node.lineno).rstrip("\n")
         start = _characters(text, node.col_offset)
         shown = text.replace("\t", " ")
         return Span(self.file, node.lineno, start + 1, len(label), shown)
 
-    def undefined(self) -> Iterator[str]:
-        """The names that neither the function, its file nor Python knows."""
-        bound = _bound_in(self.module, self.node.lineno)
+    def undefined_names(self) -> Iterator[str]:
+        """The names that neither the function, its file nor Python defines."""
+        bound = _names_bound_in(self.module, self.node.lineno)
         if bound is None:
             return
-        for name in _globals_of(self.function.__code__):
+        for name in _global_names(self.function.__code__):
             if name not in self.names and name not in bound:
                 yield name
 
@@ -96,12 +109,12 @@ def _is_filled(cell: object) -> bool:
 
 
 def _characters(text: str, offset: int) -> int:
-    """A number of bytes of a line as a number of characters."""
+    """How many characters the first so many bytes of a line are."""
     return len(text.encode()[:offset].decode(errors="ignore"))
 
 
-def _globals_of(code: CodeType) -> Iterator[str]:
-    """The names that code, and code inside it, looks up outside."""
+def _global_names(code: CodeType) -> Iterator[str]:
+    """The names that code, or code inside it, looks up outside."""
     import dis
 
     for step in dis.get_instructions(code):
@@ -109,15 +122,14 @@ def _globals_of(code: CodeType) -> Iterator[str]:
             yield step.argval
     for inner in code.co_consts:
         if isinstance(inner, CodeType):
-            yield from _globals_of(inner)
+            yield from _global_names(inner)
 
 
 @lru_cache(maxsize=64)
-def _bound_in(module: ast.Module, line: int) -> frozenset[str] | None:
+def _names_bound_in(module: ast.Module, line: int) -> frozenset[str] | None:
     """The names bound anywhere in a file.
 
-    None where after this line it imports all of another's: what it has imported before
-    is known.
+    None where it imports `*` after this line: what that binds is not known yet.
     """
     found: set[str] = set()
     for node in ast.walk(module):
@@ -134,7 +146,7 @@ def _bound_in(module: ast.Module, line: int) -> frozenset[str] | None:
 
 
 def source_of(effect: object) -> Source | None:
-    """The source of a plain function, if it can be had and is what is run."""
+    """The source of a plain function; None if there is none, or it was edited since."""
     if not isinstance(effect, FunctionType) or hasattr(effect, "__wrapped__"):
         return None
     code = effect.__code__
@@ -159,13 +171,13 @@ def _parsed(text: str) -> ast.Module | None:
 
 
 @lru_cache(maxsize=64)
-def _functions(module: ast.Module) -> tuple[FunctionNode, ...]:
+def _functions(module: ast.Module) -> tuple[_FunctionNode, ...]:
     kinds = (ast.FunctionDef, ast.Lambda)
     return tuple(node for node in ast.walk(module) if isinstance(node, kinds))
 
 
-def _is_at(node: FunctionNode, code: CodeType) -> bool:
-    """Whether the code is of just this place, where several share a line."""
+def _is_at(node: _FunctionNode, code: CodeType) -> bool:
+    """Is the code of just this place? Several functions may share a line."""
     body = node.body[0] if isinstance(node, ast.FunctionDef) else node.body
     start, end = (body.lineno, body.col_offset), (node.end_lineno, node.end_col_offset)
     places = [p for p in code.co_positions() if None not in p and p[2] != p[3]]
@@ -175,8 +187,8 @@ def _is_at(node: FunctionNode, code: CodeType) -> bool:
     )
 
 
-def _is_of(node: FunctionNode, code: CodeType) -> bool:
-    """Whether the code is that of the function in the tree, to all appearance."""
+def _is_of(node: _FunctionNode, code: CodeType) -> bool:
+    """Does the code look like that of the function in the tree?"""
     decorators = getattr(node, "decorator_list", [])
     first = min([node.lineno, *(d.lineno for d in decorators)])
     name = node.name if isinstance(node, ast.FunctionDef) else "<lambda>"
@@ -188,3 +200,107 @@ def _is_of(node: FunctionNode, code: CodeType) -> bool:
         and name == code.co_name
         and tuple(a.arg for a in every) == code.co_varnames[:count]
     )
+
+
+# --- walking a tree ------------------------------------------------------------------
+
+
+def prefixes(node: ast.expr) -> Iterator[ast.expr]:
+    """The expressions that a chain of labels, elements and calls extends, one by one.
+
+    >>> chain = ast.parse("s.qud[0].name").body[0].value
+    >>> [ast.unparse(one) for one in prefixes(chain)]
+    ['s.qud[0]', 's.qud', 's']
+    """
+    while isinstance(node, ast.Attribute | ast.Subscript | ast.Call):
+        node = node.func if isinstance(node, ast.Call) else node.value
+        yield node
+
+
+def walk_untried(body: list[ast.stmt]) -> Iterator[ast.AST]:
+    """The nodes in these statements, outermost first, except what is in a `try`."""
+    waiting: list[ast.AST] = list(reversed(body))
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.Try | ast.TryStar) and node.handlers:
+            waiting += reversed([*node.handlers, *node.orelse, *node.finalbody])
+            continue
+        yield node
+        waiting += reversed(list(ast.iter_child_nodes(node)))
+
+
+def assigned_names(node: ast.AST) -> Iterator[str]:
+    """The names that are set in a function, each as often as it is set."""
+    own = getattr(node, "args", None)
+    for inner in ast.walk(node):
+        match inner:
+            case ast.Name(name, ast.Store() | ast.Del()):
+                yield name
+            case ast.arguments() if inner is not own:
+                every = (*inner.posonlyargs, *inner.args, *inner.kwonlyargs)
+                yield from (a.arg for a in every)
+            case ast.ExceptHandler(name=str(name)) | ast.MatchAs(name=str(name)):
+                yield name
+            case ast.MatchStar(name=str(name)):
+                yield name
+            case ast.FunctionDef(name) | ast.ClassDef(name) if inner is not node:
+                yield name
+            case ast.Global(names) | ast.Nonlocal(names):
+                yield from names
+
+
+def guarded_labels(body: list[ast.stmt]) -> Iterator[str]:
+    """The labels that an effect tests for with `in`, `hasattr` or `getattr`."""
+    for statement in body:
+        for node in ast.walk(statement):
+            texts: list[ast.expr] = []
+            match node:
+                case ast.Compare(left, [ast.In() | ast.NotIn(), *_]):
+                    texts = [left]
+                case ast.Call(ast.Name("hasattr" | "getattr"), args):
+                    texts = args[1:2]
+            for text in texts:
+                if isinstance(text, ast.Constant) and isinstance(text.value, str):
+                    yield text.value
+
+
+def tested_expressions(body: list[ast.stmt]) -> Iterator[ast.expr]:
+    """The expressions whose type is tested: by `match`, a judgement or a class."""
+    for statement in body:
+        for node in ast.walk(statement):
+            match node:
+                case ast.Match(subject):
+                    yield subject
+                case ast.Call(ast.Attribute(_, "judge" | "perceive"), [sit, *_]):
+                    yield sit
+                case ast.Call(ast.Name("isinstance" | "type"), [sit, *_]):
+                    yield sit
+
+
+def returned_values(body: list[ast.stmt]) -> Iterator[ast.expr | None]:
+    """The expressions that are returned, except by functions inside."""
+    waiting: list[ast.AST] = list(reversed(body))
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.Return):
+            yield node.value
+        if isinstance(node, ast.FunctionDef | ast.Lambda | ast.ClassDef):
+            continue
+        waiting += reversed(list(ast.iter_child_nodes(node)))
+
+
+def may_fall_through(body: list[ast.stmt]) -> bool:
+    """May these statements come to their end without a return?"""
+    match body[-1]:
+        case ast.Return() | ast.Raise():
+            return False
+        case ast.If(_, yes, no):
+            return not no or may_fall_through(yes) or may_fall_through(no)
+        case ast.Match(_, cases):
+            last = cases[-1]
+            wild = (
+                isinstance(last.pattern, ast.MatchAs) and last.pattern.pattern is None
+            )
+            complete = wild and last.guard is None
+            return not complete or any(may_fall_through(case.body) for case in cases)
+    return True

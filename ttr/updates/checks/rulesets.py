@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TypeAlias
 
 from immutables import Map
@@ -31,8 +31,10 @@ from ttr.types.syntax import (
     meet,
 )
 from ttr.updates.algorithms import Algorithm, rules_of
-from ttr.updates.checks.accounts import Account, Write
-from ttr.updates.checks.rule_accounts import account
+from ttr.updates.checks.effect_summaries import UNKNOWN_EFFECT, EffectSummary, Write
+from ttr.updates.checks.notation_effects import summarise_notation
+from ttr.updates.checks.python_effects import summarise_python
+from ttr.updates.checks.python_sources import source_of
 from ttr.updates.checks.state_layout import (
     Labels,
     Missing,
@@ -49,6 +51,15 @@ __all__ = ["Demand", "RuleSet"]
 
 Demand: TypeAlias = tuple[Labels, TypeNode]
 """What a rule asks of a place of the state."""
+
+
+@lru_cache(maxsize=1024)
+def _summarise(rule: Rule) -> EffectSummary:
+    """Summarise what a rule's effect reads and writes, however it is written."""
+    if isinstance(rule.effect, Body):
+        return summarise_notation(rule, rule.effect)
+    source = source_of(rule.effect)
+    return UNKNOWN_EFFECT if source is None else summarise_python(source, rule)
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,9 +83,9 @@ class RuleSet:
         return rules_of(self.algorithm)
 
     @cached_property
-    def accounts(self) -> Mapping[Rule, Account]:
-        """The account of each rule's effect."""
-        return {rule: account(rule) for rule in self.rules}
+    def summaries(self) -> Mapping[Rule, EffectSummary]:
+        """What each rule's effect reads and writes."""
+        return {rule: _summarise(rule) for rule in self.rules}
 
     @cached_property
     def demands(self) -> Mapping[Rule, tuple[Demand, ...]]:
@@ -103,7 +114,7 @@ class RuleSet:
     def _placed(self) -> Mapping[Labels, Views]:
         """What is set whole, at each path: of which types that is."""
         placed: dict[Labels, Views] = {}
-        for rule, told in self.accounts.items():
+        for rule, told in self.summaries.items():
             for write in told.writes:
                 brought = self.brought(rule, write) or (Rec,)
                 known = (*placed.get(write.path, ()), *brought)
@@ -179,7 +190,7 @@ class RuleSet:
         yield from self.hears
         for rule in self.rules:
             yield from (T for T in (rule.when, rule.on, rule.where, rule.gives) if T)
-            for write in self.accounts[rule].writes:
+            for write in self.summaries[rule].writes:
                 yield from (write.type,) if write.type else ()
                 yield from (write.term.value,) if write.term else ()
 

@@ -84,7 +84,7 @@ def _labelled(source: Source, node: ast.expr, label: str) -> Span | None:
     for inner in ast.walk(node):
         match inner:
             case ast.keyword(arg) if arg == label:
-                return source.opening(inner, label)
+                return source.label_span(inner, label)
             case ast.Constant(str(text)) if label in text.split("."):
                 return source.span(inner)
     return None

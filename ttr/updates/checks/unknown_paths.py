@@ -8,7 +8,7 @@ from ttr.errors import Span, suggestion
 from ttr.types.paths import escaping
 from ttr.types.syntax import Meet, Object, Record, RecordType, Singleton
 from ttr.updates.algorithms import Algorithm, ByClass, Maybe, Repeat
-from ttr.updates.checks.accounts import Access, Built
+from ttr.updates.checks.effect_summaries import Access, Built
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.source_positions import place
@@ -25,9 +25,9 @@ def missing(rules: RuleSet) -> Iterator[Fault]:
         yield from _read(rules, rule)
         if isinstance(rule.effect, Body):
             yield from _typed(rules, rule, rule.effect.value, "writes", "")
-        for built in rules.accounts[rule].built:
+        for built in rules.summaries[rule].built:
             yield from _written(rules, rule, built)
-        for access in rules.accounts[rule].replaced:
+        for access in rules.summaries[rule].replaced:
             yield from _accessed(rules, rule, access, "replaces")
         if rule.gives is not None:
             yield from _typed(rules, rule, rule.gives, "promises", "gives")
@@ -45,7 +45,7 @@ def misread(rules: RuleSet) -> Iterator[Fault]:
 
 
 def _read(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
-    for access in (*_bindings(rule), *rules.accounts[rule].reads):
+    for access in (*_bindings(rule), *rules.summaries[rule].reads):
         yield from _accessed(rules, rule, access, "reads")
 
 
@@ -162,7 +162,7 @@ def unbound(rules: RuleSet) -> Iterator[Fault]:
     """The names in rules that are no variables of them and that nothing else binds."""
     for rule in rules.rules:
         bound = (*rule.names[: 1 + (rule.on is not None)], *(rule.where or ()))
-        told = rules.accounts[rule]
+        told = rules.summaries[rule]
         for access in (*_bindings(rule), *told.reads):
             if access.variable not in bound:
                 span = place(rule, access.variable, (), "where")

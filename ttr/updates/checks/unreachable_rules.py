@@ -98,8 +98,8 @@ def _of_bindings(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
 
 def _of_effect(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
     """That the effect gives nothing in any case, as where a `return` is forgotten."""
-    told = rules.accounts[rule]
-    if told.whole and not told.outcomes:
+    told = rules.summaries[rule]
+    if told.complete and not told.outcomes:
         yield _never(rule, "it gives no next state, as nothing is returned")
 
 
@@ -153,7 +153,7 @@ def _sure(rules: RuleSet, part: Algorithm) -> Iterator[Rule | None]:
     """
     match part:
         case Rule():
-            if part.where is None and not rules.accounts[part].refuses:
+            if part.where is None and not rules.summaries[part].may_refuse:
                 yield part
         case Maybe():
             yield None

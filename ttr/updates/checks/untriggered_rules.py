@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ttr.types.paths import escaping
 from ttr.types.printing import notation
 from ttr.types.syntax import Path, Singleton, TypeNode
-from ttr.updates.checks.accounts import Write
+from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import Demand, RuleSet
 from ttr.updates.checks.source_positions import place
@@ -90,12 +90,12 @@ def sets(rules: RuleSet, rule: Rule, path: Labels, T: TypeNode) -> bool:
 
 
 def _sets(rules: RuleSet, rule: Rule, path: Labels, T: TypeNode) -> bool:
-    told = rules.accounts[rule]
+    told = rules.summaries[rule]
     if rule.gives is not None:
         promised = along(rule.gives, path)
         if promised and all(rules.excludes(view, T) for view in promised):
             return False
-    if not told.whole:
+    if not told.complete:
         return True
     return any(_brings(rules, rule, write, path, T) for write in told.writes)
 
@@ -155,8 +155,8 @@ def _planned(
     start = along(Term(rules.start), agenda)
     values = [view.value for view in start if isinstance(view, Term)]
     for rule in firing:
-        told = rules.accounts[rule]
-        if not told.whole:
+        told = rules.summaries[rule]
+        if not told.complete:
             return None
         for write in told.writes:
             shared = min(len(write.path), len(agenda))

@@ -23,7 +23,7 @@ from ttr.types.syntax import (
     Singleton,
     TypeNode,
 )
-from ttr.updates.checks.accounts import Write
+from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.source_positions import place
@@ -56,7 +56,7 @@ def _start(rules: RuleSet) -> Iterator[Fault]:
 
 
 def _written(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
-    for write in rules.accounts[rule].writes:
+    for write in rules.summaries[rule].writes:
         wanted = declared(rules, write.path)
         brought = rules.brought(rule, write)
         if wanted is None or not brought:
