@@ -21,9 +21,9 @@ from ttr.probability.events import (
     signs,
 )
 from ttr.probability.independent import bounds, in_cases
+from ttr.probability.linear_programs import Infeasible
 from ttr.probability.networks import Impossible, Network, conjunction, network
 from ttr.probability.polytopes import Polytope, polytope
-from ttr.probability.programs import Infeasible
 from ttr.safety.budgets import spend
 
 __all__ = ["Chance", "Contradiction", "Impossible", "are_apart", "chance"]

@@ -17,7 +17,7 @@ from math import prod
 from ttr.probability.degrees import REFUTED, UNKNOWN, Degree, ordered
 from ttr.probability.dependence import Component
 from ttr.probability.events import Truth
-from ttr.probability.programs import units
+from ttr.probability.linear_programs import units
 from ttr.safety.budgets import spend
 
 __all__ = ["Impossible", "Network", "conjunction", "network"]

@@ -1,8 +1,8 @@
-"""Polytopes: components of which any distribution will do that agrees with the degrees.
+"""Polytopes: all the distributions over the worlds of a component that fit its degrees.
 
-A world says of each atom whether it is so, in line with what entails and excludes what.
-The shares that the worlds can have are a polytope, and the least and the greatest share
-of an event among them a linear program (Hailperin 1965).
+A world makes each atom true or false, in line with what entails and excludes what. The
+probabilities of the worlds form a polytope, and the bounds of the probability of an
+event are linear programs over it (Hailperin 1965).
 """
 
 from __future__ import annotations
@@ -13,32 +13,32 @@ from dataclasses import dataclass
 from ttr.probability.degrees import Degree, ordered
 from ttr.probability.dependence import Component
 from ttr.probability.events import Truth
+from ttr.probability.linear_programs import Infeasible, Row, minimise, units
 from ttr.probability.networks import Impossible
-from ttr.probability.programs import Infeasible, Row, least, units
 from ttr.safety.budgets import spend
 
 __all__ = ["Polytope", "feasible", "polytope"]
 
 WORLDS = 64
-"""How many worlds are told apart."""
+"""The most worlds that a polytope has."""
 
 ATOMS = 33
-"""Of how many atoms."""
+"""The most atoms that its worlds are about."""
 
 
 @dataclass(frozen=True)
 class Polytope:
-    """The worlds of a component, or of some of its atoms: then it is not exact."""
+    """The worlds of a component, or of some of its atoms; then bounds are not exact."""
 
     component: Component
     cases: Sequence[Truth]
     exact: bool
 
     def share(self, worth: Sequence[Degree], given: Truth) -> Degree:
-        """How probable an event is of which we have the worth in each world.
+        """The bounds of p(E | given), where `worth` has p(E | world) for each world.
 
-        `given` is what is so for sure. Raises `Impossible` where that cannot be, and
-        `Infeasible` where the degrees of the component contradict one another.
+        Raises `Impossible` where what is given cannot be, and `Infeasible` where the
+        degrees of the component contradict one another.
         """
         inside = [
             int(all(case[a] == so for a, so in given.items())) for case in self.cases
@@ -48,29 +48,31 @@ class Polytope:
         low = [x * one for x, one in zip(ends[::2], inside, strict=True)]
         high = [-x * one for x, one in zip(ends[1::2], inside, strict=True)]
         try:
-            lo = least(low, inside, rows)
+            lo = minimise(low, inside, rows).value
         except Infeasible:
             if all(inside) or not self.feasible():
                 raise
             raise Impossible from None
-        hi = -least(high, inside, rows)
+        hi = -minimise(high, inside, rows).value
         return ordered(float(lo / unit), float(hi / unit))
 
     def feasible(self) -> bool:
-        """Whether some shares of the worlds agree with all degrees."""
+        """Does some distribution over the worlds fit all degrees?"""
         count = len(self.cases)
         try:
-            least([0] * count, [1] * count, list(_rows(self.component, self.cases)))
+            rows = list(_rows(self.component, self.cases))
+            minimise([0] * count, [1] * count, rows)
         except Infeasible:
             return False
         return True
 
 
 def feasible(component: Component, atom: Hashable) -> bool:
-    """Whether the degrees of a component go together, as far as can be told.
+    """Can the degrees of a component all be right, as far as can be checked?
 
-    Those of a network always do, and those of an order if any two do, which is seen
-    before. Where it is large, what is close to an atom is looked at.
+    Those of a network always can. Those of an order can if any two of them can, which
+    has been checked before. Of a large component only what is close to the atom is
+    looked at.
 
     >>> most = Degree(0.6, 0.6)
     >>> apart = (("a", "b"),)
@@ -84,9 +86,9 @@ def feasible(component: Component, atom: Hashable) -> bool:
 
 
 def polytope(component: Component, needed: Sequence[Hashable]) -> Polytope | None:
-    """The worlds of some atoms, and of what is close to them if there is room.
+    """The worlds of the atoms needed, and of atoms close to them while there is room.
 
-    None where there are too many.
+    None where the atoms needed have too many worlds.
 
     >>> half = Degree(0.5, 0.5)
     >>> pair = Component(("a", "b"), {"a": half, "b": half}, entailed=(("a", "b"),))
@@ -110,7 +112,7 @@ def polytope(component: Component, needed: Sequence[Hashable]) -> Polytope | Non
 def _extended(
     component: Component, cases: Sequence[dict[Hashable, bool]], atom: Hashable
 ) -> Iterator[dict[Hashable, bool]]:
-    """The worlds with one atom more."""
+    """The worlds with one more atom made true or false."""
     p = component.degrees[atom]
     choices = [so for so in (True, False) if (p.hi > 0.0 if so else p.lo < 1.0)]
     for case in cases:
@@ -121,7 +123,7 @@ def _extended(
 
 
 def _allowed(component: Component, world: Truth, new: Hashable) -> bool:
-    """Whether nothing is so without what it entails, or with what it excludes."""
+    """Is the new atom in line with what entails and excludes what?"""
     spend()
     for lower, upper in component.entailed:
         if new in (lower, upper) and world.get(lower) and world.get(upper) is False:
@@ -134,7 +136,7 @@ def _allowed(component: Component, world: Truth, new: Hashable) -> bool:
 
 
 def _rows(component: Component, known: Sequence[Truth]) -> Iterator[Row]:
-    """What is known of the shares of the worlds, each as a row r with r · v ≥ 0."""
+    """The degrees and conditionals, as rows r with r · v ≥ 0 for the weights v."""
     for atom in component.atoms:
         holds = [int(world[atom]) for world in known]
         yield from _between(component.degrees[atom], holds, [1] * len(known))
@@ -146,7 +148,7 @@ def _rows(component: Component, known: Sequence[Truth]) -> Iterator[Row]:
 
 
 def _between(p: Degree, part: Sequence[int], whole: Sequence[int]) -> Iterator[Row]:
-    """That a part is between p.lo and p.hi of the whole."""
+    """The rows for: the part is between p.lo and p.hi of the whole."""
     (lo, hi), unit = units(p)
     if lo > 0:
         yield [unit * x - lo * y for x, y in zip(part, whole, strict=True)]

@@ -16,7 +16,7 @@ from typing import Literal, TypeAlias
 from ttr.errors import TTRError, Unsupported
 from ttr.safety.budgets import within_budget
 from ttr.semantics.fragment.formulas import Formula, Neither, claim
-from ttr.semantics.fragment.integer_feasibility import Undecidable
+from ttr.semantics.fragment.integer_feasibility import UndecidedError
 from ttr.semantics.fragment.lexicon import Lexicon, lexicon_of
 from ttr.semantics.fragment.sentences import Sentence, understand
 from ttr.semantics.fragment.venn_regions import Regions, World
@@ -63,7 +63,7 @@ def follows(
     wanted = _claim(hypothesis, chosen, agent)
     try:
         return _answer(given, wanted, Regions(chosen, agent))
-    except (Undecidable, Unsupported) as error:
+    except (UndecidedError, Unsupported) as error:
         return Inference("unknown", str(error) or "it takes too many steps")
 
 

@@ -31,7 +31,11 @@ from ttr.semantics.fragment.formulas import (
     leaves,
     said,
 )
-from ttr.semantics.fragment.integer_feasibility import Demand, Undecidable, solution
+from ttr.semantics.fragment.integer_feasibility import (
+    Demand,
+    UndecidedError,
+    integer_solution,
+)
 from ttr.semantics.fragment.lexicon import Lexicon
 from ttr.semantics.quantifiers import Thresholds, number
 from ttr.types.syntax import Function, Pred, PType
@@ -94,15 +98,15 @@ class Regions:
     def world(self, formulas: Sequence[Formula]) -> World | None:
         """A world in which all formulas are true, or None if there is none.
 
-        Raises `Undecidable` where it was not found out in so many steps.
+        Raises `UndecidedError` where it was not found out in so many steps.
         """
         undecided = None
         for tried, branch in enumerate(_branches(formulas)):
             if tried >= BRANCHES:
-                raise Undecidable
+                raise UndecidedError
             try:
                 found = self._of_branch(branch)
-            except Undecidable as error:
+            except UndecidedError as error:
                 undecided = error
                 continue
             if found is not None:
@@ -117,7 +121,7 @@ class Regions:
         if asked not in self._possible:
             try:
                 self._possible[asked] = self.world(asked) is not None
-            except Undecidable:
+            except UndecidedError:
                 self._possible[asked] = True
         return self._possible[asked]
 
@@ -141,7 +145,7 @@ class Regions:
             (tuple(column[i] for column in kinds), _bound(it, true))
             for i, (it, true) in enumerate(counts)
         ]
-        found = solution(demands, len(kinds))
+        found = integer_solution(demands, len(kinds))
         if found is None:
             return None
         return World(tuple(zip(found, kinds.values(), strict=True)))
@@ -152,7 +156,7 @@ class Regions:
         self, simple: Sequence[Simple], counts: Sequence[tuple[Counted, bool]]
     ) -> Iterator[Region]:
         if len(simple) > (INSIDE if self._held else PROPERTIES):
-            raise Undecidable
+            raise UndecidedError
         plain = [one for one in simple if self._inside(one) is None]
         related = [one for one in simple if one not in plain]
         possible = list(self._together(related, self._facts(counts, set(plain))))

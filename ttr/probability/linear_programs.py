@@ -1,9 +1,12 @@
-"""Linear programs in exact arithmetic: the least and the greatest share of worlds.
+"""Linear programs, solved exactly by the simplex method.
 
-Weights v ≥ 0 of worlds are sought with g · v = 1 and r · v ≥ 0 for each row r, and
-f · v least or greatest. Every claim about probabilities has this form, conditional ones
-too (Charnes and Cooper 1962: f · v is then the share of f among the worlds of g). All
-numbers are whole: degrees are counted in units of a power of ten.
+Minimise f · v over the v ≥ 0 with g · v = 1 and r · v ≥ 0 for each row r. All numbers
+are integers. Two questions have this form:
+
+- the bounds of a probability, also of a conditional one: v are weights of worlds, and
+  f · v is the share of f among the worlds of g (Charnes and Cooper 1962);
+- linear inequalities w · x ≥ b over x ≥ 0: v is x with one more number t, g picks t,
+  and each row is (w, −b).
 """
 
 from __future__ import annotations
@@ -11,20 +14,21 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from fractions import Fraction
+from typing import NamedTuple
 
 from ttr.safety.budgets import spend
 
-__all__ = ["Infeasible", "Row", "least", "units"]
+__all__ = ["Infeasible", "Minimum", "Row", "minimise", "units"]
 
 Row = Sequence[int]
 
 
 class Infeasible(Exception):
-    """No weights are as the rows say."""
+    """No v meets the conditions of a linear program."""
 
 
 def units(numbers: Iterable[float]) -> tuple[list[int], int]:
-    """The numbers as counts of a unit, and how many units one is.
+    """The numbers as integers over one power of ten, and that power.
 
     A float stands for its shortest decimal, so 0.1 is a tenth.
 
@@ -40,29 +44,36 @@ def units(numbers: Iterable[float]) -> tuple[list[int], int]:
     return counts, 10**places
 
 
-def least(f: Row, g: Row, rows: Sequence[Row]) -> Fraction:
-    """The least f · v where v ≥ 0, g · v = 1 and r · v ≥ 0 for each row r.
+class Minimum(NamedTuple):
+    """The least value of f · v, and a v that has it."""
 
-    Raises `Infeasible` where there is no such v. f must be bounded on them.
+    value: Fraction
+    point: tuple[Fraction, ...]
 
-    >>> least([1, 0], [1, 1], [[3, -1]])
-    Fraction(1, 4)
+
+def minimise(f: Row, g: Row, rows: Sequence[Row]) -> Minimum:
+    """Minimise f · v over the v ≥ 0 with g · v = 1 and r · v ≥ 0 for each row r.
+
+    Raises `Infeasible` where there is no such v. f must be bounded below on them.
+
+    >>> value, point = minimise([1, 0], [1, 1], [[3, -1]])
+    >>> print(value, "at", *point)
+    1/4 at 1/4 3/4
     """
     table = _Table(f, g, rows)
     table.minimise(table.missing)
     if table.missing[-1] != 0:
         raise Infeasible
     table.minimise(table.cost)
-    return Fraction(-table.cost[-1], table.divisor)
+    return Minimum(Fraction(-table.cost[-1], table.divisor), table.point())
 
 
 class _Table:
     """A simplex tableau of integers over one divisor (Edmonds 1967, Bareiss 1968).
 
-    Columns are worlds, the slack of each row, what is missing of g · v = 1, and the
-    right-hand side, which is 0 but for g · v: so as long as something is missing of it,
-    that is more than nothing, and afterwards it is no longer in the basis. Bland's rule
-    keeps it from going round in circles.
+    Its columns are the components of v, the slack of each row, what is missing of
+    g · v = 1, and the right-hand side. The last is 0 in every row but that of g · v, so
+    what is missing leaves the basis with the first step that gets anywhere.
     """
 
     def __init__(self, f: Row, g: Row, rows: Sequence[Row]) -> None:
@@ -80,10 +91,10 @@ class _Table:
         self.columns = self.width + slacks
 
     def minimise(self, cost: list[int]) -> None:
-        """Pivots until no column makes the cost less.
+        """Pivot until no column lowers the cost.
 
-        The column that does so fastest is taken, but the first after a step that got
-        nowhere: else there might be no end.
+        The column that lowers it fastest enters the basis; but after a step that got
+        nowhere, the first one does (Bland's rule), so that there is always an end.
         """
         stuck = False
         while True:
@@ -91,21 +102,29 @@ class _Table:
             if not falling:
                 return
             column = falling[0] if stuck else min(falling, key=cost.__getitem__)
-            number = self._leaving(column)
+            number = self._leaving_row(column)
             stuck = self.rows[number][-1] == 0
             self._pivot(number, column)
 
-    def _leaving(self, column: int) -> int:
-        """The row whose basic column is the first to get to 0."""
+    def point(self) -> tuple[Fraction, ...]:
+        """The v of the present basis."""
+        v = [Fraction(0)] * self.width
+        for row, column in zip(self.rows, self.basis, strict=True):
+            if column < self.width:
+                v[column] = Fraction(row[-1], self.divisor)
+        return tuple(v)
+
+    def _leaving_row(self, column: int) -> int:
+        """The row whose basic column reaches 0 first as this one grows."""
         best = -1
         for number, row in enumerate(self.rows):
             if row[column] <= 0:
                 continue
-            if best < 0 or self._sooner(number, best, column):
+            if best < 0 or self._reaches_zero_sooner(number, best, column):
                 best = number
         return best
 
-    def _sooner(self, one: int, other: int, column: int) -> bool:
+    def _reaches_zero_sooner(self, one: int, other: int, column: int) -> bool:
         mine, theirs = self.rows[one], self.rows[other]
         left, right = mine[-1] * theirs[column], theirs[-1] * mine[column]
         return left < right or (left == right and self.basis[one] < self.basis[other])
