@@ -237,7 +237,10 @@ def test_an_empty_text_is_no_sentence(text):
         (lambda: understand("Fido barks.", 3), "expected a lexicon, found 3"),
         (lambda: understand("It barks.", picked=3), "sets of things, found 3"),
         (lambda: understand("It barks.", picked=["fido"]), "sets of things, found"),
-        (lambda: follows("Every dog barks.", "Fido barks."), "several sentences"),
+        (
+            lambda: follows("Every dog barks.", "Fido barks."),
+            "list of sentences",
+        ),
         (lambda: follows([3], "Fido barks."), "a sentence is a text, found 3"),
         (lambda: follows([], None), "a sentence is a text, found None"),
         (lambda: follows([], "Fido barks.", 3), "expected a lexicon, found 3"),

@@ -23,6 +23,7 @@ from ttr.errors import TTRError
 from ttr.judging.certainty import certainly
 from ttr.judging.models import Model
 from ttr.safety.budgets import spend
+from ttr.semantics.argument_checks import as_tuple
 from ttr.types.objects import Unresolved
 from ttr.types.substitution import grounded
 from ttr.types.syntax import (
@@ -225,7 +226,7 @@ def resolving(
     >>> print(resolving(whether(rectype(e=back())), known, Model()))
     ~[e : return_trip()]
     """
-    for one in _several(propositions):
+    for one in as_tuple(propositions, "propositions"):
         if isinstance(one, TypeNode) and resolves(one, question, model):
             return one
     return None
@@ -392,17 +393,17 @@ def push(qud: Iterable[Object], question: Object) -> tuple[Object, ...]:
     """
     if not is_question(question):
         raise TTRError(f"only questions are under discussion, not {kind_of(question)}")
-    return question, *_without(_several(qud), question)
+    return question, *_without(as_tuple(qud, "questions"), question)
 
 
 def top(qud: Iterable[Object]) -> Object | None:
     """The maximal question under discussion, or None where there is none."""
-    return next(iter(_several(qud)), None)
+    return next(iter(as_tuple(qud, "questions")), None)
 
 
 def pop(qud: Iterable[Object], question: Object) -> tuple[Object, ...]:
     """The questions without this one, which was dropped or resolved."""
-    return tuple(_without(_several(qud), question))
+    return tuple(_without(as_tuple(qud, "questions"), question))
 
 
 def downdate(
@@ -414,16 +415,10 @@ def downdate(
     >>> downdate([whether(back), whether(Rec)], [~back], Model()) == (whether(Rec),)
     True
     """
-    known = _several(facts)
-    return tuple(q for q in _several(qud) if resolving(q, known, model) is None)
-
-
-def _several(found: Iterable[Object]) -> tuple[Object, ...]:
-    """A list of questions or propositions; raises `TTRError` for one alone."""
-    with suppress(TypeError):
-        if not isinstance(found, str | bytes):
-            return tuple(found)
-    raise TTRError(f"a list is expected here, found {kind_of(found)}")
+    known = as_tuple(facts, "propositions")
+    return tuple(
+        q for q in as_tuple(qud, "questions") if resolving(q, known, model) is None
+    )
 
 
 def _without(qud: Iterable[Object], question: Object) -> Iterator[Object]:

@@ -188,7 +188,7 @@ def test_what_cannot_be_copied():
 
 
 def test_what_is_no_learner():
-    with pytest.raises(TTRError, match="labels of a learner are several, found cup"):
+    with pytest.raises(TTRError, match="expected a list of labels, found cup"):
         learner_params(Nearest(), "cup")
     with pytest.raises(TTRError, match="lacks learn_one and predict_proba_one"):
         learner_params(object())
@@ -262,7 +262,7 @@ def test_estimators_that_do_not_do():
     from sklearn.cluster import KMeans
     from sklearn.naive_bayes import GaussianNB
 
-    with pytest.raises(TTRError, match="the classes are several, found cup"):
+    with pytest.raises(TTRError, match="expected a list of classes, found cup"):
         as_learner(GaussianNB(), "cup")
     with pytest.raises(TTRError, match="KMeans has no predict_proba"):
         as_learner(KMeans())

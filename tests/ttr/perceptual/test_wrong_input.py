@@ -72,9 +72,15 @@ MISTAKES = {
     "no model for several": (lambda: in_model(3, (right,), here), "expected a model"),
     "no model to perceive in": (lambda: perceive({}, here, right), "expected a model"),
     "no model for regions": (lambda: individuated(Model, record()), "expected a model"),
-    "one meaning for several": (lambda: in_model(Model(), right, here), "several"),
-    "no labels": (lambda: learner_params(Saying({}), labels=3), "several"),
-    "no classes": (lambda: as_learner(SGDClassifier(loss="log_loss"), 3), "several"),
+    "one meaning for several": (
+        lambda: in_model(Model(), right, here),
+        "a list of",
+    ),
+    "no labels": (lambda: learner_params(Saying({}), labels=3), "a list of"),
+    "no classes": (
+        lambda: as_learner(SGDClassifier(loss="log_loss"), 3),
+        "a list of",
+    ),
     "an empty percept": (lambda: sgd().learn_one([], "a"), "SGDClassifier failed"),
     "a class that is an array": (lambda: sgd().learn_one([1], TABLE), "none of"),
     "no parameters of a learner": (
@@ -94,7 +100,7 @@ MISTAKES = {
     ),
     "no teacher": (lambda: exchange(right, ann, "right", here), "expected a speaker"),
     "no pupil": (lambda: exchange(ann, None, "right", here), "expected a speaker"),
-    "no pupils": (lambda: convergence(ann, 3, "right", [here]), "several"),
+    "no pupils": (lambda: convergence(ann, 3, "right", [here]), "a list of"),
     "a pupil that is none": (
         lambda: convergence(ann, [right], "right", [here]),
         "expected a speaker",
@@ -103,9 +109,15 @@ MISTAKES = {
         lambda: convergence(right, [ann], "right", [here]),
         "expected a speaker",
     ),
-    "no situations to compare in": (lambda: agreement(right, right, 3), "several"),
-    "no situations to learn from": (lambda: history(ann, ann, "right", 3), "several"),
-    "no regions": (lambda: detected(3, right), "several"),
+    "no situations to compare in": (
+        lambda: agreement(right, right, 3),
+        "a list of",
+    ),
+    "no situations to learn from": (
+        lambda: history(ann, ann, "right", 3),
+        "a list of",
+    ),
+    "no regions": (lambda: detected(3, right), "a list of"),
     "no words": (lambda: detected([PointMap([[1]])], "right"), "a perceptual meaning"),
     "no label": (lambda: interpretation(BG, []), "a ptype at"),
     "a point map of one number": (lambda: PointMap(np.array(0.5)), "a point is"),

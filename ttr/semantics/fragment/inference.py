@@ -13,8 +13,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from ttr.errors import TTRError, Unsupported
+from ttr.errors import Unsupported
 from ttr.safety.budgets import within_budget
+from ttr.semantics.argument_checks import as_tuple
 from ttr.semantics.fragment.formulas import Formula, Neither, claim
 from ttr.semantics.fragment.integer_feasibility import UndecidedError
 from ttr.semantics.fragment.lexicon import Lexicon, lexicon_of
@@ -56,8 +57,7 @@ def follows(
     >>> print(follows(["Some dog barks."], "Every dog barks.").verdict)
     unknown
     """
-    if isinstance(premises, str) or not isinstance(premises, Iterable):
-        raise TTRError(f"the premises are several sentences, found {premises!r}")
+    premises = as_tuple(premises, "sentences as premises")
     chosen, agent = lexicon_of(words), thresholds_of(thresholds)
     given = [_claim(one, chosen, agent) for one in premises]
     wanted = _claim(hypothesis, chosen, agent)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ttr.errors import TTRError
+from ttr.semantics.argument_checks import in_one_line
 
 __all__ = [
     "JEFFREYS",
@@ -39,7 +40,7 @@ def _exact(pseudocount: float | Fraction) -> Fraction:
     if not is_number or not 0 <= pseudocount < float("inf"):
         raise TTRError(
             "a pseudocount is a finite number, 0 or more, "
-            f"found {' '.join(repr(pseudocount).split())}"
+            f"found {in_one_line(pseudocount)}"
         )
     return Fraction(pseudocount)
 

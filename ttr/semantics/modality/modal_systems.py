@@ -15,14 +15,11 @@ from ttr.errors import IllFormed, Refused, suggestion
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model
 from ttr.safety.budgets import within_budget
-from ttr.semantics.modality.necessity import (
-    claims_of,
-    nec,
-)
+from ttr.semantics.argument_checks import in_notation
+from ttr.semantics.modality.necessity import claims_of, nec
 from ttr.semantics.modality.notions import Notion, everywhere, where_they_exist
 from ttr.types.objects import labelled
 from ttr.types.paths import occurring
-from ttr.types.printing import notation
 from ttr.types.syntax import (
     Basic,
     Object,
@@ -76,7 +73,7 @@ class ModalSystem:
         for known, model in self.models if isinstance(name, str) else ():
             if known == name:
                 return model
-        written = notation(freeze(name))
+        written = in_notation(name)
         raise IllFormed(
             f"there is no possibility {written}, only {', '.join(self.names)}",
             hint=suggestion(written, self.names),

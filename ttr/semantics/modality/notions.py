@@ -17,6 +17,7 @@ from ttr.errors import IllFormed, Refused, Unsupported
 from ttr.judging.assignments import Assignment
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
+from ttr.probability.degrees import ordered
 from ttr.safety.budgets import spend, within_budget
 from ttr.semantics.modality.necessity import (
     ModalAnswer,
@@ -105,7 +106,7 @@ class Notion:
         found = {name: self._truth(name, P) for name in names}
         lows = sum(p.lo for p in found.values()) - (len(found) - 1)
         worst = min(found, key=lambda name: found[name])
-        p = _degree(max(0.0, lows), min(p.hi for p in found.values()))
+        p = ordered(max(0.0, lows), min(p.hi for p in found.values()))
         if p == CERTAIN:
             return ModalAnswer(p, _so(P, names))
         return ModalAnswer(p, _not_so(P, worst, found[worst]), worst)
@@ -123,7 +124,7 @@ class Notion:
         found = {name: self._truth(name, P) for name in names}
         best = max(found, key=lambda name: found[name])
         highs = sum(p.hi for p in found.values())
-        p = _degree(max(p.lo for p in found.values()), min(1.0, highs))
+        p = ordered(max(p.lo for p in found.values()), min(1.0, highs))
         if p == REFUTED:
             return ModalAnswer(p, _not_so(P, " or ".join(names), p))
         if p == CERTAIN:
@@ -259,11 +260,6 @@ def _is_flat(T: TypeNode) -> bool:
 
 def _mentions_records(T: TypeNode) -> bool:
     return any(isinstance(part, RecordType) for part in occurring([T]))
-
-
-def _degree(lo: float, hi: float) -> Degree:
-    """The interval, where rounding may have put its ends past one another."""
-    return Degree(min(lo, hi), hi)
 
 
 def _so(P: Object, names: tuple[str, ...]) -> str:

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ttr.errors import TTRError
+from ttr.semantics.argument_checks import in_notation
 from ttr.types.objects import Unresolved
 from ttr.types.printing import notation
 from ttr.types.substitution import along
-from ttr.types.syntax import Object, Record, freeze
+from ttr.types.syntax import Object, Record
 
 __all__ = ["Classifier", "Method"]
 
@@ -56,17 +57,17 @@ class Classifier:
         if lacking:
             raise TTRError(
                 "a method of classifying has degree, confirmed and rejected, "
-                f"but {notation(freeze(self.method))} lacks {', '.join(lacking)}"
+                f"but {in_notation(self.method)} lacks {', '.join(lacking)}"
             )
         if not _are_paths(self.of):
             raise TTRError(
                 "a percept is found at a path or a tuple of paths, as in 'pos', "
-                f"found {notation(freeze(self.of))}"
+                f"found {in_notation(self.of)}"
             )
         if self.through is not None and not callable(self.through):
             raise TTRError(
                 "a percept is seen through a function, "
-                f"found {notation(freeze(self.through))}"
+                f"found {in_notation(self.through)}"
             )
 
     def __str__(self) -> str:

@@ -8,7 +8,7 @@ from ttr.building.merging import merge
 from ttr.errors import TTRError
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model
-from ttr.semantics.perceptual.argument_checks import several
+from ttr.semantics.argument_checks import as_tuple
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
 from ttr.types.syntax import Record, TypeNode
 
@@ -37,7 +37,7 @@ def combined_type(*meanings: Meaning) -> TypeNode:
 
 def in_model(M: Model, meanings: tuple[Meaning, ...], *situations: Record) -> Model:
     """The model in which all of these meanings judge; see `Meaning.in_model`."""
-    for it in several(meanings, "meanings"):
+    for it in as_tuple(meanings, "meanings"):
         M = as_meaning(it).in_model(M, *situations)
     return M
 

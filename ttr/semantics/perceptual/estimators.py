@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from ttr.errors import TTRError
-from ttr.semantics.perceptual.argument_checks import several, shown
+from ttr.semantics.argument_checks import as_tuple, in_notation
 from ttr.semantics.perceptual.vectors import Vector, vector
 from ttr.types.printing import notation
 
@@ -23,7 +23,7 @@ def as_learner(
     beforehand; one with `fit` alone is fitted anew to all examples. Raises `TTRError`
     for what is no probabilistic classifier.
     """
-    labels = several(classes, "classes")
+    labels = as_tuple(classes, "classes")
     if not callable(getattr(estimator, "predict_proba", None)):
         raise TTRError(
             f"{type(estimator).__name__} has no predict_proba, "
@@ -57,7 +57,7 @@ class Incremental:
         """Take x as an example of the class; `TTRError` where it is none of its own."""
         if not any(y is label or _is_same(y, label) for label in self.labels):
             known = ", ".join(map(notation, self.labels))
-            raise TTRError(f"{shown(y)} is none of the classes {known}")
+            raise TTRError(f"{in_notation(y)} is none of the classes {known}")
         with _naming(self):
             self.estimator.partial_fit([vector(x)], [y], classes=list(self.labels))
 

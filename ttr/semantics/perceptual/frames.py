@@ -14,9 +14,15 @@ from dataclasses import dataclass
 
 from ttr.building.constructors import rectype
 from ttr.errors import TTRError, Unsupported
-from ttr.semantics.perceptual.argument_checks import shown
+from ttr.semantics.argument_checks import in_notation
 from ttr.semantics.perceptual.regions import PointMap
-from ttr.semantics.perceptual.vectors import RealVector, Vector, dot, number, vector
+from ttr.semantics.perceptual.vectors import (
+    RealVector,
+    Vector,
+    dot,
+    finite_number,
+    vector,
+)
 from ttr.types.syntax import Object, Record, RecordType, record
 
 __all__ = [
@@ -76,7 +82,7 @@ def coordinates(thing: Object, frame: Record) -> Vector:
     except AttributeError:
         raise TTRError(
             f"a frame is a record {{origin, axes = {{right, front}}}}, "
-            f"found {shown(frame)}"
+            f"found {in_notation(frame)}"
         ) from None
     x, y = _place(thing, "the thing")
     ox, oy = _place(origin, "the origin")
@@ -103,7 +109,7 @@ class Projective:
     sharpness: float = 1.0
 
     def __post_init__(self) -> None:
-        if not number(self.sharpness, "the sharpness of a template") > 0.0:
+        if not finite_number(self.sharpness, "the sharpness of a template") > 0.0:
             raise TTRError(
                 f"the sharpness of a template is above 0, found {self.sharpness!r}"
             )
@@ -115,7 +121,7 @@ class Projective:
         """The cosine to its power; 0 at the origin, which is in no direction."""
         if not isinstance(params, Record) or "axis" not in params:
             raise TTRError(
-                f"a spatial template has {{axis = […]}}, found {shown(params)}"
+                f"a spatial template has {{axis = […]}}, found {in_notation(params)}"
             )
         axis, place = vector(params.axis, "axis"), vector(x)
         if len(axis) != len(place):
@@ -130,7 +136,9 @@ class Projective:
 
     def confirmed(self, _: Record, x: Object, /) -> Record:
         """A template is given, not learned: `Unsupported`."""
-        raise Unsupported(f"a spatial template does not learn, as from {shown(x)}")
+        raise Unsupported(
+            f"a spatial template does not learn, as from {in_notation(x)}"
+        )
 
     rejected = confirmed
 

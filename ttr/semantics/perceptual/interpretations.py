@@ -5,7 +5,7 @@ from __future__ import annotations
 from ttr.building.constructors import fun
 from ttr.building.formation import checked
 from ttr.errors import IllFormed
-from ttr.semantics.perceptual.argument_checks import shown
+from ttr.semantics.argument_checks import in_notation
 from ttr.types.forms import order_fields
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import BOUND, Function, Path, PType, RecordType, kind_of
@@ -39,8 +39,8 @@ def interpretation(T: RecordType, label: str) -> Function:
     if not isinstance(claim, PType):
         found = T if isinstance(T, RecordType) else kind_of(T)
         raise IllFormed(
-            f"an interpretation is of a record type with a ptype at {shown(label)}, "
-            f"found {found}"
+            "an interpretation is of a record type with a ptype at "
+            f"{in_notation(label)}, found {found}"
         )
     bg = checked(
         RecordType(order_fields({k: S for k, S in T.fields if k != label})), None

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ttr.errors import TTRError, Unsupported
-from ttr.semantics.perceptual.argument_checks import in_one_line, several, shown
+from ttr.semantics.argument_checks import as_tuple, in_notation, in_one_line
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, Record, freeze, record
 
@@ -61,7 +61,7 @@ def learner_params(
         )
     known = getattr(learner, "labels", ()) if labels is None else labels
     mine = Handle(learner, 0, copied).copy()
-    return record(labels=several(known, "labels of a learner"), learner=mine)
+    return record(labels=as_tuple(known, "labels"), learner=mine)
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +86,7 @@ class Handle:
         if not isinstance(found, Mapping):
             raise TTRError(
                 f"{self._name} is to answer with a mapping from labels to degrees, "
-                f"found {notation(freeze(found))}"
+                f"found {in_notation(found)}"
             )
         degrees = {label: self._number(label, p) for label, p in found.items()}
         if sum(degrees.values()) > 1 + _SLACK:
@@ -190,7 +190,8 @@ def _parts(params: Record) -> tuple[Handle, tuple[Object, ...]]:
     if isinstance(handle, Handle) and isinstance(labels, tuple):
         return handle, labels
     raise TTRError(
-        f"the parameters of a learner are made by learner_params, found {shown(params)}"
+        "the parameters of a learner are made by learner_params, "
+        f"found {in_notation(params)}"
     )
 
 

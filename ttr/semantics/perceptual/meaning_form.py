@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from ttr.errors import TTRError
+from ttr.semantics.argument_checks import in_notation
 from ttr.semantics.perceptual.classifiers import Classifier
 from ttr.semantics.perceptual.interpretations import claim_of
 from ttr.types.printing import notation
-from ttr.types.syntax import Basic, Function, PType, Record, RecordType, freeze
+from ttr.types.syntax import Basic, Function, PType, Record, RecordType
 
 __all__ = ["check_record"]
 
@@ -26,7 +27,7 @@ def check_record(found: object) -> None:
     if not isinstance(found, Record) or set(found) != set(_FIELDS):
         raise TTRError(
             f"a perceptual meaning is a record {{params, bg, clf, interp}}, "
-            f"found {notation(freeze(found))}"
+            f"found {in_notation(found)}"
         )
     for label, (kind, name) in _FIELDS.items():
         if not isinstance(found[label], kind):

@@ -13,17 +13,15 @@ import math
 from dataclasses import dataclass
 
 from ttr.errors import TTRError
-from ttr.semantics.perceptual.argument_checks import in_one_line, shown
-from ttr.semantics.perceptual.vectors import Vector, dot, number, vector
+from ttr.semantics.argument_checks import in_notation, in_one_line
+from ttr.semantics.learning.logistic_regression import logistic
+from ttr.semantics.perceptual.vectors import Vector, dot, finite_number, vector
 from ttr.types.syntax import Object, Record, record
 
 __all__ = ["GradedPerceptron", "Perceptron", "blank"]
 
 _LONGEST = 1_000_000
 """How many numbers a percept may have."""
-
-_STEEPEST = 700.0
-"""Beyond this the exponential function overflows."""
 
 
 def blank(dimensions: int) -> Record:
@@ -109,7 +107,7 @@ class GradedPerceptron:
 
     def __post_init__(self) -> None:
         _check_rates(self.rate, self.threshold_rate)
-        if not number(self.steepness, "the steepness of a perceptron") > 0.0:
+        if not finite_number(self.steepness, "the steepness of a perceptron") > 0.0:
             raise TTRError(
                 f"the steepness of a perceptron is above 0, found {self.steepness!r}"
             )
@@ -126,7 +124,7 @@ class GradedPerceptron:
     def degree(self, params: Record, x: Object, /) -> float:
         """The logistic function of how far w · x is above t."""
         w, t, x = _weighed(params, x)
-        return self._squashed(dot(w, x) - t)
+        return logistic(self.steepness * (dot(w, x) - t))
 
     def confirmed(self, params: Record, x: Object, /) -> Record:
         """The parameters after a step towards yes."""
@@ -136,24 +134,20 @@ class GradedPerceptron:
         """The parameters after a step towards no."""
         return self._step(params, x, 0.0)
 
-    def _squashed(self, above: float) -> float:
-        steep = min(max(-self.steepness * above, -_STEEPEST), _STEEPEST)
-        return 1.0 / (1.0 + math.exp(steep))
-
     def _step(self, params: Record, x: Object, wanted: float) -> Record:
         w, t, x = _weighed(params, x)
-        error = wanted - self._squashed(dot(w, x) - t)
+        error = wanted - logistic(self.steepness * (dot(w, x) - t))
         return _stepped(params, x, error, self.rate, self.threshold_rate)
 
 
 def _weighed(params: Record, x: Object) -> tuple[Vector, float, Vector]:
     """Weights, threshold and percept, if they fit one another."""
     try:
-        w, t = vector(params.w, "w"), number(params.t, "t")
+        w, t = vector(params.w, "w"), finite_number(params.t, "t")
     except AttributeError:
         raise TTRError(
             f"the parameters of a perceptron are {{t = …, w = […]}}, "
-            f"found {shown(params)}"
+            f"found {in_notation(params)}"
         ) from None
     x = vector(x)
     if len(x) != len(w):
@@ -189,11 +183,11 @@ def _at_rates(rate: float, threshold_rate: float | None) -> str:
 
 
 def _check_rates(rate: float, threshold_rate: float | None) -> None:
-    if not number(rate, "the rate of a perceptron") > 0.0:
+    if not finite_number(rate, "the rate of a perceptron") > 0.0:
         raise TTRError(f"a perceptron learns at a rate above 0, found {rate!r}")
     if threshold_rate is None:
         return
-    if not number(threshold_rate, "the rate of the threshold") >= 0.0:
+    if not finite_number(threshold_rate, "the rate of the threshold") >= 0.0:
         raise TTRError(
             f"the threshold is learned at a rate of 0 or more, found {threshold_rate!r}"
         )

@@ -17,9 +17,9 @@ from typing import NamedTuple
 from ttr.building.constructors import fun, rectype
 from ttr.errors import TTRError
 from ttr.judging.models import Model, as_model
-from ttr.semantics.perceptual.argument_checks import several
+from ttr.semantics.argument_checks import as_tuple
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
-from ttr.semantics.perceptual.vectors import Vector, number, vector
+from ttr.semantics.perceptual.vectors import Vector, finite_number, vector
 from ttr.types.substitution import grounded
 from ttr.types.syntax import (
     BOUND,
@@ -102,7 +102,7 @@ def clusters(points: PointMap | Iterable[object], reach: float) -> tuple[PointMa
     >>> [len(it) for it in clusters([[0, 0], [5, 5], [0, 1]], 2)]
     [2, 1]
     """
-    if not number(reach, "the reach") > 0.0:
+    if not finite_number(reach, "the reach") > 0.0:
         raise TTRError(f"the reach of a step is above 0, found {reach!r}")
     points = points if isinstance(points, PointMap) else PointMap(points)
     cells: dict[Cell, list[int]] = {}
@@ -179,7 +179,7 @@ def detected(regions: Iterable[PointMap], *words: Meaning) -> tuple[Record, ...]
     """
     found: list[Record] = []
     meanings = [as_meaning(word) for word in words]
-    for reg in several(regions, "regions"):
+    for reg in as_tuple(regions, "regions"):
         best, p = None, 0.5
         for word in meanings:
             degree = word.degree(record(reg=reg)).lo

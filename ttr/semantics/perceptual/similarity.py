@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ttr.errors import TTRError
 from ttr.probability import Degree
-from ttr.semantics.perceptual.argument_checks import several
+from ttr.semantics.argument_checks import as_tuple
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
 from ttr.semantics.perceptual.speakers import Speaker, as_speaker
 from ttr.types.records import differences
@@ -61,7 +61,7 @@ def agreement(one: Meaning, other: Meaning, situations: Iterable[Record]) -> Agr
     """How alike two meanings judge situations; `TTRError` where there are none."""
     one, other = as_meaning(one), as_meaning(other)
     pairs = [
-        (one.degree(r), other.degree(r)) for r in several(situations, "situations")
+        (one.degree(r), other.degree(r)) for r in as_tuple(situations, "situations")
     ]
     if not pairs:
         raise TTRError("two meanings are compared over one situation or more, not none")
@@ -96,9 +96,9 @@ def convergence(
     teacher: Speaker, pupils: Sequence[Speaker], word: str, situations: Iterable[Record]
 ) -> Convergence:
     """How alike the teacher and each of the pupils judge these situations."""
-    probes = several(situations, "situations")
+    probes = as_tuple(situations, "situations")
     meant = as_speaker(teacher)[word]
-    learned = [as_speaker(it)[word] for it in several(pupils, "pupils")]
+    learned = [as_speaker(it)[word] for it in as_tuple(pupils, "pupils")]
     return Convergence(tuple([agreement(meant, it, probes) for it in learned]))
 
 

@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 from ttr.errors import TTRError, suggestion
 from ttr.probability import Degree
-from ttr.semantics.perceptual.argument_checks import several, shown
+from ttr.semantics.argument_checks import as_tuple, in_notation
 from ttr.semantics.perceptual.learners import Handle
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
 from ttr.types.syntax import Record
@@ -53,7 +53,7 @@ class Speaker:
     def __getitem__(self, word: str) -> Meaning:
         if isinstance(word, str) and word in self.meanings:
             return self.meanings[word]
-        written = repr(word) if isinstance(word, str) else shown(word)
+        written = repr(word) if isinstance(word, str) else in_notation(word)
         raise TTRError(
             f"{self.name} has no meaning of {written}",
             hint=suggestion(written, self.meanings),
@@ -111,13 +111,13 @@ def as_speaker(value: object) -> Speaker:
     """The speaker itself; `TTRError` for what is none."""
     if isinstance(value, Speaker):
         return value
-    raise TTRError(f"expected a speaker, found {shown(value)}")
+    raise TTRError(f"expected a speaker, found {in_notation(value)}")
 
 
 def _word(value: object) -> str:
     if isinstance(value, str):
         return value
-    raise TTRError(f"a word is a text, found {shown(value)}")
+    raise TTRError(f"a word is a text, found {in_notation(value)}")
 
 
 def exchange(teacher: Speaker, pupil: Speaker, word: str, r: Record) -> Speaker:
@@ -138,7 +138,7 @@ def history(
 ) -> tuple[Speaker, ...]:
     """The pupil before any exchange, and after the exchange about each situation."""
     pupils = [as_speaker(pupil)]
-    for r in several(situations, "situations"):
+    for r in as_tuple(situations, "situations"):
         pupils.append(exchange(teacher, pupils[-1], word, r))
     return tuple(pupils)
 

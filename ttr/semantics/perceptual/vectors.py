@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from operator import mul
 
 from ttr.errors import TTRError
-from ttr.types.printing import notation
-from ttr.types.syntax import Basic, Object, freeze
+from ttr.semantics.argument_checks import in_notation
+from ttr.types.syntax import Basic, Object
 
-__all__ = ["RealVector", "dot", "is_vector", "number", "vector"]
+__all__ = ["RealVector", "dot", "is_vector", "finite_number", "vector"]
 
 RealVector = Basic("RealVector")
 """The type of lists of numbers, and of arrays that are like lists of numbers."""
@@ -29,7 +29,9 @@ def vector(value: Object, what: str = "a percept") -> Vector:
     """
     numbers = _numbers(value)
     if numbers is None:
-        raise TTRError(f"{what} is a list of finite numbers, found {_shown(value)}")
+        raise TTRError(
+            f"{what} is a list of finite numbers, found {in_notation(value)}"
+        )
     return numbers
 
 
@@ -52,19 +54,15 @@ def _numbers(value: Object) -> Vector | None:
     return numbers if all(map(math.isfinite, numbers)) else None
 
 
-def _shown(value: Object) -> str:
-    return notation(freeze(value))
-
-
-def number(value: Object, what: str) -> float:
+def finite_number(value: Object, what: str) -> float:
     """A finite number; `TTRError` where it is none.
 
-    >>> number(1, "t")
+    >>> finite_number(1, "t")
     1.0
     """
     found = None if isinstance(value, str) else _numbers((value,))
     if found is None:
-        raise TTRError(f"{what} is a finite number, found {_shown(value)}")
+        raise TTRError(f"{what} is a finite number, found {in_notation(value)}")
     return found[0]
 
 

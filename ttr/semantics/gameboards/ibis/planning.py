@@ -18,6 +18,7 @@ from ttr.semantics.gameboards.ibis.moves import (
     raise_,
     respond,
 )
+from ttr.semantics.gameboards.ibis.state import TO_DO
 from ttr.semantics.questions import Question
 from ttr.types.records import replace
 from ttr.types.syntax import (
@@ -33,7 +34,6 @@ from ttr.updates import Algorithm, all_, first, repeat, rule
 
 __all__ = ["load", "planning", "settled", "unanswered", "without_answer"]
 
-TO_DO = rectype(private=rectype(agenda=NonEmpty(Action)))
 WITH_PLAN = rectype(private=rectype(plan=NonEmpty(Action)))
 WITHOUT_PLAN = rectype(
     private=rectype(plan=ListOf(Action) @ ()), shared=rectype(qud=NonEmpty(Question))

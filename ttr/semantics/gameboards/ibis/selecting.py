@@ -24,7 +24,7 @@ from ttr.semantics.gameboards.ibis.moves import (
     say,
 )
 from ttr.semantics.gameboards.ibis.planning import settled
-from ttr.semantics.gameboards.ibis.state import utterance_type
+from ttr.semantics.gameboards.ibis.state import TO_DO, utterance_type
 from ttr.semantics.questions import Question
 from ttr.types.records import replace
 from ttr.types.syntax import ListOf, NonEmpty, Pred, PType, Record
@@ -32,7 +32,6 @@ from ttr.updates import Algorithm, all_, first, repeat, rule, seq
 
 __all__ = ["Selection", "selection"]
 
-TO_DO = rectype(private=rectype(agenda=NonEmpty(Action)))
 WITH_PLAN = rectype(
     private=rectype(agenda=ListOf(Action) @ (), plan=NonEmpty(Action)),
     shared=rectype(lu=rectype(speaker=Participant @ USR)),

@@ -22,9 +22,18 @@ from ttr.semantics.gameboards.ibis.moves import (
     say,
 )
 from ttr.semantics.questions import Question
-from ttr.types.syntax import ListOf, Object, PType, Record, RecordType, RecType, record
+from ttr.types.syntax import (
+    ListOf,
+    NonEmpty,
+    Object,
+    PType,
+    Record,
+    RecordType,
+    RecType,
+    record,
+)
 
-__all__ = ["OWN", "STATE", "START", "USER", "utterance", "utterance_type"]
+__all__ = ["OWN", "STATE", "START", "TO_DO", "USER", "utterance", "utterance_type"]
 
 STATE: RecordType = rectype(
     private=rectype(
@@ -65,6 +74,9 @@ USER: RecordType = rectype(spkr=Participant @ USR, moves=ListOf(Move))
 
 OWN: RecordType = rectype(spkr=Participant @ SYS, moves=ListOf(Move))
 """Utterances of the system."""
+
+TO_DO: RecordType = rectype(private=rectype(agenda=NonEmpty(Action)))
+"""The states in which something is to be done next."""
 
 
 def utterance(speaker: str, moves: Iterable[Object]) -> Record:

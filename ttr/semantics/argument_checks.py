@@ -1,4 +1,4 @@
-"""What functions over meanings are given: told plainly where it is something else."""
+"""Checks of arguments: a plain message where something else is given than expected."""
 
 from __future__ import annotations
 
@@ -9,31 +9,35 @@ from ttr.errors import TTRError
 from ttr.types.printing import notation
 from ttr.types.syntax import freeze
 
-__all__ = ["in_one_line", "several", "shown"]
+__all__ = ["as_tuple", "in_notation", "in_one_line"]
 
 T = TypeVar("T")
 
 
-def several(values: Iterable[T], what: str) -> tuple[T, ...]:
+def as_tuple(values: Iterable[T], what: str) -> tuple[T, ...]:
     """The values of a list or another iterable; `TTRError` for a text or a single one.
 
-    >>> several(3, "situations")
+    >>> as_tuple(3, "situations")
     Traceback (most recent call last):
-    ttr.errors.TTRError: the situations are several, found 3
+    ttr.errors.TTRError: expected a list of situations, found 3
     """
     if isinstance(values, Iterable) and not isinstance(values, str | bytes):
         try:
             return tuple(values)
         except TypeError:
             pass
-    raise TTRError(f"the {what} are several, found {shown(values)}")
+    raise TTRError(f"expected a list of {what}, found {in_notation(values)}")
 
 
-def shown(value: object) -> str:
-    """A value as notation has it."""
+def in_notation(value: object) -> str:
+    """A value as the notation writes it, also where it is a list or a dictionary.
+
+    >>> in_notation({"x": [1, 2]})
+    '{x = [1, 2]}'
+    """
     return notation(freeze(value))
 
 
 def in_one_line(value: object) -> str:
-    """A value as Python writes it; arrays do so in several lines."""
+    """The `repr` of a value in one line; that of an array has several."""
     return " ".join(repr(value).split())
