@@ -1,7 +1,7 @@
-"""From the tree of a sentence to its content: a type that is true if the sentence is.
+"""From the tree of a sentence to its content: a type that is true iff the sentence is.
 
-A noun phrase means what it makes of a property, a verb phrase a property, a clause a
-type. What stands further left has wider scope.
+A clause means a type, a verb phrase and a noun a property, a noun phrase a function
+from properties to types. What stands further left has wider scope.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from ttr.semantics.fragment.content_types import (
     Property,
     Variables,
     all_of,
-    placed,
-    same,
+    equality,
+    replace_name,
 )
-from ttr.semantics.fragment.determiner_meanings import determined
+from ttr.semantics.fragment.determiner_meanings import apply_determiner
 from ttr.semantics.fragment.lexicon import Lexicon
 from ttr.semantics.fragment.sentence_parsing import OutsideFragment, Phrase
 from ttr.semantics.parametric_content import content, strong, weak
@@ -34,30 +34,31 @@ from ttr.types.syntax import (
     join,
 )
 
-__all__ = ["Antecedent", "composed"]
+__all__ = ["Antecedent", "compose_content"]
 
 NounPhrase: TypeAlias = Callable[[Property], TypeNode]
-"""What a noun phrase makes of what is said of it."""
+"""The meaning of a noun phrase: a function from properties to types."""
 
 Antecedent: TypeAlias = FiniteSet
-"""The things that a pronoun can stand for."""
+"""A set of things that a pronoun can stand for."""
 
 MODIFIERS = 8
-"""How many modifiers of the kinds below a sentence may have."""
+"""The most modifiers of the kinds below that a sentence may have."""
 
 REPEATING = (
     *("INTENSIFIER", "MODADJ", "NEGADJ", "ADVERB", "vp_pp"),
     *("the", "both", "neither"),
 )
-"""What says again what it modifies, so that contents double with each."""
+"""Kinds whose content repeats what they modify, so that it doubles with each."""
 
 
-def composed(
+def compose_content(
     tree: Phrase, words: Lexicon, picked: tuple[Antecedent, ...] = ()
 ) -> TypeNode:
-    """The content of a sentence; `picked` are what pronouns can stand for, first first.
+    """The content of a sentence.
 
-    Raises `OutsideFragment` for what is read but has no meaning here.
+    A pronoun stands for the first of `picked` that agrees with it in number. Raises
+    `OutsideFragment` for a construction that is read but has no meaning here.
     """
     if sum(1 for kind in REPEATING for _ in tree.below(kind)) > MODIFIERS:
         raise OutsideFragment(
@@ -65,7 +66,7 @@ def composed(
             "prepositions after a verb, adjectives that need a noun, the, both and "
             "neither, counted together"
         )
-    return _Composer(words, picked).clause(_only(tree))
+    return _Composer(words, picked).clause(_only_part(tree))
 
 
 class _Composer:
@@ -88,16 +89,16 @@ class _Composer:
                 return self._existence(np)
             case "predication", [np, vp]:
                 return self._predication(np, vp)
-        raise _outside(tree)
+        raise _without_meaning(tree)
 
     def _existence(self, np: Phrase) -> TypeNode:
-        """There is …: of those that are so, so many are there."""
+        """There is or are NP: the noun restricts, and what follows it is the scope."""
         if np.kind not in ("quantified", "bare"):
             raise OutsideFragment(
                 "there is takes a noun phrase such as a dog, or no dogs"
             )
         nbar = np.parts[-1]
-        head, rest = self._divided(nbar)
+        head, rest = self._head_and_rest(nbar)
         if np.kind == "bare":
             return exist(self._bind(head), self._bind(rest))
         det = np.parts[0].kind
@@ -108,32 +109,33 @@ class _Composer:
                 f"there are {det} needs to say of which share, as in there are {det} "
                 "dogs in Rome"
             )
-        return self._quantified(np.parts[0], head, rest)
+        return self._by_determiner(np.parts[0], head, rest)
 
-    def _divided(self, nbar: Phrase) -> tuple[Property, Property]:
-        """What the noun says, and what follows it, or the noun once more."""
+    def _head_and_rest(self, nbar: Phrase) -> tuple[Property, Property]:
+        """The property of the noun, and of what follows it (or the noun once more)."""
         modified, *rest = nbar.parts
-        head = self._modified(modified)
+        head = self._noun_with_adjectives(modified)
         if not rest:
             return head, head
-        return head, _both(*[self._postnominal(part) for part in rest])
+        return head, _conjunction(*[self._postnominal(part) for part in rest])
 
     def _predication(self, np: Phrase, vp: Phrase) -> TypeNode:
-        donkey = self._donkey(np, vp)
+        donkey = self._donkey_sentence(np, vp)
         if donkey is not None:
             return donkey
         if np.kind == "bare":
-            return self._quantifier(every, self._nbar(np.parts[0]), self._vp(vp))
+            return self._by_quantifier(every, self._nbar(np.parts[0]), self._vp(vp))
         return self._np(np)(self._vp(vp))
 
     # --- donkey sentences ----------------------------------------------------------
 
-    def _donkey(self, np: Phrase, vp: Phrase) -> TypeNode | None:
-        """Every farmer who owns a donkey beats it: the pronoun is about the donkeys.
+    def _donkey_sentence(self, np: Phrase, vp: Phrase) -> TypeNode | None:
+        """The content of: every farmer who owns a donkey beats it. None for others.
 
-        Strong after a determiner that rises from all, else weak (decision 021).
+        It is strong (all of the donkeys) after every, else weak (some donkey); see
+        decision 021.
         """
-        found = _indefinite_below(np)
+        found = _verb_and_indefinite(np)
         if found is None or not _has_object_pronoun(vp):
             return None
         verb, indefinite = found
@@ -144,12 +146,13 @@ class _Composer:
             y = self._variables.fresh()
             fields = {"c": restriction(y), "o": owning(x, y)}
             bg = rectype(
-                y=Ind, **{k: as_type(placed(T, y, "y")) for k, T in fields.items()}
+                y=Ind,
+                **{k: as_type(replace_name(T, y, "y")) for k, T in fields.items()},
             )
             self._bound.append(y)
             said = self._vp(vp)(x)
             self._bound.pop()
-            fg = Function(bg, placed(said, y, BOUND, "y"), "r")
+            fg = Function(bg, replace_name(said, y, BOUND, "y"), "r")
             return purified(content(bg, fg))
 
         return self._np(np)(beating)
@@ -165,11 +168,11 @@ class _Composer:
                 return self._pronoun(token.word)
             case "bare", [nbar]:
                 some = self._nbar(nbar)
-                return lambda said: self._quantifier(exist, some, said)
+                return lambda said: self._by_quantifier(exist, some, said)
             case "quantified", [det, nbar]:
                 restriction = self._nbar(nbar)
-                return lambda said: self._quantified(det, restriction, said)
-        raise _outside(tree)
+                return lambda said: self._by_determiner(det, restriction, said)
+        raise _without_meaning(tree)
 
     def _pronoun(self, form: str) -> NounPhrase:
         if self._bound and form.lower() == "it":
@@ -178,23 +181,23 @@ class _Composer:
         plural = form.lower() in ("they", "them")
         for things in self._picked:
             if plural == (len(things) > 1):
-                return lambda said: self._of_things(things, said)
+                return lambda said: self._of_each(things, said)
         raise OutsideFragment(
             f"{form!r} has nothing to stand for: no sentence before it is about "
             f"{'several things' if plural else 'one thing'}"
         )
 
-    def _of_things(self, things: Antecedent, said: Property) -> TypeNode:
-        """What is said of each of these things."""
+    def _of_each(self, things: Antecedent, said: Property) -> TypeNode:
+        """The type: it is said of each of these things."""
         if len(things) == 1:
             return said(str(next(iter(things))))
         one_of = join(*[Singleton(Ind, thing) for thing in things])
         return every(one_of, self._bind(said))
 
-    def _quantified(self, det: Phrase, P: Property, Q: Property) -> TypeNode:
-        return determined(det, self._bind(P), self._bind(Q))
+    def _by_determiner(self, det: Phrase, P: Property, Q: Property) -> TypeNode:
+        return apply_determiner(det, self._bind(P), self._bind(Q))
 
-    def _quantifier(self, q: Determiner, P: Property, Q: Property) -> PType:
+    def _by_quantifier(self, q: Determiner, P: Property, Q: Property) -> PType:
         return q(self._bind(P), self._bind(Q))
 
     def _bind(self, said: Property) -> Function:
@@ -204,35 +207,36 @@ class _Composer:
 
     def _nbar(self, tree: Phrase) -> Property:
         modified, *rest = tree.parts
-        return _both(
-            self._modified(modified), *[self._postnominal(part) for part in rest]
+        return _conjunction(
+            self._noun_with_adjectives(modified),
+            *[self._postnominal(part) for part in rest],
         )
 
-    def _modified(self, tree: Phrase) -> Property:
+    def _noun_with_adjectives(self, tree: Phrase) -> Property:
         match tree.kind, tree.parts:
             case "noun", [token]:
                 return self._unary("NOUN", token)
             case "with_adj", [adj, inner]:
-                return self._adjective(adj, self._modified(inner))
-        raise _outside(tree)
+                return self._adjective(adj, self._noun_with_adjectives(inner))
+        raise _without_meaning(tree)
 
     def _adjective(self, adj: Phrase, noun: Property) -> Property:
-        """What an adjective makes of what a noun says."""
+        """The property of a noun with an adjective."""
         *intensifiers, token = adj.parts
         match adj.kind:
             case "intersective":
-                said = _both(self._unary("ADJ", token), noun)
+                said = _conjunction(self._unary("ADJ", token), noun)
             case "subsective" if token.kind == "ADJ":
-                said = _both(self._unary("ADJ", token), noun)
+                said = _conjunction(self._unary("ADJ", token), noun)
             case "subsective":
-                said = self._modifying("MODADJ", token, noun)
+                said = self._modification("MODADJ", token, noun)
             case "privative":
                 fake = self._words.meaning("NEGADJ", token.word)
                 return lambda x: all_of(absent(noun(x)), fake(x, self._bind(noun)))
             case _:
-                raise _outside(adj)
+                raise _without_meaning(adj)
         for intensifier in reversed(intensifiers):
-            said = self._modifying("INTENSIFIER", intensifier, said)
+            said = self._modification("INTENSIFIER", intensifier, said)
         return said
 
     def _postnominal(self, tree: Phrase) -> Property:
@@ -245,7 +249,7 @@ class _Composer:
             case "object_relative", [np, verb]:
                 doing, who = self._tv(verb), self._np(np)
                 return lambda y: who(lambda x: doing(x, y))
-        raise _outside(tree)
+        raise _without_meaning(tree)
 
     # --- verb phrases --------------------------------------------------------------
 
@@ -254,41 +258,42 @@ class _Composer:
             case "plain_vp", [inner]:
                 return self._vp(inner)
             case "denied_vp", [inner]:
-                return _denied(self._vp(inner))
+                return _negation(self._vp(inner))
             case "both_vps", [left, right]:
-                return _both(self._vp(left), self._vp(right))
+                return _conjunction(self._vp(left), self._vp(right))
             case "modal_vp", [token, inner]:
                 return self._operator("MODAL", token, self._vp(inner))
             case "denied_modal_vp", [token, inner]:
-                return _denied(self._operator("MODAL", token, self._vp(inner)))
+                return _negation(self._operator("MODAL", token, self._vp(inner)))
             case "attitude_vp", [token, inner]:
                 return self._operator("ATTITUDE", token, self._vp(inner))
             case "intransitive", [token, *modifiers]:
-                return self._with(self._unary("IV", token), modifiers)
+                return self._with_modifiers(self._unary("IV", token), modifiers)
             case "transitive", [token, np, *adverbs]:
                 doing, what = self._tv(token), self._np(np)
                 plain: Property = lambda x: what(lambda y: doing(x, y))  # noqa: E731
-                return self._with(plain, adverbs)
+                return self._with_modifiers(plain, adverbs)
             case "is_adj", [adj, *pps]:
-                return _both(
-                    self._predicative(adj), *[self._postnominal(pp) for pp in pps]
+                return _conjunction(
+                    self._predicate_adjective(adj),
+                    *[self._postnominal(pp) for pp in pps],
                 )
             case "is_pp", [pp]:
                 return self._postnominal(pp)
             case "is_np", [np]:
-                return self._nominal(np)
-        raise _outside(tree)
+                return self._predicate_nominal(np)
+        raise _without_meaning(tree)
 
-    def _predicative(self, adj: Phrase) -> Property:
-        """An adjective on its own; one that needs a noun is of what is at all."""
+    def _predicate_adjective(self, adj: Phrase) -> Property:
+        """The property of an adjective on its own, as if its noun were "thing"."""
         if adj.kind == "privative":
             raise OutsideFragment(f"{adj.parts[-1].word} needs a noun after it")
         if adj.parts[-1].kind == "ADJ" and len(adj.parts) == 1:
             return self._unary("ADJ", adj.parts[0])
         return self._adjective(adj, _anything)
 
-    def _nominal(self, np: Phrase) -> Property:
-        """What "is a dog", "are dogs" or "is Fido" say."""
+    def _predicate_nominal(self, np: Phrase) -> Property:
+        """The property of being a dog, being dogs, or being Fido."""
         match np.kind, np.parts:
             case "bare", [nbar]:
                 return self._nbar(nbar)
@@ -296,28 +301,28 @@ class _Composer:
                 return self._nbar(nbar)
             case "name", [token]:
                 name = str(self._words.word("NAME", token.word).meaning)
-                return lambda x: same(x, name)
+                return lambda x: equality(x, name)
         raise OutsideFragment("after is stands an adjective, a noun with a, or a name")
 
-    def _with(self, said: Property, modifiers: Sequence[Phrase]) -> Property:
-        """A verb phrase with what modifies it, from the inside to the outside."""
+    def _with_modifiers(self, said: Property, modifiers: Sequence[Phrase]) -> Property:
+        """The property of a verb phrase with its modifiers, the innermost first."""
         for modifier in modifiers:
             said = self._modified_vp(said, modifier)
         return said
 
     def _modified_vp(self, said: Property, modifier: Phrase) -> Property:
         if modifier.kind == "ADVERB":
-            return self._modifying("ADVERB", modifier, said)
+            return self._modification("ADVERB", modifier, said)
         if modifier.kind == "adverb":
-            return self._modifying("ADVERB", modifier.parts[0], said)
+            return self._modification("ADVERB", modifier.parts[0], said)
         token, np = modifier.parts[0].parts
         pred, of = self._words.meaning("PREP", token.word), self._np(np)
         return lambda x: all_of(said(x), of(lambda y: pred(x, y, self._bind(said))))
 
-    def _modifying(self, terminal: str, token: Phrase, said: Property) -> Property:
-        """What is so, and so in a certain way: a skilful vet is a vet."""
+    def _modification(self, terminal: str, token: Phrase, said: Property) -> Property:
+        """Being P, and P in a certain way: a skilful vet is a vet."""
         way = self._operator(terminal, token, said)
-        return way if said is _anything else _both(said, way)
+        return way if said is _anything else _conjunction(said, way)
 
     def _operator(self, terminal: str, token: Phrase, said: Property) -> Property:
         pred = self._words.meaning(terminal, token.word)
@@ -330,28 +335,28 @@ class _Composer:
         return self._words.meaning("TV", token.word)
 
 
-def _both(*said: Property) -> Property:
+def _conjunction(*said: Property) -> Property:
     if len(said) == 1:
         return said[0]
     return lambda x: all_of(*[one(x) for one in said])
 
 
-def _denied(said: Property) -> Property:
+def _negation(said: Property) -> Property:
     return lambda x: absent(said(x))
 
 
 def _anything(x: str) -> TypeNode:
-    """What is true of everything."""
+    """The property of everything."""
     return Singleton(Ind, x)
 
 
-def _only(tree: Phrase) -> Phrase:
+def _only_part(tree: Phrase) -> Phrase:
     (inner,) = tree.parts
     return inner
 
 
-def _indefinite_below(np: Phrase) -> tuple[Phrase, Phrase] | None:
-    """Of "every farmer who owns a donkey": the verb, and the indefinite."""
+def _verb_and_indefinite(np: Phrase) -> tuple[Phrase, Phrase] | None:
+    """The verb and the indefinite in: every farmer who *owns a donkey*."""
     if np.kind != "quantified":
         return None
     for part in np.parts[-1].parts[1:]:
@@ -369,5 +374,5 @@ def _has_object_pronoun(vp: Phrase) -> bool:
     return "it" in pronouns
 
 
-def _outside(tree: Phrase) -> OutsideFragment:
+def _without_meaning(tree: Phrase) -> OutsideFragment:
     return OutsideFragment(f"the fragment gives no meaning to {tree.kind}")

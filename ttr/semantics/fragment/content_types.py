@@ -1,4 +1,4 @@
-"""Types of what is said of things: conjunction, quantification, sameness."""
+"""Types that contents are made of: abstraction, conjunction, equality."""
 
 from __future__ import annotations
 
@@ -19,20 +19,28 @@ from ttr.types.syntax import (
     TypeNode,
 )
 
-__all__ = ["Property", "Variables", "all_of", "closed", "conjuncts", "placed", "same"]
+__all__ = [
+    "Property",
+    "Variables",
+    "abstract_over",
+    "all_of",
+    "conjuncts",
+    "equality",
+    "replace_name",
+]
 
 Property: TypeAlias = Callable[[str], TypeNode]
-"""What is said of a thing, given its name."""
+"""A function from the name of a thing to what is said of it."""
 
 
 class Variables:
-    """Names for variables while a type is built, none of them the name of an object."""
+    """Fresh names for variables, for as long as a type is being built."""
 
     def __init__(self) -> None:
         self._numbers: Iterator[int] = count(1)
 
     def bind(self, said: Property) -> Function:
-        """The function from a thing to what is said of it.
+        """The function λx:Ind. said(x).
 
         >>> from ttr.types.syntax import Pred
         >>> hug = Pred("hug", Ind, Ind)
@@ -40,20 +48,20 @@ class Variables:
         \\x:Ind. hug(x, sam)
         """
         name = self.fresh()
-        return closed(said(name), name)
+        return abstract_over(said(name), name)
 
     def fresh(self) -> str:
-        """A name that stands for nothing else."""
+        """A name that no object and no other variable has."""
         return f"·{next(self._numbers)}"
 
 
-def closed(said: TypeNode, name: str) -> Function:
-    """The function λx:Ind. of a type, with the variable where the name stands."""
-    return Function(Ind, placed(said, name, BOUND), "x")
+def abstract_over(said: TypeNode, name: str) -> Function:
+    """The function λx:Ind. said[x/name]: a variable in place of the name."""
+    return Function(Ind, replace_name(said, name, BOUND), "x")
 
 
-def placed(said: TypeNode, name: str, *labels: str) -> Object:
-    """The type, one scope further in, with a path where the name stands."""
+def replace_name(said: TypeNode, name: str, *labels: str) -> Object:
+    """The type one scope further in, with the path of these labels for the name."""
 
     def at(value: Object, depth: int) -> Object:
         if isinstance(value, str):
@@ -64,7 +72,7 @@ def placed(said: TypeNode, name: str, *labels: str) -> Object:
 
 
 def all_of(*parts: TypeNode) -> TypeNode:
-    """The type of records with a situation of each of the types; of one, itself.
+    """The record type [c1 : T₁, c2 : T₂, …] of several types; of one type, itself.
 
     >>> from ttr.types.syntax import Pred
     >>> dog, bark = Pred("dog", Ind), Pred("bark", Ind)
@@ -78,7 +86,7 @@ def all_of(*parts: TypeNode) -> TypeNode:
 
 
 def conjuncts(T: TypeNode) -> tuple[TypeNode, ...]:
-    """The types that a type of `all_of` puts together; of any other, itself."""
+    """The types that `all_of` has put together; any other type is its only conjunct."""
     if isinstance(T, RecordType) and T.labels == tuple(
         f"c{i}" for i in range(1, len(T.labels) + 1)
     ):
@@ -86,6 +94,6 @@ def conjuncts(T: TypeNode) -> tuple[TypeNode, ...]:
     return (T,)
 
 
-def same(a: str, b: str) -> TypeNode:
-    """The type that is true iff a is b: b, as one of the things that are a."""
+def equality(a: str, b: str) -> TypeNode:
+    """A type that is true iff a is b: that of the things which are a and are b."""
     return Singleton(Singleton(Ind, a), b)

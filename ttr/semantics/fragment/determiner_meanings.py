@@ -1,4 +1,4 @@
-"""Determiners: what every, most, both or at least three say of two properties."""
+"""Meanings of determiners: quantifiers for every, most, both, at least three."""
 
 from __future__ import annotations
 
@@ -20,36 +20,36 @@ from ttr.semantics.quantifiers import (
 )
 from ttr.types.syntax import Function, TypeNode
 
-__all__ = ["determined"]
+__all__ = ["apply_determiner"]
 
-PLAIN: dict[str, Determiner] = {
+_PLAIN: dict[str, Determiner] = {
     one.name: one for one in (every, not_every, exist, no, most, many, few, several)
 }
 
-PRESUPPOSING: dict[str, tuple[Determiner, Determiner]] = {
+_PRESUPPOSING: dict[str, tuple[Determiner, Determiner]] = {
     "the": (exist, every),
     "both": (exactly(2), every),
     "neither": (exactly(2), no),
 }
-"""How many there are, and how many of them are so."""
+"""What they presuppose of how many there are, and what they say of these."""
 
-NUMERALS: tuple[str, ...] = (
+_NUMERALS: tuple[str, ...] = (
     *("zero", "one", "two", "three", "four", "five", "six"),
     *("seven", "eight", "nine", "ten", "eleven", "twelve"),
 )
 
 
-def determined(det: Phrase, P: Function, Q: Function) -> TypeNode:
-    """The type that a determiner makes of two properties."""
-    if det.kind in PRESUPPOSING:
-        there_are, so_many = PRESUPPOSING[det.kind]
+def apply_determiner(det: Phrase, P: Function, Q: Function) -> TypeNode:
+    """The type det(P, Q) for a determiner phrase and two properties."""
+    if det.kind in _PRESUPPOSING:
+        there_are, so_many = _PRESUPPOSING[det.kind]
         return all_of(there_are(P, P), so_many(P, Q))
-    if det.kind in PLAIN:
-        return PLAIN[det.kind](P, Q)
-    return _counted(det.kind, _number(det))(P, Q)
+    if det.kind in _PLAIN:
+        return _PLAIN[det.kind](P, Q)
+    return _numeral_determiner(det.kind, _number(det))(P, Q)
 
 
-def _counted(kind: str, n: int) -> Determiner:
+def _numeral_determiner(kind: str, n: int) -> Determiner:
     match kind:
         case "at_most":
             return at_most(n)
@@ -63,6 +63,6 @@ def _counted(kind: str, n: int) -> Determiner:
 
 
 def _number(det: Phrase) -> int:
-    """The number that a determiner ends with, which is 1 or more."""
+    """The number at the end of a determiner phrase: a numeral or digits."""
     word = det.parts[-1].parts[0].word.lower()
-    return int(word) if word.isdecimal() else NUMERALS.index(word)
+    return int(word) if word.isdecimal() else _NUMERALS.index(word)

@@ -1,7 +1,8 @@
-"""Contents as formulas: what is said of things, and how many of them there are.
+"""Contents as formulas: Boolean combinations of what things are, and how many.
 
-A property becomes a Boolean combination of simple properties (`Says`, `Is`), a sentence
-a Boolean combination of counts (`Counted`) and of what is not looked into (`Stated`).
+A property becomes a Boolean combination of simple properties (`OpaqueProperty`, `Is`).
+A sentence becomes a Boolean combination of counts (`Count`) and of sentences that are
+not analysed (`OpaqueSentence`).
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TypeAlias, TypeGuard
 
-from ttr.semantics.fragment.content_types import closed
+from ttr.semantics.fragment.content_types import abstract_over
 from ttr.semantics.quantifiers import Thresholds, absent, determiner_of, number
 from ttr.semantics.quantifiers.determiners import demands, properties
 from ttr.semantics.quantifiers.thresholds import Threshold
@@ -29,43 +30,43 @@ from ttr.types.syntax import (
 
 __all__ = [
     "AT_ALL",
-    "Alike",
-    "Counted",
+    "AllOrNone",
+    "Count",
     "Formula",
     "Is",
     "Leaf",
-    "Neither",
-    "Parts",
-    "Says",
-    "Some",
-    "Stated",
-    "applied",
-    "claim",
+    "Negated",
+    "Conjunction",
+    "OpaqueProperty",
+    "Disjunction",
+    "OpaqueSentence",
+    "apply_property",
+    "content_formula",
     "leaves",
-    "said",
+    "property_formula",
 ]
 
-VARIABLE = "·thing"
-"""The thing that a property is said of, while it is taken apart."""
+_VARIABLE = "·thing"
+"""The name of the thing that a property is said of while it is analysed."""
 
 
 @dataclass(frozen=True)
-class Says:
-    """A property that is not taken apart: what a function says of a thing."""
+class OpaqueProperty:
+    """A property that is not analysed: what a function says of a thing."""
 
     function: Function
 
 
 @dataclass(frozen=True)
 class Is:
-    """To be what a name names."""
+    """The property of being the thing with a name."""
 
     name: str
 
 
 @dataclass(frozen=True)
-class Counted:
-    """Of what is P, so much is Q."""
+class Count:
+    """So many, or such a share, of the things that are P are Q."""
 
     P: Formula
     Q: Formula
@@ -73,53 +74,53 @@ class Counted:
 
 
 @dataclass(frozen=True)
-class Stated:
-    """A sentence that is not taken apart."""
+class OpaqueSentence:
+    """A sentence that is not analysed."""
 
     type: TypeNode
 
 
 @dataclass(frozen=True)
-class Parts:
-    """All of these."""
+class Conjunction:
+    """All of these are so."""
 
     parts: tuple[Formula, ...]
 
 
 @dataclass(frozen=True)
-class Some:
-    """At least one of these."""
+class Disjunction:
+    """At least one of these is so."""
 
     parts: tuple[Formula, ...]
 
 
 @dataclass(frozen=True)
-class Alike:
-    """All of these, which say the same of different things; so not this is none."""
+class AllOrNone:
+    """All of these hold, or none: they say the same about different arguments."""
 
     parts: tuple[Formula, ...]
 
 
 @dataclass(frozen=True)
-class Neither:
-    """Not this."""
+class Negated:
+    """This is not so."""
 
     part: Formula
 
 
-Leaf: TypeAlias = Says | Is | Counted | Stated
-Formula: TypeAlias = Leaf | Parts | Some | Alike | Neither
+Leaf: TypeAlias = OpaqueProperty | Is | Count | OpaqueSentence
+Formula: TypeAlias = Leaf | Conjunction | Disjunction | AllOrNone | Negated
 
-EVERYTHING = Parts(())
+_EVERYTHING = Conjunction(())
 
 
 def leaves(formula: Formula) -> Iterator[Leaf]:
     """The leaves of a formula, from left to right."""
     match formula:
-        case Parts(parts) | Some(parts) | Alike(parts):
+        case Conjunction(parts) | Disjunction(parts) | AllOrNone(parts):
             for part in parts:
                 yield from leaves(part)
-        case Neither(part):
+        case Negated(part):
             yield from leaves(part)
         case _:
             yield formula
@@ -128,50 +129,50 @@ def leaves(formula: Formula) -> Iterator[Leaf]:
 # --- of things -----------------------------------------------------------------------
 
 
-def said(P: Function | TypeNode) -> Formula:
-    """What a property says of a thing, as a formula."""
+def property_formula(P: Function | TypeNode) -> Formula:
+    """A property as a formula about a thing."""
     if isinstance(P, Function):
-        return _of_thing(applied(P, VARIABLE))
+        return _of_thing(apply_property(P, _VARIABLE))
     return _of_type(P)
 
 
-def applied(P: Function, thing: str) -> TypeNode:
-    """What a property says of a thing with a name."""
+def apply_property(P: Function, thing: str) -> TypeNode:
+    """The type that a property gives of the thing with this name."""
     body = grounded(P.body, ({BOUND: thing},))
     return body if isinstance(body, TypeNode) else Singleton(P.domain, thing)
 
 
 def _of_type(P: TypeNode) -> Formula:
-    """To be of a type: one of some named things, or what is not taken apart."""
+    """Being of a type, as a formula: a join of named things is analysed, no other."""
     match P:
         case Join(parts):
-            return Some(tuple(map(_of_type, parts)))
+            return Disjunction(tuple(map(_of_type, parts)))
         case Singleton(_, str(name)):
             return Is(name)
-    return Says(Function(P, P, "x"))
+    return OpaqueProperty(Function(P, P, "x"))
 
 
 def _of_thing(T: TypeNode) -> Formula:
     match T:
         case PType(pred, (TypeNode() as denied,)) if pred is absent:
-            return Neither(_of_thing(denied))
+            return Negated(_of_thing(denied))
         case Join(parts):
-            return Some(tuple(map(_of_thing, parts)))
+            return Disjunction(tuple(map(_of_thing, parts)))
         case RecordType(fields) if _is_conjunction(T):
-            return Parts(tuple([_of_thing(field) for _, field in fields]))
-        case Singleton(Singleton(_, a), b) if VARIABLE in (a, b):
-            return Parts(tuple([Is(it) for it in (a, b) if _is_name(it)]))
-        case Singleton(_, a) if a == VARIABLE:
-            return EVERYTHING
-    return Says(closed(T, VARIABLE))
+            return Conjunction(tuple([_of_thing(field) for _, field in fields]))
+        case Singleton(Singleton(_, a), b) if _VARIABLE in (a, b):
+            return Conjunction(tuple([Is(it) for it in (a, b) if _is_name(it)]))
+        case Singleton(_, a) if a == _VARIABLE:
+            return _EVERYTHING
+    return OpaqueProperty(abstract_over(T, _VARIABLE))
 
 
 def _is_name(value: Object) -> TypeGuard[str]:
-    return isinstance(value, str) and value != VARIABLE
+    return isinstance(value, str) and value != _VARIABLE
 
 
 def _is_conjunction(T: RecordType) -> bool:
-    """Whether no field depends on another, nor is an object."""
+    """Is no field dependent on another, and none manifest?"""
     paths = {path.labels[0] for _, field in T.fields for path in escaping(field)}
     plain = all(not isinstance(field, Singleton) for _, field in T.fields)
     return plain and paths.isdisjoint(T.labels)
@@ -180,36 +181,38 @@ def _is_conjunction(T: RecordType) -> bool:
 # --- of the world --------------------------------------------------------------------
 
 
-def claim(
+def content_formula(
     T: TypeNode, thresholds: Thresholds, held: frozenset[str] = frozenset()
 ) -> Formula:
-    """What a content claims, as a formula; the things in `held` are not spoken of.
+    """The content of a sentence as a formula.
 
-    What can only be said of these is `Stated`.
+    Names in `held` are not counted as things; a sentence about these alone is opaque.
     """
     if isinstance(T, PType) and determiner_of(T) is not None:
-        P, Q = map(said, properties(T))
+        P, Q = map(property_formula, properties(T))
         asked = demands(T, thresholds)
-        some = [Counted(P, P, AT_ALL)] if any(one.presupposes for one in asked) else []
-        return Parts((*[Counted(P, Q, one) for one in asked], *some))
+        some = [Count(P, P, AT_ALL)] if any(one.presupposes for one in asked) else []
+        return Conjunction((*[Count(P, Q, one) for one in asked], *some))
     match T:
         case PType(pred, (TypeNode() as denied,)) if pred is absent:
-            return Neither(claim(denied, thresholds, held))
+            return Negated(content_formula(denied, thresholds, held))
         case Join(parts):
-            return Some(tuple([claim(part, thresholds, held) for part in parts]))
+            inside = [content_formula(part, thresholds, held) for part in parts]
+            return Disjunction(tuple(inside))
         case RecordType(fields) if _is_conjunction(T):
-            return Parts(tuple([claim(it, thresholds, held) for _, it in fields]))
+            inside = [content_formula(part, thresholds, held) for _, part in fields]
+            return Conjunction(tuple(inside))
         case Singleton(Singleton(_, str(a)), str(b)):
-            return Counted(Is(a), Is(b), AT_ALL)
+            return Count(Is(a), Is(b), AT_ALL)
         case PType(_, args):
             names = [it for it in args if isinstance(it, str) and it not in held]
             if names:
-                return Alike(tuple([_of_named(T, name) for name in names]))
-    return Stated(T)
+                return AllOrNone(tuple([_of_named(T, name) for name in names]))
+    return OpaqueSentence(T)
 
 
 def _of_named(T: TypeNode, name: str) -> Formula:
-    return Counted(Is(name), Says(closed(T, name)), AT_ALL)
+    return Count(Is(name), OpaqueProperty(abstract_over(T, name)), AT_ALL)
 
 
 AT_ALL = number("at least", 1)

@@ -1,7 +1,7 @@
-"""The FraCaS problems on quantifiers, answered: right, wrong, or outside the fragment.
+"""The FraCaS problems on quantifiers: read them, answer them, compare the answers.
 
-The problem set is not part of this distribution; who has it as an XML file, in Bill
-MacCartney's format, can run its section 1, problems 1 to 80.
+The problem set is not part of this distribution. If you have it as an XML file in Bill
+MacCartney's format, you can run its section 1, problems 1 to 80.
 Source: Cooper et al. 1996, Using the Framework.
 """
 
@@ -37,21 +37,21 @@ LAST = 80
 """The last problem of section 1."""
 
 DIGITS = 9
-"""How many digits the number of a problem may have."""
+"""The most digits that the number of a problem may have."""
 
 ANSWERS = ("yes", "no", "unknown")
 
 Outcome: TypeAlias = Literal["right", "wrong", "outside", "open"]
-"""What came of a problem; open if the set gives no plain answer to compare with."""
+"""How a problem came out; open if the set has no plain answer to compare with."""
 
 
 class Unreadable(TTRError):
-    """A file that is no FraCaS problem set."""
+    """A file that is not a FraCaS problem set."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """Premises and a hypothesis, with the answer that the problem set gives."""
+    """Premises and a hypothesis, with the answer of the problem set."""
 
     number: int
     premises: tuple[str, ...]
@@ -61,7 +61,7 @@ class Problem:
 
 @dataclass(frozen=True)
 class Answered:
-    """A problem, what came of it, the answer that was found, and why."""
+    """A problem, how it came out, the answer that was found, and why."""
 
     problem: Problem
     outcome: Outcome
@@ -70,21 +70,21 @@ class Answered:
 
 
 def problems(path: str | os.PathLike[str]) -> tuple[Problem, ...]:
-    """The problems of section 1 in a file, in their order; raises `Unreadable`."""
-    root = _parsed(path)
+    """Read the problems of section 1 of a file, in order; raises `Unreadable`."""
+    root = _parse_xml(path)
     if root.tag != "fracas-problems":
         raise Unreadable(
             f"{path} is no FraCaS problem set: expected <fracas-problems>, "
             f"found <{root.tag}>"
         )
-    found = [_problem(path, it) for it in root.iter("problem")]
+    found = [_read_problem(path, it) for it in root.iter("problem")]
     section = tuple(it for it in found if 1 <= it.number <= LAST)
     if not section:
         raise Unreadable(f"{path} has none of the problems 1 to {LAST}")
     return section
 
 
-def _parsed(path: str | os.PathLike[str]) -> ET.Element:
+def _parse_xml(path: str | os.PathLike[str]) -> ET.Element:
     try:
         data = read_bytes(path, PROBLEMS)
     except OSError as error:
@@ -97,7 +97,7 @@ def _parsed(path: str | os.PathLike[str]) -> ET.Element:
 
 
 def _refuse_entities(path: str | os.PathLike[str], data: bytes) -> None:
-    """Raises `Unreadable` where entities are declared: they grow, or read files."""
+    """Raise `Unreadable` where entities are declared: they can grow, or read files."""
 
     def refuse(name: str, *_: object) -> NoReturn:
         raise Unreadable(f"{path} declares the entity {name}, which is not allowed")
@@ -107,7 +107,7 @@ def _refuse_entities(path: str | os.PathLike[str], data: bytes) -> None:
     parser.Parse(data, True)
 
 
-def _problem(path: str | os.PathLike[str], it: ET.Element) -> Problem:
+def _read_problem(path: str | os.PathLike[str], it: ET.Element) -> Problem:
     name = it.get("id", "")
     if not name.isdecimal() or len(name) > DIGITS:
         raise Unreadable(f"{path} has a problem whose id is no number: {name!r}")
@@ -124,12 +124,12 @@ def _text(element: ET.Element | None) -> str:
 def answered(
     some: tuple[Problem, ...], words: Lexicon, thresholds: Thresholds | None = None
 ) -> Iterator[Answered]:
-    """The problems with what came of each, one after the other."""
+    """Answer the problems one after the other."""
     for problem in some:
-        yield _answered(problem, words, thresholds)
+        yield _answer_problem(problem, words, thresholds)
 
 
-def _answered(
+def _answer_problem(
     problem: Problem, words: Lexicon, thresholds: Thresholds | None
 ) -> Answered:
     if not problem.hypothesis:

@@ -1,10 +1,10 @@
-"""Does a sentence follow from others? Yes, no, or unknown; and never wrongly yes or no.
+"""Does a sentence follow from others? Yes, no, or unknown; never wrongly yes or no.
 
-Sentences say how many things there are in the regions that their properties divide the
-world into. The hypothesis follows if no numbers of things make the premises true and
-the hypothesis not; it is refuted if none make it true with them. What cannot be taken
-apart, as "wants to sing", is a region of its own, so nothing is proved that does not
-hold; but what depends on more than the regions may stay unknown.
+Properties divide the world into regions, as circles do in a Venn diagram, and sentences
+say how many things are in which regions. The hypothesis follows if no numbers make the
+premises true and the hypothesis false; it is refuted if none make all of them true. A
+property that cannot be analysed, as "wants to sing", is a circle of its own: so nothing
+is proved that does not hold, but what depends on its parts stays unknown.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from typing import Literal, TypeAlias
 from ttr.errors import Unsupported
 from ttr.safety.budgets import within_budget
 from ttr.semantics.argument_checks import as_tuple
-from ttr.semantics.fragment.formulas import Formula, Neither, claim
+from ttr.semantics.fragment.formulas import Formula, Negated, content_formula
 from ttr.semantics.fragment.integer_feasibility import UndecidedError
 from ttr.semantics.fragment.lexicon import Lexicon, lexicon_of
 from ttr.semantics.fragment.sentences import Sentence, understand
-from ttr.semantics.fragment.venn_regions import Regions, World
+from ttr.semantics.fragment.venn_regions import World, WorldFinder
 from ttr.semantics.quantifiers.thresholds import Thresholds, thresholds_of
 
 __all__ = ["Inference", "Verdict", "follows"]
@@ -30,7 +30,7 @@ Verdict: TypeAlias = Literal["yes", "no", "unknown"]
 
 @dataclass(frozen=True)
 class Inference:
-    """An answer, with what it rests on: for unknown, a world each way."""
+    """An answer and the reason; where it is unknown, that is a world each way."""
 
     verdict: Verdict
     why: str
@@ -46,7 +46,7 @@ def follows(
     words: Lexicon | None = None,
     thresholds: Thresholds | None = None,
 ) -> Inference:
-    """Whether a sentence follows from others, for an agent with these thresholds.
+    """Does a sentence follow from others, for an agent with these thresholds?
 
     Raises `OutsideFragment` for a sentence that cannot be read.
 
@@ -59,30 +59,31 @@ def follows(
     """
     premises = as_tuple(premises, "sentences as premises")
     chosen, agent = lexicon_of(words), thresholds_of(thresholds)
-    given = [_claim(one, chosen, agent) for one in premises]
-    wanted = _claim(hypothesis, chosen, agent)
+    given = [_formula_of(one, chosen, agent) for one in premises]
+    wanted = _formula_of(hypothesis, chosen, agent)
     try:
-        return _answer(given, wanted, Regions(chosen, agent))
+        return _answer(given, wanted, WorldFinder(chosen, agent))
     except (UndecidedError, Unsupported) as error:
         return Inference("unknown", str(error) or "it takes too many steps")
 
 
-def _claim(one: str | Sentence, words: Lexicon, thresholds: Thresholds) -> Formula:
+def _formula_of(one: str | Sentence, words: Lexicon, thresholds: Thresholds) -> Formula:
     sentence = one if isinstance(one, Sentence) else understand(one, words)
-    return claim(sentence.content, thresholds)
+    return content_formula(sentence.content, thresholds)
 
 
-def _answer(given: list[Formula], wanted: Formula, regions: Regions) -> Inference:
-    so = regions.world([*given, wanted])
-    not_so = regions.world([*given, Neither(wanted)])
+def _answer(given: list[Formula], wanted: Formula, worlds: WorldFinder) -> Inference:
+    so = worlds.find_world([*given, wanted])
+    not_so = worlds.find_world([*given, Negated(wanted)])
     if so is None and not_so is None:
         return Inference("unknown", "the premises contradict each other")
     if not_so is None:
         return Inference("yes", "nothing makes the premises true and it false")
     if so is None:
         return Inference("no", "nothing makes the premises true and it too")
-    return Inference("unknown", f"true with {_shown(so)}, false with {_shown(not_so)}")
+    why = f"true with {_in_words(so)}, false with {_in_words(not_so)}"
+    return Inference("unknown", why)
 
 
-def _shown(world: World) -> str:
+def _in_words(world: World) -> str:
     return str(world) or "nothing there"

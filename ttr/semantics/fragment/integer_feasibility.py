@@ -36,7 +36,7 @@ def integer_solution(demands: Sequence[Demand], size: int) -> tuple[int, ...] | 
     >>> integer_solution([((2, -2), 1), ((-2, 2), -1)], 2) is None
     True
     """
-    waiting: list[list[Demand]] = [[_tightened(one) for one in demands]]
+    waiting: list[list[Demand]] = [[_tighten(one) for one in demands]]
     for _ in range(NODES):
         if not waiting:
             return None
@@ -54,7 +54,7 @@ def integer_solution(demands: Sequence[Demand], size: int) -> tuple[int, ...] | 
     raise UndecidedError
 
 
-def _tightened(demand: Demand) -> Demand:
+def _tighten(demand: Demand) -> Demand:
     """The same demand on integers, divided: 2x - 2y ≥ 1 is x - y ≥ 1."""
     weights, bound = demand
     by = gcd(*weights)

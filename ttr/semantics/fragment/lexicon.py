@@ -13,25 +13,25 @@ from ttr.errors import TTRError, suggestion
 from ttr.theories.theory import Theory, load
 from ttr.types.syntax import Ind, Pred, Type, TypeNode
 
-__all__ = ["Lexicon", "Word", "english", "lexicon", "lexicon_of"]
+__all__ = ["LexicalEntry", "Lexicon", "english", "lexicon", "lexicon_of"]
 
-UNARY: tuple[TypeNode, ...] = (Ind,)
-BINARY: tuple[TypeNode, ...] = (Ind, Ind)
-OF_PROPERTY: tuple[TypeNode, ...] = (Ind, Ind >> Type)
+_UNARY: tuple[TypeNode, ...] = (Ind,)
+_BINARY: tuple[TypeNode, ...] = (Ind, Ind)
+_OF_PROPERTY: tuple[TypeNode, ...] = (Ind, Ind >> Type)
 
-CLASSES: dict[str, tuple[str, tuple[TypeNode, ...] | None]] = {
-    "nouns": ("NOUN", UNARY),
+_CLASSES: dict[str, tuple[str, tuple[TypeNode, ...] | None]] = {
+    "nouns": ("NOUN", _UNARY),
     "names": ("NAME", None),
-    "intersectives": ("ADJ", UNARY),
-    "subsectives": ("MODADJ", OF_PROPERTY),
-    "privatives": ("NEGADJ", OF_PROPERTY),
-    "intensifiers": ("INTENSIFIER", OF_PROPERTY),
-    "intransitives": ("IV", UNARY),
-    "transitives": ("TV", BINARY),
-    "adverbs": ("ADVERB", OF_PROPERTY),
-    "modals": ("MODAL", OF_PROPERTY),
-    "attitudes": ("ATTITUDE", OF_PROPERTY),
-    "prepositions": ("PREP", BINARY),
+    "intersectives": ("ADJ", _UNARY),
+    "subsectives": ("MODADJ", _OF_PROPERTY),
+    "privatives": ("NEGADJ", _OF_PROPERTY),
+    "intensifiers": ("INTENSIFIER", _OF_PROPERTY),
+    "intransitives": ("IV", _UNARY),
+    "transitives": ("TV", _BINARY),
+    "adverbs": ("ADVERB", _OF_PROPERTY),
+    "modals": ("MODAL", _OF_PROPERTY),
+    "attitudes": ("ATTITUDE", _OF_PROPERTY),
+    "prepositions": ("PREP", _BINARY),
 }
 """The lists of a lexicon, each with its terminal and the arity of its predicates."""
 
@@ -40,7 +40,7 @@ _VERBS = {"intransitives", "transitives"}
 
 
 @dataclass(frozen=True)
-class Word:
+class LexicalEntry:
     """A word: its class, its forms, and the predicate (or the object) it stands for."""
 
     terminal: str
@@ -50,13 +50,13 @@ class Word:
 
 @dataclass(frozen=True, eq=False)
 class Lexicon:
-    """The words by class, and the theories that say what they mean."""
+    """Words by class, and the theories that say what they mean."""
 
-    words: Mapping[str, Mapping[str, Word]]
+    words: Mapping[str, Mapping[str, LexicalEntry]]
     theories: tuple[Theory, ...]
 
-    def word(self, terminal: str, form: str) -> Word:
-        """The word of a class that has a form, however it is spaced or capitalised.
+    def word(self, terminal: str, form: str) -> LexicalEntry:
+        """The word of a class with this form, however that is spaced or capitalised.
 
         Raises `TTRError` for a class or a form that the lexicon does not have.
         """
@@ -66,7 +66,7 @@ class Lexicon:
                 f"no class of words is called {terminal!r}",
                 hint=f"they are {', '.join(self.words)}",
             )
-        plain = _plain(form)
+        plain = _normalise_form(form)
         if plain not in known:
             raise TTRError(
                 f"no {terminal} of the lexicon has the form {form!r}",
@@ -83,13 +83,13 @@ class Lexicon:
 
     @property
     def forms(self) -> Iterator[str]:
-        """Every form of every word."""
+        """Each form of each word."""
         for words in self.words.values():
             yield from words
 
     @property
     def theory(self) -> Theory:
-        """The theory to make models of: all that the theories say of their types."""
+        """The theory to make models of: all that its theories say of their types."""
         if len(self.theories) == 1:
             return self.theories[0]
         return Theory(
@@ -116,16 +116,16 @@ class Lexicon:
 @cache
 def english() -> Lexicon:
     """The lexicon that comes with the fragment, `grammars/fragment.en.ttr`."""
-    return lexicon(_shipped())
+    return lexicon(_read_shipped_theory())
 
 
-def _shipped() -> Theory:
+def _read_shipped_theory() -> Theory:
     text = files("ttr.grammars").joinpath("fragment.en.ttr").read_text("utf-8")
     return Theory.parse(text, "fragment.en.ttr")
 
 
 def lexicon_of(words: object) -> Lexicon:
-    """The lexicon that was given, or the one that comes with the fragment for None."""
+    """The lexicon that was given; for None the one that comes with the fragment."""
     if words is None:
         return english()
     if isinstance(words, Lexicon):
@@ -152,18 +152,20 @@ def lexicon(*theories: Theory) -> Lexicon:
     for theory in theories:
         if not isinstance(theory, Theory):
             raise TTRError(f"a lexicon is made of theories, found {theory!r}")
-    words: dict[str, dict[str, Word]] = {one: {} for one, _ in CLASSES.values()}
+    words: dict[str, dict[str, LexicalEntry]] = {
+        one: {} for one, _ in _CLASSES.values()
+    }
     for theory in theories:
-        for name, (terminal, arity) in CLASSES.items():
+        for name, (terminal, arity) in _CLASSES.items():
             for entry in _entries(theory, name):
                 word = _word(theories, theory.source, name, terminal, arity, entry)
                 for form in word.forms:
-                    words[terminal].setdefault(_plain(form), word)
+                    words[terminal].setdefault(_normalise_form(form), word)
     return Lexicon(words, theories)
 
 
 def _entries(theory: Theory, name: str) -> Iterator[tuple[str, ...]]:
-    """The words of a list, each as its forms."""
+    """The words of a list of the theory, each as a tuple of its forms."""
     found = theory.definitions.get(name, ())
     for entry in found if isinstance(found, tuple) else (found,):
         forms = entry if isinstance(entry, tuple) else (entry,)
@@ -182,11 +184,11 @@ def _word(
     terminal: str,
     arity: tuple[TypeNode, ...] | None,
     forms: tuple[str, ...],
-) -> Word:
+) -> LexicalEntry:
     base = re.sub(r"\W+", "_", forms[0].strip().lower())
     if arity is None:
         if any(base in theory.objects for theory in theories):
-            return Word(terminal, forms, base)
+            return LexicalEntry(terminal, forms, base)
         raise TTRError(
             f"{source}: names has {forms[0]}, but no object {base} is declared",
             hint=f"write: object {base} : Ind",
@@ -199,15 +201,15 @@ def _word(
             f"{source}: {name} has {forms[0]}, but no predicate {wanted} is declared",
             hint=suggestion(base, known) if pred is None else "",
         )
-    return Word(terminal, (*forms, *_inflected(name, forms[0])), pred)
+    return LexicalEntry(terminal, (*forms, *_regular_forms(name, forms[0])), pred)
 
 
 def _predicate(theories: Iterable[Theory], name: str) -> Pred | None:
     return next((it.predicates[name] for it in theories if name in it.predicates), None)
 
 
-def _inflected(name: str, base: str) -> tuple[str, ...]:
-    """The regular forms: of a noun its plural, of a verb third person and past."""
+def _regular_forms(name: str, base: str) -> tuple[str, ...]:
+    """The regular forms: the plural of a noun, third person and past of a verb."""
     if name in _PLURAL:
         return (_with_s(base),)
     if name not in _VERBS:
@@ -225,5 +227,5 @@ def _with_s(word: str) -> str:
     return f"{word}es" if re.search(r"(s|x|z|ch|sh)$", word) else f"{word}s"
 
 
-def _plain(form: str) -> str:
+def _normalise_form(form: str) -> str:
     return " ".join(form.replace("’", "'").lower().split())

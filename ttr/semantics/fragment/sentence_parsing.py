@@ -1,4 +1,4 @@
-"""From a sentence to its tree: the grammar, with the words of a lexicon."""
+"""From a sentence to its tree, by the grammar with the words of a lexicon."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from ttr.semantics.fragment.lexicon import Lexicon
 if TYPE_CHECKING:
     from lark import Lark, Token, Tree
 
-__all__ = ["LONGEST", "OutsideFragment", "Phrase", "read"]
+__all__ = ["LONGEST", "OutsideFragment", "Phrase", "parse_sentence"]
 
 LONGEST = 300
-"""How many characters a sentence may have."""
+"""The most characters that a sentence may have."""
 
 
 @dataclass(frozen=True)
 class Phrase:
-    """A phrase with its parts, by a rule of the grammar; or a word of a terminal."""
+    """A node of the tree: a phrase by a rule of the grammar, or a word."""
 
     kind: str
     parts: tuple[Phrase, ...] = ()
     word: str = ""
 
     def below(self, kind: str) -> Iterator[Phrase]:
-        """The phrases of a kind in this one, itself too, from left to right."""
+        """The phrases of a kind in this one, itself included, from left to right."""
         if self.kind == kind:
             yield self
         for part in self.parts:
@@ -41,10 +41,10 @@ class OutsideFragment(TTRError):
     """A sentence with a word or a construction that the fragment does not have."""
 
 
-def read(text: str, words: Lexicon) -> Phrase:
-    """The sentence that a text is, as a phrase.
+def parse_sentence(text: str, words: Lexicon) -> Phrase:
+    """The tree of the sentence that a text is.
 
-    Raises `OutsideFragment`, which says what is outside.
+    Raises `OutsideFragment`, which names the word or construction that is not known.
     """
     from lark.exceptions import UnexpectedInput
 
@@ -60,7 +60,7 @@ def read(text: str, words: Lexicon) -> Phrase:
     try:
         return _phrase(grammar.parse(plain))
     except UnexpectedInput as error:
-        raise OutsideFragment(_misread(plain, error.pos_in_stream)) from None
+        raise OutsideFragment(_describe_failure(plain, error.pos_in_stream)) from None
 
 
 def _phrase(found: Tree[Token] | Token) -> Phrase:
@@ -71,22 +71,23 @@ def _phrase(found: Tree[Token] | Token) -> Phrase:
 
 @lru_cache(maxsize=8)
 def _grammar(words: Lexicon) -> Lark:
-    """The grammar with the words of each class as a terminal."""
+    """The grammar with a terminal for each class of words."""
     from lark import Lark
 
     rules = files("ttr.grammars").joinpath("fragment.en.lark").read_text("utf-8")
     terminals = [
-        f"{terminal}: /({'|'.join(_longest_first(forms)) or NEVER})(?!\\w)/i"
+        f"{terminal}: /({'|'.join(_patterns(forms)) or _NEVER})(?!\\w)/i"
         for terminal, forms in words.words.items()
     ]
     return Lark("\n".join([rules, *terminals]), parser="earley")
 
 
-NEVER = "(?!)"
-"""A pattern that nothing matches, for a class without words."""
+_NEVER = "(?!)"
+"""A pattern that matches nothing, for a class without words."""
 
 
-def _longest_first(forms: Iterable[str]) -> list[str]:
+def _patterns(forms: Iterable[str]) -> list[str]:
+    """Patterns for the forms of words, the longest form first."""
     found = sorted(forms, key=lambda form: (-len(form), form))
     return [_pattern(form) for form in found]
 
@@ -95,7 +96,7 @@ def _pattern(form: str) -> str:
     return r"\s+".join(re.escape(word).replace("/", r"\/") for word in form.split())
 
 
-_SMALL = frozenset(
+_FUNCTION_WORDS = frozenset(
     re.findall(
         r"\w+",
         """a all an and any are at be both case did do does each every everyone exactly
@@ -104,22 +105,22 @@ _SMALL = frozenset(
         will two three four five six seven eight nine ten eleven twelve""",
     )
 )
-"""The words that the grammar itself knows."""
+"""The words that stand in the grammar itself."""
 
 
 def _check_words(text: str, words: Lexicon) -> None:
-    """Raises `OutsideFragment` for the first word that nobody knows."""
+    """Raise `OutsideFragment` for the first word that is in no lexicon."""
     known = {part for form in words.forms for part in form.split()}
     for word in re.findall(r"[\w'-]+", text):
-        if word.lower() not in known | _SMALL and not word.isdecimal():
+        if word.lower() not in known | _FUNCTION_WORDS and not word.isdecimal():
             raise OutsideFragment(
                 f"the lexicon has no word {word!r}",
                 hint=suggestion(word.lower(), known),
             )
 
 
-def _misread(text: str, at: int | None) -> str:
-    """Where the sentence stops being one of the fragment."""
+def _describe_failure(text: str, at: int | None) -> str:
+    """The message that says where a sentence leaves the fragment."""
     if at is None or at < 0 or at >= len(text.rstrip(" .!?")):
         return f"the fragment has no sentence {text!r}: something is missing at its end"
     word = re.match(r"\W*(\w*)", text[at:])

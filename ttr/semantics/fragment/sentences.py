@@ -1,4 +1,4 @@
-"""Sentences with their contents, judged in a model; and what follows from what."""
+"""Sentences with their contents, to be judged in a model; what pronouns pick up."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from ttr.errors import TTRError
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN
-from ttr.semantics.fragment.composing_contents import Antecedent, composed
+from ttr.semantics.fragment.composing_contents import Antecedent, compose_content
 from ttr.semantics.fragment.content_types import conjuncts
 from ttr.semantics.fragment.lexicon import Lexicon, lexicon_of
-from ttr.semantics.fragment.sentence_parsing import read
+from ttr.semantics.fragment.sentence_parsing import parse_sentence
 from ttr.semantics.quantifiers import (
     Quantification,
     Thresholds,
@@ -49,10 +49,11 @@ class Sentence:
 def understand(
     text: str, words: Lexicon | None = None, picked: Iterable[Antecedent] = ()
 ) -> Sentence:
-    """The sentence that a text is; `picked` is what its pronouns may stand for.
+    """The sentence that a text is.
 
-    Raises `OutsideFragment` for a word or a construction that is not known, and where
-    a pronoun has nothing to stand for.
+    `picked` has the sets of things that its pronouns may stand for. Raises
+    `OutsideFragment` for a word or a construction that is not known, and for a pronoun
+    that has nothing to stand for.
 
     >>> understand("Every pupy barks.")
     Traceback (most recent call last):
@@ -60,12 +61,12 @@ def understand(
     help: did you mean puppy?
     """
     chosen = lexicon_of(words)
-    tree = read(text, chosen)
-    return Sentence(text, composed(tree, chosen, _antecedents(picked)))
+    tree = parse_sentence(text, chosen)
+    return Sentence(text, compose_content(tree, chosen, _check_antecedents(picked)))
 
 
-def _antecedents(picked: object) -> tuple[Antecedent, ...]:
-    """What pronouns may stand for; raises `TTRError` where it is no sets of things."""
+def _check_antecedents(picked: object) -> tuple[Antecedent, ...]:
+    """The sets that pronouns may stand for; `TTRError` for what is no set of things."""
     found = tuple(picked) if isinstance(picked, Iterable) else (picked,)
     for things in found:
         if not isinstance(things, FiniteSet | frozenset | set):
@@ -81,8 +82,9 @@ def picked_up(
 ) -> tuple[Antecedent, ...]:
     """What pronouns can stand for after a sentence, by its witnesses in a model.
 
-    First who it is about, then whom its witnesses bring in: after "Every dog hugs a
-    boy" the dogs, and the boys that are hugged. Nothing, if it is not certainly true.
+    First the things that it is about, then those that its witnesses bring in: after
+    "Every dog hugs a boy" the dogs, then the boys that are hugged. Nothing if the
+    sentence is not certainly true.
 
     >>> from ttr.types.syntax import Ind
     >>> from ttr.semantics.fragment import english
@@ -96,23 +98,23 @@ def picked_up(
     found: list[Antecedent] = []
     for claim in conjuncts(sentence.content):
         if determiner_of(claim) is not None:
-            found += _of_quantification(settle(M, claim, thresholds))
+            found += _antecedents_of(settle(M, claim, thresholds))
         else:
-            found += [FiniteSet(name) for name in _named(claim)]
+            found += [FiniteSet(name) for name in _names_in(claim)]
     return tuple(dict.fromkeys(X for X in found if len(X) > 0))
 
 
-def _of_quantification(found: Quantification) -> Iterator[Antecedent]:
+def _antecedents_of(found: Quantification) -> Iterator[Antecedent]:
     sets = antecedents(found)
     yield sets.refset
-    yield from _brought_in([it.situation for it in found.refset])
+    yield from _things_brought_in([it.situation for it in found.refset])
     yield sets.maxset
     if sets.compset is not None:
         yield sets.compset
 
 
-def _brought_in(situations: list[Object]) -> Iterator[Antecedent]:
-    """The things that the situations are about, together, level by level."""
+def _things_brought_in(situations: list[Object]) -> Iterator[Antecedent]:
+    """The things that the situations are about, one set for each level of scope."""
     inner = [
         it for it in situations if isinstance(it, Record) and set(it) == {"X", "f"}
     ]
@@ -120,9 +122,9 @@ def _brought_in(situations: list[Object]) -> Iterator[Antecedent]:
     if things:
         yield FiniteSet(*things)
         pairs = [pair for it in inner for pair in it._fields["f"]]
-        yield from _brought_in([pair._fields["e"] for pair in pairs])
+        yield from _things_brought_in([pair._fields["e"] for pair in pairs])
 
 
-def _named(T: TypeNode) -> list[str]:
-    """The things that a predication names."""
+def _names_in(T: TypeNode) -> list[str]:
+    """The names of things among the arguments of a ptype."""
     return [a for a in T.args if isinstance(a, str)] if isinstance(T, PType) else []

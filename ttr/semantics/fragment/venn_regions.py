@@ -1,9 +1,9 @@
-"""Worlds for formulas: how many things are in each region that properties divide.
+"""Worlds in which formulas are true: how many things each region of properties has.
 
-A region says of each simple property whether its things have it. Regions that axioms
-rule out are left out; so are those that no relations among things can bring about: to
-hug a boy and not to hug a person. The counts that formulas ask for are then demands on
-whole numbers.
+A region says of each simple property whether its things have it. Left out are regions
+that axioms rule out, and those that no relations among things can bring about: to hug a
+boy and not to hug a person. The counts in the formulas are then linear demands on the
+numbers of things.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ from operator import ge
 from ttr.computing.subtyping import subtype
 from ttr.semantics.fragment.formulas import (
     AT_ALL,
-    Alike,
-    Counted,
+    AllOrNone,
+    Conjunction,
+    Count,
+    Disjunction,
     Formula,
     Is,
-    Neither,
-    Parts,
-    Says,
-    Some,
-    Stated,
-    applied,
-    claim,
+    Negated,
+    OpaqueProperty,
+    OpaqueSentence,
+    apply_property,
+    content_formula,
     leaves,
-    said,
+    property_formula,
 )
 from ttr.semantics.fragment.integer_feasibility import (
     Demand,
@@ -40,49 +40,54 @@ from ttr.semantics.fragment.lexicon import Lexicon
 from ttr.semantics.quantifiers import Thresholds, number
 from ttr.types.syntax import Function, Pred, PType
 
-__all__ = ["Regions", "World"]
+__all__ = ["World", "WorldFinder"]
 
-PROPERTIES = 14
-"""How many simple properties may divide the world."""
+_PROPERTIES = 14
+"""The most simple properties that may divide the world."""
 
-INSIDE = 10
-"""How many may divide it where relations are looked into, each time anew."""
+_INSIDE = 10
+"""The most where relations are analysed, which is done anew for each thing."""
 
-RELATIONS = 6
-"""Of how many of them is asked whether relations can bring them about together."""
+_RELATIONS = 6
+"""The most relational properties that are checked for being possible together."""
 
-DEPTH = 3
-"""How deep relations are looked into, as in "who hugs who chases who likes Kim"."""
+_DEPTH = 3
+"""How deep relations are analysed, as in "who hugs who chases who likes Kim"."""
 
-BRANCHES = 512
-"""How many ways are followed to make formulas true."""
+_BRANCHES = 512
+"""The most ways to make the formulas true that are tried."""
 
-Literal = tuple[Counted | Stated, bool]
-Simple = Says | Is
+Literal = tuple[Count | OpaqueSentence, bool]
+Simple = OpaqueProperty | Is
 Region = Mapping[Simple, bool]
 
 
 @dataclass(frozen=True)
 class World:
-    """How many things there are of each kind; things nobody speaks of are left out."""
+    """How many things of each kind there are; unmentioned things are left out."""
 
     kinds: tuple[tuple[int, Region], ...]
 
     def __str__(self) -> str:
-        return ", ".join(f"{n} of ({_named(kind)})" for n, kind in self.kinds if n)
+        return ", ".join(
+            f"{n} of ({_properties_in_words(kind)})" for n, kind in self.kinds if n
+        )
 
 
-def _named(kind: Region) -> str:
+def _properties_in_words(kind: Region) -> str:
     has = [_name(one) for one, true in kind.items() if true]
     return ", ".join(has) or "none of these"
 
 
 def _name(one: Simple) -> str:
-    return one.name if isinstance(one, Is) else str(applied(one.function, "it"))
+    return one.name if isinstance(one, Is) else str(apply_property(one.function, "it"))
 
 
-class Regions:
-    """Finds worlds by a lexicon's axioms, for an agent with some thresholds."""
+class WorldFinder:
+    """Finds worlds that obey the axioms of a lexicon, for an agent with thresholds.
+
+    `held` has names of the things from which relations are being looked at.
+    """
 
     def __init__(
         self, words: Lexicon, thresholds: Thresholds, held: tuple[str, ...] = ()
@@ -95,17 +100,17 @@ class Regions:
         found = (it for kind in monotone for it in words.words[kind].values())
         self._monotone = {it.meaning for it in found if isinstance(it.meaning, Pred)}
 
-    def world(self, formulas: Sequence[Formula]) -> World | None:
+    def find_world(self, formulas: Sequence[Formula]) -> World | None:
         """A world in which all formulas are true, or None if there is none.
 
-        Raises `UndecidedError` where it was not found out in so many steps.
+        Raises `UndecidedError` where the search was given up.
         """
         undecided = None
         for tried, branch in enumerate(_branches(formulas)):
-            if tried >= BRANCHES:
+            if tried >= _BRANCHES:
                 raise UndecidedError
             try:
-                found = self._of_branch(branch)
+                found = self._world_of_branch(branch)
             except UndecidedError as error:
                 undecided = error
                 continue
@@ -116,31 +121,34 @@ class Regions:
         return None
 
     def can_be(self, formulas: Sequence[Formula]) -> bool:
-        """Whether there may be a world; yes, where it was not found out."""
+        """May all formulas be true together? Yes where the search was given up."""
         asked = tuple(formulas)
         if asked not in self._possible:
             try:
-                self._possible[asked] = self.world(asked) is not None
+                self._possible[asked] = self.find_world(asked) is not None
             except UndecidedError:
                 self._possible[asked] = True
         return self._possible[asked]
 
-    def _of_branch(self, branch: tuple[Literal, ...]) -> World | None:
+    def _world_of_branch(self, branch: tuple[Literal, ...]) -> World | None:
+        """A world in which these counts and sentences are so, or are not so."""
         stated = [
-            (leaf.type, true) for leaf, true in branch if isinstance(leaf, Stated)
+            (leaf.type, true)
+            for leaf, true in branch
+            if isinstance(leaf, OpaqueSentence)
         ]
         if any((T, not true) in stated for T, true in stated):
             return None
-        counts = [(it, true) for it, true in branch if isinstance(it, Counted)]
-        simple = _simple(counts)
+        counts = [(it, true) for it, true in branch if isinstance(it, Count)]
+        simple = _simple_properties(counts)
         names = [one for one in simple if isinstance(one, Is)]
-        counts += [(Counted(it, it, one), True) for it in names for one in _ONE]
+        counts += [(Count(it, it, one), True) for it in names for one in _ONE]
         kinds: dict[tuple[int, ...], Region] = {}
-        for region in self._regions(simple, counts):
+        for region in self._possible_regions(simple, counts):
             column = tuple(_weight(it, true, region) for it, true in counts)
             if any(weight > 0 for weight in column):
                 kinds.setdefault(column, region)
-        kinds = {column: kinds[column] for column in _best(kinds)}
+        kinds = {column: kinds[column] for column in _undominated(kinds)}
         demands: list[Demand] = [
             (tuple(column[i] for column in kinds), _bound(it, true))
             for i, (it, true) in enumerate(counts)
@@ -152,14 +160,15 @@ class Regions:
 
     # --- which regions there can be --------------------------------------------------
 
-    def _regions(
-        self, simple: Sequence[Simple], counts: Sequence[tuple[Counted, bool]]
+    def _possible_regions(
+        self, simple: Sequence[Simple], counts: Sequence[tuple[Count, bool]]
     ) -> Iterator[Region]:
-        if len(simple) > (INSIDE if self._held else PROPERTIES):
+        if len(simple) > (_INSIDE if self._held else _PROPERTIES):
             raise UndecidedError
-        plain = [one for one in simple if self._inside(one) is None]
+        plain = [one for one in simple if self._formula_inside(one) is None]
         related = [one for one in simple if one not in plain]
-        possible = list(self._together(related, self._facts(counts, set(plain))))
+        facts = self._plain_counts(counts, set(plain))
+        possible = list(self._ways_to_be_related(related, facts))
         implied = [(a, b) for a, b in permutations(simple, 2) if self._implies(a, b)]
         apart = [(a, b) for a, b in combinations(simple, 2) if self._excludes(a, b)]
         for values in product((False, True), repeat=len(plain)):
@@ -171,62 +180,62 @@ class Regions:
                 if not any(region[a] and region[b] for a, b in apart):
                     yield region
 
-    def _inside(self, one: Simple) -> Formula | None:
-        """What a property says of a thing, if it is a relation to others; else None."""
-        if isinstance(one, Is) or len(self._held) >= DEPTH:
+    def _formula_inside(self, one: Simple) -> Formula | None:
+        """A relational property, as a formula about the other things; else None."""
+        if isinstance(one, Is) or len(self._held) >= _DEPTH:
             return None
         thing = self._thing
-        T = applied(one.function, thing)
-        found = claim(T, self._thresholds, frozenset((*self._held, thing)))
-        return None if isinstance(found, Stated) else found
+        T = apply_property(one.function, thing)
+        found = content_formula(T, self._thresholds, frozenset((*self._held, thing)))
+        return None if isinstance(found, OpaqueSentence) else found
 
     @property
     def _thing(self) -> str:
         return f"·{len(self._held)}"
 
-    def _together(
+    def _ways_to_be_related(
         self, related: Sequence[Simple], facts: Sequence[Formula]
     ) -> Iterator[Region]:
-        """The ways in which a thing can be related to others, and not."""
+        """The regions of relational properties that one thing can be in."""
         if not related:
             yield {}
             return
         for values in product((False, True), repeat=len(related)):
             claims = [*facts]
             for one, true in zip(related, values, strict=True):
-                found = self._inside(one)
+                found = self._formula_inside(one)
                 if found is not None:
-                    claims.append(found if true else Neither(found))
-            if len(related) > RELATIONS or self._around.can_be(claims):
+                    claims.append(found if true else Negated(found))
+            if len(related) > _RELATIONS or self._finder_around.can_be(claims):
                 yield dict(zip(related, values, strict=True))
 
     @cached_property
-    def _around(self) -> Regions:
-        """The worlds around one thing, as the things related to it see them."""
-        return Regions(self._words, self._thresholds, (*self._held, self._thing))
+    def _finder_around(self) -> WorldFinder:
+        """Finds worlds around one thing: what it is related to, and what not."""
+        return WorldFinder(self._words, self._thresholds, (*self._held, self._thing))
 
-    def _facts(
-        self, counts: Sequence[tuple[Counted, bool]], plain: set[Simple]
+    def _plain_counts(
+        self, counts: Sequence[tuple[Count, bool]], plain: set[Simple]
     ) -> list[Formula]:
-        """The counts of plain properties, which are the same in every look around."""
+        """The counts of properties without relations, which hold around each thing."""
         return [
-            it if true else Neither(it)
+            it if true else Negated(it)
             for it, true in counts
-            if plain.issuperset(_simple([(it, true)]))
+            if plain.issuperset(_simple_properties([(it, true)]))
         ]
 
     # --- what follows by the lexicon alone -------------------------------------------
 
     def _implies(self, a: Simple, b: Simple) -> bool:
-        """Whether what has one property has another, by axioms and what words mean."""
+        """Does a imply b, by the axioms and by what words mean?"""
         if (a, b) not in self._implied:
-            self._implied[a, b] = self._worked_out(a, b)
+            self._implied[a, b] = self._axioms_imply(a, b)
         return self._implied[a, b]
 
-    def _worked_out(self, a: Simple, b: Simple) -> bool:
+    def _axioms_imply(self, a: Simple, b: Simple) -> bool:
         if isinstance(a, Is) or isinstance(b, Is):
             return False
-        S, T = applied(a.function, "·"), applied(b.function, "·")
+        S, T = apply_property(a.function, "·"), apply_property(b.function, "·")
         if not isinstance(S, PType) or not isinstance(T, PType):
             return False
         if S.pred is not T.pred:
@@ -237,26 +246,25 @@ class Regions:
         return isinstance(P, Function) and isinstance(Q, Function) and self._below(P, Q)
 
     def _excludes(self, a: Simple, b: Simple) -> bool:
-        """Whether nothing has both properties, by what the lexicon says."""
+        """Do a and b exclude one another, by the lexicon?"""
         if isinstance(a, Is) or isinstance(b, Is) or not self._theory.exclusions:
             return False
-        S, T = applied(a.function, "·"), applied(b.function, "·")
+        S, T = apply_property(a.function, "·"), apply_property(b.function, "·")
         return subtype(S, ~T, self._theory).yes
 
     def _below(self, P: Function, Q: Function) -> bool:
-        """Whether nothing can be P and not Q."""
-        apart = Counted(said(P), Neither(said(Q)), AT_ALL)
+        """Can nothing be P and not Q?"""
+        apart = Count(property_formula(P), Negated(property_formula(Q)), AT_ALL)
         return not self.can_be([apart])
 
 
 _ONE = (number("at least", 1), number("at most", 1))
 
 
-def _best(columns: Iterable[tuple[int, ...]]) -> list[tuple[int, ...]]:
-    """The columns that none is better than in all respects.
+def _undominated(columns: Iterable[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """The columns that no other column dominates: is at least as large throughout.
 
-    A thing of a worse kind could as well be one of the better kind, as far as what is
-    demanded goes.
+    As far as the demands go, a thing of a dominated kind could as well be of the other.
     """
     best: list[tuple[int, ...]] = []
     for one in sorted(columns, key=lambda column: (-sum(column), column)):
@@ -269,7 +277,7 @@ def _best(columns: Iterable[tuple[int, ...]]) -> list[tuple[int, ...]]:
 
 
 def _branches(formulas: Sequence[Formula]) -> Iterator[tuple[Literal, ...]]:
-    """The ways to make all formulas true, each as leaves that are, or are not, so."""
+    """The ways to make all formulas true, each as leaves that are so or are not so."""
     waiting: list[tuple[tuple[tuple[Formula, bool], ...], tuple[Literal, ...]]] = [
         (tuple((formula, True) for formula in formulas), ())
     ]
@@ -281,28 +289,32 @@ def _branches(formulas: Sequence[Formula]) -> Iterator[tuple[Literal, ...]]:
         (first, true), *others = left
         rest = tuple(others)
         match first:
-            case Neither(part):
+            case Negated(part):
                 waiting.append((((part, not true), *rest), literals))
-            case Parts(parts) | Some(parts) if isinstance(first, Parts) == true:
+            case Conjunction(parts) | Disjunction(parts) if (
+                isinstance(first, Conjunction) == true
+            ):
                 waiting.append(((*((it, true) for it in parts), *rest), literals))
-            case Parts(parts) | Some(parts):
+            case Conjunction(parts) | Disjunction(parts):
                 waiting += [(((it, true), *rest), literals) for it in reversed(parts)]
-            case Alike(parts):
+            case AllOrNone(parts):
                 waiting.append(((*((it, true) for it in parts), *rest), literals))
-            case Counted() | Stated():
+            case Count() | OpaqueSentence():
                 waiting.append((rest, (*literals, (first, true))))
             case _:
                 raise TypeError(f"{first} is said of a thing, not of the world")
 
 
-def _simple(counts: Iterable[tuple[Counted, bool]]) -> list[Simple]:
+def _simple_properties(counts: Iterable[tuple[Count, bool]]) -> list[Simple]:
     """The simple properties in some counts, each once, in their order."""
     found = (one for it, _ in counts for side in (it.P, it.Q) for one in leaves(side))
-    return list(dict.fromkeys(one for one in found if isinstance(one, Says | Is)))
+    return list(
+        dict.fromkeys(one for one in found if isinstance(one, OpaqueProperty | Is))
+    )
 
 
-def _weight(count: Counted, true: bool, region: Region) -> int:
-    """What one thing of a region adds to a count's score, or takes from it."""
+def _weight(count: Count, true: bool, region: Region) -> int:
+    """The weight of one thing of a region in the demand that a count makes."""
     inside, outside = count.threshold.weights
     if not _holds(count.P, region):
         return 0
@@ -310,21 +322,21 @@ def _weight(count: Counted, true: bool, region: Region) -> int:
     return score if count.threshold.rising == true else -score
 
 
-def _bound(count: Counted, true: bool) -> int:
-    """What the score, or its opposite, is at least."""
+def _bound(count: Count, true: bool) -> int:
+    """The bound of the demand that a count, or its negation, makes."""
     bound = count.threshold.bound
     return bound if count.threshold.rising == true else 1 - bound
 
 
 def _holds(formula: Formula, region: Region) -> bool:
     match formula:
-        case Parts(parts):
+        case Conjunction(parts):
             return all(_holds(part, region) for part in parts)
-        case Some(parts):
+        case Disjunction(parts):
             return any(_holds(part, region) for part in parts)
-        case Neither(part):
+        case Negated(part):
             return not _holds(part, region)
-        case Says() | Is():
+        case OpaqueProperty() | Is():
             return region[formula]
         case _:
             raise TypeError(f"{formula} is said of the world, not of a thing")
