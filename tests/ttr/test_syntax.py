@@ -8,6 +8,8 @@ import pytest
 
 from ttr import (
     Basic,
+    FiniteSet,
+    FunType,
     IllFormed,
     Ind,
     ListOf,
@@ -21,6 +23,7 @@ from ttr import (
     Universe,
     meet,
     outer,
+    record,
     rectype,
     this,
 )
@@ -166,6 +169,29 @@ def test_a_meet_is_flat_and_has_no_order():
     assert isinstance(A & B, Meet)
     assert A & A is A
     assert A & B >= A & B & C
+
+
+def test_the_order_of_parts_is_that_of_structure_not_of_print():
+    A, B = Basic("A"), Basic("B")
+    named, renamed = FunType(A, B, "x"), FunType(A, B, "y")
+    assert named is renamed
+    parts = [~A, dog("b"), named, ListOf(A & B), A | B, ListOf(A), dog("a"), B]
+    shown = "(A -> B) /\\ (A \\/ B) /\\ B /\\ dog(a) /\\ dog(b)"
+    shown += " /\\ list(A) /\\ list(A /\\ B) /\\ ~A"
+    assert str(meet(*parts)) == str(meet(*reversed(parts))) == shown
+
+
+def test_types_are_put_in_order_without_being_printed(monkeypatch):
+    def refuse(*_: object) -> str:
+        raise AssertionError("the canonical order asked for text")
+
+    monkeypatch.setattr("ttr.types.interning.as_notation", refuse)
+    monkeypatch.setattr("ttr.types.interning.as_python", refuse)
+    new, newer = Basic("New"), Basic("Newer")
+    assert (dog("n") & ~newer & new).parts == (new, dog("n"), ~newer)
+    objects = FiniteSet([newer], {"a": new}, new, ("b",), "a")
+    assert objects.items == (new, (newer,), "a", ("b",), record(a=new))
+    assert Pred("newly", (newer,), (new,)).arities == ((new,), (newer,))
 
 
 def test_fields_by_label():

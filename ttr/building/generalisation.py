@@ -24,7 +24,7 @@ from ttr.safety.budgets import spend, within_budget
 from ttr.signature.axioms import above
 from ttr.signature.signature import Signature
 from ttr.types.forms import function_type, order_fields
-from ttr.types.objects import in_print
+from ttr.types.objects import in_canonical_order
 from ttr.types.paths import escaping, moved, parts, rebuilt, replace_paths
 from ttr.types.syntax import (
     Basic,
@@ -83,7 +83,7 @@ def _above_both(S: TypeNode, T: TypeNode, theory: Signature | None) -> TypeNode 
         upper for lower, upper in ((S, T), (T, S)) if subtype(lower, upper, theory).yes
     ]
     if higher:
-        return min(higher, key=in_print)
+        return in_canonical_order(higher)[0]
     found = _Both(Hypothetical(S), Hypothetical(T), theory).generalised()
     match found:
         case RecordType():

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import update_wrapper
 from threading import RLock
-from typing import TYPE_CHECKING, Any, TypeVar, dataclass_transform
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, dataclass_transform
 from weakref import ref
 
 from ttr.errors import IllFormed, TTRError
@@ -118,6 +118,8 @@ class Node(Drawn, metaclass=_Interning):
     __slots__ = ("__weakref__", "_cache")
     __match_args__: tuple[str, ...] = ()
     _cache: dict[object, Any]
+    _sign: ClassVar[str] = ""
+    """What is written before the first part: it counts in the canonical order."""
 
     @staticmethod
     def _normal(*args: Any) -> tuple[Any, ...]:

@@ -8,7 +8,7 @@ itself, compared by identity; a type is an object as well.
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import chain, groupby
 from types import NoneType
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
@@ -16,7 +16,14 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 from ttr.errors import IllFormed, TTRError
 from ttr.hooks import hook
 from ttr.safety.budgets import spend, within_budget
-from ttr.types.interning import Node, as_notation, as_python, identity, node
+from ttr.types.interning import (
+    Node,
+    as_notation,
+    as_python,
+    cache_on_node,
+    identity,
+    node,
+)
 from ttr.types.notebooks import Drawn
 
 __all__ = [
@@ -33,7 +40,7 @@ __all__ = [
     "concat",
     "freeze",
     "fst",
-    "in_print",
+    "in_canonical_order",
     "labelled",
     "lasts",
     "outer",
@@ -96,6 +103,7 @@ class Path(Node):
 
     up: int
     labels: tuple[str, ...]
+    _sign = "."
 
     @staticmethod
     def _key(up: int, labels: tuple[str, ...]) -> tuple[object, ...]:
@@ -192,6 +200,7 @@ class FiniteSet(Node):
     """
 
     items: tuple[Object, ...]
+    _sign = "{"
 
     if TYPE_CHECKING:
 
@@ -202,7 +211,7 @@ class FiniteSet(Node):
         once = {identity(item): item for item in map(freeze, items)}
         if len(once) < 2:
             return (tuple(once.values()),)
-        return (tuple(sorted(once.values(), key=in_print)),)
+        return (tuple(in_canonical_order(once.values())),)
 
     @staticmethod
     def _key(items: tuple[Object, ...]) -> tuple[object, ...]:
@@ -230,6 +239,7 @@ class EventString(Node):
     """
 
     items: tuple[Object, ...]
+    _sign = "<"
 
     if TYPE_CHECKING:
 
@@ -342,11 +352,6 @@ def _stays(value: Object) -> bool:
     return isinstance(value, Path | Operation | Applied)
 
 
-def in_print(value: object) -> tuple[str, str]:
-    """A key for putting objects in an order that does not depend on addresses."""
-    return str(value), repr(value)
-
-
 # --- records -------------------------------------------------------------------------
 
 
@@ -457,6 +462,56 @@ def record(fields: Mapping[str, object] | None = None, /, **labels: object) -> R
     {c = s1, x = fido}
     """
     return Record(labelled("record", fields, labels))
+
+
+# --- the canonical order --------------------------------------------------------------
+
+
+@within_budget
+def in_canonical_order(values: Iterable[_Value]) -> list[_Value]:
+    """The values in one order, however they are given: by structure, not by print.
+
+    What is written first counts first: a name, or the sign of a list and so on. Then
+    counts the kind of value, then its parts from left to right.
+
+    >>> from ttr.types.syntax import Basic, Pred
+    >>> A, B, p = Basic("A"), Basic("B"), Pred("p", Basic("A"))
+    >>> print(*in_canonical_order([~A, p("b"), A & B, p("a"), B, A]), sep="; ")
+    A; A /\\ B; B; p(a); p(b); ~A
+    """
+    return sorted(values, key=_order_key)
+
+
+_OrderKey: TypeAlias = tuple[Any, ...]
+"""What is written first and the kind, then the keys of the parts."""
+
+
+def _order_key(value: object) -> _OrderKey:
+    """The place of a value in the canonical order, the same for no other value."""
+    if type(value) is str:
+        return value, "str"
+    if isinstance(value, Node):
+        return _order_key_of_node(value)
+    if type(value) is tuple:
+        spend(len(value))
+        return _compose_key("", "tuple", list(map(_order_key, value)))
+    if isinstance(value, Record):
+        spend(len(value))
+        fields = sorted(value._fields.items())
+        return _compose_key("{", "Record", list(map(_order_key, fields)))
+    kind = type(value)
+    return str(value), f"{kind.__module__}.{kind.__qualname__}", (repr(value), "str")
+
+
+@cache_on_node
+def _order_key_of_node(value: Node) -> _OrderKey:
+    names = [name for name in value.__match_args__ if name != "hint"]
+    fields = [_order_key(getattr(value, name)) for name in names]
+    return _compose_key(value._sign, type(value).__name__, fields)
+
+
+def _compose_key(sign: str, kind: str, parts: list[_OrderKey]) -> _OrderKey:
+    return (sign + parts[0][0] if parts else sign, kind, *parts)
 
 
 def lasts(value: Object) -> bool:

@@ -31,7 +31,7 @@ from ttr.types.objects import (
     check_label,
     concat,
     freeze,
-    in_print,
+    in_canonical_order,
     outer,
     record,
     this,
@@ -265,6 +265,7 @@ class Negation(TypeNode):
     """¬T: a is of it iff a is not of T."""
 
     body: TypeNode
+    _sign = "~"
 
     @staticmethod
     def _normal(body: TypeNode) -> tuple[object, ...]:
@@ -289,6 +290,7 @@ class ListOf(_Of):
     """list(T): the type of the finite lists of objects of T."""
 
     item: TypeNode
+    _sign = "list"
 
 
 @node
@@ -296,6 +298,7 @@ class NonEmpty(_Of):
     """nelist(T): the lists of objects of T that have a first element and a rest."""
 
     item: TypeNode
+    _sign = "nelist"
 
 
 @node
@@ -303,6 +306,7 @@ class SetOf(_Of):
     """set(T): the type of the finite sets of objects of T."""
 
     item: TypeNode
+    _sign = "set"
 
 
 @node
@@ -310,6 +314,7 @@ class Plus(_Of):
     """plus(T), T⁺: the strings that are one or more strings or events of T in a row."""
 
     item: TypeNode
+    _sign = "plus"
 
 
 @node
@@ -326,6 +331,7 @@ class Str(TypeNode):
     """
 
     items: tuple[TypeNode, ...]
+    _sign = "str"
 
     if TYPE_CHECKING:
 
@@ -368,6 +374,7 @@ class FunType(_Binder, TypeNode):
     domain: TypeNode
     result: TypeNode
     hint: str = "x"
+    _sign = "("
 
     @staticmethod
     def _normal(
@@ -384,6 +391,7 @@ class Function(_Binder):
     domain: TypeNode
     body: Object
     hint: str = "x"
+    _sign = "\\"
 
     @staticmethod
     def _normal(domain: TypeNode, body: object, hint: str = "x") -> tuple[object, ...]:
@@ -437,6 +445,7 @@ class RecordType(TypeNode):
     """
 
     fields: tuple[tuple[str, TypeNode], ...]
+    _sign = "["
     _types: Mapping[str, TypeNode] = field(init=False)
 
     @staticmethod
@@ -501,7 +510,7 @@ class Pred(Node):
         if not several or len(several) < len(arities):
             several = [arities]
         found = {tuple(map(as_type, arity)): None for arity in several}
-        return str(name), tuple(sorted(found, key=_shortest_first))
+        return str(name), tuple(sorted(in_canonical_order(found), key=len))
 
     @staticmethod
     def _key(
@@ -522,10 +531,6 @@ class Pred(Node):
 
     def __reduce__(self) -> tuple[object, ...]:
         return Pred, (self.name, *self.arities)
-
-
-def _shortest_first(arity: tuple[TypeNode, ...]) -> tuple[int, str, str]:
-    return len(arity), *in_print(arity)
 
 
 # --- meets and joins -----------------------------------------------------------------
@@ -567,7 +572,7 @@ def _flat(
     for part in map(as_type, parts):
         inner = part.parts if isinstance(part, kind) else (part,)
         once.update(dict.fromkeys(inner))
-    return tuple(once) if len(once) < 2 else tuple(sorted(once, key=in_print))
+    return tuple(once) if len(once) < 2 else tuple(in_canonical_order(once))
 
 
 Ind = Basic("Ind")
