@@ -22,8 +22,8 @@ from ttr import (
     replace,
     this,
 )
+from ttr.dialogues.snapshots import changed_since, copied, snapshot
 from ttr.testing import strategies as tst
-from ttr.testing.strategies.snapshots import changed_since, copied, snapshot
 from ttr.updates import Game, NBest, first, rule
 
 few = settings(

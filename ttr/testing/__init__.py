@@ -20,13 +20,13 @@ except ImportError as missing:
         "ttr.testing needs hypothesis: pip install 'kille[test]'"
     ) from missing
 
+from ttr.dialogues.dialogue import Dialogue, Trial, play
 from ttr.testing.catalogue import ALL
 from ttr.testing.coverage import Coverage
 from ttr.testing.properties import Breach, Property
 from ttr.testing.pytest_decorator import on_dialogues
 from ttr.testing.state_machines import machine
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.testing.strategies.playthroughs import Dialogue, Trial, play
 from ttr.testing.strategies.tutors import Tutor
 from ttr.testing.suites import Report, Suite, check_rule, check_rules
 

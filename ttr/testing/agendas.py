@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.judging.certainty import certainly
 from ttr.testing.event_subjects import field_at, items_at, same
 from ttr.testing.properties import Checked, Property
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.testing.strategies.playthroughs import Dialogue, Trial
 from ttr.types.paths import escaping
 from ttr.types.printing import notation
 from ttr.types.syntax import NonEmpty, Object, Singleton, TypeNode, identity

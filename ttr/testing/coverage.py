@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from ttr.testing.strategies.playthroughs import Dialogue
+from ttr.dialogues.dialogue import Dialogue
 from ttr.updates.games import Game
 
 __all__ = ["Coverage"]

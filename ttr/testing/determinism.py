@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from ttr.dialogues.dialogue import Dialogue, Trial, play, taken
 from ttr.judging.models import Model
 from ttr.testing.properties import Checked, Property
 from ttr.testing.single_rules import applied
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.testing.strategies.playthroughs import Dialogue, Trial, play, taken
 from ttr.types.printing import notation
 from ttr.types.records import differences
 from ttr.updates.algorithms import (

@@ -10,11 +10,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
 
 from ttr.computing.subtyping import subtype
+from ttr.dialogues.dialogue import Dialogue, Trial, taken
 from ttr.semantics.questions import resolves
 from ttr.testing.event_subjects import item_type, items_at, kin, mentions, same
 from ttr.testing.properties import Checked, Property
 from ttr.testing.strategies.discourse_roles import Roles, at
-from ttr.testing.strategies.playthroughs import Dialogue, Trial, taken
 from ttr.types.printing import notation
 from ttr.types.syntax import Function, Object, Record, RecordType, TypeNode, identity
 from ttr.updates.games import Game

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.dialogues.stories import Setting, StoryError, moment, setting, written
 from ttr.testing.game_settings import named_in
-from ttr.testing.strategies.playthroughs import Dialogue, Trial
 from ttr.updates.games import Game, Turn
 
 __all__ = ["place_of", "story"]
@@ -19,7 +19,7 @@ def story(dialogue: Dialogue, title: str, place: Setting | None = None) -> str:
     starts.
 
     >>> from ttr.building.constructors import rectype
-    >>> from ttr.testing.strategies.playthroughs import play
+    >>> from ttr.dialogues.dialogue import play
     >>> from ttr.types.syntax import Ind
     >>> from ttr.updates import rule
     >>> @rule(when=rectype(), on=Ind)

@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from ttr.computing.subtyping import subtype
+from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.judging.certainty import certainly
 from ttr.testing.event_subjects import (
     SPEAKERS,
@@ -23,7 +24,6 @@ from ttr.testing.event_subjects import (
 )
 from ttr.testing.properties import Checked, Property
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.testing.strategies.playthroughs import Dialogue, Trial
 from ttr.testing.strategies.random_states import heard_by
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, Record, RecordType, TypeNode, identity

@@ -13,12 +13,12 @@ from pathlib import Path
 
 from hypothesis import HealthCheck, Phase, given, seed, settings
 
+from ttr.dialogues.dialogue import Dialogue
 from ttr.dialogues.stories import Setting, named_by_user, setting
 from ttr.errors import TTRError
 from ttr.safety.consent import Consent
 from ttr.safety.python_files import separate_python
 from ttr.testing.game_settings import tutor_of
-from ttr.testing.strategies.playthroughs import Dialogue
 from ttr.testing.strategies.random_dialogues import dialogues
 from ttr.types.printing import notation
 

@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from ttr.dialogues.dialogue import Dialogue
 from ttr.testing.event_subjects import (
     agents_of,
     item_type,
@@ -23,7 +24,6 @@ from ttr.testing.event_subjects import (
 from ttr.testing.groundedness import added
 from ttr.testing.properties import Property
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.testing.strategies.playthroughs import Dialogue
 from ttr.types.syntax import Object, PType, Record, identity
 from ttr.updates.games import Game
 from ttr.updates.running import Step

@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
+from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import TTRError
 from ttr.testing.coverage import Coverage
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.testing.strategies.playthroughs import Dialogue
 
 if TYPE_CHECKING:
     from ttr.testing.pending_items import Flows, Seen

@@ -6,11 +6,11 @@ import inspect
 from collections.abc import Callable
 from functools import wraps
 
+from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import TTRError
 from ttr.escapes import terminal_text
 from ttr.testing.failure_story import story
 from ttr.testing.search import how_many, search
-from ttr.testing.strategies.playthroughs import Dialogue
 from ttr.testing.strategies.random_dialogues import TURNS, dialogues
 from ttr.testing.strategies.tutors import Speaker, Tutor
 from ttr.updates.games import Game

@@ -9,9 +9,9 @@ from hypothesis import HealthCheck, Phase, Verbosity, given, seed, settings
 from hypothesis import strategies as st
 from hypothesis.errors import Flaky
 
+from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import TTRError
 from ttr.testing.shrinking import Broken, Verdict, shortest
-from ttr.testing.strategies.playthroughs import Dialogue
 
 __all__ = ["DRAWN", "DRAWN_AND_SHRUNK", "Unsteady", "how_many", "search"]
 

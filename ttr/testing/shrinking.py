@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import chain, islice
 from typing import Generic, TypeVar
 
-from ttr.testing.strategies.playthroughs import Dialogue, play
+from ttr.dialogues.dialogue import Dialogue, play
 from ttr.testing.strategies.random_states import heard_by, variants
 from ttr.types.syntax import Object, TypeNode
 from ttr.updates.nbest import NBest

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import Endless, NoState, RuleFailed, TTRError
 from ttr.probability import CERTAIN
 from ttr.testing.properties import Checked, Property
 from ttr.testing.single_rules import rerun
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.testing.strategies.playthroughs import Dialogue
 from ttr.types.objects import Unresolved
 from ttr.types.records import differences
 from ttr.updates.running import Step

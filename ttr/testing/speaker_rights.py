@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from ttr.dialogues.dialogue import Dialogue
 from ttr.testing.event_subjects import agents_of, field_at, speaker_of
 from ttr.testing.properties import Checked, Property
 from ttr.testing.strategies.discourse_roles import Roles, at
-from ttr.testing.strategies.playthroughs import Dialogue
 from ttr.types.syntax import Record, Singleton
 from ttr.updates.games import Game
 from ttr.updates.running import Step

@@ -8,13 +8,13 @@ from typing import Any
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
+from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import TTRError
 from ttr.escapes import terminal_text
 from ttr.testing.catalogue import ALL
 from ttr.testing.failure_story import story
 from ttr.testing.properties import Property, chosen
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.testing.strategies.playthroughs import Dialogue
 from ttr.testing.strategies.random_states import event_of, heard_by
 from ttr.types.syntax import Object, TypeNode, kind_of
 from ttr.updates.games import Game

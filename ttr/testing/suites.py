@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from hypothesis import strategies as st
 
 from ttr.building.merging import merge
+from ttr.dialogues.dialogue import Dialogue
 from ttr.dialogues.stories import Setting
 from ttr.errors import TTRError
 from ttr.escapes import terminal_text
@@ -22,7 +23,6 @@ from ttr.testing.properties import Breach, Property, chosen
 from ttr.testing.search import DRAWN, DRAWN_AND_SHRUNK, Unsteady, how_many, search
 from ttr.testing.shrinking import Broken
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.testing.strategies.playthroughs import Dialogue
 from ttr.testing.strategies.random_dialogues import TURNS, dialogues
 from ttr.testing.strategies.random_states import states
 from ttr.testing.strategies.tutors import Speaker, Tutor

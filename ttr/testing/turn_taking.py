@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from ttr.dialogues.dialogue import Dialogue, Trial, taken
 from ttr.judging.judgements import Judgement
 from ttr.testing.properties import Checked, Property
 from ttr.testing.strategies.discourse_roles import Roles, acts_in, at
-from ttr.testing.strategies.playthroughs import Dialogue, Trial, taken
 from ttr.testing.strategies.random_states import heard_by, variants
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, Rec, Record, TypeNode, freeze, identity

@@ -4,18 +4,19 @@
 them and says where they differ from what happens. `written` makes a story of turns.
 """
 
+from ttr.dialogues.settings import (
+    Setting,
+    StoryError,
+    named_by_user,
+    python_in,
+    setting,
+)
 from ttr.dialogues.stories.junit_report import Outcome, facts, junit, summary
 from ttr.dialogues.stories.line_events import Alternative, alternatives
 from ttr.dialogues.stories.mismatches import SILENCE, Mismatch
 from ttr.dialogues.stories.story_opening import check_consent, opening, setting_of
 from ttr.dialogues.stories.story_player import Played, failing, fits, play
-from ttr.dialogues.stories.story_reader import Line, Story, StoryError, read_stories
-from ttr.dialogues.stories.story_settings import (
-    Setting,
-    named_by_user,
-    python_in,
-    setting,
-)
+from ttr.dialogues.stories.story_reader import Line, Story, read_stories
 from ttr.dialogues.stories.story_writer import Moment, moment, worded, written
 
 __all__ = [

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
-from ttr.dialogues.stories.story_reader import Line, StoryError
-from ttr.dialogues.stories.story_settings import Setting
+from ttr.dialogues.settings import Setting, StoryError
+from ttr.dialogues.stories.story_reader import Line
 from ttr.errors import NotationError, TTRError, UpdateError, suggestion
 from ttr.types.syntax import Object, TypeNode
 from ttr.updates import NBest, Run, nbest

@@ -6,14 +6,15 @@ from dataclasses import replace
 from pathlib import Path
 from shlex import quote
 
-from ttr.dialogues.stories.line_events import value
-from ttr.dialogues.stories.story_reader import Line, Story, StoryError
-from ttr.dialogues.stories.story_settings import (
+from ttr.dialogues.settings import (
     Setting,
+    StoryError,
     check_named,
     python_in,
     setting,
 )
+from ttr.dialogues.stories.line_events import value
+from ttr.dialogues.stories.story_reader import Line, Story
 from ttr.errors import TTRError, suggestion
 from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowed
 from ttr.types.syntax import Record

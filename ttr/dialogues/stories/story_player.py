@@ -7,11 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ttr.computing.subtyping import subtype
+from ttr.dialogues.settings import Setting
 from ttr.dialogues.stories.line_events import event, type_of
 from ttr.dialogues.stories.mismatches import SILENCE, Mismatch
 from ttr.dialogues.stories.story_opening import opening, setting_of, turns_of
 from ttr.dialogues.stories.story_reader import Line, Story
-from ttr.dialogues.stories.story_settings import Setting
 from ttr.dialogues.stories.story_writer import Moment, moment
 from ttr.errors import NotHeard, TTRError
 from ttr.judging.judgements import Judgement

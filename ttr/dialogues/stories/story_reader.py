@@ -15,21 +15,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from ttr.errors import Span, TTRError
+from ttr.dialogues.settings import StoryError
+from ttr.errors import Span
 from ttr.safety.files import why_unread
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import STORIES
 
-__all__ = ["Line", "Story", "StoryError", "line_of", "read_stories"]
+__all__ = ["Line", "Story", "line_of", "read_stories"]
 
 _MARKS = ("---", "@", "U>", "U~", "S>", "S~", "=")
 
 _OF_THE_FILE = "game"
 """What is said by an `@` line of the stories after it, too."""
-
-
-class StoryError(TTRError):
-    """A dialogue file that cannot be read or played: where, and why."""
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from ttr.dialogues.settings import Setting
 from ttr.dialogues.stories.story_reader import line_of
-from ttr.dialogues.stories.story_settings import Setting
 from ttr.display.abbreviations import folding
 from ttr.errors import UpdateError
 from ttr.judging.judgements import Judgement
@@ -59,7 +59,7 @@ def written(
 ) -> str:
     """The text of a story in which this was played, from a start if one is given.
 
-    >>> from ttr.dialogues.stories.story_settings import Setting
+    >>> from ttr.dialogues.settings import Setting
     >>> from ttr.theories.theory import Theory
     >>> theory = Theory.parse('''
     ...     basic Ind

@@ -24,8 +24,8 @@ except ImportError as missing:
         "ttr.testing.strategies needs hypothesis: pip install 'kille[test]'"
     ) from missing
 
+from ttr.dialogues.dialogue import Dialogue, Trial, play
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.testing.strategies.playthroughs import Dialogue, Trial, play
 from ttr.testing.strategies.random_dialogues import dialogues
 from ttr.testing.strategies.random_models import models
 from ttr.testing.strategies.random_records import records

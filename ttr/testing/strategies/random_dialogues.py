@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from hypothesis import strategies as st
 
+from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import TTRError
 from ttr.judging.models import Model
-from ttr.testing.strategies.playthroughs import Dialogue
 from ttr.testing.strategies.tutors import Speaker, Tutor, Voice, voice_of
 from ttr.types.syntax import Record, kind_of
 from ttr.updates.games import Game

@@ -14,11 +14,11 @@ from typing import TypeAlias
 
 from hypothesis import strategies as st
 
+from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import TTRError
 from ttr.judging.certainty import certainly
 from ttr.judging.models import Model
 from ttr.testing.strategies.discourse_roles import Acts, acts_in
-from ttr.testing.strategies.playthroughs import Dialogue
 from ttr.testing.strategies.random_states import event_of, heard_by
 from ttr.types.syntax import Object, Record, TypeNode
 from ttr.updates.games import Game

@@ -9,7 +9,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Self
 
-from ttr.dialogues.stories.story_reader import StoryError
 from ttr.errors import TTRError, suggestion
 from ttr.judging.models import Model
 from ttr.notation.reader import read_term
@@ -20,9 +19,20 @@ from ttr.theories.theory import Theory, theory_of_file
 from ttr.types.syntax import Basic, Object, Rec, TypeNode, Universe
 from ttr.updates import Game
 
-__all__ = ["Setting", "check_named", "named_by_user", "python_in", "setting"]
+__all__ = [
+    "Setting",
+    "StoryError",
+    "check_named",
+    "named_by_user",
+    "python_in",
+    "setting",
+]
 
 _WRITTEN = "FILE.ttr NAME, FILE.py:NAME or MODULE:NAME"
+
+
+class StoryError(TTRError):
+    """A dialogue file that cannot be read or played: where, and why."""
 
 
 @dataclass(frozen=True, eq=False)

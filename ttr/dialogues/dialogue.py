@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Any
 
+from ttr.dialogues.snapshots import changed_since, copied, snapshot
 from ttr.errors import NotHeard, TTRError, UpdateError
 from ttr.judging.models import Model
-from ttr.testing.strategies.snapshots import changed_since, copied, snapshot
 from ttr.types.syntax import Object, Record, TypeNode
 from ttr.updates.games import Game, Turn
 from ttr.updates.running import Run, Step
