@@ -164,10 +164,7 @@ def travelled(clock: Callable[[], float]) -> list[float]:
     sys.path.insert(0, str(travel))
     game = import_module("travel").game
     stories = read_stories(travel / "travel.dlg")
-    scripts = [
-        [moment.turn.event for moment in play(story, Setting.of(game)).moments]
-        for story in stories
-    ]
+    scripts = [[*play(story, Setting.of(game)).dialogue.given] for story in stories]
     times = []
     for _ in range(ROUNDS // 4):
         for script in scripts:

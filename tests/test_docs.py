@@ -282,7 +282,8 @@ def playing() -> dict[str, set[str]]:
 
 def dialogues() -> dict[str, set[str]]:
     """The public names of stories, logs and transcripts."""
-    named = ("ttr.dialogues.stories", "ttr.dialogues.logs", "ttr.dialogues.transcripts")
+    spellings = ("dialogue", "stories", "logs", "transcripts")
+    named = [f"ttr.dialogues.{name}" for name in spellings]
     return {name: set(importlib.import_module(name).__all__) for name in named}
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from ttr.aliases import find_former_modules
+from ttr.aliases import find_former_modules, former_names
 from ttr.hooks import set_providers
 
 if TYPE_CHECKING:
@@ -104,6 +104,7 @@ PROVIDERS = {
 
 set_providers(PROVIDERS)
 find_former_modules()
+_former_name = former_names(__name__)
 
 _HOMES = {
     "ttr.building.constructors": "Pi fun rectype",
@@ -230,7 +231,7 @@ def __getattr__(name: str) -> Any:
     if name == "updates":
         return import_module("ttr.updates")
     if name not in _HOME_OF:
-        raise AttributeError(f"module 'ttr' has no attribute {name!r}")
+        return _former_name(name)
     value = getattr(import_module(_HOME_OF[name]), name)
     globals()[name] = value
     return value

@@ -15,15 +15,23 @@ Dog.noise is now Dog.sound
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
+from operator import attrgetter
+from pkgutil import resolve_name
 from types import ModuleType
 from typing import Any
 from warnings import warn
 
-__all__ = ["FORMER_MODULES", "Alias", "find_former_modules"]
+__all__ = [
+    "FORMER_MODULES",
+    "FORMER_NAMES",
+    "Alias",
+    "find_former_modules",
+    "former_names",
+]
 
 FORMER_MODULES = {
     "ttr.acts": "ttr.judging.type_acts",
@@ -55,6 +63,34 @@ FORMER_MODULES = {
 }
 """Where the modules are now that users could know by another name."""
 
+_ERRORS = {
+    "Endless": "EndlessError",
+    "IllFormed": "IllFormedError",
+    "Mistakes": "MistakesError",
+    "NoState": "NoStateError",
+    "NotHeard": "NotHeardError",
+    "Refused": "RefusedError",
+    "RuleFailed": "RuleFailedError",
+    "Undecided": "UndecidedError",
+    "Unexpected": "UnexpectedError",
+    "Unsupported": "UnsupportedError",
+}
+
+FORMER_NAMES: Mapping[str, Mapping[str, str]] = {
+    "ttr": _ERRORS,
+    "ttr.dialogues.stories": {
+        "Moment": "ttr.dialogues.dialogue:Trial",
+        "moment": "ttr.dialogues.dialogue:Trial.of",
+        "worded": "wording",
+        "written": "format_story",
+    },
+    "ttr.errors": _ERRORS,
+}
+"""What was renamed in a module: its name there now, or where it is instead."""
+
+_NEVER_WARN = {"Undecided"}
+"""Former names that may be used for good."""
+
 
 class Alias:
     """A former name of an attribute or a method."""
@@ -74,7 +110,33 @@ class Alias:
         which = owner.__name__
         message = f"{which}.{self.name} is now {which}.{self.now}"
         warn(message, DeprecationWarning, stacklevel=2)
-        return getattr(owner if instance is None else instance, self.now)
+        return attrgetter(self.now)(owner if instance is None else instance)
+
+
+def former_names(module: str) -> Callable[[str], Any]:
+    """The `__getattr__` of a module that has `FORMER_NAMES`.
+
+    >>> import warnings
+    >>> from ttr.dialogues import stories
+    >>> with warnings.catch_warnings(record=True) as said:
+    ...     warnings.simplefilter("always")
+    ...     stories.worded.__name__
+    'wording'
+    >>> print(said[0].message)
+    ttr.dialogues.stories.worded is now ttr.dialogues.stories.wording
+    """
+    names = FORMER_NAMES[module]
+
+    def find(name: str) -> Any:
+        if name not in names:
+            raise AttributeError(f"module {module!r} has no attribute {name!r}")
+        now = names[name] if ":" in names[name] else f"{module}:{names[name]}"
+        if name not in _NEVER_WARN:
+            message = f"{module}.{name} is now {now.replace(':', '.')}"
+            warn(message, DeprecationWarning, stacklevel=2)
+        return resolve_name(now)
+
+    return find
 
 
 class _FormerModules(MetaPathFinder):

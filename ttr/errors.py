@@ -9,8 +9,9 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from ttr.aliases import former_names
 from ttr.escapes import columns, terminal_line, terminal_text
 
 __all__ = [
@@ -195,3 +196,7 @@ def suggestion(name: str, known: Iterable[str]) -> str:
     """
     near = difflib.get_close_matches(name, sorted(set(known)), n=1, cutoff=0.6)
     return f"did you mean {near[0]}?" if near else ""
+
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)

@@ -14,8 +14,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import Model, rectype, replace
+from ttr.dialogues.dialogue import Trial
 from ttr.dialogues.logs import Log, LogFile, continued, read_logs, replay, story_of
-from ttr.dialogues.stories import Setting, moment, play, read_stories, setting
+from ttr.dialogues.stories import Setting, play, read_stories, setting
 from ttr.types.syntax import Ind, ListOf, Rec, Record
 from ttr.updates import Game, Turn, nbest, rule
 
@@ -98,7 +99,7 @@ def test_a_replay_from_any_turn_equals_what_was_logged(
     start = min(start, len(turns))
     again = replay(log, setting, from_=start)
     assert again.divergence is None
-    found = [one.turn.state for one in again.moments]
+    found = [one.turn.state for one in again.dialogue.trials]
     assert found == [turn.state for turn in turns[start:]]
 
 
@@ -120,7 +121,7 @@ def test_a_log_that_is_cut_and_gone_on_with_equals_the_whole(
         with file:
             for event in events[len(cut.entries) :]:
                 turn = setting.game.take(run, event)
-                file.write(moment(turn, setting))
+                file.write(Trial.of(turn, setting))
                 run = turn.run
         assert path.read_bytes() == whole
 
@@ -136,5 +137,5 @@ def test_the_story_of_a_log_plays_as_it_was(events: list[object]) -> None:
         for story in stories:
             result = play(story)
             assert result.mismatch is None
-            found = [one.turn.state for one in result.moments]
+            found = [one.turn.state for one in result.dialogue.trials]
             assert found == [turn.state for turn in turns]

@@ -18,6 +18,7 @@ import pytest
 from ttr import Model, Pred, record, rectype, this
 from ttr import replace as replaced
 from ttr.cli.main import main
+from ttr.dialogues.dialogue import Trial
 from ttr.dialogues.logs import (
     Log,
     LogError,
@@ -28,7 +29,7 @@ from ttr.dialogues.logs import (
     run_after,
     story_of,
 )
-from ttr.dialogues.stories import Setting, moment, play, read_stories, setting
+from ttr.dialogues.stories import Setting, play, read_stories, setting
 from ttr.theories.theory import Theory
 from ttr.types.syntax import Ind, ListOf, RecType
 from ttr.updates import Game, Turn, nbest, rule
@@ -142,18 +143,18 @@ def test_an_event_without_a_notation_is_refused_and_nothing_written(
 def test_a_replay_is_the_same(log: Log, door: Setting) -> None:
     again = replay(log, door)
     assert again.divergence is None
-    assert [str(it.turn.state) for it in again.moments] == states(visit(door))
+    assert [str(it.after.state) for it in again.dialogue.trials] == states(visit(door))
 
 
 @pytest.mark.parametrize("turn", range(6))
 def test_a_replay_from_any_turn_is_the_same(log: Log, door: Setting, turn: int) -> None:
     again = replay(log, door, from_=turn)
     assert again.divergence is None
-    found = [str(one.turn.state) for one in again.moments]
+    found = [str(one.turn.state) for one in again.dialogue.trials]
     assert found == states(visit(door))[turn:]
     whole = visit(door)[-1].model.facts
-    assert again.run.model.facts.known == whole.known
-    assert again.run.model.facts.created == whole.created
+    assert again.dialogue.now.model.facts.known == whole.known
+    assert again.dialogue.now.model.facts.created == whole.created
 
 
 def test_a_turn_that_a_log_has_not(log: Log, door: Setting) -> None:
@@ -204,7 +205,7 @@ def test_a_log_tells_a_story_that_plays(
     result = play(story)
     assert story.title == "a visit"
     assert result.mismatch is None
-    assert [str(it.turn.state) for it in result.moments] == states(visit(door))
+    assert [str(it.after.state) for it in result.dialogue.trials] == states(visit(door))
 
 
 def test_a_log_with_another_start_tells_it(tmp_path: Path, door: Setting) -> None:
@@ -254,7 +255,7 @@ def test_a_log_that_was_cut_and_is_gone_on_with_equals_the_whole(
     with file:
         for turn in visit(door)[turns:]:
             taken = door.game.take(run, turn.event)
-            file.write(moment(taken, door))
+            file.write(Trial.of(taken, door))
             run = taken.run
     assert path.read_bytes() == b"".join(lines)
 

@@ -21,19 +21,18 @@ from ttr import (
     replace,
 )
 from ttr.cli.main import main
+from ttr.dialogues.dialogue import Trial
 from ttr.dialogues.stories import (
     Line,
     Mismatch,
-    Moment,
     Outcome,
     Setting,
     StoryError,
+    format_story,
     junit,
-    moment,
     play,
     read_stories,
     setting,
-    written,
 )
 from ttr.theories.theory import Theory
 from ttr.updates import Game, first, nbest, rule
@@ -473,7 +472,7 @@ def test_a_story_that_is_written_plays_again(file: Path, door: Setting) -> None:
     greet, answer = theory["Greet"], theory["Answer"]
     events = [None, nbest((greet, 0.75), (answer, 0.25)), answer, record(e="s1")]
     turns = game.play(events[:3])
-    text = written("a visit", [moment(turn, door) for turn in turns], door)
+    text = format_story("a visit", [Trial.of(turn, door) for turn in turns], door)
     assert text == (
         "--- a visit\n@ game door.ttr door\nU>\nU~ Greet 0.75 | Answer 0.25\n"
         "S> GreetBack\nS> Ask\nU> Answer\nS> Open\n"
@@ -487,7 +486,7 @@ def test_events_of_a_game_that_hears_words_are_written_as_events(python: Path) -
     greet = talk.theory["Greet"]
     events = [greet, None, nbest((greet, 0.5))]
     turns = talk.game.play(events)
-    text = written("talk", [moment(turn, talk) for turn in turns], talk)
+    text = format_story("talk", [Trial.of(turn, talk) for turn in turns], talk)
     assert "@ event Greet\nS> Hello to you.\nU>\n@ perhaps Greet 0.5\n" in text
     file = python / "again.dlg"
     file.write_text(text)
@@ -607,9 +606,9 @@ def test_characters_that_no_xml_may_have_are_made_visible() -> None:
 
 def test_moments_are_shown_to_a_witness_as_they_come(file: Path, door: Setting) -> None:
     file.write_text(f"@ game door.ttr door\n{OPENED}")
-    seen: list[Moment] = []
+    seen: list[Trial] = []
     result = play(read_stories(file)[0], witness=seen.append)
-    assert tuple(seen) == result.moments
+    assert tuple(seen) == result.dialogue.trials
     assert [one.line for one in seen] == ["U> Greet", "U> Answer"]
     assert seen[0].said == ("GreetBack", "Ask")
 
@@ -650,9 +649,9 @@ def parrot(words: str | None = None) -> Setting:
 def test_a_story_written_with_any_words_plays(file: Path, words: str) -> None:
     setting = parrot()
     turns = [
-        moment(turn, setting, f"U> {words}") for turn in setting.game.play([words])
+        Trial.of(turn, setting, f"U> {words}") for turn in setting.game.play([words])
     ]
-    file.write_text(written(f"of\n{words}", turns, setting), encoding="utf-8")
+    file.write_text(format_story(f"of\n{words}", turns, setting), encoding="utf-8")
     (story,) = read_stories(file)
     assert play(story, setting).mismatch is None
     assert story.lines[0].text == words
@@ -660,8 +659,8 @@ def test_a_story_written_with_any_words_plays(file: Path, words: str) -> None:
 
 def test_a_move_without_words_is_silence(file: Path) -> None:
     setting = parrot("")
-    turns = [moment(turn, setting, "U> a") for turn in setting.game.play(["a"])]
-    text = written("silence", turns, setting)
+    turns = [Trial.of(turn, setting, "U> a") for turn in setting.game.play(["a"])]
+    text = format_story("silence", turns, setting)
     assert "S>" not in text
     file.write_text(f"{text}S>\n", encoding="utf-8")
     (story,) = read_stories(file)
@@ -670,6 +669,8 @@ def test_a_move_without_words_is_silence(file: Path) -> None:
 
 def test_a_line_of_a_story_is_one_line() -> None:
     setting = parrot()
-    turns = [moment(turn, setting, "U> a\u2028b") for turn in setting.game.play(["a"])]
+    turns = [
+        Trial.of(turn, setting, "U> a\u2028b") for turn in setting.game.play(["a"])
+    ]
     with pytest.raises(StoryError, match="has a line break in it"):
-        written("two lines", turns, setting)
+        format_story("two lines", turns, setting)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -10,8 +11,9 @@ import pytest
 
 from ttr import record, rectype
 from ttr.cli.main import main
-from ttr.dialogues.stories import Setting, moment, setting
-from ttr.dialogues.transcripts import Transcribed, transcript
+from ttr.dialogues.dialogue import Dialogue, play
+from ttr.dialogues.stories import Setting, setting
+from ttr.dialogues.transcripts import transcript
 from ttr.display.differences import compared
 from ttr.display.layout import Matrix
 
@@ -53,10 +55,9 @@ def door() -> Setting:
     return setting("door.ttr door", GAMES)
 
 
-def dialogue(door: Setting, *names: str, ending: str = "") -> Transcribed:
-    turns = door.game.play([door.theory[name] for name in names])
-    moments = tuple(moment(turn, door) for turn in turns)
-    return Transcribed("a <visit>", door, door.game.begin(), moments, ending)
+def dialogue(door: Setting, *names: str, ending: str = "") -> Dialogue:
+    given = [door.theory[name] for name in names]
+    return replace(play(door.game, given), title="a <visit>", place=door, ending=ending)
 
 
 def test_a_page_has_what_was_said_with_rules_and_docstrings(door: Setting) -> None:

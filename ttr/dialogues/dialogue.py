@@ -1,29 +1,40 @@
-"""Dialogues as they were played: what was given to a game, and what came of it."""
+"""A dialogue that was played: one value, with several spellings.
+
+A `Dialogue` is a game with the trials of one dialogue in it; a `Trial` is one thing
+that was given to the game, with all that came of it. `stories` spell a dialogue as a
+test, `logs` as lines of JSON, `transcripts` as a page; the strategies of `ttr.testing`
+draw dialogues at random.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import chain
-from typing import Any
+from typing import Any, Self
 
+from ttr.dialogues.settings import Setting
 from ttr.dialogues.snapshots import changed_since, copied, snapshot
+from ttr.dialogues.wording import line_of_event, wording
 from ttr.errors import NotHeard, TTRError, UpdateError
 from ttr.judging.models import Model
 from ttr.types.syntax import Object, Record, TypeNode
 from ttr.updates.games import Game, Turn
 from ttr.updates.running import Run, Step
 
-__all__ = ["Dialogue", "Trial", "play", "taken"]
+__all__ = ["Dialogue", "Trial", "give", "play"]
 
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """What was given to the game, the run before it, and the turn that came of it.
+    """One thing that was given to a game, the run before it, and the turn it led to.
 
     There is no turn where the game did not take what was given; `fault` is what went
     wrong where a rule, a move or the language of the game broke. `tampered` is the path
-    at which a rule changed the very state that it was given, if one did.
+    at which a rule changed the very state that it was given, if one did. `line` is the
+    line of a story that gives this, and `said` what the system said, in words; both are
+    empty until `in_words` finds them.
     """
 
     given: Object
@@ -31,6 +42,18 @@ class Trial:
     turn: Turn | None
     fault: Exception | None = None
     tampered: str = ""
+    line: str = ""
+    said: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, turn: Turn, setting: Setting, line: str = "") -> Self:
+        """The trial that led to a turn, in words.
+
+        Without a line, the event is written in the notation.
+        """
+        said = tuple(wording(move, setting) for move in turn.said)
+        line = line or line_of_event(turn.event, setting)
+        return cls(turn.event, turn.before, turn, line=line, said=said)
 
     @property
     def after(self) -> Run:
@@ -49,13 +72,47 @@ class Trial:
             return self.fault.steps
         return self.steps
 
+    def in_words(self, setting: Setting) -> Trial:
+        """The same with its line and what was said; raises `UpdateError` without words.
+
+        Words that are there already stay as they are.
+        """
+        if self.line:
+            return self
+        if isinstance(self.given, str) and setting.game.hear is not None:
+            line = f"U> {self.given}"
+        else:
+            line = line_of_event(self.given, setting)
+        moves = () if self.turn is None else self.turn.said
+        said = tuple(wording(move, setting) for move in moves)
+        return replace(self, line=line, said=said)
+
 
 @dataclass(frozen=True, eq=False)
 class Dialogue:
-    """A game with the trials of one dialogue in it; the last one may have a fault."""
+    """A game with the trials of one dialogue in it; the last one may have a fault.
+
+    `place` says by what reference and with what names the game is spelled; `origin` is
+    the run that the dialogue goes on from, if it does not begin where the game does.
+    `title` stands above a dialogue on paper, and `ending` below it.
+    """
 
     game: Game
     trials: tuple[Trial, ...] = ()
+    title: str = ""
+    place: Setting | None = None
+    origin: Run | None = None
+    ending: str = ""
+
+    @cached_property
+    def setting(self) -> Setting:
+        """Its place; without one, all that occurs in the game can be named."""
+        return self.place or Setting.of(self.game)
+
+    @property
+    def start(self) -> Run:
+        """The state and the model before the first trial."""
+        return self.origin or self.game.begin()
 
     @property
     def given(self) -> tuple[Object, ...]:
@@ -65,12 +122,12 @@ class Dialogue:
     @property
     def turns(self) -> tuple[Turn, ...]:
         """The turns, of all that the game took."""
-        return tuple(m.turn for m in self.trials if m.turn is not None)
+        return tuple(trial.turn for trial in self.trials if trial.turn is not None)
 
     @property
     def states(self) -> tuple[Record, ...]:
         """The states, from the start on."""
-        return (self.game.start, *(trial.after.state for trial in self.trials))
+        return (self.start.state, *(trial.after.state for trial in self.trials))
 
     @property
     def steps(self) -> tuple[Step, ...]:
@@ -84,15 +141,27 @@ class Dialogue:
 
     @property
     def now(self) -> Run:
-        """The run after the last trial."""
+        """The run after the last trial.
+
+        At the start it has a copy of the state, so that no rule can change the game's.
+        """
         if self.trials:
             return self.trials[-1].after
-        begun = self.game.begin()
-        return begun._replace(state=copied(begun.state))
+        return self.start._replace(state=copied(self.start.state))
 
     def then(self, given: object) -> Dialogue:
-        """The dialogue with one more trial."""
-        return Dialogue(self.game, (*self.trials, taken(self.game, self.now, given)))
+        """The dialogue after one thing more has been given to the game."""
+        return self.with_trial(give(self.game, self.now, given))
+
+    def with_trial(self, trial: Trial) -> Dialogue:
+        """The dialogue with one trial more."""
+        return replace(self, trials=(*self.trials, trial))
+
+    def in_words(self) -> Dialogue:
+        """The dialogue with the line and the words of each trial."""
+        setting = self.setting
+        trials = tuple(trial.in_words(setting) for trial in self.trials)
+        return replace(self, trials=trials, place=setting)
 
     def __repr__(self) -> str:
         return f"<Dialogue of {len(self.trials)} turns in {self.game.name}>"
@@ -125,20 +194,20 @@ def play(game: Game, given: Iterable[object]) -> Dialogue:
     return dialogue
 
 
-def taken(game: Game, before: Run, given: object) -> Trial:
-    """What comes of one thing that is given to the game after a run."""
+def give(game: Game, before: Run, given: object) -> Trial:
+    """The trial in which one thing is given to the game after a run."""
     before = before._replace(trace=())
-    looked = snapshot(before.state)
-    turn, fault = _turn(game, before, given)
-    return Trial(given, before, turn, fault, changed_since(looked, before.state))
+    seen = snapshot(before.state)
+    turn, fault = _attempt(game, before, given)
+    return Trial(given, before, turn, fault, changed_since(seen, before.state))
 
 
-def _turn(
+def _attempt(
     game: Game, before: Run, given: object
 ) -> tuple[Turn | None, Exception | None]:
     """The turn, or what went wrong; neither where the game does not take it."""
     try:
-        event = _meant(game, given)
+        event = _event_of(game, given)
     except TTRError:
         return None, None
     except Exception as error:
@@ -151,7 +220,7 @@ def _turn(
         return None, error if _can_happen(event, before.model) else None
 
 
-def _meant(game: Game, given: object) -> object:
+def _event_of(game: Game, given: object) -> object:
     """The event that a text is for; raises `TTRError` where it is not understood."""
     if isinstance(given, str) and game.hear is not None:
         return game.hear(given)
@@ -159,7 +228,7 @@ def _meant(game: Game, given: object) -> object:
 
 
 def _can_happen(event: object, model: Model) -> bool:
-    """Whether an event of a type can be created; what is no type just happens."""
+    """Can an event of this type be created? What is no type just happens."""
     if not isinstance(event, TypeNode):
         return True
     try:

@@ -7,9 +7,10 @@ a turn has changed are marked, and the rules that did it open with their docstri
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from warnings import warn
 
-from ttr.dialogues.stories import Moment, Setting
+from ttr.dialogues.dialogue import Dialogue, Trial
+from ttr.dialogues.settings import Setting
 from ttr.display.abbreviations import folding
 from ttr.display.differences import compared
 from ttr.display.html import STYLE, page, part_of_page
@@ -20,30 +21,29 @@ from ttr.types.records import differences
 from ttr.types.syntax import Object
 from ttr.updates import Run, Step
 
-__all__ = ["Transcribed", "transcript"]
+__all__ = ["transcript"]
 
 
-@dataclass(frozen=True)
-class Transcribed:
-    """What a transcript shows: from where a game was played, its turns, and the end.
-
-    `ending` is what there is to say at the end, as where a story differs.
-    """
-
-    title: str
-    setting: Setting
-    start: Run
-    moments: tuple[Moment, ...]
-    ending: str = ""
+def Transcribed(
+    title: str,
+    setting: Setting,
+    start: Run,
+    moments: Iterable[Trial],
+    ending: str = "",
+) -> Dialogue:
+    """A dialogue on a page, as it was made before there was `Dialogue`."""
+    message = "Transcribed is now ttr.dialogues.dialogue.Dialogue"
+    warn(message, DeprecationWarning, stacklevel=2)
+    return Dialogue(setting.game, tuple(moments), title, setting, start, ending)
 
 
 @within_budget
-def transcript(title: str, dialogues: Iterable[Transcribed]) -> str:
+def transcript(title: str, dialogues: Iterable[Dialogue]) -> str:
     """The page, as HTML.
 
     What the theory of the game defines is shown by its name.
     """
-    shown = list(dialogues)
+    shown = [dialogue.in_words() for dialogue in dialogues]
     parts = [f"<h1>{html_text(title)}</h1>"]
     if len(shown) > 1:
         parts.append(_contents(shown))
@@ -51,7 +51,7 @@ def transcript(title: str, dialogues: Iterable[Transcribed]) -> str:
     return page(title, f"<main>{''.join(parts)}</main>", STYLE + _STYLE)
 
 
-def _contents(dialogues: list[Transcribed]) -> str:
+def _contents(dialogues: list[Dialogue]) -> str:
     items = [
         f'<li><a href="#d{number}">{html_text(one.title)}</a>{_mark(one)}</li>'
         for number, one in enumerate(dialogues, start=1)
@@ -59,18 +59,18 @@ def _contents(dialogues: list[Transcribed]) -> str:
     return f"<nav><ol>{''.join(items)}</ol></nav>"
 
 
-def _mark(one: Transcribed) -> str:
+def _mark(one: Dialogue) -> str:
     return ' <span class="differs">differs</span>' if one.ending else ""
 
 
-def _dialogue(number: int, one: Transcribed) -> str:
+def _dialogue(number: int, one: Dialogue) -> str:
     fold = folding(one.setting.theory, 0)
     before: Object = fold(one.start.state)
     start = _turn(f"d{number}t0", "", "<p>the start</p>", before, before)
     parts = [f'<h2 id="d{number}">{html_text(one.title)}{_mark(one)}</h2>', start]
-    for turn, moment in enumerate(one.moments, start=1):
-        after = fold(moment.turn.state)
-        told = _talk(moment) + _rules(moment.turn.trace, fold)
+    for turn, trial in enumerate(one.trials, start=1):
+        after = fold(trial.after.state)
+        told = _talk(trial) + _rules(trial.steps, fold)
         parts.append(_turn(f"d{number}t{turn}", str(turn), told, before, after))
         before = after
     if one.ending:
@@ -87,10 +87,10 @@ def _turn(name: str, number: str, told: str, before: Object, after: Object) -> s
     )
 
 
-def _talk(moment: Moment) -> str:
-    mark, _, words = moment.line.partition(" ")
+def _talk(trial: Trial) -> str:
+    mark, _, words = trial.line.partition(" ")
     lines = [_said("heard", mark, words or "(nothing)")]
-    lines += [_said("said", "S>", words) for words in moment.said]
+    lines += [_said("said", "S>", words) for words in trial.said]
     return "".join(lines)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ttr.dialogues.dialogue import Dialogue, Trial, play, taken
+from ttr.dialogues.dialogue import Dialogue, Trial, give, play
 from ttr.judging.models import Model
 from ttr.testing.properties import Checked, Property
 from ttr.testing.single_rules import applied
@@ -53,7 +53,7 @@ def _cannot_go_on(dialogue: Dialogue, roles: Roles) -> Checked:
         return
     so_far = rest[0].before
     for number, trial in enumerate(rest, start=middle + 1):
-        other = taken(dialogue.game, so_far, trial.given)
+        other = give(dialogue.game, so_far, trial.given)
         if what := _difference(trial, other):
             yield number, f"continued from turn {middle}, {what}"
             return

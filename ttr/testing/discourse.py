@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
 
 from ttr.computing.subtyping import subtype
-from ttr.dialogues.dialogue import Dialogue, Trial, taken
+from ttr.dialogues.dialogue import Dialogue, Trial, give
 from ttr.semantics.questions import resolves
 from ttr.testing.event_subjects import item_type, items_at, kin, mentions, same
 from ttr.testing.properties import Checked, Property
@@ -228,7 +228,7 @@ def _counts_again(dialogue: Dialogue, trial: Trial, roles: Roles) -> str:
     answered = _is_answer(trial, trial.before.state, roles)
     if not answered or _is_answer(trial, state, roles):
         return ""
-    again = taken(dialogue.game, trial.after, trial.given)
+    again = give(dialogue.game, trial.after, trial.given)
     # A question that a rule takes away to ask it anew is still there at the end.
     left = _gone(items_at(state, roles.qud), items_at(again.after.state, roles.qud))
     gone = [question for question in _resolved(again, roles) if question in left]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
-from ttr.dialogues.dialogue import Dialogue, Trial
-from ttr.dialogues.stories import Setting, StoryError, moment, setting, written
+from ttr.dialogues.dialogue import Dialogue
+from ttr.dialogues.stories import Setting, StoryError, setting, story_text
 from ttr.testing.game_settings import named_in
-from ttr.updates.games import Game, Turn
+from ttr.updates.games import Game
 
 __all__ = ["place_of", "story"]
 
@@ -32,23 +33,8 @@ def story(dialogue: Dialogue, title: str, place: Setting | None = None) -> str:
     U>
     <BLANKLINE>
     """
-    game = dialogue.game
-    place = place or place_of(game)
-    lines = [moment(_turn(one), place, _words(one, game)) for one in dialogue.trials]
-    start = game.start
-    as_named = place.reference and start == place.game.start
-    return written(title, lines, place, start=None if as_named else start)
-
-
-def _turn(one: Trial) -> Turn:
-    """The turn; where nothing came of what was given, one in which nothing was said."""
-    return one.turn or Turn(one.given, None, (), one.before)
-
-
-def _words(one: Trial, game: Game) -> str:
-    """The line for what was given, if it was given in words."""
-    in_words = isinstance(one.given, str) and game.hear is not None
-    return f"U> {one.given}" if in_words else ""
+    place = place or place_of(dialogue.game)
+    return story_text(replace(dialogue, title=title, place=place))
 
 
 def place_of(game: Game) -> Setting:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from ttr.dialogues.dialogue import Dialogue, Trial, taken
+from ttr.dialogues.dialogue import Dialogue, Trial, give
 from ttr.judging.judgements import Judgement
 from ttr.testing.properties import Checked, Property
 from ttr.testing.strategies.discourse_roles import Roles, acts_in, at
@@ -121,7 +121,7 @@ def _is_stuck(dialogue: Dialogue, roles: Roles) -> bool:
     if _is_over(now, roles):
         return False
     acts = _acts(dialogue, roles)
-    tried = (taken(dialogue.game, now, one) for one in acts)
+    tried = (give(dialogue.game, now, one) for one in acts)
     return not any(trial.steps or trial.fault is not None for trial in tried)
 
 

@@ -52,13 +52,15 @@ class Turn:
 
     `event` is what was given, `heard` the object that was played, None where nothing
     happened; `said` are the own moves, in order, each as a judgement of the planned
-    type. The run has the state and the model after the turn, and its steps only.
+    type. The run has the state and the model after the turn, and its steps only;
+    `before` has those before it, and no steps.
     """
 
     event: object
     heard: Object | NBest
     said: tuple[Judgement, ...]
     run: Run
+    before: Run = field(repr=False)
 
     @property
     def state(self) -> Record:
@@ -171,11 +173,12 @@ class Game:
                 f"a turn goes on from a run, as begin() gives one, found "
                 f"{in_short(so_far)}"
             )
+        before = so_far._replace(trace=())
         happened, model = self._event(event, so_far.model)
         after = self._run(Run(so_far.state, model, ()), happened, None)
         said: list[Judgement] = []
         after = self._acted(after, said)
-        return Turn(event, happened, tuple(said), after)
+        return Turn(event, happened, tuple(said), after, before)
 
     def _acted(self, after: Run, said: list[Judgement]) -> Run:
         """The run after the moves on the agenda, which are added to those said."""

@@ -30,8 +30,9 @@ from ttr.safety.consent import Consent, NotAllowed
 from ttr.safety.files import check_outputs, write_whole
 
 if TYPE_CHECKING:
+    from ttr.dialogues.dialogue import Trial
     from ttr.dialogues.logs import LogFile
-    from ttr.dialogues.stories import Line, Moment, Outcome, Played, Setting, Story
+    from ttr.dialogues.stories import Line, Outcome, Played, Setting, Story
 
     _Result = tuple[Outcome, Played | None]
 
@@ -152,9 +153,9 @@ class _Playing:
     def _played(self, story: Story) -> Played:
         from ttr.dialogues.stories import opening, play
 
-        setting = opening(story, self._setting(story))
+        setting = self._setting(story)
         if self.log is not None:
-            self.log.begin(setting, story.title)
+            self.log.begin(opening(story, setting), story.title)
         return play(story, setting, echo=self.echo, witness=self._witness)
 
     def _setting(self, story: Story) -> Setting:
@@ -167,10 +168,10 @@ class _Playing:
             self.settings[story.game] = setting_of(story, self.consent)
         return self.settings[story.game]
 
-    def _witness(self, one: Moment) -> None:
+    def _witness(self, one: Trial) -> None:
         if self.log is not None:
             self.log.write(one)
-        for step in one.turn.trace if self.trace else ():
+        for step in one.steps if self.trace else ():
             self.echo("\n".join(f"   {line}" for line in str(step).splitlines()))
 
 
@@ -181,19 +182,13 @@ def _write_reports(
     options: argparse.Namespace, unread: list[Outcome], results: list[_Result]
 ) -> None:
     from ttr.dialogues.stories import junit
-    from ttr.dialogues.transcripts import Transcribed, transcript
+    from ttr.dialogues.transcripts import transcript
 
     if options.junit is not None:
         outcomes = [*unread, *(one for one, _ in results)]
         write_whole(options.junit, f"{junit(outcomes)}\n")
     if options.html is not None:
-        shown = [
-            Transcribed(
-                one.story.title, one.setting, one.start, one.moments, str(about)
-            )
-            for about, one in results
-            if one is not None
-        ]
+        shown = [one.dialogue for _, one in results if one is not None]
         title = ", ".join(file.name for file in options.files)
         write_whole(options.html, transcript(title, shown))
 

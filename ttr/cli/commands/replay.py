@@ -153,7 +153,7 @@ def _write(
     options: argparse.Namespace, played: list[tuple[Log, Setting, Replayed]]
 ) -> None:
     from ttr.dialogues.logs import story_of
-    from ttr.dialogues.transcripts import Transcribed, transcript
+    from ttr.dialogues.transcripts import transcript
 
     if options.story is not None:
         stories = [
@@ -161,14 +161,5 @@ def _write(
         ]
         write_whole(options.story, "\n".join(stories))
     if options.html is not None:
-        shown = [
-            Transcribed(
-                log.header.title or "a dialogue",
-                found,
-                again.start,
-                again.moments,
-                str(again.divergence or ""),
-            )
-            for log, found, again in played
-        ]
+        shown = [again.dialogue for _, _, again in played]
         write_whole(options.html, transcript(options.file.name, shown))

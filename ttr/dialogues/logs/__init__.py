@@ -6,7 +6,7 @@ where anything differs, `continued` takes the dialogue up, `story_of` makes a st
 
 from ttr.dialogues.logs.entries import Entry, Header, LogError
 from ttr.dialogues.logs.log_reader import Log, UnreadableLog, read_logs
-from ttr.dialogues.logs.log_writer import LogFile
+from ttr.dialogues.logs.log_writer import LogFile, write_log
 from ttr.dialogues.logs.replay import (
     Divergence,
     Replayed,
@@ -30,4 +30,5 @@ __all__ = [
     "replay",
     "run_after",
     "story_of",
+    "write_log",
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import FileIO
@@ -10,10 +10,11 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
+from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.dialogues.logs.entries import Entry, Header, LogError
 from ttr.dialogues.logs.learned_facts import Fact, gained, only_facts
 from ttr.dialogues.logs.name_declarations import Declared
-from ttr.dialogues.stories import Moment, Setting, moment
+from ttr.dialogues.settings import Setting
 from ttr.errors import TTRError
 from ttr.judging.models import Model
 from ttr.safety.files import why_unwritten
@@ -21,7 +22,7 @@ from ttr.types.printing import notation
 from ttr.types.syntax import Object
 from ttr.updates import NBest, Run, Step, Turn
 
-__all__ = ["LogFile"]
+__all__ = ["LogFile", "write_log"]
 
 
 @dataclass(frozen=True)
@@ -106,15 +107,20 @@ class LogFile:
         )
         self._now = _Now(setting, 0, run.model, declared)
 
-    def write(self, turn: Turn | Moment) -> None:
-        """Adds a turn; raises `LogError` for an event that no text stands for."""
+    def write(self, turn: Turn | Trial) -> None:
+        """Adds a turn; raises `LogError` for an event that no text stands for.
+
+        A trial that the game did not take has no turn, and is left out.
+        """
         now = self._now
         if now is None:
             raise LogError(f"{self.path}: begin a dialogue before writing its turns")
-        one = turn if isinstance(turn, Moment) else moment(turn, now.setting)
-        entry, declared = _entry(one, now)
+        trial = turn if isinstance(turn, Trial) else Trial.of(turn, now.setting)
+        if trial.turn is None:
+            return
+        entry, declared = _entry(trial.in_words(now.setting), trial.turn, now)
         self._write(entry)
-        self._now = _Now(now.setting, entry.turn, one.turn.model, declared)
+        self._now = _Now(now.setting, entry.turn, trial.turn.model, declared)
 
     def _write(self, line: Header | Entry) -> None:
         waiting = memoryview(_encoded(f"{line.text()}\n"))
@@ -139,6 +145,32 @@ class LogFile:
         trace: TracebackType | None,
     ) -> None:
         self.close()
+
+
+def write_log(path: Path, dialogues: Iterable[Dialogue]) -> None:
+    """Writes the log of some dialogues; raises `LogError`.
+
+    >>> import tempfile
+    >>> from ttr.building.constructors import rectype
+    >>> from ttr.dialogues.dialogue import play
+    >>> from ttr.dialogues.logs import read_logs
+    >>> from ttr.types.syntax import Ind
+    >>> from ttr.updates import Game, rule
+    >>> @rule(when=rectype(), on=Ind)
+    ... def see(s, e):
+    ...     return s
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "eyes.jsonl")
+    ...     write_log(file, [play(Game("eyes", rectype(), {}, see), [Ind, None])])
+    ...     [log] = read_logs(file)
+    >>> [entry.line for entry in log.entries]
+    ['U> Ind', 'U>']
+    """
+    with LogFile(path) as log:
+        for dialogue in dialogues:
+            log.begin(dialogue.setting, dialogue.title, dialogue.start)
+            for trial in dialogue.trials:
+                log.write(trial)
 
 
 @contextmanager
@@ -166,10 +198,10 @@ def _unwritable(what: str, value: object) -> LogError:
 # --- entries -------------------------------------------------------------------------
 
 
-def _entry(one: Moment, now: _Now) -> tuple[Entry, Declared]:
-    turn, number = one.turn, now.turn + 1
+def _entry(trial: Trial, turn: Turn, now: _Now) -> tuple[Entry, Declared]:
+    number = now.turn + 1
     facts = gained(now.model, turn.model)
-    values = list(_values(one, facts))
+    values = list(_values(turn, facts))
     statements, objects = now.declared.missing(values)
     declared = _declared(now.declared, statements, objects)
     for event in _events(turn.event):
@@ -177,11 +209,11 @@ def _entry(one: Moment, now: _Now) -> tuple[Entry, Declared]:
             raise _unwritable(f"the event of turn {number}", event)
     entry = Entry(
         number,
-        one.line,
+        trial.line,
         _event(turn.event),
         tuple(
             (notation(move.type), words)
-            for move, words in zip(turn.said, one.said, strict=True)
+            for move, words in zip(turn.said, trial.said, strict=True)
         ),
         tuple(map(_rule, turn.trace)),
         notation(turn.state),
@@ -201,11 +233,11 @@ def _declared(before: Declared, statements: list[str], objects: list[str]) -> De
         raise LogError(f"the names of this game cannot be logged: {error}") from error
 
 
-def _values(one: Moment, facts: tuple[Fact, ...]) -> Iterator[object]:
+def _values(turn: Turn, facts: tuple[Fact, ...]) -> Iterator[object]:
     """What has to be read back from the entry."""
-    yield one.turn.state
-    yield from _events(one.turn.event)
-    yield from (move.type for move in one.turn.said)
+    yield turn.state
+    yield from _events(turn.event)
+    yield from (move.type for move in turn.said)
     for fact in facts:
         yield from (fact.sit, fact.type)
 

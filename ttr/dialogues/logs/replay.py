@@ -7,12 +7,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from ttr.aliases import Alias
+from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.dialogues.logs.entries import Entry, LogError
 from ttr.dialogues.logs.learned_facts import Fact, gained, restored
 from ttr.dialogues.logs.log_reader import Log
 from ttr.dialogues.logs.log_writer import LogFile
-from ttr.dialogues.stories import Moment, Setting, moment, written
-from ttr.dialogues.stories.story_writer import turn_lines
+from ttr.dialogues.settings import Setting
+from ttr.dialogues.stories.story_writer import format_story, turn_lines
 from ttr.errors import TTRError
 from ttr.probability import Degree
 from ttr.types.printing import notation
@@ -42,19 +44,17 @@ class Divergence:
 
 @dataclass(frozen=True)
 class Replayed:
-    """A log that was replayed: from where, the turns, and where it differs, if it does.
+    """A log that was replayed: the dialogue, and where it differs, if it does.
 
     It ends with the first turn that differs.
     """
 
-    start: Run
-    moments: tuple[Moment, ...]
+    dialogue: Dialogue
     divergence: Divergence | None
 
-    @property
-    def run(self) -> Run:
-        """The state and the model at the end."""
-        return self.moments[-1].turn.run if self.moments else self.start
+    start = Alias("dialogue.start")
+    moments = Alias("dialogue.trials")
+    run = Alias("dialogue.now")
 
 
 def replay(log: Log, setting: Setting, *, from_: int = 0) -> Replayed:
@@ -64,16 +64,21 @@ def replay(log: Log, setting: Setting, *, from_: int = 0) -> Replayed:
     compared. Raises `LogError` for a turn that the log has not, or from which no game
     can be taken up.
     """
-    start = run_after(log, setting, from_)
-    now, moments = start, list[Moment]()
+    now = start = run_after(log, setting, from_)
+    trials: list[Trial] = []
+    divergence: Divergence | None = None
     for entry in log.entries[from_:]:
         turn, divergence = _again(log, entry, setting, now)
         if turn is not None:
             now = turn.run
-            moments.append(moment(turn, setting, entry.line))
+            trials.append(Trial.of(turn, setting, entry.line))
         if divergence is not None:
-            return Replayed(start, tuple(moments), divergence)
-    return Replayed(start, tuple(moments), None)
+            break
+    ending = "" if divergence is None else str(divergence)
+    dialogue = Dialogue(
+        setting.game, tuple(trials), _title(log), setting, start, ending
+    )
+    return Replayed(dialogue, divergence)
 
 
 def run_after(log: Log, setting: Setting, turn: int) -> Run:
@@ -120,11 +125,15 @@ def story_of(log: Log, setting: Setting, folder: Path | None = None) -> str:
         setting = replace(setting, reference=reference, folder=folder)
     usual = notation(setting.game.start) == log.header.start
     start = None if usual else _state(log, 0, log.header.start)
-    lines = [written(log.header.title or "a dialogue", [], setting, start=start)]
+    lines = [format_story(_title(log), [], setting, start=start)]
     for entry in log.entries:
         said = [words for _, words in entry.said]
         lines += [f"{line}\n" for line in turn_lines(entry.line, said)]
     return "".join(lines)
+
+
+def _title(log: Log) -> str:
+    return log.header.title or "a dialogue"
 
 
 # --- one turn ------------------------------------------------------------------------

@@ -4,6 +4,9 @@
 them and says where they differ from what happens. `written` makes a story of turns.
 """
 
+from typing import TYPE_CHECKING
+
+from ttr.aliases import former_names
 from ttr.dialogues.settings import (
     Setting,
     StoryError,
@@ -17,14 +20,14 @@ from ttr.dialogues.stories.mismatches import SILENCE, Mismatch
 from ttr.dialogues.stories.story_opening import check_consent, opening, setting_of
 from ttr.dialogues.stories.story_player import Played, failing, fits, play
 from ttr.dialogues.stories.story_reader import Line, Story, read_stories
-from ttr.dialogues.stories.story_writer import Moment, moment, worded, written
+from ttr.dialogues.stories.story_writer import format_story, story_text
+from ttr.dialogues.wording import wording
 
 __all__ = [
     "SILENCE",
     "Alternative",
     "Line",
     "Mismatch",
-    "Moment",
     "Outcome",
     "Played",
     "Setting",
@@ -35,8 +38,8 @@ __all__ = [
     "facts",
     "failing",
     "fits",
+    "format_story",
     "junit",
-    "moment",
     "named_by_user",
     "opening",
     "play",
@@ -44,7 +47,10 @@ __all__ = [
     "read_stories",
     "setting",
     "setting_of",
+    "story_text",
     "summary",
-    "worded",
-    "written",
+    "wording",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)

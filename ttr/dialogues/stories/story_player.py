@@ -6,18 +6,19 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from ttr.aliases import Alias
 from ttr.computing.subtyping import subtype
+from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.dialogues.settings import Setting
 from ttr.dialogues.stories.line_events import event, type_of
 from ttr.dialogues.stories.mismatches import SILENCE, Mismatch
 from ttr.dialogues.stories.story_opening import opening, setting_of, turns_of
 from ttr.dialogues.stories.story_reader import Line, Story
-from ttr.dialogues.stories.story_writer import Moment, moment
 from ttr.errors import NotHeard, TTRError
 from ttr.judging.judgements import Judgement
 from ttr.probability import CERTAIN
 from ttr.types.printing import notation
-from ttr.updates import Run, Step
+from ttr.updates import Step
 
 __all__ = ["Played", "failing", "fits", "play"]
 
@@ -29,16 +30,18 @@ _Said = tuple[Judgement, str]
 
 @dataclass(frozen=True)
 class Played:
-    """A story that was played: from where, its turns, and where it differs, if it does.
+    """A story that was played: the dialogue, and where it differs, if it does.
 
     It ends where it first differs.
     """
 
     story: Story
-    setting: Setting
-    start: Run
-    moments: tuple[Moment, ...]
+    dialogue: Dialogue
     mismatch: Mismatch | None
+
+    setting = Alias("dialogue.setting")
+    start = Alias("dialogue.start")
+    moments = Alias("dialogue.trials")
 
 
 def play(
@@ -46,17 +49,22 @@ def play(
     setting: Setting | None = None,
     *,
     echo: Echo = lambda line: None,
-    witness: Callable[[Moment], None] = lambda moment: None,
+    witness: Callable[[Trial], None] = lambda trial: None,
 ) -> Played:
     """Plays a story with a game: the one given, or the one that the story names.
 
     `echo` is given each line as it is played, `witness` each turn when it is over.
     Raises `StoryError` for a line that cannot be played.
     """
-    opened = opening(story, setting or setting_of(story))
+    setting = setting or setting_of(story)
+    opened = opening(story, setting)
     playing = _Playing(opened, echo, witness)
     mismatch = playing.play(story)
-    return Played(story, opened, playing.start, tuple(playing.moments), mismatch)
+    ending = "" if mismatch is None else str(mismatch)
+    dialogue = Dialogue(
+        opened.game, tuple(playing.trials), story.title, setting, ending=ending
+    )
+    return Played(story, dialogue, mismatch)
 
 
 # --- playing -------------------------------------------------------------------------
@@ -66,11 +74,11 @@ class _Playing:
     """A story being played, and what was said that the story has not had."""
 
     def __init__(
-        self, setting: Setting, echo: Echo, witness: Callable[[Moment], None]
+        self, setting: Setting, echo: Echo, witness: Callable[[Trial], None]
     ) -> None:
         self.setting, self._echo, self._witness = setting, echo, witness
-        self.start = self._now = setting.game.begin()
-        self.moments: list[Moment] = []
+        self._now = setting.game.begin()
+        self.trials: list[Trial] = []
         self._said: list[_Said] = []
 
     def play(self, story: Story) -> Mismatch | None:
@@ -94,17 +102,17 @@ class _Playing:
         self._echo(told)
         try:
             turn = self.setting.game.take(self._now, happening)
-            done = moment(turn, self.setting, told)
+            trial = Trial.of(turn, self.setting, told)
         except NotHeard as error:
             raise line.wrong(error.message) from error
         except TTRError as error:
             self._said = []
             return Mismatch(line, "a turn without an error", error.message)
         self._now = turn.run
-        said = zip(turn.said, done.said, strict=True)
+        said = zip(turn.said, trial.said, strict=True)
         self._said = [(move, words) for move, words in said if words]
-        self.moments.append(done)
-        self._witness(done)
+        self.trials.append(trial)
+        self._witness(trial)
         for _, words in self._said:
             self._echo(f"S> {words}")
         return None
@@ -161,7 +169,7 @@ class _Playing:
     @property
     def _trace(self) -> tuple[Step, ...]:
         """The rules of the latest turn."""
-        return self.moments[-1].turn.trace if self.moments else ()
+        return self.trials[-1].steps if self.trials else ()
 
 
 # --- differences ---------------------------------------------------------------------

@@ -1,0 +1,50 @@
+"""Events and moves in words: as the game has them, or else in the notation."""
+
+from __future__ import annotations
+
+from ttr.dialogues.settings import Setting
+from ttr.display.abbreviations import folding
+from ttr.errors import UpdateError
+from ttr.judging.judgements import Judgement
+from ttr.types.printing import notation
+from ttr.types.syntax import Object
+from ttr.updates import NBest
+
+__all__ = ["line_of_event", "wording"]
+
+
+def wording(move: Judgement, setting: Setting) -> str:
+    """A move of the system in the words of the game, else its type in the notation.
+
+    What the theory defines stands by its name. Raises `UpdateError` where the game
+    finds no words.
+    """
+    say = setting.game.say
+    if say is None:
+        return _folded(move.type, setting)
+    try:
+        return " ".join(say(move).split())
+    except Exception as error:
+        fault = f"{type(error).__name__}: {error}"
+        raise UpdateError(
+            f"the game {setting.game.name} found no words for {move}: {fault}"
+        ) from error
+
+
+def line_of_event(event: object, setting: Setting) -> str:
+    """The line of a story that makes an event happen, in the notation.
+
+    It is read so whether or not the game hears words.
+    """
+    hears = setting.game.hear is not None
+    match event:
+        case None:
+            return "U>"
+        case NBest():
+            parts = [f"{_folded(one, setting)} {p!r}" for one, p in event]
+            return ("@ perhaps " if hears else "U~ ") + " | ".join(parts)
+    return ("@ event " if hears else "U> ") + _folded(event, setting)
+
+
+def _folded(value: Object, setting: Setting) -> str:
+    return notation(folding(setting.theory, 0)(value))
