@@ -303,4 +303,4 @@ def test_a_doubling_repetition_ends():
         return T
 
     with ttr.budget(steps=FEW), pytest.raises(TooLargeError):
-        repeated(20)
+        str(repeated(20))

@@ -1,7 +1,10 @@
 """Subtyping: what follows from form, from equations and from axioms, and why not."""
 
+import pickle
+
 import pytest
 
+import ttr
 from ttr import (
     Application,
     Basic,
@@ -188,6 +191,38 @@ def test_axioms():
 def test_an_answer_is_no_truth_value():
     with pytest.raises(TypeError, match=r"ask for \.yes or \.no"):
         bool(subtype(A, B))
+
+
+def test_reasons_are_made_when_they_are_asked_for(monkeypatch):
+    printed = []
+
+    def notation(value, scope=()):
+        printed.append(value)
+        return "a type"
+
+    with monkeypatch.context() as patched:
+        patched.setattr("ttr.computing.prover.notation", notation)
+        answer = subtype(A, B)
+        assert answer.no
+        assert printed == []
+        assert answer.why == answer.why == "a type is not below a type"
+        assert printed == [A, B]
+
+
+def test_an_answer_is_a_value():
+    answer = subtype(rectype(x=A), B)
+    assert answer == subtype(rectype(x=A), B) != subtype(A, B)
+    assert len({answer, subtype(rectype(x=A), B)}) == 1
+    assert pickle.loads(pickle.dumps(answer)) == answer
+    assert repr(answer) == "Answer(verdict='no', why='[x : A] is not below B')"
+
+
+def test_a_reason_that_is_too_large_is_said_to_be():
+    with ttr.budget(steps=10):
+        assert subtype(A, A).why == "A is below itself"
+        many = rectype({f"x{i}": A for i in range(8)})
+    with ttr.budget(steps=5):
+        assert str(subtype(many, many)).startswith("yes: too large: it takes more")
 
 
 def test_what_is_no_type():

@@ -15,10 +15,9 @@ from typing import TypeAlias
 from ttr.building.addresses import nearest
 from ttr.building.constructors import rectype
 from ttr.building.merging import merge
-from ttr.computing.generic_witness import Hypothetical
+from ttr.computing.generic_witness import ITSELF, GenericWitness, step
 from ttr.computing.strings.pieces import is_of_strings
 from ttr.computing.subtyping import subtype
-from ttr.computing.witness_places import ITSELF, step
 from ttr.errors import IllFormed
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.axioms import above
@@ -84,7 +83,7 @@ def _above_both(S: TypeNode, T: TypeNode, theory: Signature | None) -> TypeNode 
     ]
     if higher:
         return in_canonical_order(higher)[0]
-    found = _Both(Hypothetical(S), Hypothetical(T), theory).generalised()
+    found = _Both(GenericWitness(S), GenericWitness(T), theory).generalised()
     match found:
         case RecordType():
             return _fitting(found, theory)
@@ -130,8 +129,8 @@ class _Both:
     `settled` are those that are set to something, and what is in them.
     """
 
-    left: Hypothetical
-    right: Hypothetical
+    left: GenericWitness
+    right: GenericWitness
     theory: Signature | None
     paths: dict[_Terms, list[Path]] = field(default_factory=dict)
     settled: set[Path] = field(default_factory=set)
@@ -166,7 +165,7 @@ class _Both:
         here = [label for R in mine if isinstance(R, RecordType) for label in R]
         return [label for label in dict.fromkeys(here) if label in there]
 
-    def _types(self, side: Hypothetical, place: Path) -> list[TypeNode]:
+    def _types(self, side: GenericWitness, place: Path) -> list[TypeNode]:
         return side.types_of(side.normal(place))
 
     def _terms(self, place: Path) -> _Terms:
@@ -376,7 +375,7 @@ def _is_record_type(T: TypeNode) -> bool:
     return isinstance(T, RecordType)
 
 
-def _others(witness: Hypothetical, types: Iterable[TypeNode]) -> list[TypeNode]:
+def _others(witness: GenericWitness, types: Iterable[TypeNode]) -> list[TypeNode]:
     """The types that are no record types, in the terms chosen for the witness."""
     return [witness.normal(T) for T in types if not _is_record_type(T)]
 

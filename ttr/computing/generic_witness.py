@@ -14,19 +14,9 @@ from collections.abc import Collection, Iterable, Iterator
 
 from ttr.computing.strings.pieces import events_of, is_of_strings
 from ttr.computing.universe_levels import why_outside
-from ttr.computing.witness_places import (
-    EACH,
-    ITSELF,
-    element,
-    elements,
-    event,
-    instantiated,
-    step,
-    unpacked,
-    within,
-)
 from ttr.safety.budgets import spend
 from ttr.types.paths import escaping, occurring, replace_paths
+from ttr.types.substitution import field_type, follow_labels, substitute_variable
 from ttr.types.syntax import (
     Application,
     Basic,
@@ -53,21 +43,63 @@ from ttr.types.syntax import (
     identity,
 )
 
-__all__ = ["Assumption", "Hypothetical"]
+__all__ = [
+    "ITSELF",
+    "Assumption",
+    "GenericWitness",
+    "element",
+    "elements",
+    "event",
+    "step",
+]
 
 Assumption = tuple[Object, TypeNode]
 """That a place or an object is of a type."""
 
 
-class Hypothetical:
+# --- places --------------------------------------------------------------------------
+
+ITSELF = Path(0, ("·",))
+"""The place of the witness itself; its name is no label."""
+
+_EACH = "*"
+"""The step from a list or set to an arbitrary element of it; it is no label."""
+
+
+def step(place: Path, label: str) -> Path:
+    """The place one label further in."""
+    return Path(place.up, (*place.labels, label))
+
+
+def element(place: Path) -> Path:
+    """The place of an arbitrary element of the list or set at a place."""
+    return step(place, _EACH)
+
+
+def event(place: Path, number: int) -> Path:
+    """The place of an event of the string at a place; they are counted from 0."""
+    return step(place, str(number))
+
+
+def elements(term: Object) -> tuple[Object, ...] | None:
+    """What is in a list, a set or a string that is written out; else None."""
+    if isinstance(term, FiniteSet | EventString):
+        return term.items
+    return term if isinstance(term, tuple) else None
+
+
+# --- the witness ---------------------------------------------------------------------
+
+
+class GenericWitness:
     """An arbitrary witness of S, and others that are assumed beside it.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
-    >>> witness = Hypothetical(rectype(x=Ind, y=Ind @ this.x))
+    >>> witness = GenericWitness(rectype(x=Ind, y=Ind @ this.x))
     >>> witness.normal(step(ITSELF, "y")) is step(ITSELF, "x")
     True
-    >>> Hypothetical(Ind @ "a" & Ind @ "b").impossible
+    >>> GenericWitness(Ind @ "a" & Ind @ "b").is_impossible
     True
     """
 
@@ -115,12 +147,12 @@ class Hypothetical:
         return known.types(given) if known else []
 
     @property
-    def impossible(self) -> bool:
+    def is_impossible(self) -> bool:
         """Whether nothing is of S, under no assignment."""
         return None in self._absent
 
     @property
-    def certain(self) -> bool:
+    def is_certain(self) -> bool:
         """Whether some assignment surely has such a witness, of no more than this."""
         return self._followed and not self._absent
 
@@ -164,7 +196,7 @@ class Hypothetical:
                 # A claim is kept for each field, with a place as long as it is deep.
                 spend((2 + len(place.labels) // 4) * len(fields))
                 for label, field in fields:
-                    self._claim(step(place, label), unpacked(field, place))
+                    self._claim(step(place, label), field_type(field, place))
         self._claims.append((place, T))
 
     def _classify(self, term: Object, T: TypeNode, condition: Path | None) -> None:
@@ -202,8 +234,8 @@ class Hypothetical:
             case RecordType(fields) if isinstance(term, Record):
                 self._classify(term, T, condition)
                 for label, field in fields:
-                    inner = within(term, (label,))
-                    self._spread(inner, unpacked(field, term), condition)
+                    inner = follow_labels(term, (label,))
+                    self._spread(inner, field_type(field, term), condition)
             case RecordType():
                 self._followed = False
                 self._classify(term, T, condition)
@@ -221,7 +253,7 @@ class Hypothetical:
 
     def _condition(self, place: Path) -> Path | None:
         """The innermost element of a list that a place is, or is in."""
-        if EACH not in place.labels:
+        if _EACH not in place.labels:
             return None
         labels = _to_element(place)
         found = self.normal(Path(0, labels[:-1]))
@@ -293,7 +325,7 @@ class Hypothetical:
             labels = chosen.labels
             if length == len(labels):
                 passed.append(labels)
-            chosen = within(self._equal[labels[:length]], labels[length:])
+            chosen = follow_labels(self._equal[labels[:length]], labels[length:])
         self._equal.update(dict.fromkeys(passed, chosen))
         return chosen if isinstance(chosen, Path) else self.normal(chosen)
 
@@ -409,7 +441,7 @@ def _value(T: TypeNode) -> Object:
     """
     match T:
         case Application(Function(_, body), argument):
-            return instantiated(body, argument)
+            return substitute_variable(body, argument)
     return None
 
 
@@ -440,4 +472,4 @@ def _to_element(place: Path) -> tuple[str, ...]:
     """The labels to the innermost element of a list that the place is in, or none."""
     labels = place.labels
     lengths = range(len(labels), 0, -1)
-    return next((labels[:n] for n in lengths if labels[n - 1] == EACH), ())
+    return next((labels[:n] for n in lengths if labels[n - 1] == _EACH), ())

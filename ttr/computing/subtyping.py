@@ -1,20 +1,20 @@
 """S ⊑ T: is every witness of S one of T, whatever is judged to be of what?
 
-A sound system of rules over structure and declared axioms, with three answers. `yes` is
-derivable; `no` means that some assignment of witnesses speaks against it; `unknown`
-means neither is known. What happens to be judged is never looked at.
+The rules are sound; they look at structure and declared axioms, never at judgements.
+There are three answers. `yes`: it is derivable. `no`: there is an assignment in which
+some witness of S is not of T. `unknown`: neither was found.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ttr.computing.case_analysis import cases
 from ttr.computing.cycles import in_order
-from ttr.computing.generic_witness import Assumption
-from ttr.computing.prover import Finding, Question
-from ttr.computing.witness_places import ITSELF
+from ttr.computing.generic_witness import ITSELF, Assumption
+from ttr.computing.prover import Finding, Prover
 from ttr.errors import TooLargeError
 from ttr.hooks import hook
 from ttr.safety.budgets import within_budget
@@ -49,7 +49,7 @@ __all__ = ["Answer", "Refutation", "consistent", "subtype"]
 
 @dataclass(frozen=True)
 class Refutation:
-    """What may speak against S ⊑ T: a witness of S of which this is assumed."""
+    """A possible counterexample to S ⊑ T: a witness of S under these assumptions."""
 
     S: TypeNode
     T: TypeNode
@@ -59,17 +59,27 @@ class Refutation:
 
 @hook
 def counterexample(refutation: Refutation) -> Judgement | None:
-    """A judgement that speaks against S ⊑ T: `ttr.judging.counterexamples.counter`."""
+    """A judgement that refutes S ⊑ T: `ttr.judging.counterexamples.counter`."""
     raise NotImplementedError
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Answer:
-    """An answer to a question about types: `verdict` is yes, no or unknown."""
+    """An answer to a question about types: `verdict` is yes, no or unknown.
+
+    A reason may be given as what makes it: then it is made when it is asked for.
+    """
 
     verdict: str
-    why: str
-    _refutation: Refutation | None = field(default=None, repr=False, compare=False)
+    _reason: str | Callable[[], str]
+    _refutation: Refutation | None = None
+
+    @property
+    def why(self) -> str:
+        """The reason in words."""
+        if not isinstance(self._reason, str):
+            object.__setattr__(self, "_reason", _in_words(self._reason))
+        return self._reason  # type: ignore[return-value]
 
     @property
     def yes(self) -> bool:
@@ -88,9 +98,9 @@ class Answer:
 
     @property
     def counter(self) -> Judgement | None:
-        """A judgement that speaks against S ⊑ T: of a witness of S, which is not of T.
+        """A counterexample to S ⊑ T: the judgement of a witness of S that is not of T.
 
-        Its `model` is the assignment in which it is so. None where nothing is refuted.
+        Its `model` is the assignment in which this is so. None unless it is refuted.
 
         >>> from ttr.building.constructors import rectype
         >>> from ttr.types.syntax import Ind
@@ -104,8 +114,32 @@ class Answer:
     def __bool__(self) -> bool:
         raise TypeError("an answer is yes, no or unknown: ask for .yes or .no")
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Answer):
+            return NotImplemented
+        return (self.verdict, self.why) == (other.verdict, other.why)
+
+    def __hash__(self) -> int:
+        return hash((self.verdict, self.why))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Answer, (self.verdict, self.why, self._refutation)
+
+    def __repr__(self) -> str:
+        return f"Answer(verdict={self.verdict!r}, why={self.why!r})"
+
     def __str__(self) -> str:
         return f"{self.verdict}: {self.why}"
+
+
+def _message(error: TooLargeError, *_: object) -> str:
+    return error.message
+
+
+@within_budget(otherwise=_message)
+def _in_words(reason: Callable[[], str]) -> str:
+    """The reason; where it is too large to be printed, that it is."""
+    return reason()
 
 
 def _left_open(error: TooLargeError, *_: object, **__: object) -> Answer:
@@ -124,9 +158,9 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     S′ ⊑ S and T ⊑ T′. Raises `IllFormed` for what is no type. Source: Cooper 2023, with
     Betarte and Tasistro 1998 for record types.
 
-    The rules are asked of one arbitrary witness of S, in each case where S is a join.
-    Where nothing can be of S, it is below every type; where there may be nothing, a
-    refutation is not certain.
+    The proof is about one arbitrary witness of S, or of each case where S is a join.
+    A type without witnesses is below every type. Where S may have none, nothing is
+    refuted.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
@@ -138,40 +172,41 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     """
     S, T, theory = as_type(S), as_type(T), signature_of(theory)
     if S is T:
-        return Answer("yes", f"{S} is below itself")
+        return Answer("yes", lambda: f"{S} is below itself")
     found = cases(S)
     answers = [_in_case(case, T, theory) for case in found or (S,)]
     refuted = next((answer for answer in answers if answer.no), None)
     if refuted is not None:
         return refuted
     if len(answers) > 1 and all(answer.yes for answer in answers):
-        return Answer("yes", f"each case of {S} is below {T}")
+        return Answer("yes", lambda: f"each case of {S} is below {T}")
     return next((answer for answer in answers if answer.unknown), answers[0])
 
 
 def _in_case(S: TypeNode, T: TypeNode, theory: Signature) -> Answer:
     """The answer for one case of a type."""
-    question = Question.about(S, theory)
-    if question.impossible:
-        return Answer("yes", f"nothing can be of {S}")
-    found = question.ask(ITSELF, T)
+    prover = Prover.for_type(S, theory)
+    if prover.is_impossible:
+        return Answer("yes", lambda: f"nothing can be of {S}")
+    found = prover.prove(ITSELF, T)
     if found.yes:
-        return Answer("yes", found.why or _by_form(S, T))
-    return _refuted(question, T, found)
+        return Answer("yes", lambda: found.why or _why_by_form(S, T))
+    return _refute(prover, T, found)
 
 
-def _refuted(question: Question, T: TypeNode, found: Finding) -> Answer:
-    """The answer no, if an assignment is known to speak against it."""
-    S = question.S
-    refutation = Refutation(S, T, question.theory, found.assumed)
-    answer = Answer("no", found.why, refutation)
-    certain = question.witness.certain
+def _refute(prover: Prover, T: TypeNode, found: Finding) -> Answer:
+    """The answer no if there certainly is a counterexample, else unknown."""
+    S = prover.S
+    refutation = Refutation(S, T, prover.theory, found.assumed)
+    answer = Answer("no", lambda: found.why, refutation)
+    certain = prover.witness.is_certain
     if certain and _is_plain(S) and _is_plain(T) and in_order(S):
         return answer
     if answer.counter is not None:
         return answer
-    but = "" if certain else f", but nothing may be of {S}"
-    return Answer("unknown", f"{found.why}{but}")
+    if certain:
+        return Answer("unknown", lambda: found.why)
+    return Answer("unknown", lambda: f"{found.why}, but nothing may be of {S}")
 
 
 _TYPES = (Basic, PType, Singleton, Meet, ListOf, RecordType, Universe)
@@ -179,7 +214,7 @@ _PLAIN = (*_TYPES, Pred, Path, FiniteSet, EventString)
 
 
 def _is_plain(T: TypeNode) -> bool:
-    """Whether it is of constructors whose rules leave nothing underivable."""
+    """Is T made only of constructors for which the rules are complete?"""
     waiting: dict[Object, None] = {T: None}
     found: dict[Object, None] = {}
     while waiting:
@@ -198,7 +233,7 @@ def _is_plain(T: TypeNode) -> bool:
     )
 
 
-def _by_form(S: TypeNode, T: TypeNode) -> str:
+def _why_by_form(S: TypeNode, T: TypeNode) -> str:
     if isinstance(T, RecordType):
         return f"each field of {T} is there, and below"
     return f"{S} is below {T} by its form"
@@ -219,15 +254,15 @@ def consistent(*types: TypeNode, theory: Signature | None = None) -> Answer:
     open_cases = [
         case
         for case in cases(T) or (T,)
-        if not Question.about(case, signature).impossible
+        if not Prover.for_type(case, signature).is_impossible
     ]
     if not open_cases:
-        return Answer("no", f"nothing can be of {T}")
+        return Answer("no", lambda: f"nothing can be of {T}")
     for case in open_cases:
         found = counterexample(Refutation(case, Negation(case), signature))
         if found is not None:
             return Answer("yes", f"some assignment has {found.sit} of {T}")
-    return Answer("unknown", f"no witness of {T} could be made up")
+    return Answer("unknown", lambda: f"no witness of {T} could be made up")
 
 
 is_subtype.provided_by(lambda S, T: subtype(S, T).yes)

@@ -7,10 +7,9 @@ from functools import partial
 from itertools import product
 
 from ttr.computing.cycles import straightened
-from ttr.computing.generic_witness import Assumption
+from ttr.computing.generic_witness import ITSELF, Assumption, elements
 from ttr.computing.strings.pieces import is_of_strings
 from ttr.computing.subtyping import Refutation, counterexample
-from ttr.computing.witness_places import ITSELF, elements
 from ttr.errors import TTRError
 from ttr.judging.assignments import Assignment
 from ttr.judging.creation import created, told

@@ -10,7 +10,7 @@ from typing import assert_never
 from ttr.building.merging import merge
 from ttr.computing.case_analysis import cases, splits
 from ttr.computing.cycles import circle
-from ttr.computing.generic_witness import Hypothetical
+from ttr.computing.generic_witness import ITSELF, GenericWitness, step
 from ttr.computing.strings.automata import automaton_above
 from ttr.computing.strings.pieces import (
     alternatives,
@@ -19,7 +19,6 @@ from ttr.computing.strings.pieces import (
     string_of,
 )
 from ttr.computing.strings.runs import shortest
-from ttr.computing.witness_places import ITSELF, step
 from ttr.errors import Refused, TTRError
 from ttr.judging.assignments import Assignment
 from ttr.judging.certainty import certainly
@@ -173,7 +172,7 @@ def _settled(T: TypeNode) -> TypeNode:
     """The type with those fields manifest that others say to be a certain object."""
     if not isinstance(T, RecordType):
         return T
-    witness = Hypothetical(T)
+    witness = GenericWitness(T)
     fields: list[tuple[str, TypeNode]] = []
     for label, field in T.fields:
         value = witness.normal(step(ITSELF, label))

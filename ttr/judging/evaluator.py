@@ -10,7 +10,7 @@ from itertools import islice, product
 from typing import assert_never
 
 from ttr.computing.case_analysis import cases
-from ttr.computing.prover import Question
+from ttr.computing.prover import Prover
 from ttr.computing.strings.automata import automaton
 from ttr.computing.strings.pieces import events_of
 from ttr.computing.strings.runs import Stop
@@ -237,8 +237,8 @@ class _Derivation:
         if not isinstance(sit, Function):
             return Why(sit, T, REFUTED, "it is no function", where=where)
         theory = self._facts.theory
-        question = replace(Question.about(Rec, theory), judged=self._certain)
-        found = question.ask(sit, T)
+        prover = replace(Prover.for_type(Rec, theory), is_judged=self._certain)
+        found = prover.prove(sit, T)
         if found.yes:
             rule = "whatever it is applied to"
             return Why(sit, T, CERTAIN, rule, where=where)

@@ -4,10 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ttr.types.objects import BOUND, Object, Path, Record, Unresolved
+from ttr.types.objects import (
+    BOUND,
+    EventString,
+    Object,
+    Path,
+    Record,
+    Unresolved,
+)
 from ttr.types.paths import replace_paths
+from ttr.types.syntax import TypeNode
 
-__all__ = ["Around", "along", "grounded"]
+__all__ = [
+    "Around",
+    "along",
+    "field_type",
+    "follow_labels",
+    "grounded",
+    "substitute_variable",
+]
 
 Around = tuple[Mapping[str, Object], ...]
 """What the scopes around say: labels of records, the variable of a binder; innermost
@@ -50,3 +65,61 @@ def grounded(value: Object, around: Around) -> Object:
         return along(around[path.up][first], tuple(rest))
 
     return replace_paths(value, at)
+
+
+def field_type(field: TypeNode, whole: Path | Record) -> TypeNode:
+    """The type of a field of a record as seen from outside the record.
+
+    `whole` is the record, or the place where it stands.
+
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> print(field_type(Pred("dog", Ind)(this.x), Record({"x": "fido"})))
+    dog(fido)
+    """
+
+    def outside(path: Path) -> Object:
+        if path.up > 0:
+            return Path(path.up - 1, path.labels)
+        return follow_labels(whole, path.labels)
+
+    found: TypeNode = replace_paths(field, outside)
+    return found
+
+
+def substitute_variable(body: Object, term: Object) -> Object:
+    """The body of a binder, as seen from outside, with a term for its variable.
+
+    >>> from ttr.building.constructors import fun
+    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> print(substitute_variable(fun(x=Ind)(Pred("run", Ind)(this.x)).body, "fido"))
+    run(fido)
+    """
+
+    def outside(path: Path) -> Object:
+        if path.up > 0:
+            return Path(path.up - 1, path.labels)
+        return follow_labels(term, path.labels[1:])
+
+    return replace_paths(body, outside)
+
+
+def follow_labels(value: Object, labels: tuple[str, ...]) -> Object:
+    """Where the labels lead in an object or from a place.
+
+    A path that leads nowhere becomes one that starts nowhere: it equals nothing else.
+    """
+    for done, label in enumerate(labels):
+        if isinstance(value, Path):
+            return Path(value.up, value.labels + labels[done:])
+        if isinstance(value, EventString) and _is_event(value, label):
+            value = value.items[int(label)]
+            continue
+        if not isinstance(value, Record) or label not in value:
+            return Path(0, ("", *labels))
+        value = value[label]
+    return value
+
+
+def _is_event(string: EventString, label: str) -> bool:
+    """Whether a label, which may be a number, is that of an event of the string."""
+    return label.isdigit() and int(label) < len(string)

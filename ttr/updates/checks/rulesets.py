@@ -10,7 +10,7 @@ from typing import TypeAlias
 from immutables import Map
 
 from ttr.computing.case_analysis import cases
-from ttr.computing.prover import Question
+from ttr.computing.prover import Prover
 from ttr.computing.subtyping import subtype
 from ttr.errors import TTRError
 from ttr.judging.models import Model
@@ -256,6 +256,6 @@ def _impossible(T: TypeNode, theory: Signature) -> bool:
     """Whether surely nothing is of a type, under any assignment."""
     try:
         every = cases(T) or (T,)
-        return all(Question.about(case, theory).impossible for case in every)
+        return all(Prover.for_type(case, theory).is_impossible for case in every)
     except TTRError:
         return False
