@@ -118,8 +118,10 @@ class Assignment:
             or pred in self.theory.axiom_heads
         ):
             return True
-        told = self.known.get(identity(sit))
-        return told is not None and any(head(T) is pred for T in told)
+        for T in self.known.get(identity(sit), _EMPTY):
+            if isinstance(T, PType) and T.pred is pred:
+                return True
+        return False
 
     def perceived(self, sit: Object, T: Atom) -> Degree | None:
         """What the witness function of T answers, or None where there is none.

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from itertools import islice, product
-from typing import assert_never
+from typing import Any, ClassVar, Generic, TypeVar
 
 from ttr.computing.case_analysis import cases
 from ttr.computing.prover import Prover
@@ -25,6 +26,7 @@ from ttr.judging.segmentation import Dividing, events_in_words, stopped
 from ttr.judging.stated_dependence import Atom, Claim
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import spend
+from ttr.types.interning import cache_on_node
 from ttr.types.objects import Missing, Unresolved
 from ttr.types.paths import escaping, mentions, rebuilt
 from ttr.types.printing import notation
@@ -56,7 +58,10 @@ from ttr.types.syntax import (
     identity,
 )
 
-__all__ = ["claims_of", "derivation", "reduced", "stands"]
+__all__ = ["Evaluator", "claims_of", "derivation", "made_up", "reduced", "stands"]
+
+Answer = TypeVar("Answer")
+"""What is asked of a judgement."""
 
 TRIED = 100
 """How many known objects a function is tried on."""
@@ -77,75 +82,294 @@ def derivation(facts: Assignment, sit: Object, T: TypeNode, around: Around = ())
     its distinct atoms together: an atom that another one entails adds nothing, and
     the others are independent.
     """
-    return _Derivation(facts).of(sit, T, around, "")
+    return _Derivation(facts).of(sit, T, around)
 
 
-class _Derivation:
-    """Derives claims; `around` are the scopes around a field, innermost first."""
+class Evaluator(ABC, Generic[Answer]):
+    """What sit : T comes down to, by the form of T, whatever an answer is.
+
+    A clause refutes sit : T by the form of sit, or makes the answer of those to
+    simpler claims, lazily. Subclasses say what an answer is: a derivation
+    (`derivation`), or only whether the claim is certain (`ttr.judging.certainty`).
+
+    `around` are the scopes that paths lead out to, innermost first; `where` is the
+    label of the field that the claim is about, or empty.
+    """
+
+    _clauses: ClassVar[Mapping[type[TypeNode], Callable[..., Any]]]
+
+    def __init_subclass__(cls) -> None:
+        cls._clauses = {kind: getattr(cls, name) for kind, name in _CLAUSES.items()}
 
     def __init__(self, facts: Assignment) -> None:
-        self._facts = facts
+        self.facts = facts
 
-    def of(self, sit: Object, T: TypeNode, around: Around, where: str) -> Why:
-        match T:
-            case Basic():
-                return self._atom(sit, T, where)
-            case PType() | Application() | FunType():
-                return self._ground(sit, T, around, where)
-            case Singleton():
-                return self._singleton(sit, T, around, where)
-            case Meet(parts):
-                spend(len(parts))
-                grounds = [self.of(sit, part, around, "") for part in parts]
-                return self._whole(sit, T, "each part", grounds, where)
-            case Join(parts):
-                spend(len(parts))
-                grounds = [self.of(sit, part, around, "") for part in parts]
-                return self._whole(sit, T, "one part", grounds, where, "any")
-            case Negation(body):
-                spend()
-                grounds = [self.of(sit, body, around, "")]
-                return self._whole(sit, T, "what is denied", grounds, where, "none")
-            case ListOf() | NonEmpty() | SetOf():
-                return self._collection(sit, T, around, where)
-            case Str() | Plus():
-                return self._string(sit, T, around, where)
-            case RecordType():
-                return self._record(sit, T, around, where)
-            case Universe():
-                outside = why_outside(sit, T)
-                p = REFUTED if outside else CERTAIN
-                return Why(sit, T, p, outside or "by its form", where=where)
-        raise assert_never(T)  # type: ignore[arg-type]
+    def of(self, sit: Object, T: TypeNode, around: Around, where: str = "") -> Answer:
+        """The answer to sit : T."""
+        answer: Answer = self._clauses[type(T)](self, sit, T, around, where)
+        return answer
 
-    # --- what paths and functions come to ---
+    # --- what an answer is ---
 
-    def _ground(
-        self, sit: Object, T: PType | Application | FunType, around: Around, where: str
-    ) -> Why:
-        """A claim of a type that has to be worked out first."""
+    @abstractmethod
+    def conclude(
+        self, sit: Object, T: TypeNode, p: Degree, rule: str, where: str
+    ) -> Answer:
+        """The answer where sit : T is certain or refuted by a rule alone."""
+
+    @abstractmethod
+    def combine(
+        self,
+        sit: Object,
+        T: TypeNode,
+        around: Around,
+        where: str,
+        how: How,
+        rule: str,
+        grounds: Iterable[Answer],
+    ) -> Answer:
+        """The answer where sit : T holds if all its grounds do, any or none of them."""
+
+    @abstractmethod
+    def judge_atom(self, sit: Object, T: Atom, where: str) -> Answer:
+        """The answer for an atom without paths and applications."""
+
+    @abstractmethod
+    def judge_missing(self, label: str, T: TypeNode, around: Around) -> Answer:
+        """The answer for a field that a record lacks."""
+
+    @abstractmethod
+    def judge_pieces(
+        self, sit: EventString, T: Str | Plus, around: Around, where: str
+    ) -> Answer:
+        """The answer for a string that can be divided in more ways than one."""
+
+    @abstractmethod
+    def judge_function(self, sit: Function, T: FunType, where: str) -> Answer:
+        """The answer for a function; no path leads out of T."""
+
+    def fields_to_judge(self, T: RecordType) -> Iterable[tuple[str, TypeNode]]:
+        """The fields of a record type in the order in which they are judged."""
+        return T.fields
+
+    # --- the clauses ---
+
+    def _judge_basic(self, sit: Object, T: Basic, around: Around, where: str) -> Answer:
+        return self.judge_atom(sit, T, where)
+
+    def _judge_ptype(self, sit: Object, T: PType, around: Around, where: str) -> Answer:
         try:
-            ground = grounded(T, around)
-            if isinstance(ground, FunType):
-                return self._function(sit, ground, where)
-            if isinstance(ground, PType):
-                return self._atom(sit, reduced(self._facts, ground), where)
-            value = _worked_out(self._facts, ground)
+            ground = T if stands(T) else self._value_of(T, around)
+            return self.judge_atom(sit, ground, where)
         except (Unresolved, Refused) as wrong:
-            return Why(sit, T, REFUTED, wrong.message, where=where)
+            return self.conclude(sit, T, REFUTED, wrong.message, where)
+
+    def _judge_application(
+        self, sit: Object, T: Application, around: Around, where: str
+    ) -> Answer:
+        try:
+            value = _reduce_head(self.facts, grounded(T, around))
+        except (Unresolved, Refused) as wrong:
+            return self.conclude(sit, T, REFUTED, wrong.message, where)
         if isinstance(value, TypeNode):
             return self.of(sit, value, (), where)
-        return Why(sit, T, REFUTED, f"{notation(value)} is no type", where=where)
+        rule = f"{notation(value)} is no type"
+        return self.conclude(sit, T, REFUTED, rule, where)
 
-    def _atom(self, sit: Object, T: Atom, where: str) -> Why:
-        p, rule = self._facts.degree_of(sit, T)
-        asked = self._facts if p == REFUTED else None
+    def _judge_singleton(
+        self, sit: Object, T: Singleton, around: Around, where: str
+    ) -> Answer:
+        spend()
+        try:
+            value = self._value_in(T, around)
+        except (Unresolved, Refused) as wrong:
+            return self.conclude(sit, T, REFUTED, wrong.message, where)
+        ground = T if value is T.value else Singleton(T.base, value)
+        if value is not sit and identity(value) != identity(sit):
+            return self.conclude(sit, ground, REFUTED, "it is another object", where)
+        base = (self.of(sit, T.base, around),)
+        return self.combine(
+            sit, ground, around, where, "all", "it is that object", base
+        )
+
+    def _judge_meet(self, sit: Object, T: Meet, around: Around, where: str) -> Answer:
+        spend(len(T.parts))
+        grounds = (self.of(sit, part, around) for part in T.parts)
+        return self.combine(sit, T, around, where, "all", "each part", grounds)
+
+    def _judge_join(self, sit: Object, T: Join, around: Around, where: str) -> Answer:
+        return self.judge_one_of(sit, T, T.parts, around, where)
+
+    def judge_one_of(
+        self,
+        sit: Object,
+        T: Join,
+        parts: Sequence[TypeNode],
+        around: Around,
+        where: str,
+    ) -> Answer:
+        """The answer for a join of which sit is, if at all, of one of some parts."""
+        spend(len(parts))
+        grounds = (self.of(sit, part, around) for part in parts)
+        return self.combine(sit, T, around, where, "any", "one part", grounds)
+
+    def _judge_negation(
+        self, sit: Object, T: Negation, around: Around, where: str
+    ) -> Answer:
+        spend()
+        grounds = (self.of(sit, body, around) for body in (T.body,))
+        return self.combine(sit, T, around, where, "none", "what is denied", grounds)
+
+    def _judge_list(
+        self, sit: Object, T: ListOf | NonEmpty, around: Around, where: str
+    ) -> Answer:
+        if not isinstance(sit, tuple):
+            return self.conclude(sit, T, REFUTED, "it is no list", where)
+        if isinstance(T, NonEmpty) and not sit:
+            return self.conclude(sit, T, REFUTED, "it is empty", where)
+        return self._judge_each(sit, T, sit, around, where)
+
+    def _judge_set(self, sit: Object, T: SetOf, around: Around, where: str) -> Answer:
+        if not isinstance(sit, FiniteSet):
+            return self.conclude(sit, T, REFUTED, "it is no set", where)
+        return self._judge_each(sit, T, sit.items, around, where)
+
+    def _judge_each(
+        self,
+        sit: Object,
+        T: ListOf | NonEmpty | SetOf,
+        inside: Sequence[Object],
+        around: Around,
+        where: str,
+    ) -> Answer:
+        spend(1 + len(inside))
+        grounds = (self.of(element, T.item, around) for element in inside)
+        return self.combine(sit, T, around, where, "all", "each element", grounds)
+
+    def _judge_string(
+        self, sit: Object, T: Str | Plus, around: Around, where: str
+    ) -> Answer:
+        if not isinstance(sit, EventString):
+            return self.conclude(sit, T, REFUTED, "it is no string of events", where)
+        items = None if isinstance(T, Plus) else events_of(T)
+        if items is None:
+            return self.judge_pieces(sit, T, around, where)
+        if len(sit) != len(items):
+            rule = f"it has {events_in_words(len(sit))}, not {len(items)}"
+            return self.conclude(sit, T, REFUTED, rule, where)
+        spend(1 + len(items))
+        pairs = zip(sit, items, strict=True)
+        grounds = (self.of(event, item, around) for event, item in pairs)
+        return self.combine(sit, T, around, where, "all", "event by event", grounds)
+
+    def _judge_function_type(
+        self, sit: Object, T: FunType, around: Around, where: str
+    ) -> Answer:
+        try:
+            ground = grounded(T, around)
+            if not isinstance(sit, Function):
+                return self.conclude(sit, ground, REFUTED, "it is no function", where)
+            return self.judge_function(sit, ground, where)
+        except (Unresolved, Refused) as wrong:
+            return self.conclude(sit, T, REFUTED, wrong.message, where)
+
+    def _judge_record(
+        self, sit: Object, T: RecordType, around: Around, where: str
+    ) -> Answer:
+        if not isinstance(sit, Record):
+            return self.conclude(sit, T, REFUTED, "it is no record", where)
+        spend(1 + len(T.fields))
+        grounds = self._judge_fields(sit._fields, T, around)
+        return self.combine(sit, T, around, where, "all", "field by field", grounds)
+
+    def _judge_fields(
+        self, found: Mapping[str, Object], T: RecordType, around: Around
+    ) -> Iterator[Answer]:
+        inside = (found, *around)
+        for label, field in self.fields_to_judge(T):
+            if label in found:
+                yield self.of(found[label], field, inside, label)
+            else:
+                yield self.judge_missing(label, field, inside)
+
+    def _judge_universe(
+        self, sit: Object, T: Universe, around: Around, where: str
+    ) -> Answer:
+        outside = why_outside(sit, T)
+        p = REFUTED if outside else CERTAIN
+        return self.conclude(sit, T, p, outside or "by its form", where)
+
+    # --- what paths and applications come to ---
+
+    def _value_of(self, value: Object, around: Around) -> Any:
+        """The value without paths and applications."""
+        if escaping(value):
+            value = grounded(value, around)
+        return reduced(self.facts, value)
+
+    def _value_in(self, T: Singleton, around: Around) -> Object:
+        """The object that a singleton type is of."""
+        return T.value if stands(T) else self._value_of(T.value, around)
+
+
+_CLAUSES: Mapping[type[TypeNode], str] = {
+    Basic: "_judge_basic",
+    PType: "_judge_ptype",
+    Application: "_judge_application",
+    Singleton: "_judge_singleton",
+    Meet: "_judge_meet",
+    Join: "_judge_join",
+    Negation: "_judge_negation",
+    ListOf: "_judge_list",
+    NonEmpty: "_judge_list",
+    SetOf: "_judge_set",
+    Str: "_judge_string",
+    Plus: "_judge_string",
+    FunType: "_judge_function_type",
+    RecordType: "_judge_record",
+    Universe: "_judge_universe",
+}
+"""The clause for each form of type."""
+
+
+class _Derivation(Evaluator[Why]):
+    """Answers with the degree and the derivation of a claim."""
+
+    def conclude(
+        self, sit: Object, T: TypeNode, p: Degree, rule: str, where: str
+    ) -> Why:
+        return Why(sit, T, p, rule, where=where)
+
+    def combine(
+        self,
+        sit: Object,
+        T: TypeNode,
+        around: Around,
+        where: str,
+        how: How,
+        rule: str,
+        grounds: Iterable[Why],
+    ) -> Why:
+        grounds = tuple(grounds)
+        p = _decided(how, [ground.p for ground in grounds])
+        if p is not None:
+            return Why(sit, T, p, rule, grounds, where, how)
+        known = dependence(self.facts, claims_of(grounds))
+        found = reckoned(together(how, grounds), known)
+        said = partial(reckoning, how, grounds, found, known)
+        return Why(sit, T, found.p, rule, grounds, where, how, None, said)
+
+    # --- atoms ---
+
+    def judge_atom(self, sit: Object, T: Atom, where: str) -> Why:
+        p, rule = self.facts.degree_of(sit, T)
+        asked = self.facts if p == REFUTED else None
         why = Why(sit, T, p, rule, where=where, facts=asked)
         return why if p in (CERTAIN, REFUTED) else self._linked(why)
 
     def _linked(self, why: Why) -> Why:
         """An uncertain judgement in the light of those that it depends on."""
-        known = dependence(self._facts, claims_of([why]))
+        known = dependence(self.facts, claims_of([why]))
         if not known.defined and all(one.is_order for one in known.components):
             return why
         found = reckoned(why.event(), known)
@@ -154,167 +378,90 @@ class _Derivation:
         rule = reckoning("all", (why,), found) or f"{why.rule}, and by other axioms"
         return replace(why, p=found.p, rule=rule, alone=why.p)
 
-    def _singleton(self, sit: Object, T: Singleton, around: Around, where: str) -> Why:
-        spend()
-        try:
-            wanted = reduced(self._facts, grounded(T.value, around))
-        except (Unresolved, Refused) as wrong:
-            return Why(sit, T, REFUTED, wrong.message, where=where)
-        ground = Singleton(T.base, wanted)
-        if identity(sit) != identity(wanted):
-            return Why(sit, ground, REFUTED, "it is another object", where=where)
-        base = self.of(sit, T.base, around, "")
-        return self._whole(sit, ground, "it is that object", [base], where)
+    def judge_missing(self, label: str, T: TypeNode, around: Around) -> Why:
+        with suppress(Unresolved):
+            T = grounded(T, around)
+        rule = f"there is no {label}"
+        return Why(Missing(), T, REFUTED, rule, where=label, facts=self.facts)
 
-    # --- lists, sets and strings ---
+    # --- strings ---
 
-    def _collection(
-        self, sit: Object, T: ListOf | NonEmpty | SetOf, around: Around, where: str
-    ) -> Why:
-        if isinstance(T, SetOf):
-            inside = sit.items if isinstance(sit, FiniteSet) else None
-        else:
-            inside = sit if isinstance(sit, tuple) else None
-        if inside is None:
-            kind = "set" if isinstance(T, SetOf) else "list"
-            return Why(sit, T, REFUTED, f"it is no {kind}", where=where)
-        if isinstance(T, NonEmpty) and not inside:
-            return Why(sit, T, REFUTED, "it is empty", where=where)
-        spend(1 + len(inside))
-        grounds = [self.of(element, T.item, around, "") for element in inside]
-        return self._whole(sit, T, "each element", grounds, where)
-
-    def _string(self, sit: Object, T: Str | Plus, around: Around, where: str) -> Why:
-        if not isinstance(sit, EventString):
-            return Why(sit, T, REFUTED, "it is no string of events", where=where)
-        items = None if isinstance(T, Plus) else events_of(T)
-        if items is None:
-            return self._divided(sit, T, around, where)
-        if len(sit) != len(items):
-            rule = f"it has {events_in_words(len(sit))}, not {len(items)}"
-            return Why(sit, T, REFUTED, rule, where=where)
-        spend(1 + len(items))
-        pairs = zip(sit, items, strict=True)
-        grounds = [self.of(event, item, around, "") for event, item in pairs]
-        return self._whole(sit, T, "event by event", grounds, where)
-
-    def _divided(
+    def judge_pieces(
         self, sit: EventString, T: Str | Plus, around: Around, where: str
     ) -> Why:
         """Pieces in a row: in a way that is certain, or in one of those possible."""
 
         def derives(part: Object, U: TypeNode) -> Why:
             spend()
-            return self.of(part, U, around, "")
+            return self.of(part, U, around)
 
         found = automaton(T)
-        dividing = Dividing(self._facts, sit, derives, around)
+        dividing = Dividing(self.facts, sit, derives, around)
         way = dividing.certain_way(found)
         if way is not None:
             return Why(sit, T, CERTAIN, "piece by piece", way, where)
         division = dividing.possible_ways(found)
         if isinstance(division, Stop):
-            rule = stopped(self._facts, sit, division)
+            rule = stopped(self.facts, sit, division)
             return Why(sit, T, REFUTED, rule, where=where)
         if not division.all:
             rule = f"one of more than {len(division.ways)} ways to divide it"
             return Why(sit, T, dividing.chance(found), rule, where=where)
         ways = list(map(dividing.grounds, division.ways))
         if len(ways) == 1:
-            return self._whole(sit, T, "piece by piece", ways[0], where)
-        each = [self._whole(sit, T, "divided so", way, "") for way in ways]
-        return self._whole(sit, T, "one way to divide it", each, where, "any")
+            return self.combine(sit, T, around, where, "all", "piece by piece", ways[0])
+        each = [
+            self.combine(sit, T, around, "", "all", "divided so", way) for way in ways
+        ]
+        rule = "one way to divide it"
+        return self.combine(sit, T, around, where, "any", rule, each)
 
-    # --- functions and records ---
+    # --- functions ---
 
-    def _function(self, sit: Object, T: FunType, where: str) -> Why:
+    def judge_function(self, sit: Function, T: FunType, where: str) -> Why:
         """Does the function take whatever is of the domain to what is of the result?
 
         Certainly if that follows for an arbitrary object of the domain, from the rules
         of subtyping and the facts about what the function mentions; not if it fails for
         a known object or a made-up one.
         """
-        if not isinstance(sit, Function):
-            return Why(sit, T, REFUTED, "it is no function", where=where)
-        theory = self._facts.theory
-        prover = replace(Prover.for_type(Rec, theory), is_judged=self._certain)
+        theory = self.facts.theory
+        prover = replace(Prover.for_type(Rec, theory), is_judged=self._is_certain)
         found = prover.prove(sit, T)
         if found.yes:
             rule = "whatever it is applied to"
             return Why(sit, T, CERTAIN, rule, where=where)
         for x, facts in self._arguments(T.domain):
-            grounds = _Derivation(facts).applied(sit, T, x)
-            whole = self._whole(sit, T, f"applied to {notation(x)}", grounds, where)
+            grounds = _Derivation(facts)._derive_value(sit, T, x)
+            rule = f"applied to {notation(x)}"
+            whole = self.combine(sit, T, (), where, "all", rule, grounds)
             if whole.p == REFUTED:
                 return whole
         return Why(sit, T, UNKNOWN, f"it may be, but {found.why}", where=where)
 
-    def _certain(self, sit: Object, T: TypeNode) -> bool:
-        return self.of(sit, T, (), "").p == CERTAIN
+    def _is_certain(self, sit: Object, T: TypeNode) -> bool:
+        return self.of(sit, T, ()).p == CERTAIN
 
     def _arguments(self, domain: TypeNode) -> Iterator[tuple[Object, Assignment]]:
         """Objects of a domain to try: some that are known, and made-up ones."""
         if isinstance(domain, Basic | PType):
-            for x in islice(self._facts.witnesses(domain), TRIED):
-                yield x, self._facts
+            for x in islice(self.facts.witnesses(domain), TRIED):
+                yield x, self.facts
         for case, size in product(cases(domain) or (domain,), (1, 0, 2)):
             with suppress(Refused):
-                yield made_up(self._facts, case, size)
+                yield made_up(self.facts, case, size)
 
-    def applied(self, sit: Function, T: FunType, x: Object) -> list[Why]:
-        """Is the object of the function's domain, and what it gives of the result?"""
-        inside = self.of(x, sit.domain, (), "")
+    def _derive_value(self, sit: Function, T: FunType, x: Object) -> list[Why]:
+        """Is an object of the function's domain, and what it gives of the result?"""
+        inside = self.of(x, sit.domain, ())
         if inside.p != CERTAIN:
             return [inside]
-        return [inside, self._given(sit.body, T.result, ({BOUND: x},))]
-
-    def _given(self, body: Object, T: TypeNode, scope: Around) -> Why:
-        """Is what a function gives of a type?"""
+        scope: Around = ({BOUND: x},)
         try:
-            value = reduced(self._facts, grounded(body, scope))
+            value = reduced(self.facts, grounded(sit.body, scope))
         except (Unresolved, Refused) as wrong:
-            return Why(body, T, REFUTED, wrong.message)
-        return self.of(value, T, scope, "")
-
-    def _record(self, sit: Object, T: RecordType, around: Around, where: str) -> Why:
-        if not isinstance(sit, Record):
-            return Why(sit, T, REFUTED, "it is no record", where=where)
-        spend(1 + len(T.fields))
-        inside = (sit._fields, *around)
-        grounds = [
-            self.of(sit._fields[label], field, inside, label)
-            if label in sit
-            else self._missing(label, field, inside)
-            for label, field in T.fields
-        ]
-        return self._whole(sit, T, "field by field", grounds, where)
-
-    def _missing(self, label: str, T: TypeNode, around: Around) -> Why:
-        with suppress(Unresolved):
-            T = grounded(T, around)
-        rule = f"there is no {label}"
-        return Why(Missing(), T, REFUTED, rule, where=label, facts=self._facts)
-
-    # --- claims with grounds ---
-
-    def _whole(
-        self,
-        sit: Object,
-        T: TypeNode,
-        rule: str,
-        grounds: Iterable[Why],
-        where: str,
-        how: How = "all",
-    ) -> Why:
-        """A claim that holds where all its grounds do, or any, or none of them."""
-        grounds = tuple(grounds)
-        p = _decided(how, [ground.p for ground in grounds])
-        if p is not None:
-            return Why(sit, T, p, rule, grounds, where, how)
-        known = dependence(self._facts, claims_of(grounds))
-        found = reckoned(together(how, grounds), known)
-        said = partial(reckoning, how, grounds, found, known)
-        return Why(sit, T, found.p, rule, grounds, where, how, None, said)
+            return [inside, Why(sit.body, T.result, REFUTED, wrong.message)]
+        return [inside, self.of(value, T.result, scope)]
 
 
 def claims_of(grounds: Iterable[Why]) -> dict[Claim, Degree]:
@@ -357,7 +504,7 @@ def reduced(facts: Assignment, value: Object) -> Object:
     return reduced(facts, _applied(facts, value.function, value.argument))
 
 
-def _worked_out(facts: Assignment, T: Application) -> Object:
+def _reduce_head(facts: Assignment, T: Application) -> Object:
     """What an application gives; applications inside that are left as they are.
 
     So a join holds where one part does, whatever becomes of the others.
@@ -366,7 +513,7 @@ def _worked_out(facts: Assignment, T: Application) -> Object:
     while isinstance(value, Application):
         function, argument = value.function, reduced(facts, value.argument)
         if isinstance(function, Application):
-            function = _worked_out(facts, function)
+            function = _reduce_head(facts, function)
         value = _applied(facts, function, argument)
     return value
 
@@ -390,6 +537,7 @@ def _where(why: Why) -> str:
     return f" in the field {why.path()}" if why.path() else ""
 
 
+@cache_on_node
 def stands(T: TypeNode) -> bool:
     """Whether nothing in a type is to be worked out: no path leads out, no function.
 
