@@ -44,7 +44,7 @@ from ttr import (
     rst,
     this,
 )
-from ttr.notation.grammar import statement
+from ttr.notation.parser import parse_statement
 from ttr.notation.syntax_trees import Source
 from ttr.probability import CERTAIN, Degree
 from ttr.theories.drafts import Draft
@@ -317,7 +317,7 @@ def test_a_rule_reads_back_as_itself(rule):
     assume(rule.name not in draft.names)
     source = Source(written(rule))
     try:
-        Declaring(draft, source).declare(statement(source, 0, len(source.text)))
+        Declaring(draft, source).declare(parse_statement(source, 0, len(source.text)))
     except IllFormed:
         reject()  # a path leads to what does not fit, as the types of the rule say
     found = draft.rules[rule.name]

@@ -389,7 +389,7 @@ def test_theory_of_refuses_two_predicates_of_one_name() -> None:
         ("[x : {fido}]", 6, "expected a type, found the set {fido}", ""),
         ("[x : <fido>]", 6, "expected a type, found the string of events <fido>", ""),
         ("[x : fst(A)]", 6, "there is no first element: it is no list", ""),
-        ("<fido", 6, "expected an event or >, found the end of the text", ""),
+        ("<fido", 6, "expected an event, a comma or >, found the end of", ""),
         ("<fdio sam>", 2, "nothing is called fdio here", "did you mean fido?"),
         (
             "<ndarray 3>",
@@ -398,7 +398,7 @@ def test_theory_of_refuses_two_predicates_of_one_name() -> None:
             "declare ndarray",
         ),
         ("<bool True>", 1, "<bool True> has no notation, so it cannot", ""),
-        ("<Fraction 1/2>", 12, "expected an event or >, found /", "does not read back"),
+        ("<Fraction 1/2>", 12, "expected an event, a comma or >", "does not read back"),
         ("barsk(fido)", 1, "there is no predicate barsk", "did you mean barks?"),
         ("home(fido)", 1, "home is no function and takes no arguments", ""),
         ("3(fido)", 1, "3 is no function and takes no arguments", ""),

@@ -15,7 +15,7 @@ import ttr
 from ttr.building.constructors import rectype
 from ttr.computing.subtyping import subtype
 from ttr.errors import IllFormed, NotationError, Span, TTRError
-from ttr.notation.grammar import statement
+from ttr.notation.parser import parse_statement
 from ttr.notation.syntax_trees import Part, Source
 from ttr.theories.checking import check
 from ttr.theories.drafts import Draft
@@ -430,7 +430,7 @@ def test_a_mistake_in_a_statement_adds_nothing_of_it() -> None:
     ):
         source = Source(text)
         with pytest.raises(TTRError):
-            Declaring(draft, source).declare(statement(source, 0, len(text)))
+            Declaring(draft, source).declare(parse_statement(source, 0, len(text)))
     left, before = theory_of_draft(draft), theory("")
     assert left.names == before.names
     assert (left.givens, left.axioms, left.opened, left.checks) == ((), (), set(), ())
@@ -440,7 +440,7 @@ def test_a_finished_theory_does_not_follow_its_draft() -> None:
     draft = Draft.of(theory("Dog := [x : Ind, c : dog(x)]"))
     kennel = theory_of_draft(draft)
     source = Source("Cat := [y : Ind]")
-    Declaring(draft, source).declare(statement(source, 0, len(source.text)))
+    Declaring(draft, source).declare(parse_statement(source, 0, len(source.text)))
     assert "Cat" in theory_of_draft(draft).names - kennel.names
 
 

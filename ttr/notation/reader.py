@@ -25,6 +25,7 @@ from ttr.building.merging import amerge, merge
 from ttr.errors import IllFormed, NotationError, TTRError, suggestion
 from ttr.notation.error_location import culprit, misfit, refused
 from ttr.notation.names import Names, is_declared, meaning, vocabulary_of
+from ttr.notation.parser import parse_term
 from ttr.notation.syntax_errors import shown
 from ttr.notation.syntax_trees import (
     Abstraction,
@@ -149,11 +150,9 @@ def _listed(using: Iterable[object]) -> tuple[object, ...]:
 @within_budget
 def read_term(text: str, theory: Names, source: str = "<text>") -> Object:
     """The type or object that a text stands for in a theory; else `NotationError`."""
-    from ttr.notation import grammar
-
     place = Source.of(text, source)
     try:
-        return Reader(theory, place).object(grammar.term(place), ())
+        return Reader(theory, place).object(parse_term(place), ())
     except RecursionError:
         span = place.span(Part(0, len(place.text)))
         raise NotationError("this nests too deep to be read here", span=span) from None

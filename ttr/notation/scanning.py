@@ -13,14 +13,26 @@ from ttr.errors import NotationError, Span
 from ttr.notation.syntax_errors import KEYWORDS
 from ttr.notation.syntax_trees import UNNAMED, Source
 
-__all__ = ["DEPTH", "blocks", "too_deep", "vetted", "with_backslashes"]
+__all__ = [
+    "DEPTH",
+    "LETTER",
+    "LETTER_OR_DIGIT",
+    "blocks",
+    "too_deep",
+    "vetted",
+    "with_backslashes",
+]
 
 DEPTH = 100
 """How deep brackets, functions, arrows and negations may nest."""
 
-_LETTER = r"^0-9\s\x00-/:-@\[-^`{-\x7f∧∨¬→⊑"
-_WORD = r"^\s\x00-/:-@\[-^`{-\x7f∧∨¬→⊑"
-"""What a name in the grammar is made of, as the inside of [ ]; what it begins with."""
+LETTER_OR_DIGIT = r"^\s\x00-/:-@\[-^`{-\x7f∧∨¬→⊑"
+"""What a name in the notation is made of, as the inside of [ ] in an expression.
+
+It is anything but spaces, the signs of ASCII and those of the notation."""
+
+LETTER = rf"{LETTER_OR_DIGIT}0-9"
+"""What a name in the notation begins with."""
 
 _QUOTED = r"""(?P<quoted> "[^"\\\n]*(?:\\.[^"\\\n]*)*"?
                      | '[^'\\\n]*(?:\\.[^'\\\n]*)*'? | \#[^\n]* )"""
@@ -104,10 +116,11 @@ _BINDING = re.compile(
         | (?P<closing> [\])}}>] )
         | (?P<comma> , )
         | (?P<sign> -> | \\/ | /\\ )
-        | (?P<number> (?<![{_WORD}])[0-9]+\.[0-9]+ )
+        | (?P<number> (?<![{LETTER_OR_DIGIT}])[0-9]+\.[0-9]+ )
         | (?P<function> \\ \s* λ?
-            | (?<![{_WORD}])(?: fun\s++ λ? | λ )(?= \s*+ [{_WORD}]*+ \s*+ :(?!=) ) )
-        | (?P<dot> \.(?![{_LETTER}]) ) """,
+            | (?<![{LETTER_OR_DIGIT}])(?: fun\s++ λ? | λ )
+              (?= \s*+ [{LETTER_OR_DIGIT}]*+ \s*+ :(?!=) ) )
+        | (?P<dot> \.(?![{LETTER}]) ) """,
     re.VERBOSE,
 )
 

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from ttr.errors import NotationError, Span, suggestion
 from ttr.notation.syntax_trees import Source
 
-if TYPE_CHECKING:
-    from lark.exceptions import UnexpectedInput
-
-__all__ = ["KEYWORDS", "explained", "shown", "stopped"]
+__all__ = ["KEYWORDS", "explained", "shown"]
 
 NEAR = 200
 """How much of the text before a failure is looked at for what was meant."""
@@ -35,36 +32,27 @@ KEYWORDS = (
 
 
 def explained(
-    error: UnexpectedInput, source: Source, start: int, end: int, wanted: frozenset[str]
+    wanted: Sequence[str], source: Source, start: int, length: int, at: int
 ) -> NotationError:
-    """The parser's failure in text[start:end]: where, expected, found, a way out.
+    """What is wrong at a place in a text: what was expected and found, and a way out.
 
-    `wanted` are the grammar's names of the signs it could have gone on with.
+    The text begins at `start` in the source, the place is counted from there.
     """
-    text = source.text[start:end].rstrip()
-    at = stopped(error, text)
+    text = source.text[start : start + length].rstrip()
+    at = min(at, len(text))
     before, after = text[:at], text[at:]
     found = _found(after)
     span = Span.of(source.name, source.text, start + at, start + at + len(found))
-    found = shown(found)
-    near = before[-NEAR:]
+    found = shown(found) or _end(source, start + length)
     return NotationError(
-        f"expected {_expected(wanted, before)}, found {found or _end(source, end)}",
+        f"expected {_either(wanted)}, found {found}",
         span=span,
-        hint=_hint(near, after),
+        hint=_hint(before[-NEAR:], after),
     )
 
 
 def _end(source: Source, end: int) -> str:
     return f"the end of the {'statement' if source.text[end:].strip() else 'text'}"
-
-
-def stopped(error: UnexpectedInput, text: str) -> int:
-    """Where in the text the parser failed: at most at its end."""
-    token = getattr(error, "token", None)
-    if getattr(token, "type", "") == "$END":
-        return len(text)
-    return min(error.pos_in_stream or 0, len(text))
 
 
 _FOUND = re.compile(r"\w+|->|[:<>=/\\|]{2}|[\"'][^\n]*|\S", re.DOTALL)
@@ -87,90 +75,7 @@ def shown(text: str) -> str:
     return text if text.isprintable() else repr(text)
 
 
-# --- what was expected ---------------------------------------------------------------
-
-_SIGNS = {
-    "COLON": ":",
-    "EQUAL": "=",
-    "_DEFINED": ":=",
-    "_BELOW": "<:",
-    "_SUBTYPE": "<=",
-    "IN": "in",
-    "COMMA": "a comma",
-    "RSQB": "]",
-    "RPAR": ")",
-    "RBRACE": "}",
-    "MORETHAN": ">",
-    "_ARROW": "->",
-    "_DOT": "a dot and the body",
-    "LPAR": "(",
-    "LSQB": "[",
-    "_OF": "of",
-    "_WHERE": "where",
-    "_ACTS": "acts on",
-    "_HEARS": "hears",
-    "_ON": "on",
-    "STRING": "a quoted name",
-    "$END": "the end",
-}
-"""The words for the grammar's signs, in the order in which they are listed."""
-
-_TERM = "NUMBER"
-"""A sign that may stand only where a type or object begins."""
-
-_OPERATOR = "_AND"
-"""A sign that may stand only where a type or object ends."""
-
-_AFTER = (
-    (r"(?s)^(strategy|game)\b.*:=$", "a rule or a strategy"),
-    (r"(?s)^game\b.*\bacts\s+on$", "a path"),
-    (r"(?s)^game\b.*\bhears(\s[^:]*,)?$", "a type"),
-    (r"(^|[^\w])(<:|<=|⊑|/\\|&|∧|\\/|\||∨|~|¬|->|→)$", "a type"),
-    (r":=$", "a type or an object"),
-    (r":$", "a type"),
-    (r"(=|@)$", "an object"),
-    (r"\bin$", "an interval [lo, hi]"),
-    (r"\.$", "the body of the function"),
-    (r"\+$", "a list or a string of events"),
-    (r"\{$", "a setting x = a, an object or }"),
-    (r"\w\($", "an argument or )"),
-    (r"\[$", "a field x : T, an object or ]"),
-)
-
-
-def _expected(wanted: frozenset[str], before: str) -> str:
-    """What the parser would have gone on with, in words."""
-    head = before[-NEAR:].rstrip()
-    if _TERM in wanted and "MORETHAN" in wanted:
-        return "an event or >"
-    if _TERM in wanted:
-        words = (said for sign, said in _AFTER if re.search(sign, head))
-        return next(words, "a type or an object")
-    if re.search(r"\\$|λ$", head):
-        return "a variable"
-    names = ["a label" if _inside(before, "[{") else "a name"] * ("NAME" in wanted)
-    signs = [word for sign, word in _SIGNS.items() if sign in wanted]
-    if _OPERATOR in wanted:
-        signs = [word for word in signs if word != "->"]
-    if "_WHERE" in wanted:
-        signs = [word for word in signs if word != _SIGNS["STRING"]]
-    if len(signs) > 1:
-        signs = [word for word in signs if word != "("]
-    return _either(names + signs) or "the end"
-
-
-def _inside(before: str, brackets: str) -> bool:
-    """Whether the innermost bracket still open is one of these."""
-    opened: list[str] = []
-    for sign in re.findall(r"[\[({\])}]", before):
-        if sign in "[({":
-            opened.append(sign)
-        elif opened:
-            opened.pop()
-    return bool(opened) and opened[-1] in brackets
-
-
-def _either(words: list[str]) -> str:
+def _either(words: Sequence[str]) -> str:
     if len(words) < 2:
         return "".join(words)
     return f"{', '.join(words[:-1])} or {words[-1]}"

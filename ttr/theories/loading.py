@@ -14,9 +14,9 @@ from pathlib import Path
 from ttr.errors import Mistakes, NotationError, Span, TooLargeError, TTRError
 from ttr.notation import syntax_trees as trees
 from ttr.notation.names import Names, is_declared, meaning
-from ttr.notation.plain import plain_statement
+from ttr.notation.parser import parse_statement
 from ttr.notation.scanning import blocks, vetted
-from ttr.notation.syntax_trees import Part, Source, Statement
+from ttr.notation.syntax_trees import Part, Source
 from ttr.safety.budgets import SharedPurse, one_of_several, purse_of_several
 from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowed, check_called
 from ttr.safety.files import why_unread
@@ -145,16 +145,6 @@ def _contents(path: Path) -> tuple[Path, str]:
         raise Unreadable(f"{str(path)!r} is no path of a file") from None
 
 
-def _statement(source: Source, start: int, end: int) -> Statement:
-    """text[start:end] as a statement; the grammar is made ready where it is needed."""
-    plain = plain_statement(source, start, end)
-    if plain is not None:
-        return plain
-    from ttr.notation import grammar
-
-    return grammar.statement(source, start, end)
-
-
 _DECLARES = re.compile(
     r"(basic|pred|object)\s+(.*)|(?:rule|strategy|game)\s+(\w+)|(\w+)\s*:="
 )
@@ -208,7 +198,7 @@ class _File:
     def go_on(self, start: int, end: int) -> None:
         """Reads the statement text[start:end]."""
         try:
-            tree = _statement(self.source, start, end)
+            tree = parse_statement(self.source, start, end)
             if not mentioned(tree).isdisjoint(self.spoilt):
                 self._spoil(start)
             elif isinstance(tree, trees.Import):

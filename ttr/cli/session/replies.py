@@ -12,8 +12,9 @@ from ttr.display.abbreviations import folding
 from ttr.errors import NotationError, Span, TTRError
 from ttr.judging.judgements import Why
 from ttr.notation import syntax_trees as trees
-from ttr.notation.grammar import statement, vetted
+from ttr.notation.parser import parse_statement
 from ttr.notation.reader import Reader, read_term
+from ttr.notation.scanning import vetted
 from ttr.notation.syntax_trees import Application, Name, Source, Statement
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import within_budget
@@ -56,7 +57,7 @@ def answered(session: Session, text: str) -> Reply:
     source = Source.of(text, INPUT)
     vetted(source)
     try:
-        tree = statement(source, 0, len(source.text))
+        tree = parse_statement(source, 0, len(source.text))
     except NotationError as mistake:
         return _replied(session, source, mistake)
     return _stated(session, tree, source)
@@ -97,7 +98,7 @@ def _replied(session: Session, source: Source, mistake: NotationError) -> Reply:
     """
     asked = Source(_CHECK + source.text, source.name)
     try:
-        tree = statement(asked, 0, len(asked.text))
+        tree = parse_statement(asked, 0, len(asked.text))
     except NotationError as error:
         raise _further(mistake, _without_check(_in_place(error))) from None
     try:

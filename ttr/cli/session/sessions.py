@@ -19,7 +19,8 @@ from ttr.escapes import json_text
 from ttr.judging.judgements import Judgement, Why
 from ttr.judging.models import Model
 from ttr.notation import syntax_trees as trees
-from ttr.notation.grammar import blocks, statement
+from ttr.notation.parser import parse_statement
+from ttr.notation.scanning import blocks
 from ttr.notation.syntax_trees import Source, Statement
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.safety.budgets import within_budget
@@ -377,7 +378,7 @@ def _listing(names: Iterable[str]) -> str:
 
 def _read(text: str) -> tuple[Statement, Source]:
     source = Source.of(text, INPUT)
-    return statement(source, 0, len(source.text)), source
+    return parse_statement(source, 0, len(source.text)), source
 
 
 # --- witnesses -----------------------------------------------------------------------
@@ -445,7 +446,7 @@ def loaded(session: Session, path: Path) -> tuple[Session, frozenset[str]]:
 def _entries(path: Path, consent: Consent) -> Iterator[Entry]:
     source = Source.of(read_text(path, THEORY), str(path))
     for start, end in blocks(source.text):
-        yield _entry(statement(source, start, end), source, path.parent, consent)
+        yield _entry(parse_statement(source, start, end), source, path.parent, consent)
 
 
 def saved(session: Session, path: Path) -> None:

@@ -1,0 +1,225 @@
+"""A text as words and signs, which are taken one by one from left to right.
+
+The alternatives tried at a place are remembered, so that an error can list them.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Callable
+from typing import NoReturn, TypeVar
+
+from ttr.errors import NotationError
+from ttr.notation.scanning import (
+    DEPTH,
+    LETTER,
+    LETTER_OR_DIGIT,
+    too_deep,
+    with_backslashes,
+)
+from ttr.notation.syntax_errors import explained, shown
+from ttr.notation.syntax_trees import Literal, Part, Source, Word
+
+__all__ = ["NAME", "NUMBER", "PATH", "QUOTED", "Tokens"]
+
+NAME = re.compile(rf"[{LETTER}][{LETTER_OR_DIGIT}]*")
+"""Wider than a Python identifier, so that what is none is named whole in the error."""
+
+PATH = re.compile(rf"(?:\^*\.)?{NAME.pattern}(?:\.{NAME.pattern})*")
+"""A name, or a path, which has no spaces in it."""
+
+NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?")
+
+QUOTED = re.compile(
+    r""" "[^"\\\n]*(?:\\.[^"\\\n]*)*" | '[^'\\\n]*(?:\\.[^'\\\n]*)*' """, re.VERBOSE
+)
+
+_SPACE = re.compile(r"(?:\s|#[^\n]*+)*+")
+
+_T = TypeVar("_T")
+_P = TypeVar("_P", bound=Part)
+
+
+class Tokens:
+    """The words and signs of text[start:end] in a source.
+
+    `_at` is where the next of them begins, `_end` where the last one ended. `_expected`
+    says what may stand at a place.
+    """
+
+    def __init__(self, source: Source, start: int, end: int) -> None:
+        self._source = source
+        self._offset = start
+        self._text = with_backslashes(source.text[start:end])
+        self._length = end - start
+        self._expected: dict[int, list[str]] = {}
+        self._check_depth()
+        self._advance(0)
+
+    def _check_depth(self) -> None:
+        deep = too_deep(self._text)
+        if deep:
+            raise NotationError(
+                f"types and objects nest at most {DEPTH} deep",
+                span=self._source.span(
+                    Part(self._offset + deep[0], self._offset + deep[1])
+                ),
+                hint="give the inner part a name of its own: Name := …",
+            )
+
+    # --- what is next ---
+
+    def _has_name_before(self, *signs: str, at: int | None = None) -> bool:
+        """Does a name stand here, and one of these signs behind it?"""
+        name = NAME.match(self._text, self._at if at is None else at)
+        if name is None:
+            return False
+        behind = self._skip_space(name.end())
+        for sign in signs:
+            self._note_expected(sign, behind)
+        return self._text.startswith(signs, behind)
+
+    def _accept(self, sign: str, expected: str = "") -> bool:
+        """Is this sign next? If so, goes on behind it."""
+        if expected:
+            self._note_expected(expected)
+        if not self._text.startswith(sign, self._at):
+            return False
+        self._advance(self._at + len(sign))
+        return True
+
+    def _accept_match(self, signs: re.Pattern[str]) -> bool:
+        """Is one of these signs next? If so, goes on behind it."""
+        found = signs.match(self._text, self._at)
+        if found:
+            self._advance(found.end())
+        return found is not None
+
+    def _accept_word(self, word: str, expected: str = "") -> bool:
+        """Is this word next? If so, goes on behind it."""
+        if expected:
+            self._note_expected(expected)
+        found = PATH.match(self._text, self._at)
+        if found is None or found[0] != word:
+            return False
+        self._advance(found.end())
+        return True
+
+    def _expect(self, sign: str) -> None:
+        if not self._accept(sign):
+            self._fail(sign)
+
+    def _expect_word(self, word: str) -> None:
+        if not self._accept_word(word):
+            self._fail(word)
+
+    def _expect_end(self) -> None:
+        if self._at < len(self._text):
+            self._fail("the end")
+
+    def _advance(self, end: int) -> None:
+        """Goes on behind what ends there, and behind spaces and comments."""
+        self._end, self._at = end, self._skip_space(end)
+
+    def _skip_space(self, at: int) -> int:
+        space = _SPACE.match(self._text, at)
+        assert space is not None
+        return space.end()
+
+    def _node(self, kind: Callable[..., _P], start: int, *rest: object) -> _P:
+        """The part that goes from `start` to where the last word or sign ended."""
+        return kind(self._offset + start, self._offset + self._end, *rest)
+
+    # --- names, numbers and quoted names ---
+
+    def _names(self) -> tuple[Word, ...]:
+        """x, …."""
+        return self._comma_separated(lambda: self._word("a name"))
+
+    def _comma_separated(self, one: Callable[[], _T]) -> tuple[_T, ...]:
+        """One or more, with commas between them."""
+        found = [one()]
+        while self._accept(",", "a comma"):
+            found.append(one())
+        return tuple(found)
+
+    def _word(self, expected: str) -> Word:
+        """x; raises `NotationError` if it is no identifier."""
+        start = self._at
+        name = NAME.match(self._text, start)
+        if name is None:
+            self._fail(expected)
+        self._advance(name.end())
+        word = self._node(Word, start, name[0])
+        self._check_identifier(word.text, word)
+        return word
+
+    def _check_identifier(self, text: str, place: Part) -> None:
+        if text.isidentifier():
+            return
+        curly = set(text) & set("‘’“”")
+        raise NotationError(
+            f"{shown(text)} is no name: a name is letters, digits and _",
+            span=self._source.span(place),
+            hint="quotes are straight: 'a name'" if curly else "",
+        )
+
+    def _quoted(self) -> str:
+        """What stands in quotes; raises `NotationError` for an unknown escape."""
+        start = self._at
+        found = QUOTED.match(self._text, start)
+        if found is None:
+            self._fail("a quoted name")
+        self._advance(found.end())
+        try:
+            return _unquoted(found[0])
+        except ValueError:
+            raise NotationError(
+                f"{shown(found[0])} has an unknown escape",
+                span=self._source.span(self._node(Word, start, found[0])),
+                hint=r"the escapes are \" \' \\ \n \t \r \b \f and \u with four digits",
+            ) from None
+
+    def _number(self, start: int, text: str) -> Literal:
+        try:
+            return self._node(Literal, start, _number(text))
+        except ValueError:
+            raise NotationError(
+                "the number is too large",
+                span=self._source.span(self._node(Word, start, text)),
+            ) from None
+
+    # --- refusing ---
+
+    def _note_expected(self, what: str, at: int | None = None) -> None:
+        """Remembers what may stand at a place, which is here if none is given."""
+        self._expected.setdefault(self._at if at is None else at, []).append(what)
+
+    def _fail(self, expected: str) -> NoReturn:
+        """Says that this is expected here, or what else may stand here."""
+        words = dict.fromkeys((*self._expected.get(self._at, ()), expected))
+        raise explained(list(words), self._source, self._offset, self._length, self._at)
+
+
+_SINGLE = re.compile(r"""\\.|\"""", re.DOTALL)
+_DOUBLED = {"\\'": "'", '"': '\\"'}
+
+
+def _unquoted(text: str) -> str:
+    """What stands in quotes; raises `ValueError` for an unknown escape."""
+    body = text[1:-1]
+    if text.startswith("'"):
+        body = _SINGLE.sub(lambda found: _DOUBLED.get(found[0], found[0]), body)
+    return str(json.loads(f'"{body}"', strict=False))
+
+
+def _number(text: str) -> int | float:
+    """The number; raises `ValueError` where it is too large for a Python number."""
+    if not set(text) & set(".eE"):
+        return int(text)
+    value = float(text)
+    if math.isinf(value):
+        raise ValueError(text)
+    return value
