@@ -22,15 +22,15 @@ from ttr.display.layout import (
 from ttr.escapes import html_text
 from ttr.safety.budgets import spend
 
-__all__ = ["STYLE", "marked_up", "marked_up_derivation", "page", "part_of_page"]
+__all__ = ["STYLE", "layout_as_html", "derivation_as_html", "page", "part_of_page"]
 
 
-def marked_up(layout: Layout) -> str:
+def layout_as_html(layout: Layout) -> str:
     """The layout with its style, to be put anywhere in a page."""
     return _styled(_markup(layout))
 
 
-def marked_up_derivation(step: Step) -> str:
+def derivation_as_html(step: Step) -> str:
     """The derivation as steps that open and close, open where it fails or is likely."""
     return _styled(f'<ul class="ttr-why"><li>{_derivation(step)}</li></ul>')
 

@@ -24,18 +24,18 @@ from ttr.display.layout import (
     Sign,
     Step,
     Word,
-    filled,
+    fill_lines,
 )
 from ttr.escapes import terminal_line
 from ttr.safety.budgets import spend
 
-__all__ = ["latex_text", "typeset", "typeset_derivation"]
+__all__ = ["latex_text", "layout_as_latex", "derivation_as_latex"]
 
 _ROOM = 90
 """So many letters go beside one another before a meet or a list is broken."""
 
 
-def typeset(layout: Layout) -> str:
+def layout_as_latex(layout: Layout) -> str:
     """The layout as mathematics, without the dollars around it."""
     return _guarded(_typeset(layout))
 
@@ -76,7 +76,7 @@ def _typeset(layout: Layout) -> str:
             return _matrix(layout)
 
 
-def typeset_derivation(step: Step) -> str:
+def derivation_as_latex(step: Step) -> str:
     r"""The derivation as an array: √ and × for what holds and fails, then the reason.
 
     Grounds stand below what they are grounds for, further in; the step that fails first
@@ -146,7 +146,7 @@ def _listed(listed: Listed) -> str:
     between = _sign(listed.between.text)
     lines = [
         between.join(map(_typeset, line))
-        for line in filled(listed.parts, listed.between, _ROOM)
+        for line in fill_lines(listed.parts, listed.between, _ROOM)
     ]
     if len(lines) > 1:
         inside = _array("l", [*[line + between for line in lines[:-1]], lines[-1]])

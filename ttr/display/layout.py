@@ -64,7 +64,7 @@ __all__ = [
     "Sign",
     "Step",
     "Word",
-    "filled",
+    "fill_lines",
     "laid_out",
 ]
 
@@ -272,7 +272,7 @@ class Step:
             object.__setattr__(self, text, terminal_line(getattr(self, text)))
 
 
-def filled(
+def fill_lines(
     parts: Sequence[Layout], between: Sign, room: int
 ) -> Iterator[tuple[Layout, ...]]:
     """The parts in lines of at most so many columns, or of one part."""

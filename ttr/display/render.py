@@ -7,10 +7,10 @@ from types import BuiltinFunctionType, FunctionType, ModuleType, NoneType
 from typing import TYPE_CHECKING
 
 from ttr.display.abbreviations import folding
-from ttr.display.html import marked_up, marked_up_derivation
-from ttr.display.latex import typeset, typeset_derivation
+from ttr.display.html import derivation_as_html, layout_as_html
+from ttr.display.latex import derivation_as_latex, layout_as_latex
 from ttr.display.layout import Layout, Line, Sign, Step, Word, laid_out
-from ttr.display.text import drawn, drawn_derivation
+from ttr.display.text import derivation_as_text, layout_as_text
 from ttr.errors import IllFormed
 from ttr.judging.judgements import Judgement, Why, mark
 from ttr.safety.budgets import within_budget
@@ -48,8 +48,8 @@ def box(
         raise IllFormed(f"a width is a number of columns, 1 or more, found {width!r}")
     shown = _showing(theory, unfold)
     if isinstance(value, Why):
-        return drawn_derivation(_step(value, shown), width)
-    return drawn(_shown(value, shown), width)
+        return derivation_as_text(_step(value, shown), width)
+    return layout_as_text(_shown(value, shown), width)
 
 
 @within_budget
@@ -67,8 +67,8 @@ def latex(
     """
     shown = _showing(theory, unfold)
     if isinstance(value, Why):
-        return typeset_derivation(_step(value, shown))
-    return typeset(_shown(value, shown))
+        return derivation_as_latex(_step(value, shown))
+    return layout_as_latex(_shown(value, shown))
 
 
 @within_budget
@@ -82,8 +82,8 @@ def html(
     """
     shown = _showing(theory, unfold)
     if isinstance(value, Why):
-        return marked_up_derivation(_step(value, shown))
-    return marked_up(_shown(value, shown))
+        return derivation_as_html(_step(value, shown))
+    return layout_as_html(_shown(value, shown))
 
 
 _Shown = Callable[[Object], Layout]

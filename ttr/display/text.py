@@ -17,12 +17,12 @@ from ttr.display.layout import (
     Sign,
     Step,
     Word,
-    filled,
+    fill_lines,
 )
 from ttr.escapes import columns
 from ttr.safety.budgets import spend
 
-__all__ = ["drawn", "drawn_derivation"]
+__all__ = ["layout_as_text", "derivation_as_text"]
 
 _LEAST = 24
 """Deep inside, where there is hardly any room left, this many columns are taken."""
@@ -47,12 +47,12 @@ class Block:
         return len(self.lines) - 1 - self.base
 
 
-def drawn(layout: Layout, room: int) -> str:
+def layout_as_text(layout: Layout, room: int) -> str:
     """The layout as text, in so many columns where it can be done."""
     return _text(_draw(layout, room))
 
 
-def drawn_derivation(step: Step, room: int) -> str:
+def derivation_as_text(step: Step, room: int) -> str:
     """The derivation as an indented tree, what is claimed before its grounds."""
     return "\n".join([_text(block) for block in _steps(step, "", room)])
 
@@ -195,7 +195,7 @@ def _listed(listed: Listed, room: int) -> Block:
     if not listed.parts:
         return Block.of(_flat(listed.opening) + _flat(listed.closing))
     rest = max(_LEAST, room - 2)
-    lines = list(filled(listed.parts, listed.between, rest))
+    lines = list(fill_lines(listed.parts, listed.between, rest))
     between = Block.of(listed.between.text)
     at_end = Block.of(listed.between.text.rstrip())
     rows = []

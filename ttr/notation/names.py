@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ttr.updates.algorithms import Algorithm
     from ttr.updates.rules import Rule
 
-__all__ = ["Names", "Vocabulary", "is_declared", "meaning", "vocabulary_of"]
+__all__ = ["Names", "Vocabulary", "is_declared", "meaning_of", "vocabulary_of"]
 
 
 class Names(Protocol):
@@ -58,7 +58,7 @@ def is_declared(theory: Names, name: str) -> bool:
     return any(name in kind for kind in (*terms, *played))
 
 
-def meaning(theory: Names, name: str) -> Object | None:
+def meaning_of(theory: Names, name: str) -> Object | None:
     """What a name is defined or declared as, if it is no object."""
     for kind in (theory.definitions, theory.basics, theory.predicates):
         if name in kind:

@@ -23,10 +23,10 @@ from typing import Any, NoReturn, TypeVar
 from ttr.building.constructors import Pi, fun, rectype
 from ttr.building.merging import amerge, merge
 from ttr.errors import IllFormed, NotationError, TTRError, suggestion
-from ttr.notation.error_location import culprit, misfit, refused
-from ttr.notation.names import Names, is_declared, meaning, vocabulary_of
+from ttr.notation.error_location import is_ill_formed, locate_error, locate_misfit
+from ttr.notation.names import Names, is_declared, meaning_of, vocabulary_of
 from ttr.notation.parser import parse_term
-from ttr.notation.syntax_errors import shown
+from ttr.notation.syntax_errors import excerpt
 from ttr.notation.syntax_trees import (
     Abstraction,
     Arrow,
@@ -94,7 +94,7 @@ __all__ = ["LOGICAL", "Reader", "parse", "read_term"]
 LOGICAL: Mapping[str, TypeNode] = {"Type": Type, "RecType": RecType, "Rec": Rec}
 """The types that every theory has."""
 
-_OF_A_TYPE: Mapping[str, Callable[[TypeNode], TypeNode]] = {
+_TYPE_CONSTRUCTORS: Mapping[str, Callable[[TypeNode], TypeNode]] = {
     "list": ListOf,
     "nelist": NonEmpty,
     "set": SetOf,
@@ -103,19 +103,19 @@ _OF_A_TYPE: Mapping[str, Callable[[TypeNode], TypeNode]] = {
 }
 """Words before a type in brackets."""
 
-_OF_TWO_TYPES: Mapping[str, Callable[[TypeNode, TypeNode, Signature], TypeNode]] = {
+_TYPE_OPERATIONS: Mapping[str, Callable[[TypeNode, TypeNode, Signature], TypeNode]] = {
     "merge": merge,
     "amerge": amerge,
 }
 """Words before two types in brackets."""
 
-_GIVING_WAY = frozenset(("star", *_OF_TWO_TYPES))
+_NOT_RESERVED = frozenset(("star", *_TYPE_OPERATIONS))
 """Words that are not reserved: what a theory calls so is meant instead."""
 
-_OF_AN_OBJECT: Mapping[str, Callable[[Object], Object]] = {"fst": fst, "rst": rst}
+_LIST_OPERATIONS: Mapping[str, Callable[[Object], Object]] = {"fst": fst, "rst": rst}
 """Words before an object in brackets."""
 
-_WORDS = ("str", *_OF_A_TYPE, *_OF_TWO_TYPES, *_OF_AN_OBJECT)
+_BUILT_IN = ("str", *_TYPE_CONSTRUCTORS, *_TYPE_OPERATIONS, *_LIST_OPERATIONS)
 
 _B = TypeVar("_B", Function, FunType)
 
@@ -133,10 +133,10 @@ def parse(text: str, using: Iterable[object] = ()) -> Object:
     >>> parse("list(Ind)", using=[Ind]) is ListOf(Ind)
     True
     """
-    return read_term(text, vocabulary_of(*_listed(using)))
+    return read_term(text, vocabulary_of(*_as_tuple(using)))
 
 
-def _listed(using: Iterable[object]) -> tuple[object, ...]:
+def _as_tuple(using: Iterable[object]) -> tuple[object, ...]:
     """What a text may mention; a single type or name is no list of them."""
     with suppress(TypeError):
         if not isinstance(using, str | TypeNode):
@@ -187,29 +187,29 @@ class Reader:
             case Elements(_, _, items):
                 return FiniteSet(*self._objects(items, scope))
             case Events():
-                return self._string(term, scope)
+                return self._event_string(term, scope)
             case Braces():
                 return self._record(term, scope)
             case Abstraction():
                 return self._function(term, scope)
             case Concatenation(_, _, parts):
-                return self._computed(term, concat, self._objects(parts, scope))
+                return self._apply(term, concat, self._objects(parts, scope))
         return self.type(term, scope)
 
     def _objects(self, terms: tuple[Term, ...], scope: Scope) -> tuple[Object, ...]:
         return tuple([self.object(term, scope) for term in terms])
 
     def _record(self, term: Braces, scope: Scope) -> Record:
-        self.distinct([label for label, _ in term.settings])
+        self.check_distinct([label for label, _ in term.settings])
         pairs = [(k.text, self.object(v, scope)) for k, v in term.settings]
         return Record(dict(pairs))
 
-    def _string(self, term: Events, scope: Scope) -> EventString:
+    def _event_string(self, term: Events, scope: Scope) -> EventString:
         match term.items:
             case (Name(_, _, (kind,), None), _) if self._is_unknown(kind, scope):
                 self.refuse(
                     term,
-                    f"an object that prints as {self.written(term)} has no notation, "
+                    f"an object that prints as {self.text_of(term)} has no notation, "
                     "so it cannot be read",
                     f"if it is a string of events, declare {kind} first",
                 )
@@ -217,20 +217,22 @@ class Reader:
 
     def _is_unknown(self, name: str, scope: Scope) -> bool:
         """Whether a name means nothing, and is not like one that does."""
-        if is_declared(self.theory, name) or _captured(name, scope):
+        if is_declared(self.theory, name) or _is_bound(name, scope):
             return False
-        if self._value(name) is not None:
+        if self._value_of(name) is not None:
             return False
-        return not suggestion(name, {*_terms(self.theory), *_around(scope)})
+        return not suggestion(
+            name, {*_names_of_terms(self.theory), *_bound_names(scope)}
+        )
 
     def _function(self, term: Abstraction, scope: Scope) -> Function:
         name = self._variable(term.variable)
         domain = self.type(term.domain, scope)
         body = self.object(term.body, (name, *scope))
         build = fun({name: domain}, self.theory.signature)
-        return self._bound(build, term.body, body)
+        return self._bind(build, term.body, body)
 
-    def _computed(
+    def _apply(
         self, term: Term, operation: Callable[..., Object], args: tuple[Object, ...]
     ) -> Object:
         try:
@@ -250,13 +252,13 @@ class Reader:
         is_object = head in self.theory.objects and head not in RESERVED
         if is_object and not rest:
             return head
-        value = self._value(head)
+        value = self._value_of(head)
         if is_object:
             self.refuse(name, f"{head} is an object without labels")
         if value is None:
-            quoted = f"quote it to name an object: '{shown(head)}'"
+            quoted = f"quote it to name an object: '{excerpt(head)}'"
             way_out = self.way_out.format(name=head)
-            self._unknown(name, head, scope, f"{way_out}, or {quoted}")
+            self._refuse_unknown(name, head, scope, f"{way_out}, or {quoted}")
         try:
             return along(value, rest)
         except Unresolved as error:
@@ -280,19 +282,19 @@ class Reader:
 
     def _call(self, term: Call, scope: Scope) -> Object:
         match term.head:
-            case Name(_, _, (name,), None) if self._is_word(name, scope):
-                return self._word(term, name, scope)
+            case Name(_, _, (name,), None) if self._is_built_in(name, scope):
+                return self._built_in(term, name, scope)
             case Name(_, _, (name,), None) as head:
-                function = self._called(term, head, name, scope)
+                function = self._function_named(term, head, name, scope)
             case head:
                 function = self.object(head, scope)
         args = self._objects(term.args, scope)
         match function:
             case Pred():
-                return self._computed(term, function, args)
+                return self._apply(term, function, args)
             case Path() | Function() | Application() | Operation() | str():
-                return self._computed(term, applied, (function, *args))
-        written = self.written(term.head)
+                return self._apply(term, applied, (function, *args))
+        written = self.text_of(term.head)
         kind = "a type" if isinstance(function, TypeNode) else "no function"
         self.refuse(
             term,
@@ -300,46 +302,48 @@ class Reader:
             "functions do",
         )
 
-    def _is_word(self, name: str, scope: Scope) -> bool:
+    def _is_built_in(self, name: str, scope: Scope) -> bool:
         """Whether a name before a bracket is a word of the notation there."""
-        if name not in _GIVING_WAY:
-            return name in _WORDS
-        declared = name in self.theory.objects or self._value(name) is not None
-        return not (declared or _captured(name, scope))
+        if name not in _NOT_RESERVED:
+            return name in _BUILT_IN
+        declared = name in self.theory.objects or self._value_of(name) is not None
+        return not (declared or _is_bound(name, scope))
 
-    def _called(self, term: Call, head: Name, name: str, scope: Scope) -> Object:
+    def _function_named(
+        self, term: Call, head: Name, name: str, scope: Scope
+    ) -> Object:
         """What a bare name before a bracket means; a variable hides a predicate."""
         for up, names in enumerate(scope):
             if name == names:
                 return Path(up, (BOUND,))
         if name in self.theory.predicates:
             return self.theory.predicates[name]
-        known = _captured(name, scope) or name in self.theory.objects
-        if not known and self._value(name) is None:
-            self._no_predicate(term, name, scope)
+        known = _is_bound(name, scope) or name in self.theory.objects
+        if not known and self._value_of(name) is None:
+            self._refuse_predicate(term, name, scope)
         return self._named_object(head, scope)
 
-    def _word(self, term: Call, word: str, scope: Scope) -> Object:
+    def _built_in(self, term: Call, word: str, scope: Scope) -> Object:
         if word == "str":
             return Str(*[self.type(arg, scope) for arg in term.args])
-        if word in _OF_TWO_TYPES:
-            return self._merged(term, word, scope)
+        if word in _TYPE_OPERATIONS:
+            return self._merge_of(term, word, scope)
         if len(term.args) != 1:
-            kind = "type" if word in _OF_A_TYPE else "list"
+            kind = "type" if word in _TYPE_CONSTRUCTORS else "list"
             self.refuse(term, f"{word} takes one {kind}, but has {len(term.args)}")
-        if word in _OF_A_TYPE:
-            return _OF_A_TYPE[word](self.type(term.args[0], scope))
-        return self._computed(
-            term, _OF_AN_OBJECT[word], self._objects(term.args, scope)
+        if word in _TYPE_CONSTRUCTORS:
+            return _TYPE_CONSTRUCTORS[word](self.type(term.args[0], scope))
+        return self._apply(
+            term, _LIST_OPERATIONS[word], self._objects(term.args, scope)
         )
 
-    def _merged(self, term: Call, word: str, scope: Scope) -> TypeNode:
+    def _merge_of(self, term: Call, word: str, scope: Scope) -> TypeNode:
         """Two types as the one that they are together."""
         if len(term.args) != 2:
             self.refuse(term, f"{word} takes two types, but has {len(term.args)}")
         S, T = [self.type(arg, scope) for arg in term.args]
         try:
-            return _OF_TWO_TYPES[word](S, T, self.theory.signature)
+            return _TYPE_OPERATIONS[word](S, T, self.theory.signature)
         except TTRError as error:
             raise error.at(self.source.span(term)) from None
 
@@ -352,7 +356,9 @@ class Reader:
                 return self._named_type(term, scope)
             case Call():
                 found = self._call(term, scope)
-                return found if isinstance(found, TypeNode) else self._no_type(term)
+                return (
+                    found if isinstance(found, TypeNode) else self._refuse_as_type(term)
+                )
             case Fields():
                 return self._record_type(term, scope)
             case Restriction():
@@ -368,16 +374,16 @@ class Reader:
                 return self._function_type(term, scope)
             case Items(_, _, ()):
                 return Rec
-        return self._no_type(term)
+        return self._refuse_as_type(term)
 
     def _named_type(self, name: Name, scope: Scope) -> TypeNode:
         head, rest = name.labels[0], name.labels[1:]
-        value = self._value(head) if name.up is None else None
+        value = self._value_of(head) if name.up is None else None
         if isinstance(value, Pred) and not rest:
             self.refuse(
                 name,
                 f"expected a type, found the predicate {head} without arguments",
-                f"apply it to objects of {_domains(value)}",
+                f"apply it to objects of {_format_arities(value)}",
             )
         if isinstance(value, Record):
             value = self._named_object(name, ())
@@ -386,9 +392,9 @@ class Reader:
         if isinstance(value, TypeNode):
             return value
         declared = value is not None or head in self.theory.objects
-        if declared or name.up is not None or _captured(head, scope):
-            self._no_type(name)
-        self._unknown(name, head, scope, "declare it first")
+        if declared or name.up is not None or _is_bound(head, scope):
+            self._refuse_as_type(name)
+        self._refuse_unknown(name, head, scope, "declare it first")
 
     def _function_type(self, term: Arrow, scope: Scope) -> FunType:
         domain = self.type(term.domain, scope)
@@ -397,18 +403,20 @@ class Reader:
         name = self._variable(term.variable)
         result = self.type(term.result, (name, *scope))
         build = Pi({name: domain}, self.theory.signature)
-        return self._bound(build, term.result, result)
+        return self._bind(build, term.result, result)
 
-    def _bound(self, build: Callable[[Any], _B], term: Term, inside: Object) -> _B:
+    def _bind(self, build: Callable[[Any], _B], term: Term, inside: Object) -> _B:
         """The function or function type with this inside; its misfit is underlined."""
         try:
             return build(inside)
         except IllFormed as error:
-            wrong = culprit(term, inside, lambda T: refused(lambda: build(T)))
+            wrong = locate_error(
+                term, inside, lambda T: is_ill_formed(lambda: build(T))
+            )
             raise error.at(self.source.span(wrong)) from None
 
     def _record_type(self, term: Fields, scope: Scope) -> RecordType:
-        self.distinct([f.label for f in term.fields])
+        self.check_distinct([f.label for f in term.fields])
         scope = (frozenset(f.label.text for f in term.fields), *scope)
         found: dict[str, TypeNode] = {}
         for part in term.fields:
@@ -419,7 +427,7 @@ class Reader:
         try:
             return rectype(found, self.theory.signature)
         except IllFormed as error:
-            wrong = misfit(term, found, self.theory.signature)
+            wrong = locate_misfit(term, found, self.theory.signature)
             raise error.at(self.source.span(wrong)) from None
 
     # --- where a degree must stand ---
@@ -433,7 +441,9 @@ class Reader:
             raise error.at(self.source.span(tree.value)) from None
         return lo, hi
 
-    def chance(self, tree: Probability | Expectation) -> tuple[str, Interval]:
+    def claimed_probability(
+        self, tree: Probability | Expectation
+    ) -> tuple[str, Interval]:
         """The probability that a text claims, after = or in; refuses one without."""
         if tree.degree is None:
             self.refuse(
@@ -445,25 +455,27 @@ class Reader:
 
     # --- names ---
 
-    def _value(self, name: str) -> Object | None:
+    def _value_of(self, name: str) -> Object | None:
         """What a name is declared as, but for objects: a type, a definition, …"""
         if name in LOGICAL:
             return LOGICAL[name]
-        found = meaning(self.theory, name)
+        found = meaning_of(self.theory, name)
         if found is not None:
             return found
         level = _LEVEL.fullmatch(name)
         return Universe(level[1], int(level[2])) if level else None
 
-    def _unknown(self, part: Part, name: str, scope: Scope, way_out: str) -> NoReturn:
+    def _refuse_unknown(
+        self, part: Part, name: str, scope: Scope, way_out: str
+    ) -> NoReturn:
         """Refuses a name; the way out is told where none like it is known."""
         self._refuse_played(part, name)
         if name in self.later:
-            self.too_early(part, name)
-        known = [*_terms(self.theory), *RESERVED, *_around(scope)]
+            self.refuse_too_early(part, name)
+        known = [*_names_of_terms(self.theory), *RESERVED, *_bound_names(scope)]
         self.refuse(
             part,
-            f"nothing is called {shown(name)} here",
+            f"nothing is called {excerpt(name)} here",
             suggestion(name, known) or way_out,
         )
 
@@ -480,7 +492,7 @@ class Reader:
                 told = f"{name} is a {kind}, which is no type, object or predicate"
                 self.refuse(part, told)
 
-    def too_early(self, part: Part, name: str) -> NoReturn:
+    def refuse_too_early(self, part: Part, name: str) -> NoReturn:
         """Refuses a name that is declared further down."""
         self.refuse(
             part,
@@ -488,20 +500,23 @@ class Reader:
             "move the definition up",
         )
 
-    def _no_predicate(self, term: Call, name: str, scope: Scope) -> NoReturn:
+    def _refuse_predicate(self, term: Call, name: str, scope: Scope) -> NoReturn:
         self._refuse_played(term.head, name)
         if name in self.later:
-            self.too_early(term.head, name)
-        known = {*_terms(self.theory), *_WORDS, *_around(scope)} - {*self.theory.basics}
+            self.refuse_too_early(term.head, name)
+        known = {*_names_of_terms(self.theory), *_BUILT_IN, *_bound_names(scope)} - {
+            *self.theory.basics
+        }
         arity = ", ".join(["…"] * len(term.args[:5]))
         self.refuse(
             term.head,
-            f"there is no predicate {shown(name)}",
-            suggestion(name, known) or f"declare it first: pred {shown(name)}({arity})",
+            f"there is no predicate {excerpt(name)}",
+            suggestion(name, known)
+            or f"declare it first: pred {excerpt(name)}({arity})",
         )
 
-    def _no_type(self, term: Term) -> NoReturn:
-        written = self.written(term)
+    def _refuse_as_type(self, term: Term) -> NoReturn:
+        written = self.text_of(term)
         match term:
             case Name(_, _, _, int()):
                 kind = f"the path {written}"
@@ -525,13 +540,13 @@ class Reader:
 
     # --- refusing ---
 
-    def distinct(self, labels: list[Word]) -> None:
+    def check_distinct(self, labels: list[Word]) -> None:
         """Refuses what is no label, and a label that is there twice."""
         seen: set[str] = set()
         for label in labels:
             span = self.source.span(label)
             if label.text in seen:
-                told = f"the label {shown(label.text)} is there twice"
+                told = f"the label {excerpt(label.text)} is there twice"
                 raise IllFormed(told, span=span)
             try:
                 check_label(label.text)
@@ -540,19 +555,19 @@ class Reader:
             seen.add(label.text)
 
     def _variable(self, word: Word) -> str:
-        self.distinct([word])
+        self.check_distinct([word])
         return word.text
 
-    def written(self, part: Part) -> str:
+    def text_of(self, part: Part) -> str:
         """The part as it stands in the text, to be shown in an error."""
-        return shown(self.source.text[part.start : part.end])
+        return excerpt(self.source.text[part.start : part.end])
 
     def refuse(self, part: Part, message: str, hint: str = "") -> NoReturn:
         """Raises a `NotationError` at a part of the text."""
         raise NotationError(message, span=self.source.span(part), hint=hint)
 
 
-def _terms(theory: Names) -> Iterator[str]:
+def _names_of_terms(theory: Names) -> Iterator[str]:
     """The names that may stand for a type, an object or a predicate."""
     yield from theory.objects
     yield from theory.definitions
@@ -560,16 +575,16 @@ def _terms(theory: Names) -> Iterator[str]:
     yield from theory.predicates
 
 
-def _around(scope: Scope) -> Iterator[str]:
+def _bound_names(scope: Scope) -> Iterator[str]:
     """The labels and variables that are in scope."""
     for names in scope:
         yield from (names,) if isinstance(names, str) else names
 
 
-def _captured(name: str, scope: Scope) -> bool:
-    return name in _around(scope)
+def _is_bound(name: str, scope: Scope) -> bool:
+    return name in _bound_names(scope)
 
 
-def _domains(pred: Pred) -> str:
+def _format_arities(pred: Pred) -> str:
     arities = (", ".join(map(str, arity)) for arity in pred.arities)
     return " or ".join(f"({arity})" for arity in arities)

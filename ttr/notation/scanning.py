@@ -18,7 +18,7 @@ __all__ = [
     "LETTER",
     "LETTER_OR_DIGIT",
     "blocks",
-    "too_deep",
+    "find_excess_depth",
     "vetted",
     "with_backslashes",
 ]
@@ -78,7 +78,7 @@ _NESTING = re.compile(
 )
 
 
-def too_deep(text: str) -> tuple[int, int] | None:
+def find_excess_depth(text: str) -> tuple[int, int] | None:
     """Where a text first nests deeper than `DEPTH`, by brackets or without them.
 
     `start` is the depth of what the innermost bracket holds, `part` that of what stands

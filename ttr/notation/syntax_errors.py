@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from ttr.errors import NotationError, Span, suggestion
 from ttr.notation.syntax_trees import Source
 
-__all__ = ["KEYWORDS", "explained", "shown"]
+__all__ = ["KEYWORDS", "syntax_error", "excerpt"]
 
 NEAR = 200
 """How much of the text before a failure is looked at for what was meant."""
@@ -31,7 +31,7 @@ KEYWORDS = (
 """The words that begin a statement."""
 
 
-def explained(
+def syntax_error(
     wanted: Sequence[str], source: Source, start: int, length: int, at: int
 ) -> NotationError:
     """What is wrong at a place in a text: what was expected and found, and a way out.
@@ -43,7 +43,7 @@ def explained(
     before, after = text[:at], text[at:]
     found = _found(after)
     span = Span.of(source.name, source.text, start + at, start + at + len(found))
-    found = shown(found) or _end(source, start + length)
+    found = excerpt(found) or _end(source, start + length)
     return NotationError(
         f"expected {_either(wanted)}, found {found}",
         span=span,
@@ -64,10 +64,10 @@ def _found(after: str) -> str:
     return found[0][:40] if found else ""
 
 
-def shown(text: str) -> str:
+def excerpt(text: str) -> str:
     """The text on one line, cut where it is long; what cannot be seen as escapes.
 
-    >>> print(shown("[a,\\n b]"), shown("\\u202edog"))
+    >>> print(excerpt("[a,\\n b]"), excerpt("\\u202edog"))
     [a, b] '\\u202edog'
     """
     text = text if len(text) <= LONGEST else f"{text[:LONGEST]}…"

@@ -16,10 +16,10 @@ from ttr.notation.scanning import (
     DEPTH,
     LETTER,
     LETTER_OR_DIGIT,
-    too_deep,
+    find_excess_depth,
     with_backslashes,
 )
-from ttr.notation.syntax_errors import explained, shown
+from ttr.notation.syntax_errors import excerpt, syntax_error
 from ttr.notation.syntax_trees import Literal, Part, Source, Word
 
 __all__ = ["NAME", "NUMBER", "PATH", "QUOTED", "Tokens"]
@@ -59,7 +59,7 @@ class Tokens:
         self._advance(0)
 
     def _check_depth(self) -> None:
-        deep = too_deep(self._text)
+        deep = find_excess_depth(self._text)
         if deep:
             raise NotationError(
                 f"types and objects nest at most {DEPTH} deep",
@@ -161,7 +161,7 @@ class Tokens:
             return
         curly = set(text) & set("‘’“”")
         raise NotationError(
-            f"{shown(text)} is no name: a name is letters, digits and _",
+            f"{excerpt(text)} is no name: a name is letters, digits and _",
             span=self._source.span(place),
             hint="quotes are straight: 'a name'" if curly else "",
         )
@@ -177,7 +177,7 @@ class Tokens:
             return _unquoted(found[0])
         except ValueError:
             raise NotationError(
-                f"{shown(found[0])} has an unknown escape",
+                f"{excerpt(found[0])} has an unknown escape",
                 span=self._source.span(self._node(Word, start, found[0])),
                 hint=r"the escapes are \" \' \\ \n \t \r \b \f and \u with four digits",
             ) from None
@@ -200,7 +200,9 @@ class Tokens:
     def _fail(self, expected: str) -> NoReturn:
         """Says that this is expected here, or what else may stand here."""
         words = dict.fromkeys((*self._expected.get(self._at, ()), expected))
-        raise explained(list(words), self._source, self._offset, self._length, self._at)
+        raise syntax_error(
+            list(words), self._source, self._offset, self._length, self._at
+        )
 
 
 _SINGLE = re.compile(r"""\\.|\"""", re.DOTALL)

@@ -42,16 +42,18 @@ class Asking:
         """The check that a statement states; raises `NotationError` if it is none."""
         source = self.reader.source
         text = " ".join(source.text[tree.start : tree.end].split())
-        return Check(tree.expected, self._query(tree.query), source.span(tree), text)
+        return Check(
+            tree.expected, self._query_or_error(tree.query), source.span(tree), text
+        )
 
-    def _query(self, tree: trees.Query) -> Query | TTRError:
+    def _query_or_error(self, tree: trees.Query) -> Query | TTRError:
         """What is asked; a type that cannot be built is an answer, not a mistake."""
         try:
-            return self._asked(tree)
+            return self._read_query(tree)
         except (IllFormed, Unresolved) as error:
             return error
 
-    def _asked(self, tree: trees.Query) -> Query:
+    def _read_query(self, tree: trees.Query) -> Query:
         read, kind = self._object, self._type
         match tree:
             case trees.Judged(_, _, sit, T):
@@ -62,17 +64,17 @@ class Asking:
                 return self._equation(left, right)
             case trees.Probability(_, _, Name(_, _, ("P",)), sit, T, _, when):
                 on = tuple([(read(one), kind(S)) for one, S in when])
-                relation, interval = self.reader.chance(tree)
+                relation, interval = self.reader.claimed_probability(tree)
                 return HasDegree(read(sit), kind(T), relation, interval, on)
             case trees.Expectation(_, _, Name(_, _, ("P",)), T, types):
                 of = tuple(map(kind, types))
-                return Expects(kind(T), of, *self.reader.chance(tree))
+                return Expects(kind(T), of, *self.reader.claimed_probability(tree))
             case trees.Claim(_, _, Application(_, _, Name(_, _, ("create",)), (T,))):
                 return Creates(kind(T))
             case trees.Claim(
                 _, _, Application(_, _, Name(_, _, ("wellformed",)), (T,))
             ):
-                return IsWellFormed(self._built(T))
+                return IsWellFormed(self._type_or_error(T))
         self.reader.refuse(
             tree,
             "this is nothing that can be checked",
@@ -107,7 +109,7 @@ class Asking:
             self.reader.refuse(term, f"{name} takes {wanted}, but has {len(term.args)}")
         return rule, tuple(map(self._object, term.args))
 
-    def _built(self, term: Term) -> TypeNode | TTRError:
+    def _type_or_error(self, term: Term) -> TypeNode | TTRError:
         try:
             return self._type(term)
         except IllFormed as error:

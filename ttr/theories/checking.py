@@ -77,7 +77,7 @@ def asked(theory: Theory) -> Report:
     model = model_of(theory, purse)
     failures = []
     for one in theory.checks:
-        answer = _answered(one.query, theory, model, purse)
+        answer = _answer(one.query, theory, model, purse)
         if answer.verdict != one.expected:
             failures.append(Failure(one, answer.found, answer.why))
     return Report(len(theory.checks), tuple(failures))
@@ -98,7 +98,7 @@ def _is_own(span: Span | None, theory: Theory) -> bool:
     return span is not None and span.source == theory.source
 
 
-def _answered(
+def _answer(
     query: Query | TTRError, theory: Theory, model: Model, purse: SharedPurse
 ) -> _Answer:
     if isinstance(query, TooLargeError):
@@ -107,7 +107,7 @@ def _answered(
         return _Answer("error", "error", query.message)
     try:
         with one_of_several(purse):
-            return _asked(_reduced(query, model), theory, model)
+            return _evaluate(_reduce(query, model), theory, model)
     except TooLargeError as error:
         return _Answer("unknown", "unknown", error.message)
     except TTRError as error:
@@ -116,7 +116,7 @@ def _answered(
         return _Answer("error", "error", "the types nest too deep to be compared here")
 
 
-def _reduced(query: Query, model: Model) -> Query:
+def _reduce(query: Query, model: Model) -> Query:
     """The query with every application in it worked out.
 
     Raises `Refused` where an argument is not of the domain of the function.
@@ -127,7 +127,7 @@ def _reduced(query: Query, model: Model) -> Query:
     return replace(query, **{k: model.reduced(v) for k, v in inside.items()})
 
 
-def _asked(query: Query, theory: Theory, model: Model) -> _Answer:
+def _evaluate(query: Query, theory: Theory, model: Model) -> _Answer:
     match query:
         case IsOf():
             return _is_of(query, model)
@@ -153,7 +153,9 @@ def _asked(query: Query, theory: Theory, model: Model) -> _Answer:
         case IsTrue(T, interval):
             p = model.true(T)
             why = f"{'a' if p.lo == 1.0 else 'no'} certain witness of {T} is known"
-            return _Answer("yes" if _same(p, interval) else "no", _interval(p), why)
+            return _Answer(
+                "yes" if _is_same(p, interval) else "no", _format_interval(p), why
+            )
         case Updates():
             return _updates(query, model)
     assert_never(query)
@@ -169,7 +171,9 @@ def _is_of(query: IsOf, model: Model) -> _Answer:
         verdict = "yes" if judgement.holds else "no"
     except Undecided:
         verdict = "unknown"
-    found = verdict if verdict != "unknown" else f"unknown, {_interval(judgement.p)}"
+    found = (
+        verdict if verdict != "unknown" else f"unknown, {_format_interval(judgement.p)}"
+    )
     return _Answer(verdict, found, str(judgement.why))
 
 
@@ -202,22 +206,22 @@ def _is_well_formed(T: TypeNode | TTRError) -> _Answer:
 def _has_degree(query: HasDegree | Expects, p: Interval, why: str) -> _Answer:
     least, most = query.interval
     if query.relation == "=":
-        holds = _same(p, query.interval)
+        holds = _is_same(p, query.interval)
     else:
         holds = least - TOLERANCE <= p[0] and p[1] <= most + TOLERANCE
-    return _Answer("yes" if holds else "no", _interval(p), why)
+    return _Answer("yes" if holds else "no", _format_interval(p), why)
 
 
-def _same(p: Interval, wanted: Interval) -> bool:
+def _is_same(p: Interval, wanted: Interval) -> bool:
     """Whether both ends are the same, but for rounding."""
     ends = zip(p, wanted, strict=True)
     return all(abs(end - other) <= TOLERANCE for end, other in ends)
 
 
-def _interval(p: Interval) -> str:
+def _format_interval(p: Interval) -> str:
     """p = 0.5 where the interval is a number, else p in [0.2, 0.4].
 
-    >>> _interval((0.5, 0.5)), _interval((0.0, 1.0))
+    >>> _format_interval((0.5, 0.5)), _format_interval((0.0, 1.0))
     ('p = 0.5', 'p in [0, 1]')
     """
     lo, hi = p

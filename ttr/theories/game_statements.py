@@ -11,8 +11,8 @@ from ttr.judging.models import model_of
 from ttr.notation.reader import Reader
 from ttr.notation.syntax_trees import GameStatement, Name, Term
 from ttr.signature.signature import Opening
-from ttr.theories.rule_statements import record_type
-from ttr.theories.strategy_statements import algorithm
+from ttr.theories.rule_statements import read_state_type
+from ttr.theories.strategy_statements import read_strategy
 from ttr.types.syntax import (
     ListOf,
     NonEmpty,
@@ -27,20 +27,20 @@ from ttr.updates.games import Game
 if TYPE_CHECKING:
     from ttr.theories.theory import Theory
 
-__all__ = ["opened", "opening_of"]
+__all__ = ["opened", "read_game"]
 
 
-def opening_of(tree: GameStatement, reader: Reader) -> Opening:
+def read_game(tree: GameStatement, reader: Reader) -> Opening:
     """How a statement declares a game; raises `NotationError` or `IllFormed`."""
-    state = record_type(tree.type, reader)
+    state = read_state_type(tree.type, reader)
     start = reader.object(tree.begin, ())
     if not isinstance(start, Record):
         reader.refuse(
             tree.begin,
-            f"a game starts from a state, a record, found {reader.written(tree.begin)}",
+            f"a game starts from a state, a record, found {reader.text_of(tree.begin)}",
             "write {x = a, …}",
         )
-    played = algorithm(tree.value, reader)
+    played = read_strategy(tree.value, reader)
     agenda = _agenda(tree.agenda, state, reader) if tree.agenda else None
     span = reader.source.span(tree.begin)
     hears = tuple(reader.type(T, ()) for T in tree.hears)
@@ -53,7 +53,7 @@ def _agenda(term: Term, state: RecordType, reader: Reader) -> str:
         case Name(_, _, labels, None):
             path = Path(0, labels)
         case _:
-            found = reader.written(term)
+            found = reader.text_of(term)
             reader.refuse(
                 term,
                 f"a game acts on the path of a list of types, found {found}",
@@ -66,7 +66,7 @@ def _agenda(term: Term, state: RecordType, reader: Reader) -> str:
     if not _may_be_list(found_type):
         reader.refuse(
             term,
-            f"a game acts on a list of types, but {reader.written(term)} is of "
+            f"a game acts on a list of types, but {reader.text_of(term)} is of "
             f"{found_type}",
         )
     return ".".join(labels)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ttr.errors import Mistakes, NotationError, Span, TooLargeError, TTRError
 from ttr.notation import syntax_trees as trees
-from ttr.notation.names import Names, is_declared, meaning
+from ttr.notation.names import Names, is_declared, meaning_of
 from ttr.notation.parser import parse_statement
 from ttr.notation.scanning import blocks, vetted
 from ttr.notation.syntax_trees import Part, Source
@@ -48,7 +48,9 @@ def draft_of_text(
     mistake in it, or `Mistakes` where there are several.
     """
     allowed = Consent.of([""]) if consent is None else consent
-    return _sound(_Files(allowed, {}).read(Source.of(text, source), Path(), ()))
+    return _draft_if_sound(
+        _Files(allowed, {}).read_source(Source.of(text, source), Path(), ())
+    )
 
 
 def draft_of_file(path: Path, consent: Consent = OWN_FOLDER) -> Draft:
@@ -57,7 +59,7 @@ def draft_of_file(path: Path, consent: Consent = OWN_FOLDER) -> Draft:
     It, and what it imports, may import what lies in its folder or below; other folders
     with the user's consent. Raises `Unreadable`, the mistake in it, or `Mistakes`.
     """
-    return _sound(_Files(consent.adding(path.parent), {}).file(path, ()))
+    return _draft_if_sound(_Files(consent.adding(path.parent), {}).read_file(path, ()))
 
 
 @dataclass(frozen=True)
@@ -72,7 +74,7 @@ class _Reading:
     mistakes: tuple[TTRError, ...] = ()
 
 
-def _sound(reading: _Reading) -> Draft:
+def _draft_if_sound(reading: _Reading) -> Draft:
     if not reading.mistakes:
         return reading.draft
     if len(reading.mistakes) == 1:
@@ -88,7 +90,7 @@ class _Files:
     known: dict[Path, _Reading]
     purse: SharedPurse = field(default_factory=purse_of_several)
 
-    def imported(self, path: Path, named: str, chain: tuple[Path, ...]) -> _Reading:
+    def read_import(self, path: Path, named: str, chain: tuple[Path, ...]) -> _Reading:
         """What a file declares that another imports by this name.
 
         Nothing is read, and so nothing told, but theory files to which there is
@@ -96,11 +98,11 @@ class _Files:
         """
         check_called(path, ".ttr", named)
         self.consent.check(path, named)
-        return self.file(path, chain)
+        return self.read_file(path, chain)
 
-    def file(self, path: Path, chain: tuple[Path, ...]) -> _Reading:
+    def read_file(self, path: Path, chain: tuple[Path, ...]) -> _Reading:
         """What a file declares; `chain` are the files whose imports led to it."""
-        key, text = _contents(path)
+        key, text = _path_and_text(path)
         if key in chain:
             names = " → ".join(step.name for step in (*chain[chain.index(key) :], key))
             raise NotationError(f"the imports go in a circle: {names}")
@@ -108,10 +110,12 @@ class _Files:
             raise NotationError(f"imports lead on over at most {IMPORTS} files")
         if key not in self.known:
             source = Source(text, str(path))
-            self.known[key] = self.read(source, path.parent, (*chain, key))
+            self.known[key] = self.read_source(source, path.parent, (*chain, key))
         return self.known[key]
 
-    def read(self, source: Source, folder: Path, chain: tuple[Path, ...]) -> _Reading:
+    def read_source(
+        self, source: Source, folder: Path, chain: tuple[Path, ...]
+    ) -> _Reading:
         """What a text declares; `folder` is where its imports are."""
         try:
             vetted(source)
@@ -121,7 +125,7 @@ class _Files:
         self.purse.allow(len(places))
         later: dict[str, int] = {}
         for start, _ in places:
-            for name in _announced(source.text, start):
+            for name in _names_declared(source.text, start):
                 later.setdefault(name, source.line(start))
         draft = Draft(source.name)
         file = _File(Declaring(draft, source, later), folder, chain, self)
@@ -129,13 +133,13 @@ class _Files:
             if len(file.mistakes) >= MISTAKES:
                 file.give_up(start, end)
                 break
-            file.go_on(start, end)
+            file.read_statement(start, end)
             if file.is_refused:
                 break
         return _Reading(draft, frozenset(file.spoilt), tuple(file.mistakes))
 
 
-def _contents(path: Path) -> tuple[Path, str]:
+def _path_and_text(path: Path) -> tuple[Path, str]:
     """A file's one true path and its text; raises `Unreadable`."""
     try:
         return path.resolve(), read_text(path, THEORY)
@@ -150,17 +154,17 @@ _DECLARES = re.compile(
 )
 
 
-def _announced(text: str, start: int) -> list[str]:
+def _names_declared(text: str, start: int) -> list[str]:
     """The names that the statement starting there seems to declare."""
     found = _DECLARES.match(text, start)
     if found is None:
         return []
     if found[3] or found[4]:
         return [found[3] or found[4]]
-    return list(_listed(found[2]))
+    return list(_names_in_list(found[2]))
 
 
-def _listed(text: str) -> Iterator[str]:
+def _names_in_list(text: str) -> Iterator[str]:
     """The names in a list of them, but for those in brackets or behind a colon."""
     depth = 0
     for sign in re.findall(r"\w+|[\[({\])}:#]", text):
@@ -195,7 +199,7 @@ class _File:
         """Is there an import that is not allowed, without which nothing can be told?"""
         return any(isinstance(one, NotAllowed) for one in self.mistakes)
 
-    def go_on(self, start: int, end: int) -> None:
+    def read_statement(self, start: int, end: int) -> None:
         """Reads the statement text[start:end]."""
         try:
             tree = parse_statement(self.source, start, end)
@@ -227,7 +231,7 @@ class _File:
 
     def _spoil(self, start: int) -> None:
         """What the statement starting there should have declared is missing."""
-        names = _announced(self.source.text, start)
+        names = _names_declared(self.source.text, start)
         draft = self.declaring.draft
         self.spoilt.update(name for name in names if not is_declared(draft, name))
 
@@ -235,21 +239,21 @@ class _File:
         span = self.source.span(tree)
         try:
             path = self.folder / tree.path
-            found = self.files.imported(path, tree.path, self.chain)
+            found = self.files.read_import(path, tree.path, self.chain)
         except TTRError as error:
             raise error.at(span) from None
-        _join(self.declaring.draft, found.draft, span)
+        _merge_import(self.declaring.draft, found.draft, span)
         self.spoilt |= found.spoilt
         self.mistakes += [one for one in found.mistakes if one not in self.mistakes]
 
 
-def _join(mine: Draft, other: Draft, span: Span) -> None:
+def _merge_import(mine: Draft, other: Draft, span: Span) -> None:
     """Adds what another theory declares, but for its checks.
 
     Raises `NotationError` where a name means something else in the other.
     """
     for name in sorted(mine.names & other.names):
-        if _meaning(mine, name) != _meaning(other, name):
+        if _comparable_meaning(mine, name) != _comparable_meaning(other, name):
             message = f"{name} is declared in another way in the import"
             raise NotationError(message, span=span)
     mine.basics.update(other.basics)
@@ -267,9 +271,9 @@ def _join(mine: Draft, other: Draft, span: Span) -> None:
     mine.settled.update(other.predicates)
 
 
-def _meaning(theory: Names, name: str) -> object:
+def _comparable_meaning(theory: Names, name: str) -> object:
     """What a name is declared as, in a form that can be compared."""
     for kind in (theory.rules, theory.strategies, theory.openings):
         if name in kind:
             return kind[name]
-    return name if name in theory.objects else ("", identity(meaning(theory, name)))
+    return name if name in theory.objects else ("", identity(meaning_of(theory, name)))

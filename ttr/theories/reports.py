@@ -64,11 +64,11 @@ class Report:
     @property
     def summary(self) -> str:
         """How many checks hold, and how many rules are without fault, on one line."""
-        told = [_counted(self.asked, "check holds", "checks hold")]
+        told = [_count_of(self.asked, "check holds", "checks hold")]
         if self.failures:
             told = [f"{len(self.failures)} of {self.asked} checks failed"]
         if self.rules:
-            rules = _counted(self.rules, "rule", "rules")
+            rules = _count_of(self.rules, "rule", "rules")
             told.append(f"{self._found} in {rules}")
         return ", ".join(told)
 
@@ -77,8 +77,8 @@ class Report:
         """How many faults and warnings there are."""
         warnings = sum(fault.severity == "warning" for fault in self.faults)
         wrong = len(self.faults) - warnings
-        count = _counted(wrong, "fault", "faults") if wrong else "no fault"
-        more = f" and {_counted(warnings, 'warning', 'warnings')}" if warnings else ""
+        count = _count_of(wrong, "fault", "faults") if wrong else "no fault"
+        more = f" and {_count_of(warnings, 'warning', 'warnings')}" if warnings else ""
         return count + more
 
     @property
@@ -90,7 +90,7 @@ class Report:
         return "\n\n".join(self.told) or self.summary
 
 
-def _counted(count: int, one: str, several: str) -> str:
+def _count_of(count: int, one: str, several: str) -> str:
     return f"{count} {one if count == 1 else several}"
 
 

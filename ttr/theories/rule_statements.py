@@ -14,7 +14,7 @@ from typing import NoReturn
 from ttr.building.formation import checked_within, target
 from ttr.building.merging import merge
 from ttr.errors import IllFormed, TTRError
-from ttr.notation.error_location import culprit, refused
+from ttr.notation.error_location import is_ill_formed, locate_error
 from ttr.notation.reader import Reader
 from ttr.notation.syntax_trees import (
     Degree,
@@ -42,7 +42,7 @@ from ttr.types.syntax import (
 )
 from ttr.updates.rules import Body, Rule
 
-__all__ = ["record_type", "rule_of"]
+__all__ = ["read_state_type", "read_rule"]
 
 _MODEL = "model"
 """As which the effect of a rule gets its model, so that nothing else is called so."""
@@ -50,24 +50,24 @@ _MODEL = "model"
 _BIND = "bind it: where [{name} = … : T]"
 
 
-def rule_of(tree: RuleStatement, reader: Reader) -> Rule:
+def read_rule(tree: RuleStatement, reader: Reader) -> Rule:
     """The rule that a statement declares; raises `NotationError` or `IllFormed`."""
-    return _Ruling(tree, reader).rule()
+    return _RuleReader(tree, reader).rule()
 
 
-def record_type(term: Term, reader: Reader) -> RecordType:
+def read_state_type(term: Term, reader: Reader) -> RecordType:
     """The term as a record type: one that is written so, or a meet of such ones."""
-    found = _merged(reader.type(term, ()), reader)
+    found = _merge_meet(reader.type(term, ()), reader)
     if isinstance(found, RecordType):
         return found
     reader.refuse(
         term,
-        f"a state is a record, but {reader.written(term)} is no record type",
+        f"a state is a record, but {reader.text_of(term)} is no record type",
         "write a record type, [x : T], or the name of one",
     )
 
 
-def _merged(value: Object, reader: Reader) -> Object:
+def _merge_meet(value: Object, reader: Reader) -> Object:
     """A meet of record types as the one record type that it is."""
     match value:
         case Meet((first, *rest)):
@@ -78,7 +78,7 @@ def _merged(value: Object, reader: Reader) -> Object:
 
 
 @dataclass(frozen=True)
-class _Ruling:
+class _RuleReader:
     """Reads one rule."""
 
     tree: RuleStatement
@@ -104,7 +104,7 @@ class _Ruling:
         around = RecordType(tuple(zip(names, types, strict=True)))
         where = self._where(around)
         if where is not None:
-            around = RecordType((*around.fields, *_alongside(where)))
+            around = RecordType((*around.fields, *_bindings_as_fields(where)))
         return Rule(
             tree.name.text,
             Body(self._body(around), names),
@@ -126,7 +126,7 @@ class _Ruling:
         state, *events = self.given
         for parameter in self.given:
             self._check_name(parameter.name)
-        self.reader.distinct([one.name for one in self.given])
+        self.reader.check_distinct([one.name for one in self.given])
         if len(events) > 1:
             self.reader.refuse(
                 events[1],
@@ -138,24 +138,28 @@ class _Ruling:
                 state.degree,
                 "the state is certain: only the event has a probability",
             )
-        when = record_type(state.type, self.reader)
+        when = read_state_type(state.type, self.reader)
         if not events:
             return when, None, CERTAIN
-        return when, self._event(events[0].type, state.name), self._certainty(events[0])
+        return (
+            when,
+            self._event_type(events[0].type, state.name),
+            self._event_probability(events[0]),
+        )
 
-    def _event(self, term: Term, state: Word) -> TypeNode:
+    def _event_type(self, term: Term, state: Word) -> TypeNode:
         """The type of the events, which is the same in all states."""
         found = self.reader.type(term, (frozenset((state.text,)),))
         for path in sorted(escaping(found), key=lambda one: one.labels):
             self.reader.refuse(
-                _place(term, path),
+                _locate_path(term, path),
                 "the type of an event cannot mention the state, found "
                 f"{'.'.join(path.labels)}",
                 "ask it of the event: where [c = e : T]; an object is quoted: 'a'",
             )
         return found
 
-    def _certainty(self, event: Parameter) -> Probability:
+    def _event_probability(self, event: Parameter) -> Probability:
         """How probable the event must be of its type."""
         match event.degree:
             case None:
@@ -186,7 +190,7 @@ class _Ruling:
         for part in term.fields:
             self._check_name(part.label)
         given = [one.name for one in self.given]
-        self.reader.distinct([*given, *(part.label for part in term.fields)])
+        self.reader.check_distinct([*given, *(part.label for part in term.fields)])
         found = self.within.type(term, (frozenset(around),))
         assert isinstance(found, RecordType)
         self._check_fits(term, found, around)
@@ -198,12 +202,12 @@ class _Ruling:
         """What the rule gives: a record type, a record, or what comes to be one."""
         term = self.tree.value
         found = self.within.object(term, (frozenset(around),))
-        found = _merged(found, self.reader)
+        found = _merge_meet(found, self.reader)
         if not isinstance(found, RecordType | Record | Path | Application):
             self.reader.refuse(
                 term,
                 f"a rule gives a record type or the next state, found "
-                f"{self.reader.written(term)}",
+                f"{self.reader.text_of(term)}",
                 "write what is new: [x = a : T] changes x and leaves the rest",
             )
         self._check_fits(term, found, around)
@@ -225,9 +229,9 @@ class _Ruling:
         except IllFormed as error:
 
             def is_wrong(part: Object) -> bool:
-                return refused(lambda: checked_within(part, around, signature))
+                return is_ill_formed(lambda: checked_within(part, around, signature))
 
-            wrong = culprit(term, value, is_wrong)
+            wrong = locate_error(term, value, is_wrong)
             raise error.at(self.reader.source.span(wrong)) from None
 
     def _check_makes(self, term: Term, value: Object, around: RecordType) -> None:
@@ -235,11 +239,11 @@ class _Ruling:
 
         So it is where a label hides what the rule calls by the same name.
         """
-        for path in _by_themselves(value):
+        for path in _self_references(value):
             label = path.labels[0]
             hidden = f"{label} of the rule cannot be seen here: call it another way"
             self.reader.refuse(
-                _place(term, path),
+                _locate_path(term, path),
                 f"the field {label} is set by itself: {label} is a label here",
                 hidden if label in around else "say what it is set to",
             )
@@ -250,28 +254,28 @@ class _Ruling:
         if not error.hint and variable in [one.name.text for one in self.given]:
             hint = f"what {variable} has is said in the brackets: {variable} : [x : T]"
             error = type(error)(error.message, hint=hint)
-        raise error.at(self.reader.source.span(_place(term, path))) from None
+        raise error.at(self.reader.source.span(_locate_path(term, path))) from None
 
 
-def _by_themselves(value: Object) -> Iterator[Path]:
+def _self_references(value: Object) -> Iterator[Path]:
     """The paths from a field of a record type to this field."""
     if not isinstance(value, RecordType):
         return
     for label, field in value.fields:
         if isinstance(field, RecordType):
-            yield from _by_themselves(field)
+            yield from _self_references(field)
         for path in sorted(escaping(field), key=lambda one: one.labels):
             if (path.up, path.labels[0]) == (0, label):
                 yield path
 
 
-def _place(term: Term, path: Path) -> Part:
+def _locate_path(term: Term, path: Path) -> Part:
     """Where a path is written in a term."""
     names = (part for part in inside(term) if isinstance(part, Name))
     return next((one for one in names if one.labels == path.labels), term)
 
 
-def _alongside(where: RecordType) -> Iterator[tuple[str, TypeNode]]:
+def _bindings_as_fields(where: RecordType) -> Iterator[tuple[str, TypeNode]]:
     """The fields of bindings as fields beside the state and the event."""
 
     def at(path: Path) -> Path:

@@ -23,9 +23,9 @@ from ttr.notation.syntax_trees import (
 from ttr.signature.signature import Axiom, Exclusion, Expected, Given
 from ttr.theories.check_statements import Asking
 from ttr.theories.drafts import Draft
-from ttr.theories.game_statements import opening_of
-from ttr.theories.rule_statements import rule_of
-from ttr.theories.strategy_statements import algorithm, gathered
+from ttr.theories.game_statements import read_game
+from ttr.theories.rule_statements import read_rule
+from ttr.theories.strategy_statements import gathered, read_strategy
 from ttr.types.paths import escaping
 from ttr.types.printing import RESERVED
 from ttr.types.syntax import Basic, Object, Path, Pred, PType
@@ -60,7 +60,9 @@ class Declaring:
             case trees.Predicates(_, _, arities):
                 self._predicates(arities)
             case trees.OpenNames(_, _, names):
-                self.draft.opened.update([self._openable(word) for word in names])
+                self.draft.opened.update(
+                    [self._basic_or_predicate(word) for word in names]
+                )
             case trees.ObjectNames():
                 self._objects(tree)
             case trees.GivenFact():
@@ -85,13 +87,13 @@ class Declaring:
 
     def _basic(self, names: tuple[Word, ...]) -> None:
         for word in names:
-            self._claim(word, "a basic type", self.draft.basics)
+            self._check_free(word, "a basic type", self.draft.basics)
         self.draft.basics.update({word.text: Basic(word.text) for word in names})
 
     def _predicates(self, arities: tuple[Arity, ...]) -> None:
         found: dict[str, Pred] = {}
         for one in arities:
-            self._claim(one.name, "a predicate", self.draft.predicates)
+            self._check_free(one.name, "a predicate", self.draft.predicates)
             arity = tuple(self.reader.type(T, ()) for T in one.types)
             name = one.name.text
             pred = found.get(name, self.draft.predicates.get(name))
@@ -107,7 +109,7 @@ class Declaring:
             found[name] = Pred(name, *known, arity)
         self.draft.predicates.update(found)
 
-    def _openable(self, word: Word) -> Basic | Pred:
+    def _basic_or_predicate(self, word: Word) -> Basic | Pred:
         for declared in (self.draft.basics, self.draft.predicates):
             if word.text in declared:
                 return declared[word.text]
@@ -121,7 +123,7 @@ class Declaring:
     def _objects(self, tree: trees.ObjectNames) -> None:
         kind = self.reader.type(tree.type, ())
         for word in tree.names:
-            self._claim(word, "an object", self.draft.objects)
+            self._check_free(word, "an object", self.draft.objects)
         span = self.source.span(tree)
         self.draft.objects.update([word.text for word in tree.names])
         self.draft.givens += [Given(word.text, kind, span=span) for word in tree.names]
@@ -132,7 +134,7 @@ class Declaring:
         sit: Object
         match tree.sit:
             case Name(start, end, (name,), None) if not is_declared(self.draft, name):
-                self._claim(Word(start, end, name), "an object", ())
+                self._check_free(Word(start, end, name), "an object", ())
                 declares, sit = (name,), name
             case term:
                 sit = self.reader.object(term, ())
@@ -146,28 +148,28 @@ class Declaring:
         match tree.chance:
             case trees.Probability(_, _, Name(_, _, ("P",)), sit, T, _, when):
                 on = [(read.object(one, ()), read.type(S, ())) for one, S in when]
-                _, p = read.chance(tree.chance)
+                _, p = read.claimed_probability(tree.chance)
                 subject = read.object(sit, ())
                 given = Given(subject, read.type(T, ()), p, span, tuple(on))
                 self.draft.givens.append(given)
             case trees.Expectation(_, _, Name(_, _, ("P",)), T, types):
                 of = tuple([read.type(S, ()) for S in types])
-                _, p = read.chance(tree.chance)
+                _, p = read.claimed_probability(tree.chance)
                 self.draft.givens.append(Expected(read.type(T, ()), of, p, span))
             case other:
-                found = read.written(other.head)
+                found = read.text_of(other.head)
                 read.refuse(
                     other.head, f"a probability is written P(…), found {found}(…)"
                 )
 
     def _definition(self, tree: trees.Definition) -> None:
-        self._claim(tree.name, "defined", ())
+        self._check_free(tree.name, "defined", ())
         self.draft.definitions[tree.name.text] = self.reader.object(tree.value, ())
 
     def _rule(self, tree: trees.RuleStatement) -> None:
-        self._claim(tree.name, "a rule", ())
+        self._check_free(tree.name, "a rule", ())
         self._check_gathered(tree)
-        self.draft.rules[tree.name.text] = rule_of(tree, self.reader)
+        self.draft.rules[tree.name.text] = read_rule(tree, self.reader)
 
     def _check_gathered(self, tree: trees.RuleStatement) -> None:
         """Refuses a rule of a kind whose rules have been gathered without it."""
@@ -183,13 +185,13 @@ class Declaring:
             )
 
     def _strategy(self, tree: trees.StrategyStatement) -> None:
-        self._claim(tree.name, "a strategy", ())
-        self.draft.strategies[tree.name.text] = algorithm(tree.value, self.reader)
+        self._check_free(tree.name, "a strategy", ())
+        self.draft.strategies[tree.name.text] = read_strategy(tree.value, self.reader)
         self._gather(tree.name, tree.value)
 
     def _game(self, tree: trees.GameStatement) -> None:
-        self._claim(tree.name, "a game", ())
-        self.draft.openings[tree.name.text] = opening_of(tree, self.reader)
+        self._check_free(tree.name, "a game", ())
+        self.draft.openings[tree.name.text] = read_game(tree, self.reader)
         self._gather(tree.name, tree.value)
 
     def _gather(self, name: Word, value: Term) -> None:
@@ -231,7 +233,7 @@ class Declaring:
             self.reader.refuse(
                 term,
                 "an axiom relates basic types and predicates applied to names, "
-                f"found {self.reader.written(term)}",
+                f"found {self.reader.text_of(term)}",
             )
         return found
 
@@ -240,14 +242,16 @@ class Declaring:
         kinds = (LOGICAL, draft.basics, draft.predicates, draft.definitions)
         return any(name in kind for kind in kinds)
 
-    def _claim(self, word: Word, kind: str, mine: Collection[str]) -> None:
+    def _check_free(self, word: Word, kind: str, mine: Collection[str]) -> None:
         """Refuses a name that means something else already."""
         if word.text in RESERVED:
             self.reader.refuse(word, f"{word.text} is a word of the notation itself")
         if word.text not in mine and is_declared(self.draft, word.text):
-            self.reader.refuse(word, f"{word.text} is already {self._kind(word.text)}")
+            self.reader.refuse(
+                word, f"{word.text} is already {self._kind_of_name(word.text)}"
+            )
 
-    def _kind(self, name: str) -> str:
+    def _kind_of_name(self, name: str) -> str:
         kinds = {
             "defined": self.draft.definitions,
             "a basic type": self.draft.basics,

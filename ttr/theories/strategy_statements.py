@@ -14,7 +14,7 @@ from ttr.errors import TTRError, suggestion
 from ttr.notation.names import is_declared
 from ttr.notation.reader import Reader
 from ttr.notation.scanning import DEPTH
-from ttr.notation.syntax_errors import shown
+from ttr.notation.syntax_errors import excerpt
 from ttr.notation.syntax_trees import Application, Literal, Name, Part, Term, inside
 from ttr.updates.algorithms import (
     Algorithm,
@@ -31,7 +31,7 @@ from ttr.updates.algorithms import (
     seq,
 )
 
-__all__ = ["COMBINING", "algorithm", "gathered"]
+__all__ = ["COMBINING", "read_strategy", "gathered"]
 
 _SEVERAL: Mapping[str, Callable[..., Algorithm]] = {
     "first": first,
@@ -49,9 +49,9 @@ PARTS = 10_000
 _MADE_OF = "a strategy is made of rules and strategies"
 
 
-def algorithm(term: Term, reader: Reader) -> Algorithm:
+def read_strategy(term: Term, reader: Reader) -> Algorithm:
     """The rule or strategy that a term stands for; raises `NotationError`."""
-    found = _Combining(reader).algorithm(term)
+    found = _StrategyReader(reader).algorithm(term)
     too_large = _too_large(found)
     if too_large:
         reader.refuse(term, too_large)
@@ -92,7 +92,7 @@ def _is_by_class(head: Term) -> bool:
 
 
 @dataclass(frozen=True)
-class _Combining:
+class _StrategyReader:
     """Reads strategies of the rules that the reader's theory has."""
 
     reader: Reader
@@ -103,7 +103,7 @@ class _Combining:
                 return self._named(term, name)
             case Application(_, _, Name(_, _, (word,), None), args):
                 return self._combined(term, word, args)
-        found = self.reader.written(term)
+        found = self.reader.text_of(term)
         self.reader.refuse(term, f"{_MADE_OF}, found {found}", _way_out())
 
     # --- names ---
@@ -116,11 +116,11 @@ class _Combining:
         if is_declared(theory, name):
             self.reader.refuse(term, f"{_MADE_OF}, and {name} is neither")
         if name in self.reader.later:
-            self.reader.too_early(term, name)
+            self.reader.refuse_too_early(term, name)
         known_names = [*theory.rules, *theory.strategies]
         self.reader.refuse(
             term,
-            f"no rule or strategy is called {shown(name)}",
+            f"no rule or strategy is called {excerpt(name)}",
             suggestion(name, known_names)
             or f"declare it first: rule {name}(s : S) := …",
         )
@@ -131,11 +131,13 @@ class _Combining:
         self, term: Application, word: str, args: tuple[Term, ...]
     ) -> Algorithm:
         try:
-            return self._of(term, word, args)
+            return self._combination(term, word, args)
         except TTRError as error:
             raise error.at(self.reader.source.span(term)) from None
 
-    def _of(self, term: Application, word: str, args: tuple[Term, ...]) -> Algorithm:
+    def _combination(
+        self, term: Application, word: str, args: tuple[Term, ...]
+    ) -> Algorithm:
         if word in _SEVERAL:
             return self._several(term, word, args)
         match word, args:
@@ -160,7 +162,7 @@ class _Combining:
             if word == "first" and any(part is one for one in parts):
                 self.reader.refuse(
                     arg,
-                    f"{self.reader.written(arg)} is in this {word} twice, and never "
+                    f"{self.reader.text_of(arg)} is in this {word} twice, and never "
                     "comes to its second place",
                 )
             parts.append(part)
@@ -177,7 +179,7 @@ class _Combining:
                 case Name(_, _, labels, None) if measure is None:
                     measure = ".".join(labels)
                 case _:
-                    found = self.reader.written(bound)
+                    found = self.reader.text_of(bound)
                     self.reader.refuse(
                         bound,
                         "repeat takes how often at most, a number from 1, or the path "
@@ -195,7 +197,7 @@ class _Combining:
                     self._check_kind(arg, kind, kinds)
                     kinds.append(kind)
                 case _:
-                    found = self.reader.written(arg)
+                    found = self.reader.text_of(arg)
                     self.reader.refuse(
                         arg, f"by_class takes kinds of rules, found {found}"
                     )
@@ -210,7 +212,7 @@ class _Combining:
             return
         self.reader.refuse(
             arg,
-            f"no rule is of the kind {shown(kind)}",
+            f"no rule is of the kind {excerpt(kind)}",
             suggestion(kind, known - {""})
             or f"a rule has its kind after its brackets: rule a(s : S) of {kind} := …",
         )
@@ -240,7 +242,7 @@ class _Combining:
             )
         self.reader.refuse(
             term.head,
-            f"no way to combine rules is called {shown(word)}",
+            f"no way to combine rules is called {excerpt(word)}",
             suggestion(word, COMBINING) or _way_out(),
         )
 
