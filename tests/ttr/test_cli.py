@@ -278,6 +278,34 @@ def test_the_command_says_its_version_and_loads_no_parser_for_help() -> None:
     assert done.stdout.endswith("False\n")
 
 
+WRONG_USE = {
+    ("chek",): "ttr: there is no chek: did you mean check?",
+    ("xyz",): "ttr: there is no xyz: try check, play, replay, test, show, repl, fracas",
+    (): "ttr: a command is missing",
+    ("check",): "ttr check: the following arguments are required: FILE",
+    ("check", "a", "--jsn"): "ttr check: there is no --jsn: did you mean --json?",
+    ("check", "a", "--js"): "ttr check: there is no --js: did you mean --json?",
+    ("show", "a", "b", "c"): "ttr show: c is not expected here",
+    ("show", "a", "b", "--as", "bx"): "--as: there is no bx: did you mean box?",
+    ("test", "a", "--seed", "b"): "--seed: expected a whole number, found b",
+    ("play", "a", "--allow", "b\n\x1b"): r"--allow: there is no folder b\n\x1b",
+}
+
+
+@pytest.mark.parametrize(("words", "told"), WRONG_USE.items())
+def test_wrong_use_is_one_line_with_a_way_out(
+    words: tuple[str, ...], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(words)
+    assert caught.value.code == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert told in err
+    assert err.count("\n") == 1
+    assert err.endswith(" --help says more)\n")
+
+
 def test_an_interrupt_is_quiet(tmp_path: Path) -> None:
     pipe = tmp_path / "endless.ttr"
     os.mkfifo(pipe)

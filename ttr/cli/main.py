@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
 from collections.abc import Sequence
@@ -14,10 +13,9 @@ from ttr.cli.commands.output import (
     FAILED,
     INTERRUPTED,
     PIPE_CLOSED,
-    Parser,
     complain,
-    say,
 )
+from ttr.cli.parser import Parser, Version
 from ttr.safety.unforeseen_errors import report_unforeseen
 
 __all__ = ["main"]
@@ -54,33 +52,21 @@ def _drop_output() -> None:
 
 
 def _run(argv: Sequence[str] | None) -> int:
-    options = _parser().parse_args(argv)
-    code: int = options.command(options)
+    options = _parser().options_of(argv)
+    code: int = options.run(options)
     return code
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser() -> Parser:
     parser = Parser(
         prog="ttr",
         description="Type Theory with Records: check files, show them, try things.",
     )
-    parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
-    commands = parser.add_subparsers(
-        metavar="COMMAND", required=True, parser_class=Parser
-    )
+    parser.add_argument("--version", action=Version, nargs=0, help="print the version")
+    commands = parser.add_subparsers(metavar="COMMAND", parser_class=Parser)
     for command in COMMANDS:
         command.add(commands)
     return parser
-
-
-class _Version(argparse.Action):
-    """Prints the version, which is looked up only when it is asked for."""
-
-    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
-        from importlib.metadata import version
-
-        say(f"ttr {version('kille')}")
-        parser.exit()
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ttr.cli.commands.consent_options import add_allow
 from ttr.cli.commands.output import (
     FAILED,
     FINE,
@@ -20,6 +19,7 @@ from ttr.cli.commands.output import (
     say_json,
     steps,
 )
+from ttr.cli.consent_options import add_allow
 from ttr.errors import TooLargeError, TTRError
 from ttr.safety.budgets import STEPS, budget
 
@@ -47,7 +47,7 @@ def add(commands: Commands) -> None:
         metavar="N",
         help=f"how much work each check may be before it is left (default: {STEPS:,})",
     )
-    check.set_defaults(command=_check)
+    check.set_defaults(run=_check)
 
 
 @dataclass(frozen=True)

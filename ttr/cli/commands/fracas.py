@@ -6,8 +6,8 @@ import argparse
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
-from ttr.cli.commands.consent_options import add_allow
 from ttr.cli.commands.output import FAILED, FINE, Commands, complain, say, say_json
+from ttr.cli.consent_options import add_allow
 from ttr.errors import TTRError
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def add(commands: Commands) -> None:
     )
     fracas.add_argument("--json", action="store_true", help="report for machines")
     add_allow(fracas)
-    fracas.set_defaults(command=_fracas)
+    fracas.set_defaults(run=_fracas)
 
 
 def _fracas(options: argparse.Namespace) -> int:

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import argparse
 import sys
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
+from ttr.cli.parser import WRONG_USE
 from ttr.escapes import json_text, terminal_line, terminal_text
 
 if TYPE_CHECKING:
@@ -22,7 +23,6 @@ __all__ = [
     "PIPE_CLOSED",
     "LiveLine",
     "Commands",
-    "Parser",
     "ask",
     "say",
     "say_json",
@@ -31,21 +31,13 @@ __all__ = [
     "steps",
 ]
 
-FINE, FAILED, WRONG_USE, INTERRUPTED, PIPE_CLOSED = 0, 1, 2, 130, 141
+FINE, FAILED, INTERRUPTED, PIPE_CLOSED = 0, 1, 130, 141
 
 if TYPE_CHECKING:
     #: What a command is added to.
     Commands = argparse._SubParsersAction[argparse.ArgumentParser]
 else:
     Commands = Any
-
-
-class Parser(argparse.ArgumentParser):
-    """A parser whose complaints are safe to print, whatever was typed."""
-
-    def exit(self, status: int = 0, message: str | None = None) -> NoReturn:
-        """Leave, after saying why if there is a reason."""
-        super().exit(status, terminal_text(message or ""))
 
 
 def say(text: str) -> None:

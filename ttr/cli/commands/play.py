@@ -10,12 +10,6 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from ttr.cli.commands.consent_options import (
-    add_allow,
-    add_no_python,
-    consent_of,
-    game_named,
-)
 from ttr.cli.commands.output import (
     FAILED,
     FINE,
@@ -24,6 +18,11 @@ from ttr.cli.commands.output import (
     complain,
     say,
     say_json,
+)
+from ttr.cli.consent_options import (
+    add_consent,
+    consent_of,
+    named_game,
 )
 from ttr.errors import TTRError
 from ttr.safety.consent import Consent, NotAllowed
@@ -63,9 +62,8 @@ def add(commands: Commands) -> None:
         help="play all with this game, FILE.ttr:NAME, FILE.py:NAME or MODULE:NAME, "
         "whatever they name",
     )
-    add_allow(play)
-    add_no_python(play)
-    play.set_defaults(command=_play)
+    add_consent(play)
+    play.set_defaults(run=_play)
 
 
 def _play(options: argparse.Namespace) -> int:
@@ -80,7 +78,7 @@ def _play(options: argparse.Namespace) -> int:
     consent, game = consent_of(options), None
     if options.game is not None:
         try:
-            game = game_named(options.game, consent)
+            game = named_game(options.game, consent)
         except TTRError as error:
             return complain(str(error))
     plan: list[tuple[str, Story]] = []

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ttr.cli.commands.consent_options import add_allow, consent_of
 from ttr.cli.commands.output import FAILED, FINE, Commands, ask, complain, say
+from ttr.cli.consent_options import add_allow, consent_of
 from ttr.errors import TTRError
 from ttr.safety.limits import TooMuch
 
@@ -22,7 +22,7 @@ def add(commands: Commands) -> None:
     )
     repl.add_argument("file", nargs="?", metavar="FILE", help="a theory to start from")
     add_allow(repl)
-    repl.set_defaults(command=_repl)
+    repl.set_defaults(run=_repl)
 
 
 def _repl(options: argparse.Namespace) -> int:

@@ -6,13 +6,12 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ttr.cli.commands.consent_options import (
-    add_allow,
-    add_trust,
-    consent_of,
-    game_named,
-)
 from ttr.cli.commands.output import FAILED, FINE, Commands, complain, say
+from ttr.cli.consent_options import (
+    add_consent,
+    consent_of,
+    named_game,
+)
 from ttr.errors import TTRError
 from ttr.safety.consent import NotAllowed
 from ttr.safety.files import check_outputs, write_whole
@@ -51,9 +50,8 @@ def add(commands: Commands) -> None:
         help="play it with this game, FILE.ttr:NAME, FILE.py:NAME or MODULE:NAME, "
         "whatever the log names",
     )
-    add_allow(replay)
-    add_trust(replay, "the log")
-    replay.set_defaults(command=_replay)
+    add_consent(replay, log="the log")
+    replay.set_defaults(run=_replay)
 
 
 def _turn(text: str) -> int:
@@ -107,7 +105,7 @@ def _setting(log: Log, options: argparse.Namespace, place: str) -> Setting:
 
     consent, reference = consent_of(options), log.header.game
     if options.game is not None:
-        return game_named(options.game, consent)
+        return named_game(options.game, consent)
     if not reference:
         raise LogError(f"{place}: the log names no game: name it with --game")
     folder, python = options.file.parent, python_in(reference)

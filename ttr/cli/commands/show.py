@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from ttr.cli.commands.consent_options import add_allow
 from ttr.cli.commands.output import FAILED, FINE, Commands, complain, say
+from ttr.cli.consent_options import add_allow
 from ttr.errors import TTRError, Unsupported
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def add(commands: Commands) -> None:
         help="show names for the definitions inside, but for N levels (default: all)",
     )
     add_allow(show)
-    show.set_defaults(command=_show)
+    show.set_defaults(run=_show)
 
 
 def _levels(text: str) -> int:

@@ -10,12 +10,6 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from ttr.cli.commands.consent_options import (
-    add_allow,
-    add_no_python,
-    consent_of,
-    game_named,
-)
 from ttr.cli.commands.output import (
     FAILED,
     FINE,
@@ -25,6 +19,11 @@ from ttr.cli.commands.output import (
     complain,
     say,
     say_json,
+)
+from ttr.cli.consent_options import (
+    add_consent,
+    consent_of,
+    named_game,
 )
 from ttr.errors import TTRError
 
@@ -71,7 +70,7 @@ def add(commands: Commands) -> None:
         "--turns", type=_count, default=10, metavar="N", help="of how many turns"
     )
     test.add_argument(
-        "--seed", type=int, default=0, metavar="S", help="draws other dialogues"
+        "--seed", type=_number, default=0, metavar="S", help="draws other dialogues"
     )
     test.add_argument(
         "--role",
@@ -83,15 +82,23 @@ def add(commands: Commands) -> None:
         "commitments=, rules that may: drops=reject,cancel",
     )
     test.add_argument("--json", action="store_true", help="report for machines")
-    add_allow(test)
-    add_no_python(test)
-    test.set_defaults(command=_test)
+    add_consent(test)
+    test.set_defaults(run=_test)
 
 
 def _count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"expected a number from 1 on, found {text}")
     return int(text)
+
+
+def _number(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"expected a whole number, found {text}"
+        ) from None
 
 
 def _role(text: str) -> tuple[str, str]:
@@ -135,9 +142,9 @@ def _places(rules: str, game: str | None, consent: Consent) -> list[Setting]:
     """The games that are named, with where they are."""
     if not rules.endswith(".ttr"):
         named = rules if ":" in Path(rules).name else f"{rules}:{game or 'game'}"
-        return [game_named(named, consent)]
+        return [named_game(named, consent)]
     if game is not None:
-        return [game_named(f"{rules} {game}", consent)]
+        return [named_game(f"{rules} {game}", consent)]
     from ttr.theories.theory import load
 
     if not Path(rules).is_file():
@@ -145,7 +152,7 @@ def _places(rules: str, game: str | None, consent: Consent) -> list[Setting]:
     names = load(rules, allow=consent.folders).openings
     if not names:
         raise TTRError(f"{rules} has no game: write `game NAME(START : TYPE) := …`")
-    return [game_named(f"{rules} {name}", consent) for name in names]
+    return [named_game(f"{rules} {name}", consent) for name in names]
 
 
 def _roles(game: Game, declared: list[tuple[str, str]]) -> Roles | None:

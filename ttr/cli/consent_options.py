@@ -11,7 +11,7 @@ from ttr.safety.consent import Consent
 if TYPE_CHECKING:
     from ttr.dialogues.stories import Setting
 
-__all__ = ["add_allow", "add_no_python", "add_trust", "consent_of", "game_named"]
+__all__ = ["add_allow", "add_consent", "consent_of", "named_game"]
 
 
 def add_allow(command: argparse.ArgumentParser) -> None:
@@ -27,22 +27,21 @@ def add_allow(command: argparse.ArgumentParser) -> None:
     )
 
 
-def add_no_python(command: argparse.ArgumentParser) -> None:
-    """Declares `--no-python`, by which no Python is run that a file names."""
-    command.add_argument(
-        "--no-python", action="store_true", help="refuse what names Python"
-    )
+def add_consent(command: argparse.ArgumentParser, log: str = "") -> None:
+    """Declares `--allow`, and `--no-python`, by which no Python of a file is run.
 
-
-def add_trust(command: argparse.ArgumentParser, of: str) -> None:
-    """Declares `--no-python` and `--trust`, of which one alone can be meant."""
+    Where a log may name Python, called so, also `--trust`, by which that is run. Of the
+    two, one alone can be meant.
+    """
+    add_allow(command)
     either = command.add_mutually_exclusive_group()
     either.add_argument(
-        "--trust", action="store_true", help=f"run the Python that {of} names"
-    )
-    either.add_argument(
         "--no-python", action="store_true", help="refuse what names Python"
     )
+    if log:
+        either.add_argument(
+            "--trust", action="store_true", help=f"run the Python that {log} names"
+        )
 
 
 def consent_of(options: argparse.Namespace) -> Consent:
@@ -52,7 +51,7 @@ def consent_of(options: argparse.Namespace) -> Consent:
     )
 
 
-def game_named(reference: str, consent: Consent) -> Setting:
+def named_game(reference: str, consent: Consent) -> Setting:
     """A game that the user has named, from the working directory; raises `TTRError`."""
     from ttr.dialogues.stories import named_by_user, setting
 
