@@ -13,15 +13,10 @@ from pathlib import Path
 from shlex import join
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from kille.interfaces.parsing import (
-    Parser,
-    Version,
-    add_consent,
-    counted,
-    positive,
-    seed,
-)
+from kille.interfaces.parsing import counted, positive, seed
 from kille.interfaces.streams import drop_output, end_line, prepare_streams, write_error
+from ttr.cli.consent_options import add_consent, consent_of
+from ttr.cli.parser import Parser, Version
 
 if TYPE_CHECKING:
     from kille.interfaces.experiment.running import Request
@@ -75,11 +70,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(argv: Sequence[str] | None) -> int:
-    options, unknown = _parser().parse_known_args(argv)
-    if unknown:
-        options.parser.error(f"unknown option: {unknown[0]}")
-    if "run" not in options:
-        options.parser.error("a command is missing")
+    options = _parser().options_of(argv)
     options.words = tuple(sys.argv[1:] if argv is None else argv)
     _limit_pictures()
     code: int = options.run(options)
@@ -96,7 +87,7 @@ def _limit_pictures() -> None:
     os.environ.setdefault("OPENCV_IO_MAX_IMAGE_PIXELS", str(PICTURE.allowed))
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser() -> Parser:
     parser = Parser(
         prog="kille",
         description="A table-top robot that learns words for objects and places.",
@@ -583,7 +574,6 @@ def _evaluate(options: argparse.Namespace) -> int:
 
 def _experiment_check(options: argparse.Namespace) -> int:
     from kille.interfaces.experiment.checking import check_files
-    from ttr.cli.commands.consent_options import consent_of
 
     return check_files(options.files, consent_of(options))
 
@@ -606,7 +596,6 @@ def _request(options: argparse.Namespace) -> Request:
     """By whom a study is to be played, and what it may run."""
     from kille.interfaces.experiment.crews import scheduler_from
     from kille.interfaces.experiment.running import Request
-    from ttr.cli.commands.consent_options import consent_of
 
     return Request(
         options.workers,
@@ -633,7 +622,6 @@ def _experiment_replay(options: argparse.Namespace) -> int:
 def _experiment_report(options: argparse.Namespace) -> int:
     from kille.interfaces.experiment.logs import consent_to
     from kille.interfaces.experiment.reporting import report
-    from ttr.cli.commands.consent_options import consent_of
 
     consent = consent_to(consent_of(options), options.trust)
     return report(options.folder, _command(options), consent)
@@ -642,7 +630,6 @@ def _experiment_report(options: argparse.Namespace) -> int:
 def _experiment_compare(options: argparse.Namespace) -> int:
     from kille.interfaces.experiment.logs import consent_to
     from kille.interfaces.experiment.reporting import compare
-    from ttr.cli.commands.consent_options import consent_of
 
     consent, command = consent_to(consent_of(options), options.trust), _command(options)
     return compare(options.one, options.other, options.report, command, consent)

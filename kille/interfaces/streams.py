@@ -7,6 +7,8 @@ import os
 import sys
 from io import StringIO, TextIOWrapper
 
+from ttr.escapes import terminal_text
+
 __all__ = ["drop_output", "end_line", "prepare_streams", "write", "write_error"]
 
 
@@ -51,9 +53,6 @@ def end_line() -> None:
 def _as_shown(text: str) -> str:
     if text.isascii() and text.isprintable():
         return text
-    # Imported here, so that --version and the like need not wait for `ttr`.
-    from ttr.escapes import terminal_text
-
     return terminal_text(text)
 
 

@@ -28,7 +28,7 @@ MISSPELT = {
     ("talk", "--memry", "x"): "did you mean --memory?",
     ("talk", "--sensro=synthetic"): "did you mean --sensor?",
     ("talk", "--tra"): "did you mean --trace?",
-    ("talk", "synthetic"): "there is no synthetic",
+    ("talk", "synthetic"): "synthetic is not expected here",
     ("demo", "--seed", "x"): "x is no whole number",
     ("demo", "--seed", "-1"): "-1 is no whole number",
     ("talk", "--lang", "fr"): "there is no fr: try en, sv",
