@@ -104,7 +104,7 @@ PROVIDERS = {
 
 set_providers(PROVIDERS)
 find_former_modules()
-_former_name = former_names(__name__)
+_former_name = former_names(__name__, stacklevel=3)
 
 _HOMES = {
     "ttr.building.constructors": "Pi fun rectype",

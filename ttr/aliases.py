@@ -63,32 +63,34 @@ FORMER_MODULES = {
 }
 """Where the modules are now that users could know by another name."""
 
-_ERRORS = {
-    "Endless": "EndlessError",
-    "IllFormed": "IllFormedError",
-    "Mistakes": "MistakesError",
-    "NoState": "NoStateError",
-    "NotHeard": "NotHeardError",
-    "Refused": "RefusedError",
-    "RuleFailed": "RuleFailedError",
-    "Undecided": "UndecidedError",
-    "Unexpected": "UnexpectedError",
-    "Unsupported": "UnsupportedError",
-}
+
+def _errors(names: str) -> dict[str, str]:
+    """What ends in Error now, and did not."""
+    return {name: f"{name}Error" for name in names.split()}
+
+
+_ERRORS = _errors(
+    "Endless IllFormed NoState NotHeard Refused RuleFailed "
+    "Undecided Unexpected Unsupported"
+)
 
 FORMER_NAMES: Mapping[str, Mapping[str, str]] = {
     "ttr": _ERRORS,
+    "ttr.dialogues.logs": _errors(" UnreadableLog"),
     "ttr.dialogues.stories": {
         "Moment": "ttr.dialogues.dialogue:Trial",
         "moment": "ttr.dialogues.dialogue:Trial.of",
         "worded": "wording",
         "written": "format_story",
     },
-    "ttr.errors": _ERRORS,
+    "ttr.errors": _ERRORS | _errors(" Mistakes"),
+    "ttr.probability": _errors("Contradiction Impossible"),
+    "ttr.semantics.fragment": _errors(" OutsideFragment"),
+    "ttr.semantics.quantifiers": _errors(" Undefined"),
 }
 """What was renamed in a module: its name there now, or where it is instead."""
 
-_NEVER_WARN = {"Undecided"}
+_NEVER_WARN = ("ttr.Undecided", "ttr.errors.Undecided")
 """Former names that may be used for good."""
 
 
@@ -113,8 +115,10 @@ class Alias:
         return attrgetter(self.now)(owner if instance is None else instance)
 
 
-def former_names(module: str) -> Callable[[str], Any]:
+def former_names(module: str, stacklevel: int = 2) -> Callable[[str], Any]:
     """The `__getattr__` of a module that has `FORMER_NAMES`.
+
+    Where another function calls it, one level of the stack more is passed over.
 
     >>> import warnings
     >>> from ttr.dialogues import stories
@@ -131,9 +135,9 @@ def former_names(module: str) -> Callable[[str], Any]:
         if name not in names:
             raise AttributeError(f"module {module!r} has no attribute {name!r}")
         now = names[name] if ":" in names[name] else f"{module}:{names[name]}"
-        if name not in _NEVER_WARN:
+        if f"{module}.{name}" not in _NEVER_WARN:
             message = f"{module}.{name} is now {now.replace(':', '.')}"
-            warn(message, DeprecationWarning, stacklevel=2)
+            warn(message, DeprecationWarning, stacklevel=stacklevel)
         return resolve_name(now)
 
     return find

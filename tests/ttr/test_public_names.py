@@ -2,13 +2,14 @@
 
 import subprocess
 import sys
+import warnings
 from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 import ttr
-from ttr.aliases import FORMER_MODULES
+from ttr.aliases import FORMER_MODULES, FORMER_NAMES, former_names
 from ttr.hooks import Hook, hook
 
 
@@ -102,3 +103,35 @@ def test_little_is_loaded_until_it_is_asked_for():
     count, rest = run.stdout.split("\n", 1)
     assert int(count) < 5
     assert rest == "False True\n"
+
+
+NEVER_WARN = ("ttr.Undecided", "ttr.errors.Undecided")
+ERRORS = [
+    (module, former, now)
+    for module, names in FORMER_NAMES.items()
+    for former, now in names.items()
+    if now == f"{former}Error"
+]
+
+
+@pytest.mark.parametrize(("module", "former", "now"), ERRORS)
+def test_an_error_has_its_former_name_too(module, former, now, monkeypatch):
+    here = import_module(module)
+    error = getattr(here, now, None) or getattr(here, former)
+    if former in vars(here):
+        monkeypatch.delattr(here, former)
+    monkeypatch.setattr(here, now, error, raising=False)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        assert getattr(here, former) is error
+    was = f"{module}.{former}"
+    told = [] if was in NEVER_WARN else [f"{was} is now {module}.{now}"]
+    assert [str(it.message) for it in said] == told
+    assert all(it.filename == __file__ for it in said)
+
+
+def test_a_name_that_never_was_is_not_found_in_a_module_with_former_names():
+    with pytest.raises(AttributeError, match="has no attribute 'nonesuch'"):
+        former_names("ttr.errors")("nonesuch")
+    with pytest.raises(ImportError, match="cannot import name 'nonesuch'"):
+        exec("from ttr.errors import nonesuch")

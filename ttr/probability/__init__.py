@@ -5,6 +5,9 @@ them. Equal atoms are one event; distinct atoms are independent, unless a `Depen
 links them: by what entails or excludes what, by conditionals, or as unknown.
 """
 
+from typing import TYPE_CHECKING
+
+from ttr.aliases import former_names
 from ttr.probability.chances import (
     Chance,
     Contradiction,
@@ -54,3 +57,6 @@ __all__ = [
     "feasible",
     "shown",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)

@@ -4,6 +4,9 @@
 where anything differs, `continued` takes the dialogue up, `story_of` makes a story.
 """
 
+from typing import TYPE_CHECKING
+
+from ttr.aliases import former_names
 from ttr.dialogues.logs.entries import Entry, Header, LogError
 from ttr.dialogues.logs.log_reader import Log, UnreadableLog, read_logs
 from ttr.dialogues.logs.log_writer import LogFile, write_log
@@ -32,3 +35,6 @@ __all__ = [
     "story_of",
     "write_log",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)

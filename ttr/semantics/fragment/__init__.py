@@ -13,6 +13,9 @@ then what follows from it: `inference`, `formulas`, `venn_regions`,
 parametric_content, theories and all below.
 """
 
+from typing import TYPE_CHECKING
+
+from ttr.aliases import former_names
 from ttr.semantics.fragment.inference import Inference, follows
 from ttr.semantics.fragment.lexicon import Lexicon, english, lexicon
 from ttr.semantics.fragment.sentence_parsing import OutsideFragment
@@ -29,3 +32,6 @@ __all__ = [
     "picked_up",
     "understand",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)

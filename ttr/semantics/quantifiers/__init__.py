@@ -6,6 +6,9 @@ counts extensions that are known already. `truth` works out types with quantifie
 inside.
 """
 
+from typing import TYPE_CHECKING
+
+from ttr.aliases import former_names
 from ttr.semantics.quantifiers.anaphora import Antecedents, antecedents
 from ttr.semantics.quantifiers.degrees_of_truth import Truth
 from ttr.semantics.quantifiers.determiners import (
@@ -71,3 +74,6 @@ __all__ = [
     "share",
     "truth",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)
