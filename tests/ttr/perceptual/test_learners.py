@@ -106,11 +106,11 @@ def test_a_rejection_alone_teaches_nothing_where_there_is_no_other_label():
 @pytest.mark.parametrize(
     ("answer", "wrong"),
     [
-        ({"cup": math.nan, "mug": 0.5}, "to give cup a degree in [0, 1], found nan"),
-        ({"cup": -0.1, "mug": 0.5}, "to give cup a degree in [0, 1], found -0.1"),
-        ({"cup": 1.1, "mug": 0.0}, "to give cup a degree in [0, 1], found 1.1"),
-        ({"cup": "1", "mug": 0.0}, "to give cup a degree in [0, 1], found '1'"),
-        ({"cup": None, "mug": 0.0}, "to give cup a degree in [0, 1], found None"),
+        ({"cup": math.nan, "mug": 0.5}, "must give cup a degree in [0, 1], found nan"),
+        ({"cup": -0.1, "mug": 0.5}, "must give cup a degree in [0, 1], found -0.1"),
+        ({"cup": 1.1, "mug": 0.0}, "must give cup a degree in [0, 1], found 1.1"),
+        ({"cup": "1", "mug": 0.0}, "must give cup a degree in [0, 1], found '1'"),
+        ({"cup": None, "mug": 0.0}, "must give cup a degree in [0, 1], found None"),
         ({"cup": 0.75, "mug": 0.75}, "sum to 1 at most, found 1.5"),
         ({"cup": 1.0}, "has the labels cup, mug, but answered for cup"),
         ({"mug": 1.0}, "has the labels cup, mug, but answered for mug"),
@@ -158,7 +158,7 @@ def test_a_learner_that_always_answers_for_two():
     assert cup.rejected(at(0)).degree(at(0)).hi < 0.3
     with pytest.raises(TTRError, match=r"labels \(none\), but answered") as wrong:
         word(Logistic(), label=True, other=False).degree(at(0))
-    assert "learner_params is told" in wrong.value.hint
+    assert "give learner_params the labels" in wrong.value.hint
 
 
 def test_rounding_is_forgiven():
@@ -239,7 +239,7 @@ def test_an_estimator_that_answers_with_nan():
     cup = word(as_learner(GaussianNB(), ["cup", "mug"])).confirmed(at(0, 0))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
-        with pytest.raises(TTRError, match=r"GaussianNB is to give .* found nan"):
+        with pytest.raises(TTRError, match=r"GaussianNB must give .* found nan"):
             cup.degree(at(0, 0))
 
 

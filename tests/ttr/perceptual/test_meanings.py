@@ -404,7 +404,7 @@ def test_eyes_that_fail():
         raise OSError("no light")
 
     meant = meaning(INTERP, Perceptron(), LARSSON, of="pos", through=blind)
-    with pytest.raises(TTRError, match=r"right: what is seen of \[1\] .* OSError: no"):
+    with pytest.raises(TTRError, match=r"right: the percept of \[1\] .* OSError: no"):
         meant.degree(at(1))
 
 
@@ -472,7 +472,7 @@ def test_what_no_meaning_can_be_made_of(given, wrong):
 def test_weights_out_of_bounds_are_refused(to_the_right):
     meant = meaning(INTERP, Perceptron(rate=1e308), LARSSON, of="pos")
     with pytest.raises(
-        TTRError, match=r"right: a step at rate 1e.308 takes the weights"
+        TTRError, match=r"right: a step at rate 1e.308 makes the weights infinite"
     ):
         meant.rejected(at(1e10, 0))
 

@@ -1,9 +1,15 @@
 """Meanings with classifiers inside, which change when somebody corrects them.
 
-A perceptual meaning is a record {params, bg, clf, interp}. It judges situations with
-percepts in them, in models too; it learns from feedback, which gives another meaning;
-and two speakers' meanings of one word can be compared. Points are made individuals,
-whose places are judged in frames of reference.
+A perceptual meaning is a record {params, bg, clf, interp}. It judges situations that
+have percepts in them, also in models. Feedback gives another meaning, so it learns; and
+the meanings that two speakers have of a word can be compared. Regions of points give
+rise to individuals, whose places are judged in frames of reference. Sources: Larsson
+2013; Dobnik, Cooper and Larsson 2013.
+
+Read `meanings` first, with `classifiers` and `interpretations`; then methods:
+`perceptron`, `learners`, `estimators`; then `composition`, `speakers`, `similarity`;
+then space: `regions`, `frames`. May import: argument_checks, learning's
+logistic_regression, judging and all below.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""What is in the field `clf` of a meaning: a method, and what it looks at.
+"""The field `clf` of a meaning: a method of classification, and where its percept is.
 
-A method is a pure function of parameters and a percept. It also says how parameters
-change when the word was rightly said of the percept, or wrongly.
+A method gives a degree by parameters and a percept. It also gives the parameters after
+feedback: that the word was rightly said of the percept, or wrongly.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ __all__ = ["Classifier", "Method"]
 
 
 class Method(Protocol):
-    """A way to classify, and to learn from feedback; it holds nothing that changes."""
+    """A way to classify and to learn from feedback; it has no state of its own."""
 
     def degree(self, params: Record, x: Object, /) -> object:
-        """How far the word holds of the percept: in [0, 1], or an interval."""
+        """The degree of the word for the percept: in [0, 1], or an interval."""
         ...
 
     def confirmed(self, params: Record, x: Object, /) -> Record:
@@ -40,8 +40,8 @@ class Method(Protocol):
 class Classifier:
     """A method, and the paths of a situation at which its percept is found.
 
-    What is at the paths is the percept, or what `through` makes of it: as a function
-    from handles to what was sensed. None from it means that nothing can be seen.
+    The percept is what is at the paths; or what `through`, a function from handles to
+    what was sensed, makes of that. Where it gives None, nothing can be seen.
     """
 
     method: Method
@@ -74,22 +74,22 @@ class Classifier:
         return f"of {', '.join(self.of)} by {self.method}"
 
     def has_percept(self, r: Record) -> bool:
-        """Whether a situation has something at each of the paths."""
+        """Has a situation something at each of the paths?"""
         try:
-            return all(_at(r, path) is not None for path in self.of)
+            return all(_value_at(r, path) is not None for path in self.of)
         except TTRError:
             return False
 
     def percept(self, r: Record) -> Object | None:
-        """What the method is to judge in a situation.
+        """The percept in a situation; None where nothing can be seen.
 
         Raises `TTRError` for a situation that lacks a path, and where `through` fails.
         """
-        found = [_at(r, path) for path in self.of]
-        return self.sensed(*found)
+        found = [_value_at(r, path) for path in self.of]
+        return self.percept_of(*found)
 
-    def sensed(self, *found: Object) -> Object | None:
-        """The percept, of what is found at the paths."""
+    def percept_of(self, *found: Object) -> Object | None:
+        """The percept made of what is at the paths; None where nothing can be seen."""
         if self.through is None:
             return found[0] if len(found) == 1 else tuple(found)
         try:
@@ -99,7 +99,7 @@ class Classifier:
         except Exception as error:
             shown = ", ".join(map(notation, found))
             raise TTRError(
-                f"what is seen of {shown} cannot be told: "
+                f"the percept of {shown} could not be computed: "
                 f"{type(error).__name__}: {error}"
             ) from error
 
@@ -112,7 +112,7 @@ def _are_paths(value: object) -> bool:
     )
 
 
-def _at(r: Record, path: str) -> Object:
+def _value_at(r: Record, path: str) -> Object:
     try:
         return along(r, tuple(path.split(".")))
     except Unresolved:

@@ -1,4 +1,4 @@
-"""Several meanings at once: a red cup is what both classifiers judge to be so."""
+"""Several meanings at once: a red cup is what is a cup and red by both classifiers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["combined_type", "in_model", "perceive"]
 
 
 def combined_type(*meanings: Meaning) -> TypeNode:
-    """The type of the situations in which all of the words hold: a merge.
+    """The merge of the types of some meanings: in its situations all the words hold.
 
     >>> from ttr.building.constructors import fun, rectype
     >>> from ttr.semantics.perceptual import Perceptron, RealVector, meaning
@@ -30,21 +30,21 @@ def combined_type(*meanings: Meaning) -> TypeNode:
     [colour : RealVector, shape : RealVector, x : Ind, c : cup(x) /\\ red(x)]
     """
     if not meanings:
-        raise TTRError("a combined type is one of one meaning or more, found none")
+        raise TTRError("a combined type is that of one meaning or more, found none")
     types: list[TypeNode] = [as_meaning(it).type for it in meanings]
     return reduce(merge, types)
 
 
 def in_model(M: Model, meanings: tuple[Meaning, ...], *situations: Record) -> Model:
-    """The model in which all of these meanings judge; see `Meaning.in_model`."""
+    """The model with all of these meanings in it; see `Meaning.in_model`."""
     for it in as_tuple(meanings, "meanings"):
         M = as_meaning(it).in_model(M, *situations)
     return M
 
 
 def perceive(M: Model, r: Record, *meanings: Meaning) -> Judgement:
-    """The judgement that the situation is one in which all of the words hold.
+    """Judge whether all of the words hold in a situation.
 
-    Each classifier judges its percept, and distinct judgements are independent.
+    Each classifier judges its percept; distinct judgements are independent.
     """
     return in_model(M, meanings, r).perceive(r, combined_type(*meanings))

@@ -1,4 +1,4 @@
-"""Estimators in the manner of scikit-learn, as learners from one example at a time."""
+"""Estimators of scikit-learn as learners, which take one example at a time."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ def as_learner(
 ) -> Incremental | Refitted:
     """The estimator as a learner with `learn_one` and `predict_proba_one`.
 
-    One with `partial_fit` is taught example by example, and has to know all its classes
-    beforehand; one with `fit` alone is fitted anew to all examples. Raises `TTRError`
-    for what is no probabilistic classifier.
+    An estimator with `partial_fit` learns example by example, and needs all its classes
+    beforehand. One with only `fit` is fitted anew to all examples each time. Raises
+    `TTRError` for what is no probabilistic classifier.
     """
     labels = as_tuple(classes, "classes")
     if not callable(getattr(estimator, "predict_proba", None)):
@@ -37,11 +37,11 @@ def as_learner(
 
 
 class Incremental:
-    """An estimator that is taught by `partial_fit`, on lists of numbers."""
+    """An estimator that learns by `partial_fit`, from lists of numbers."""
 
     def __init__(self, estimator: Any, classes: Iterable[object] = ()) -> None:
         self.estimator = estimator
-        self.labels = _plain(getattr(estimator, "classes_", tuple(classes)))
+        self.labels = _as_plain_tuple(getattr(estimator, "classes_", tuple(classes)))
         if not self.labels:
             raise TTRError(
                 f"{type(estimator).__name__} learns by partial_fit, so it has to know "
@@ -50,15 +50,15 @@ class Incremental:
 
     @property
     def name(self) -> str:
-        """What kind of estimator it is."""
+        """The class of the estimator."""
         return type(self.estimator).__name__
 
     def learn_one(self, x: object, y: object) -> None:
-        """Take x as an example of the class; `TTRError` where it is none of its own."""
+        """Take x as an example of class y; `TTRError` where it has no such class."""
         if not any(y is label or _is_same(y, label) for label in self.labels):
             known = ", ".join(map(notation, self.labels))
             raise TTRError(f"{in_notation(y)} is none of the classes {known}")
-        with _naming(self):
+        with _reporting_errors_of(self):
             self.estimator.partial_fit([vector(x)], [y], classes=list(self.labels))
 
     def predict_proba_one(self, x: object) -> dict[Any, float]:
@@ -75,29 +75,29 @@ class Refitted:
 
     @property
     def name(self) -> str:
-        """What kind of estimator it is."""
+        """The class of the estimator."""
         return type(self.estimator).__name__
 
     def learn_one(self, x: object, y: object) -> None:
-        """Take x as an example of the class, and fit if there are two classes.
+        """Take x as an example of class y, and fit if there are two classes or more.
 
-        Raises `TTRError` where it cannot be fitted; the example is not kept then.
+        Raises `TTRError` where fitting fails; then the example is not kept.
         """
         examples = (*self.examples, (vector(x), y))
         classes = [label for _, label in examples]
-        with _naming(self):
+        with _reporting_errors_of(self):
             if len(set(classes)) > 1:
                 self.estimator.fit([x for x, _ in examples], classes)
         self.examples = examples
 
     def predict_proba_one(self, x: object) -> dict[Any, float]:
-        """The degree of each class; nothing before there are examples of two."""
+        """The degree of each class; nothing before two classes have examples."""
         return _degrees(self, x)
 
 
 @contextmanager
-def _naming(learner: Incremental | Refitted) -> Iterator[None]:
-    """Tells errors of an estimator as such."""
+def _reporting_errors_of(learner: Incremental | Refitted) -> Iterator[None]:
+    """Report errors of the estimator as `TTRError`s with its name."""
     try:
         yield
     except TTRError:
@@ -110,7 +110,7 @@ def _naming(learner: Incremental | Refitted) -> Iterator[None]:
 
 
 def _is_same(one: object, label: object) -> bool:
-    """Whether a class is this one; arrays, which have no one answer, are not."""
+    """Is a class equal to a label? No for arrays, for which == has no one answer."""
     same = one == label
     return same if isinstance(same, bool) else False
 
@@ -119,11 +119,11 @@ def _degrees(learner: Incremental | Refitted, x: object) -> dict[Any, float]:
     estimator = learner.estimator
     if not hasattr(estimator, "classes_"):
         return {}
-    with _naming(learner):
+    with _reporting_errors_of(learner):
         (row,) = estimator.predict_proba([vector(x)])
-    return dict(zip(_plain(estimator.classes_), map(float, row), strict=True))
+    return dict(zip(_as_plain_tuple(estimator.classes_), map(float, row), strict=True))
 
 
-def _plain(classes: Any) -> tuple[Any, ...]:
-    """Classes as plain Python objects, where they are an array."""
+def _as_plain_tuple(classes: Any) -> tuple[Any, ...]:
+    """Classes as plain Python objects, also where they are an array."""
     return tuple(classes.tolist() if hasattr(classes, "tolist") else classes)

@@ -1,10 +1,11 @@
-"""Where things are from one another: coordinates in a frame of reference.
+"""Where things are relative to one another: coordinates in a frame of reference.
 
 A frame is a record {origin, axes = {right, front}} of points and directions on a plane.
-What is to the right of the tree depends on whose right it is: the tree's own, that of
-the map, or that of who looks at it. Sources: Levinson 2003 on the three frames; Dobnik,
-Cooper and Larsson 2013 on predicates over two regions in one; Logan and Sadler 1996 on
-spatial templates.
+What is to the right of a tree depends on whose right it is: the tree's own, that of the
+map, or that of somebody who looks at it.
+
+Sources: Levinson 2003 on the three frames; Dobnik, Cooper and Larsson 2013 on
+predicates over two regions in a frame; Logan and Sadler 1996 on spatial templates.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ Frame: RecordType = rectype(
 
 
 def absolute(ground: Object) -> Record:
-    """The frame of the map, at the ground: right is along x, front along y.
+    """The frame of the map with its origin at the ground: right is x, front is y.
 
     >>> print(absolute([2, 3]))  # doctest: +NORMALIZE_WHITESPACE
     {axes = {front = [0.0, 1.0], right = [1.0, 0.0]}, origin = [2.0, 3.0]}
@@ -50,15 +51,15 @@ def absolute(ground: Object) -> Record:
 
 
 def intrinsic(ground: Object, facing: Object) -> Record:
-    """The frame of a ground that faces somewhere: its own front and right."""
+    """The frame of the ground itself, by where it faces: its own front and right."""
     return _frame(_place(ground, "the ground"), _direction(facing, "facing"))
 
 
 def relative(ground: Object, viewer: Object) -> Record:
-    """The frame of who looks at a ground: front is towards the viewer, right is theirs.
+    """The frame of a viewer: the front of the ground is towards them, right is theirs.
 
-    So front and back are those of someone who faces the viewer, and left and right are
-    the viewer's own, as in English.
+    So front and back are those of someone who faces the viewer, while left and right
+    are the viewer's own, as in English.
     """
     place, eye = _place(ground, "the ground"), _place(viewer, "the viewer")
     x, y = _direction([eye[0] - place[0], eye[1] - place[1]], "the way to the viewer")
@@ -67,10 +68,10 @@ def relative(ground: Object, viewer: Object) -> Record:
 
 
 def coordinates(thing: Object, frame: Record) -> Vector:
-    """Where a thing is in a frame: how far to the right, and how far to the front.
+    """The coordinates of a thing: how far to the right, and how far to the front.
 
-    The thing is a point, or a point map with its centre. Law: what is right of a ground
-    in the relative frame of a viewer is left of it for a viewer opposite.
+    The thing is a point, or a point map, which counts as its centre. Law: what is right
+    of a ground for a viewer is left of it for a viewer opposite.
 
     >>> coordinates([1, 0], relative([0, 0], viewer=[0, -5]))
     (1.0, 0.0)
@@ -93,11 +94,11 @@ def coordinates(thing: Object, frame: Record) -> Vector:
 
 @dataclass(frozen=True)
 class Projective:
-    """A spatial template of an axis: as far as max(0, cos θ) to a power, `sharpness`.
+    """A spatial template of an axis: max(0, cos θ) to the power of `sharpness`.
 
-    θ is the angle between `params.axis` and where the percept, coordinates in a frame,
-    lies. So the degree is 1 along the axis, and 0 from 90° on. It does not learn: for
-    that a perceptron may take the same coordinates.
+    θ is the angle between `params.axis` and the percept, coordinates in a frame. So the
+    degree is 1 along the axis, and 0 from 90° on. A template does not learn; a
+    perceptron over the same coordinates does.
 
     >>> template = Projective()
     >>> template.degree(record(axis=[1, 0]), (2.0, 0.0))
@@ -118,7 +119,7 @@ class Projective:
         return "a spatial template"
 
     def degree(self, params: Record, x: Object, /) -> float:
-        """The cosine to its power; 0 at the origin, which is in no direction."""
+        """The power of the cosine; 0 at the origin, which is in no direction."""
         if not isinstance(params, Record) or "axis" not in params:
             raise TTRError(
                 f"a spatial template has {{axis = […]}}, found {in_notation(params)}"
@@ -135,7 +136,7 @@ class Projective:
         return math.pow(cosine, self.sharpness)
 
     def confirmed(self, _: Record, x: Object, /) -> Record:
-        """A template is given, not learned: `Unsupported`."""
+        """Raise `Unsupported`: a template does not learn."""
         raise Unsupported(
             f"a spatial template does not learn, as from {in_notation(x)}"
         )
@@ -144,7 +145,7 @@ class Projective:
 
 
 def _frame(origin: Vector, front: Vector) -> Record:
-    """The frame of what faces the front: its right is a quarter turn clockwise."""
+    """The frame with this front; its right is a quarter turn clockwise from there."""
     x, y = front
     return record(origin=origin, axes=record(right=(y, 0.0 - x), front=front))
 

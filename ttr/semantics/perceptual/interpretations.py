@@ -1,4 +1,4 @@
-r"""Interpretations, λr:bg. [c : p(r.x)]: what type a word gives a situation."""
+r"""Interpretations λr:bg. [c : p(r.x)]: the type that a word gives a situation."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["claim_of", "interpretation"]
 
 
 def claim_of(interp: object) -> tuple[str, PType]:
-    """The one field of an interpretation, and its ptype; else `IllFormed`."""
+    """The label and the ptype in an interpretation; `IllFormed` for what is none."""
     match interp:
         case Function(RecordType(), RecordType(((label, PType() as claim),))):
             return label, claim
@@ -45,11 +45,11 @@ def interpretation(T: RecordType, label: str) -> Function:
     bg = checked(
         RecordType(order_fields({k: S for k, S in T.fields if k != label})), None
     )
-    return fun(r=bg)(RecordType(((label, replace_paths(claim, _into_the_situation)),)))
+    return fun(r=bg)(RecordType(((label, replace_paths(claim, _path_into_situation)),)))
 
 
-def _into_the_situation(path: Path) -> Path:
-    """A path from the record as a path from the variable, one scope further out."""
+def _path_into_situation(path: Path) -> Path:
+    """A path into the record as a path into the variable, one scope further out."""
     if path.up == 0:
         return Path(1, (BOUND, *path.labels))
     return Path(path.up + 1, path.labels)

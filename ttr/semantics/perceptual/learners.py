@@ -1,8 +1,8 @@
-"""Learners of any make as classifiers: {labels, learner} are then the parameters.
+"""Learners of any make as classifiers, in parameters {labels, learner}.
 
 A learner has `learn_one(x, y)` and `predict_proba_one(x)`, which gives a mapping from
-labels to degrees that sum to 1 at most. It is an object that changes, and a meaning
-does not: so every lesson is given to a copy.
+labels to degrees that sum to at most 1. A learner changes and a meaning does not, so
+each lesson is given to a copy.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ from ttr.types.syntax import Object, Record, freeze, record
 __all__ = ["ByLearner", "Handle", "Learner", "learner_params"]
 
 _SLACK = 1e-6
-"""How far rounding may take degrees out of [0, 1]."""
+"""How far degrees may lie outside [0, 1] by rounding."""
 
 
 class Learner(Protocol):
-    """What learns from one example at a time, and says how far each label fits."""
+    """An object that learns from one example at a time, and gives degrees to labels."""
 
     def learn_one(self, x: Any, y: Any, /) -> object:
         """Take x as an example of the label."""
         ...
 
     def predict_proba_one(self, x: Any, /) -> Mapping[Any, float]:
-        """The degree of each label for x; nothing where there is nothing to say."""
+        """The degree of each label for x; an empty mapping where it knows nothing."""
         ...
 
 
@@ -42,12 +42,12 @@ def learner_params(
     *,
     copied: Callable[[Any], Any] = copy.deepcopy,
 ) -> Record:
-    """The parameters {labels, learner} of meanings that a learner classifies for.
+    """The parameters {labels, learner} of meanings with this learner as classifier.
 
-    `labels` are those that it has degrees for already: by default its attribute
-    `labels`, or none. `copied` makes the copy that the next lesson is given to; what
-    copies without what was learned, as `clone` of scikit-learn and river does, is not
-    for it. Raises `TTRError` for what is no learner.
+    `labels` are those that it already has degrees for; by default its attribute
+    `labels`, or none. `copied` makes the copy that is given the next lesson; it has to
+    copy what was learned, which `clone` of scikit-learn and river does not. Raises
+    `TTRError` for what is no learner.
     """
     lacking = [
         name
@@ -66,7 +66,7 @@ def learner_params(
 
 @dataclass(frozen=True, eq=False)
 class Handle:
-    """A learner, and how many lessons it had since; nobody else may teach it."""
+    """A learner and how many lessons it was given here; nobody else may teach it."""
 
     learner: Learner
     lessons: int
@@ -78,14 +78,14 @@ class Handle:
         return f"{self._name} + {self.lessons} lesson{'s' * (self.lessons > 1)}"
 
     def degrees(self, x: Object, labels: tuple[Object, ...]) -> Mapping[Object, float]:
-        """The degree of each of its labels for x, or nothing.
+        """The degrees of the labels for x, or none at all.
 
-        Raises `TTRError` for what are no degrees, and for other labels than these.
+        Raises `TTRError` for an answer that is no degrees, or has other labels.
         """
         found = self.learner.predict_proba_one(x)
         if not isinstance(found, Mapping):
             raise TTRError(
-                f"{self._name} is to answer with a mapping from labels to degrees, "
+                f"{self._name} must answer with a mapping from labels to degrees, "
                 f"found {in_notation(found)}"
             )
         degrees = {label: self._number(label, p) for label, p in found.items()}
@@ -96,20 +96,20 @@ class Handle:
             )
         if degrees and degrees.keys() != set(labels):
             raise TTRError(
-                f"{self._name} has the labels {_listed(labels)}, but answered for "
-                f"{_listed(degrees)}",
-                hint="what it has besides those it is taught, learner_params is told",
+                f"{self._name} has the labels {_names_of(labels)}, but answered for "
+                f"{_names_of(degrees)}",
+                hint="give learner_params the labels that it has beforehand",
             )
         return degrees
 
-    def taught(self, x: Object, label: object) -> Handle:
-        """A copy of the learner after one more lesson."""
+    def teach(self, x: Object, label: object) -> Handle:
+        """The handle of a copy of the learner after one more lesson."""
         pupil = self.copy().learner
         pupil.learn_one(x, label)
         return Handle(pupil, self.lessons + 1, self.copied)
 
     def copy(self) -> Handle:
-        """A copy of the learner; `TTRError` where there is none."""
+        """The handle of a copy of the learner; `TTRError` where it cannot be copied."""
         try:
             pupil = self.copied(self.learner)
         except Exception as error:
@@ -132,7 +132,7 @@ class Handle:
             found = math.nan
         if not -_SLACK <= found <= 1 + _SLACK:
             raise TTRError(
-                f"{self._name} is to give {notation(label)} a degree in [0, 1], "
+                f"{self._name} must give {notation(label)} a degree in [0, 1], "
                 f"found {in_one_line(p)}"
             )
         return min(max(found, 0.0), 1.0)
@@ -140,12 +140,12 @@ class Handle:
 
 @dataclass(frozen=True)
 class ByLearner:
-    """As far as a learner gives the word's label; what it knows is in the parameters.
+    """The degree that a learner gives to the word's label; the parameters hold it.
 
-    A label that it was never taught may have what the others leave. To confirm is to
-    teach the label, to reject is to teach the label `other`: where there is none a
-    rejection alone teaches nothing, and raises `Unsupported`. Whoever says what it is
-    instead teaches that.
+    A label that it was never taught has a degree between 0 and what the others leave.
+    To confirm is to teach the label, to reject is to teach the label `other`. Where
+    there is no `other`, a rejection teaches nothing and raises `Unsupported`; say what
+    the thing is instead.
     """
 
     label: object
@@ -155,7 +155,7 @@ class ByLearner:
         return f"a learner, as {notation(self.label)}"
 
     def degree(self, params: Record, x: Object, /) -> float | tuple[float, float]:
-        """The degree of the label; [0, 1] where the learner says nothing."""
+        """The degree of the label; [0, 1] where the learner gives no degrees."""
         handle, labels = _parts(params)
         degrees = handle.degrees(x, labels)
         if self.label in degrees:
@@ -163,24 +163,24 @@ class ByLearner:
         return 0.0, max(0.0, 1.0 - sum(degrees.values()))
 
     def confirmed(self, params: Record, x: Object, /) -> Record:
-        """The parameters with a learner that had one more example of the label."""
-        return _taught(params, x, self.label)
+        """The parameters with the learner taught one more example of the label."""
+        return _teach(params, x, self.label)
 
     def rejected(self, params: Record, x: Object, /) -> Record:
-        """The parameters with a learner that had one more example of the other."""
+        """The parameters with the learner taught one more example of `other`."""
         if self.other is None:
             raise Unsupported(
                 f"that it is not {notation(self.label)} teaches this learner nothing",
                 hint="say what it is instead, or give ByLearner a label for the others",
             )
-        return _taught(params, x, self.other)
+        return _teach(params, x, self.other)
 
 
-def _taught(params: Record, x: Object, label: object) -> Record:
+def _teach(params: Record, x: Object, label: object) -> Record:
     handle, labels = _parts(params)
     if label not in labels:
         labels = (*labels, freeze(label))
-    fields = {**params._fields, "labels": labels, "learner": handle.taught(x, label)}
+    fields = {**params._fields, "labels": labels, "learner": handle.teach(x, label)}
     return Record(fields)
 
 
@@ -195,5 +195,5 @@ def _parts(params: Record) -> tuple[Handle, tuple[Object, ...]]:
     )
 
 
-def _listed(labels: Iterable[object]) -> str:
+def _names_of(labels: Iterable[object]) -> str:
     return ", ".join(sorted(map(notation, labels))) or "(none)"

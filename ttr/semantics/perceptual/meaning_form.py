@@ -1,4 +1,4 @@
-"""What a record has to be like to be a perceptual meaning."""
+"""Check that a record is a perceptual meaning {params, bg, clf, interp}."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ _FIELDS: dict[str, tuple[type, str]] = {
 
 
 def check_record(found: object) -> None:
-    """Refuses what is no record {params, bg, clf, interp}, with a `TTRError`.
+    """Raise `TTRError` for what is no record {params, bg, clf, interp}.
 
-    Its interp takes the situations of its bg, and its clf looks for a percept in them.
+    The domain of interp has to be bg, and the percept of clf has to be in bg.
     """
     if not isinstance(found, Record) or set(found) != set(_FIELDS):
         raise TTRError(
@@ -41,11 +41,11 @@ def check_record(found: object) -> None:
         )
     claim_of(found.interp)
     for path in found.clf.of:
-        _check_place(found.bg, path)
+        _check_path(found.bg, path)
 
 
-def _check_place(bg: RecordType, path: str) -> None:
-    """Refuses a path of a percept that situations of the background do not have."""
+def _check_path(bg: RecordType, path: str) -> None:
+    """Raise `TTRError` for a path that situations of the background do not have."""
     T: object = bg
     for label in path.split("."):
         if isinstance(T, Basic | PType) or (

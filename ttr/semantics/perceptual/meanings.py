@@ -1,9 +1,9 @@
 r"""Meanings with classifiers inside: {params, bg, clf, interp}, ordinary records.
 
-A situation of the background type `bg` has a percept in it. The classifier `clf` says
-by the parameters `params` how far the percept is what the word is said of, and
-`interp` is the type that the situation then gets. To learn is to get a meaning with
-other parameters; the old one stays. Source: Larsson 2013.
+A situation of the background type `bg` has a percept in it. By the parameters `params`,
+the classifier `clf` gives the degree to which the word holds of the percept, and
+`interp` gives the situation its type. To learn is to get a meaning with other
+parameters; the old meaning does not change. Source: Larsson 2013.
 """
 
 from __future__ import annotations
@@ -52,10 +52,10 @@ def meaning(
     of: str | tuple[str, ...],
     through: Callable[..., object] | None = None,
 ) -> Meaning:
-    r"""The meaning {params, bg, clf, interp} of a word, where bg is interp's domain.
+    r"""The meaning {params, bg, clf, interp} of a word; bg is the domain of interp.
 
-    `of` is the path of the percept in a situation, or several; `through` makes the
-    percept of what is there, if that is a handle.
+    `of` is the path of the percept in a situation, or several paths. Where handles are
+    found there, `through` makes the percept of them.
 
     >>> from ttr.building.constructors import fun, rectype
     >>> from ttr.semantics.perceptual.perceptron import Perceptron
@@ -79,8 +79,7 @@ def meaning(
 class Meaning:
     """A perceptual meaning: a view of the record {params, bg, clf, interp}.
 
-    Meanings are equal when their records are. Raises `TTRError` for a record that is
-    no such meaning.
+    Meanings are equal when their records are. Raises `TTRError` for any other record.
     """
 
     record: Record
@@ -106,7 +105,7 @@ class Meaning:
 
     @property
     def bg(self) -> RecordType:
-        """The background: the type of the situations that it can be asked of."""
+        """The background: the type of the situations that the word can be said of."""
         return cast(RecordType, self.record._fields["bg"])
 
     @property
@@ -116,7 +115,7 @@ class Meaning:
 
     @property
     def interp(self) -> Function:
-        """The interpretation: from a situation to the type that the word gives it."""
+        """The interpretation: a function from situations to types."""
         return cast(Function, self.record._fields["interp"])
 
     @cached_property
@@ -131,49 +130,49 @@ class Meaning:
 
     @property
     def type(self) -> RecordType:
-        """The type of the situations in which the word holds: bg and interp in one.
+        """The type of situations in which the word holds: the fixed point of interp.
 
-        The merge of such types is the type in which all their classifiers judge.
+        Merge such types for the situations in which several words hold.
         """
         return fix(self.interp)
 
     # --- what it says of a situation ---
 
     def degree(self, r: Record, /) -> Degree:
-        """How far the word holds of what is perceived in a situation.
+        """The degree to which the word holds of what is perceived in a situation.
 
         [0, 1] where nothing can be seen. Raises `TTRError` where there is no percept,
-        and where the classifier fails or answers with what is no degree.
+        and where the classifier fails or its answer is no degree.
         """
-        return self._of_percept(self._percept(r))
+        return self._degree_of(self._percept(r))
 
     def score(self, r: Record, /) -> float:
-        """What the method sets against its threshold, if it has one."""
+        """The score that the method compares with its threshold, if it has one."""
         method = self.clf.method
         if not hasattr(method, "score"):
             raise Unsupported(f"{self._word}: {method} has degrees, but no score")
         x = self._percept(r)
         if x is None:
             raise Undecided(f"{self._word}: nothing can be seen in {notation(r)}")
-        return float(self._asked(method.score, x))
+        return float(self._ask(method.score, x))
 
     def classify(self, r: Record, /) -> TypeNode:
-        """The type that the situation gets: that the word holds, or that it does not.
+        """The claim that the word holds of the situation, or the negation of it.
 
-        It holds if its degree is at least a half. Raises `Undecided` where that is not
-        known.
+        It holds if its degree is at least a half. Raises `Undecided` where the interval
+        leaves that open.
         """
         p = self.degree(r)
         if p.lo < 0.5 <= p.hi:
             raise Undecided(
                 f"{self._word}: {notation(r)} may be so or not, with the degree {p}"
             )
-        claim: PType = self._grounded(self.claim, ({}, {BOUND: r}))
+        claim: PType = self._ground(self.claim, ({}, {BOUND: r}))
         return claim if p.lo >= 0.5 else Negation(claim)
 
     def content(self, r: Record, /) -> TypeNode:
-        """interp(r): what the word, said in the situation, means there."""
-        content: TypeNode = self._grounded(self.interp.body, ({BOUND: r},))
+        """interp(r): what the word means when it is said in the situation."""
+        content: TypeNode = self._ground(self.interp.body, ({BOUND: r},))
         return content
 
     # --- what it learns from feedback ---
@@ -181,20 +180,20 @@ class Meaning:
     def confirmed(self, r: Record, /) -> Meaning:
         """The meaning after the word was rightly said in the situation.
 
-        Only parameters change, as the method says; if none does, it is this meaning.
-        Raises `TTRError` where nothing can be seen in it, and where the method fails.
+        The method changes the parameters; if it changes none, this is the same meaning.
+        Raises `TTRError` where nothing can be seen, and where the method fails.
         """
-        return self._taught(self.clf.method.confirmed, r)
+        return self._learn(self.clf.method.confirmed, r)
 
     def rejected(self, r: Record, /) -> Meaning:
         """The meaning after the word was wrongly said in the situation.
 
-        As for `confirmed`; and `Unsupported` where the method has no use for it.
+        As `confirmed`; raises `Unsupported` where the method cannot learn from it.
         """
-        return self._taught(self.clf.method.rejected, r)
+        return self._learn(self.clf.method.rejected, r)
 
     def with_params(self, params: Record | Mapping[str, object], /) -> Meaning:
-        """The meaning with these parameters in place of its own."""
+        """The meaning with these parameters instead."""
         return Meaning(record({**self.record._fields, "params": params}))
 
     # --- in a model ---
@@ -202,31 +201,31 @@ class Meaning:
     def witness(self, *situations: Record) -> Callable[..., Degree]:
         """The witness function of the word's predicate.
 
-        Where all of the percept is among the arguments of the predicate, it is seen
-        there; else in the situations, the last of which with these arguments counts.
-        The degree of what was in none of them is [0, 1].
+        The percept is taken from the arguments of the predicate where all of it is
+        among them; else from the last of these situations with the same arguments. The
+        degree is [0, 1] where there is none.
         """
         seen = {self._key(r): self._percept(r) for r in situations}
         paths = [_path(arg) for arg in self.claim.args]
         needed = [tuple(path.split(".")) for path in self.clf.of]
         places = [paths.index(path) for path in needed if path in paths]
 
-        def asked(*args: Object) -> Degree:
+        def degree_of(*args: Object) -> Degree:
             if len(places) == len(needed):
-                return self._of_percept(self._sensed(*[args[i] for i in places]))
-            return self._of_percept(seen.get(identity(args)))
+                return self._degree_of(self._percept_of(*[args[i] for i in places]))
+            return self._degree_of(seen.get(identity(args)))
 
-        return asked
+        return degree_of
 
     def in_model(self, M: Model, /, *situations: Record) -> Model:
-        """The model in which the meaning judges what its predicate holds of."""
+        """The model in which the classifier judges what the predicate holds of."""
         M = as_model(M)
         if any(part is RealVector for part in occurring([self.bg])):
             M = M.witnessed(RealVector, by=is_vector)
         return M.witnessed(self.predicate, by=self.witness(*situations))
 
     def judge(self, M: Model, r: Record, /) -> Judgement:
-        """The judgement that the situation, with what is perceived, is of `type`."""
+        """Judge whether the situation, with what is perceived in it, is of `type`."""
         return self.in_model(M, r).perceive(r, self.type)
 
     # --- asking the classifier ---
@@ -241,68 +240,68 @@ class Meaning:
         try:
             return self.clf.percept(r)
         except TTRError as error:
-            raise self._named(error) from None
+            raise self._with_word(error) from None
 
-    def _sensed(self, *found: Object) -> Object | None:
+    def _percept_of(self, *found: Object) -> Object | None:
         try:
-            return self.clf.sensed(*found)
+            return self.clf.percept_of(*found)
         except TTRError as error:
-            raise self._named(error) from None
+            raise self._with_word(error) from None
 
-    def _of_percept(self, x: Object | None) -> Degree:
+    def _degree_of(self, x: Object | None) -> Degree:
         if x is None:
             return UNKNOWN
-        found = self._asked(self.clf.method.degree, x)
+        found = self._ask(self.clf.method.degree, x)
         try:
             return degree(found, f"{self._word}: a degree")
         except TTRError as error:
-            raise self._named(error) from None
+            raise self._with_word(error) from None
 
-    def _taught(self, step: Callable[[Record, Object], Record], r: Record) -> Meaning:
+    def _learn(self, step: Callable[[Record, Object], Record], r: Record) -> Meaning:
         x = self._percept(r)
         if x is None:
             raise TTRError(
                 f"{self._word}: nothing can be seen in {notation(r)} to learn from"
             )
-        params = self._asked(step, x)
+        params = self._ask(step, x)
         return self if params is self.params else self.with_params(params)
 
-    def _asked(self, ask: Callable[[Record, Object], Any], x: Object) -> Any:
-        """What the method answers; its errors are told as this word's."""
+    def _ask(self, ask: Callable[[Record, Object], Any], x: Object) -> Any:
+        """The answer of the method; its errors are reported with the word."""
         try:
             return ask(self.params, x)
         except TTRError as error:
-            raise self._named(error) from None
+            raise self._with_word(error) from None
         except Exception as error:
             raise TTRError(
                 f"{self._word}: {self.clf.method} failed on {notation(x)}: "
                 f"{type(error).__name__}: {error}"
             ) from error
 
-    def _named(self, error: TTRError) -> TTRError:
-        """The error, told as one of this word."""
+    def _with_word(self, error: TTRError) -> TTRError:
+        """The error with the word in front of its message."""
         if error.message.startswith(f"{self._word}: "):
             return error
         message = f"{self._word}: {error.message}"
         return error.__class__(message, hint=error.hint)
 
-    def _grounded(self, value: Object, around: tuple[Mapping[str, Object], ...]) -> Any:
+    def _ground(self, value: Object, around: tuple[Mapping[str, Object], ...]) -> Any:
         try:
             return grounded(value, around)
         except Unresolved as error:
-            raise self._named(TTRError(error.message)) from None
+            raise self._with_word(TTRError(error.message)) from None
 
     def _key(self, r: Record) -> object:
-        """The arguments that the word's predicate has in a situation."""
-        args = self._grounded(self.claim.args, ({}, {BOUND: r}))
+        """The identity of the predicate's arguments in a situation."""
+        args = self._ground(self.claim.args, ({}, {BOUND: r}))
         return identity(args)
 
 
 def as_meaning(value: object) -> Meaning:
-    """The meaning itself, or that which a record is; `TTRError` for what is none."""
+    """A meaning itself, a record as a meaning; `TTRError` for what is neither."""
     return value if isinstance(value, Meaning) else Meaning(cast(Record, value))
 
 
 def _path(arg: Object) -> tuple[str, ...] | None:
-    """The path into the situation that an argument is, else None."""
+    """The path into the situation that an argument is, or None."""
     return arg.labels[1:] if isinstance(arg, Path) else None

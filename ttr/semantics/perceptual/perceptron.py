@@ -4,7 +4,7 @@ Both change by the same rule, with the error e = wanted − said for a percept x
 
     w' = w + rate · e · x        t' = t − threshold_rate · e
 
-They differ in what is said: a perceptron says yes or no, a graded one how far.
+A perceptron says 1 or 0; a graded perceptron says a number in between.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from ttr.types.syntax import Object, Record, record
 __all__ = ["GradedPerceptron", "Perceptron", "blank"]
 
 _LONGEST = 1_000_000
-"""How many numbers a percept may have."""
+"""The most numbers that a percept may have."""
 
 
 def blank(dimensions: int) -> Record:
-    """The parameters of who has learned nothing: weights and threshold 0.
+    """The parameters before any learning: weights and threshold 0.
 
     >>> print(blank(2))
     {t = 0.0, w = [0.0, 0.0]}
@@ -40,14 +40,14 @@ def blank(dimensions: int) -> Record:
 
 @dataclass(frozen=True)
 class Perceptron:
-    """Yes where w · x > t, else no; it learns from its mistakes only.
+    """Yes where w · x > t, else no; it learns only from its mistakes.
 
-    A correction is one step of Rosenblatt's rule: where it says no and should say yes,
-    the percept is added to the weights, `rate` times, and the threshold falls by
-    `threshold_rate`; the other way round where it says yes and should not. Where it is
-    right, nothing changes. The threshold is learned as the weight of a constant −1, at
-    the same rate, unless `threshold_rate` says otherwise; at 0 it stays. Source:
-    Larsson 2013; see docs/decisions/017-corrections.md.
+    A correction is one step of Rosenblatt's rule. Where it says no and should say yes,
+    `rate` times the percept is added to the weights and the threshold falls by
+    `threshold_rate`; the other way round where it says yes and should say no. The
+    threshold is learned at the same rate unless `threshold_rate` is given, as if it
+    were the weight of a constant −1; at the rate 0 it stays. Source: Larsson 2013; see
+    docs/decisions/017-corrections.md.
 
     >>> right = record(w=[0.8, 0.01], t=0.09)
     >>> Perceptron().degree(right, (0.9, 0.1)), Perceptron().degree(right, (0.1, 0.5))
@@ -63,38 +63,38 @@ class Perceptron:
         _check_rates(self.rate, self.threshold_rate)
 
     def __str__(self) -> str:
-        return f"a perceptron{_at_rates(self.rate, self.threshold_rate)}"
+        return f"a perceptron{_rates_in_words(self.rate, self.threshold_rate)}"
 
     def score(self, params: Record, x: Object, /) -> float:
-        """w · x, which is set against the threshold."""
-        w, _, x = _weighed(params, x)
+        """w · x, which is compared with the threshold."""
+        w, _, x = _weights_and_percept(params, x)
         return dot(w, x)
 
     def degree(self, params: Record, x: Object, /) -> float:
         """1 if w · x > t, else 0."""
-        w, t, x = _weighed(params, x)
+        w, t, x = _weights_and_percept(params, x)
         return float(dot(w, x) > t)
 
     def confirmed(self, params: Record, x: Object, /) -> Record:
-        """The parameters after a step towards yes, if it is needed."""
+        """The parameters after a step towards yes, if one is needed."""
         return self._step(params, x, 1.0)
 
     def rejected(self, params: Record, x: Object, /) -> Record:
-        """The parameters after a step towards no, if it is needed."""
+        """The parameters after a step towards no, if one is needed."""
         return self._step(params, x, 0.0)
 
     def _step(self, params: Record, x: Object, wanted: float) -> Record:
-        w, t, x = _weighed(params, x)
+        w, t, x = _weights_and_percept(params, x)
         error = wanted - (dot(w, x) > t)
-        return _stepped(params, x, error, self.rate, self.threshold_rate)
+        return _take_step(params, x, error, self.rate, self.threshold_rate)
 
 
 @dataclass(frozen=True)
 class GradedPerceptron:
-    """As far as 1 / (1 + exp(−steepness · (w · x − t))), the logistic function.
+    """The degree 1 / (1 + exp(−steepness · (w · x − t))), by the logistic function.
 
-    It learns from every lesson, in proportion to how far it is from what is wanted
-    (the delta rule, which for this function is a step of logistic regression).
+    It learns from every lesson, in proportion to its error (the delta rule, which for
+    this function is a step of logistic regression).
 
     >>> right = record(w=[0.8, 0.01], t=0.09)
     >>> round(GradedPerceptron(steepness=5).degree(right, (0.9, 0.1)), 3)
@@ -113,17 +113,17 @@ class GradedPerceptron:
             )
 
     def __str__(self) -> str:
-        rates = _at_rates(self.rate, self.threshold_rate)
+        rates = _rates_in_words(self.rate, self.threshold_rate)
         return f"a graded perceptron{rates}, steepness {self.steepness:g}"
 
     def score(self, params: Record, x: Object, /) -> float:
-        """w · x, which is set against the threshold."""
-        w, _, x = _weighed(params, x)
+        """w · x, which is compared with the threshold."""
+        w, _, x = _weights_and_percept(params, x)
         return dot(w, x)
 
     def degree(self, params: Record, x: Object, /) -> float:
-        """The logistic function of how far w · x is above t."""
-        w, t, x = _weighed(params, x)
+        """The logistic function of steepness · (w · x − t)."""
+        w, t, x = _weights_and_percept(params, x)
         return logistic(self.steepness * (dot(w, x) - t))
 
     def confirmed(self, params: Record, x: Object, /) -> Record:
@@ -135,13 +135,13 @@ class GradedPerceptron:
         return self._step(params, x, 0.0)
 
     def _step(self, params: Record, x: Object, wanted: float) -> Record:
-        w, t, x = _weighed(params, x)
+        w, t, x = _weights_and_percept(params, x)
         error = wanted - logistic(self.steepness * (dot(w, x) - t))
-        return _stepped(params, x, error, self.rate, self.threshold_rate)
+        return _take_step(params, x, error, self.rate, self.threshold_rate)
 
 
-def _weighed(params: Record, x: Object) -> tuple[Vector, float, Vector]:
-    """Weights, threshold and percept, if they fit one another."""
+def _weights_and_percept(params: Record, x: Object) -> tuple[Vector, float, Vector]:
+    """Weights, threshold and percept; `TTRError` where they do not fit together."""
     try:
         w, t = vector(params.w, "w"), finite_number(params.t, "t")
     except AttributeError:
@@ -157,12 +157,12 @@ def _weighed(params: Record, x: Object) -> tuple[Vector, float, Vector]:
     return w, t, x
 
 
-def _stepped(
+def _take_step(
     params: Record, x: Vector, error: float, rate: float, threshold_rate: float | None
 ) -> Record:
-    """The parameters after one step of the rule; the same ones where nothing is wrong.
+    """The parameters after one step of the rule; the same where the error is 0.
 
-    Other fields than the weights and the threshold stay.
+    Fields other than the weights and the threshold stay as they are.
     """
     if error == 0.0:
         return params
@@ -171,12 +171,12 @@ def _stepped(
     w = tuple([wi + step * xi for wi, xi in zip(params.w, x, strict=True)])
     t = params.t - lower
     if not all(map(math.isfinite, (*w, t))):
-        raise TTRError(f"a step at rate {rate:g} takes the weights out of all bounds")
+        raise TTRError(f"a step at rate {rate:g} makes the weights infinite")
     return Record({**params._fields, "w": w, "t": t})
 
 
-def _at_rates(rate: float, threshold_rate: float | None) -> str:
-    """The rates as they are printed: not where both are 1."""
+def _rates_in_words(rate: float, threshold_rate: float | None) -> str:
+    """The rates for printing; nothing where both are 1."""
     if threshold_rate is not None:
         return f" at the rates {rate:g} and {threshold_rate:g}"
     return "" if rate == 1.0 else f" at the rate {rate:g}"

@@ -1,9 +1,8 @@
-r"""From points to individuals: point maps, regions in them, and who is there.
+r"""From points to individuals: point maps, regions in them, and the things there.
 
-A detector finds regions in a point map, records {reg, pfun, p}: the points, the
-property of the thing there, and how certain that is. An individual is then assumed for
-each.
-Source: Dobnik, Cooper and Larsson 2013.
+A detector finds regions in a point map. They are records {reg, pfun, p}: the points,
+the property of the thing there, and its probability. Then an individual is assumed for
+each. Source: Dobnik, Cooper and Larsson 2013.
 """
 
 from __future__ import annotations
@@ -51,7 +50,7 @@ Points = Basic("PointMap")
 """The type of point maps."""
 
 Region = rectype(reg=Points, pfun=Ind >> Type)
-"""The type of what a detector finds: some points, and a property of what is there."""
+"""The type of what a detector finds: points, and a property of the thing there."""
 
 INDIVIDUATE = fun(r=Region)(
     rectype(a=Ind, loc=Points @ outer.r.reg, c=outer.r.pfun(this.a))
@@ -61,7 +60,7 @@ r"""λr:Region. [a : Ind, loc = r.reg : PointMap, c : r.pfun(a)]"""
 
 @dataclass(frozen=True)
 class PointMap:
-    """Points of one dimension, each a list of numbers. It prints as how many it has."""
+    """Points with equally many numbers each. It prints as the number of points."""
 
     points: tuple[Vector, ...]
 
@@ -90,14 +89,14 @@ class PointMap:
 
     @property
     def size(self) -> Vector:
-        """How far the points reach along each axis."""
+        """The extent of the points along each axis."""
         return tuple([max(axis) - min(axis) for axis in zip(*self.points, strict=True)])
 
 
 def clusters(points: PointMap | Iterable[object], reach: float) -> tuple[PointMap, ...]:
-    """The regions of points that are joined by steps shorter than `reach`.
+    """Single-linkage clusters: points joined by steps shorter than `reach`.
 
-    In the order of their first points. Steps are followed in cells of that size.
+    They are in the order of their first points. Neighbours are sought in a grid.
 
     >>> [len(it) for it in clusters([[0, 0], [5, 5], [0, 1]], 2)]
     [2, 1]
@@ -113,17 +112,17 @@ def clusters(points: PointMap | Iterable[object], reach: float) -> tuple[PointMa
     for i in range(len(points)):
         if i in taken:
             continue
-        region = _joined(points.points, i, cells, reach)
+        region = _reachable_points(points.points, i, cells, reach)
         taken.update(region)
         found.append(PointMap([points.points[j] for j in sorted(region)]))
     return tuple(found)
 
 
-PLAIN = 3
-"""In how many dimensions all cells around one are looked at."""
+_FEW_DIMENSIONS = 3
+"""Up to how many dimensions all 3ⁿ cells around one are visited."""
 
 Cell = tuple[int, ...]
-"""A cube of space, by its number along each axis."""
+"""A cube of the grid, by its number along each axis."""
 
 
 def _cell(point: Vector, reach: float) -> Cell:
@@ -135,14 +134,14 @@ def _cell(point: Vector, reach: float) -> Cell:
         ) from None
 
 
-def _joined(
+def _reachable_points(
     points: tuple[Vector, ...], start: int, cells: dict[Cell, list[int]], reach: float
 ) -> list[int]:
-    """The points that steps lead to from one, which are then gone from the cells."""
+    """The points that steps lead to from one; they are taken out of their cells."""
     region = [start]
     cells[_cell(points[start], reach)].remove(start)
     for i in region:
-        for cell in _around(_cell(points[i], reach), cells):
+        for cell in _neighbours(_cell(points[i], reach), cells):
             inside = cells.get(cell)
             if inside:
                 apart = [math.dist(points[i], points[j]) for j in inside]
@@ -152,12 +151,12 @@ def _joined(
     return region
 
 
-def _around(cell: Cell, cells: Iterable[Cell]) -> Iterator[Cell]:
-    """The cells next to one, and itself; of many dimensions only those that there are.
+def _neighbours(cell: Cell, cells: Iterable[Cell]) -> Iterator[Cell]:
+    """The cells next to one, and itself.
 
-    There are 3ⁿ of them around one, which soon are more than the points.
+    In many dimensions only cells with points are tried, as 3ⁿ soon is more than these.
     """
-    if len(cell) > PLAIN:
+    if len(cell) > _FEW_DIMENSIONS:
         yield from [
             one
             for one in cells
@@ -174,8 +173,8 @@ def _around(cell: Cell, cells: Iterable[Cell]) -> Iterator[Cell]:
 def detected(regions: Iterable[PointMap], *words: Meaning) -> tuple[Record, ...]:
     r"""The regions in which something is detected, as records {reg, pfun, p}.
 
-    The meanings classify `reg`, and say something of one individual. A region is of the
-    word with the highest degree, if that is at least a half; the first of equal ones.
+    The words are meanings that classify `reg`. A region gets the predicate of the word
+    with the highest degree, the first of equals, if that degree is at least a half.
     """
     found: list[Record] = []
     meanings = [as_meaning(word) for word in words]
@@ -191,7 +190,7 @@ def detected(regions: Iterable[PointMap], *words: Meaning) -> tuple[Record, ...]
 
 
 class Individual(NamedTuple):
-    """Who is assumed to be in a region: a record of a type, and the model with it."""
+    """An individual assumed in a region: a record of a type, and the model with it."""
 
     sit: Record
     type: RecordType
@@ -201,8 +200,8 @@ class Individual(NamedTuple):
 def individuated(M: Model, region: Record) -> Individual:
     r"""A new individual for a region {reg, pfun, p}, by `INDIVIDUATE`.
 
-    It is certain that there is one, and as probable as the region says that it has the
-    property; certain where there is no p. Raises `Refused` for what is no region.
+    It certainly exists; that it has the property is as probable as p of the region, or
+    certain where there is no p. Raises `Refused` for what is no region.
 
     >>> from ttr.types.syntax import Pred
     >>> seen = record(reg=PointMap([[0, 1], [1, 0]]), pfun=fun(x=Ind)(
@@ -221,10 +220,10 @@ def individuated(M: Model, region: Record) -> Individual:
     claim = after.reduced(region.pfun(sit.a))
     if "p" in region and isinstance(claim, PType):
         after = after.given(sit.c, claim, region.p)
-    return Individual(sit, _worked_out(T, region.pfun), after)
+    return Individual(sit, _with_claim_applied(T, region.pfun), after)
 
 
-def _worked_out(T: RecordType, pfun: Function) -> RecordType:
+def _with_claim_applied(T: RecordType, pfun: Function) -> RecordType:
     """The type of the individual, with p(a) for (λx:Ind. p(x))(a)."""
     if not isinstance(pfun.body, PType):
         return T

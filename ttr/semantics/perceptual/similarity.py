@@ -1,4 +1,4 @@
-"""How alike two meanings are: what they judge alike, and in what they differ."""
+"""How similar two meanings are: how often they agree, and in what they differ."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ __all__ = ["Agreement", "Convergence", "agreement", "convergence", "difference"]
 class Agreement:
     """How two meanings judge the same situations.
 
-    `both`, `first`, `second` and `neither` count the situations in which that many
-    would say the word; `apart` is the mean distance of their degrees, of an interval
-    its middle.
+    `both`, `first`, `second` and `neither` count the situations by who would say the
+    word; `apart` is the mean distance of their degrees, where an interval counts as its
+    midpoint.
     """
 
     both: int
@@ -38,14 +38,14 @@ class Agreement:
 
     @property
     def share(self) -> float:
-        """The share of situations that they judge alike."""
+        """The share of situations in which they agree."""
         return (self.both + self.neither) / self.count
 
     @property
     def kappa(self) -> float | None:
         """Cohen's κ, how far they agree beyond chance: (share − chance) / (1 − chance).
 
-        None where chance alone makes them agree: both always say the word, or never.
+        None where chance = 1: both always say the word, or both never do.
         """
         yes = (self.both + self.first) * (self.both + self.second)
         no = (self.neither + self.first) * (self.neither + self.second)
@@ -58,7 +58,7 @@ class Agreement:
 
 
 def agreement(one: Meaning, other: Meaning, situations: Iterable[Record]) -> Agreement:
-    """How alike two meanings judge situations; `TTRError` where there are none."""
+    """How alike two meanings judge some situations; `TTRError` where there are none."""
     one, other = as_meaning(one), as_meaning(other)
     pairs = [
         (one.degree(r), other.degree(r)) for r in as_tuple(situations, "situations")
@@ -66,7 +66,7 @@ def agreement(one: Meaning, other: Meaning, situations: Iterable[Record]) -> Agr
     if not pairs:
         raise TTRError("two meanings are compared over one situation or more, not none")
     said = [(p.lo >= 0.5, q.lo >= 0.5) for p, q in pairs]
-    apart = sum(abs(_middle(p) - _middle(q)) for p, q in pairs) / len(pairs)
+    apart = sum(abs(_midpoint(p) - _midpoint(q)) for p, q in pairs) / len(pairs)
     return Agreement(
         both=said.count((True, True)),
         first=said.count((True, False)),
@@ -76,13 +76,13 @@ def agreement(one: Meaning, other: Meaning, situations: Iterable[Record]) -> Agr
     )
 
 
-def _middle(p: Degree) -> float:
+def _midpoint(p: Degree) -> float:
     return (p.lo + p.hi) / 2
 
 
 @dataclass(frozen=True)
 class Convergence:
-    """How alike two speakers were over a series of exchanges, the first before any."""
+    """The agreement of two speakers before a series of exchanges and after each."""
 
     series: tuple[Agreement, ...]
 
@@ -95,7 +95,7 @@ class Convergence:
 def convergence(
     teacher: Speaker, pupils: Sequence[Speaker], word: str, situations: Iterable[Record]
 ) -> Convergence:
-    """How alike the teacher and each of the pupils judge these situations."""
+    """The agreement of a teacher with each of the pupils on these situations."""
     probes = as_tuple(situations, "situations")
     meant = as_speaker(teacher)[word]
     learned = [as_speaker(it)[word] for it in as_tuple(pupils, "pupils")]
@@ -103,9 +103,9 @@ def convergence(
 
 
 def difference(one: Meaning, other: Meaning) -> tuple[str, ...]:
-    """What is different in the other meaning, path by path.
+    """The differences of two meanings, path by path.
 
-    Meanings may be given as their records, here and in `agreement`.
+    Here and in `agreement`, meanings may be given as their records.
 
     >>> from ttr.building.constructors import fun, rectype
     >>> from ttr.semantics.perceptual import Perceptron, RealVector, meaning

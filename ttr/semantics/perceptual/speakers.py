@@ -1,4 +1,4 @@
-"""Speakers, each with a meaning of its own for a word, and how one corrects another."""
+"""Speakers, who have their own meanings of words and correct one another."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ __all__ = ["Speaker", "exchange", "history", "says"]
 
 
 def says(meaning: Meaning, r: Record) -> bool:
-    """Whether one would say the word: its degree is surely at least a half."""
+    """Would somebody with this meaning say the word? Its degree is at least a half."""
     return meaning.degree(r).lo >= 0.5
 
 
 @dataclass(frozen=True)
 class Speaker:
-    """An agent with meanings of words. Learning gives one with other meanings.
+    """An agent with meanings of words. Learning gives a speaker with other meanings.
 
-    Meanings of one speaker that have the same learner keep having the same one: what it
-    learns for one of them, it has learned for all.
+    Meanings of a speaker that share a learner go on sharing it: what it learns for one
+    of them, it has learned for all.
     """
 
     name: str
@@ -60,7 +60,7 @@ class Speaker:
         )
 
     def degrees(self, r: Record) -> dict[str, Degree]:
-        """The degree of each word that can be said of a situation, the best first."""
+        """The degrees of the words with a percept in the situation, highest first."""
         found = {
             word: it.degree(r)
             for word, it in self.meanings.items()
@@ -75,18 +75,18 @@ class Speaker:
 
     def confirmed(self, word: str, r: Record) -> Speaker:
         """The speaker after somebody agreed that the word holds."""
-        return self._having(word, self[word].confirmed(r))
+        return self._with_learned(word, self[word].confirmed(r))
 
     def rejected(self, word: str, r: Record) -> Speaker:
         """The speaker after somebody denied that the word holds."""
-        return self._having(word, self[word].rejected(r))
+        return self._with_learned(word, self[word].rejected(r))
 
     def corrected(self, r: Record, *, said: str, right: str) -> Speaker:
-        """The speaker after "No, this is a …": one word is rejected, the other learned.
+        """The speaker after "No, this is a …": one word rejected, the other confirmed.
 
-        Where the two words have one learner, that is one lesson, of the right word: as
-        degrees sum to 1 at most, the other loses what it gains. Raises what
-        `Meaning.rejected` and `Meaning.confirmed` raise; nothing is learned then.
+        Two words that share a learner get one lesson, of the right word: as degrees sum
+        to at most 1, the other word loses what this gains. Raises what
+        `Meaning.rejected` and `Meaning.confirmed` raise; then nothing is learned.
         """
         wrong, wanted = self[said], self[right]
         if said == right:
@@ -96,8 +96,8 @@ class Speaker:
             return self.confirmed(right, r)
         return self.rejected(said, r).confirmed(right, r)
 
-    def _having(self, word: str, learned: Meaning) -> Speaker:
-        """The speaker after a lesson, in the meanings of all with the same learner."""
+    def _with_learned(self, word: str, learned: Meaning) -> Speaker:
+        """The speaker with a learned meaning, also for words that share its learner."""
         old = _learner(self[word])
         changed = {
             other: it.with_params(learned.params)
@@ -123,8 +123,8 @@ def _word(value: object) -> str:
 def exchange(teacher: Speaker, pupil: Speaker, word: str, r: Record) -> Speaker:
     """The pupil after both have said whether a word holds in a situation.
 
-    Where they agree nothing changes. Where they do not, the pupil is corrected. Source:
-    the game of Larsson 2013.
+    Where they disagree, the pupil is corrected; else nothing changes. Source: the game
+    of Larsson 2013.
     """
     teacher, pupil = as_speaker(teacher), as_speaker(pupil)
     wanted = says(teacher[word], r)
@@ -136,7 +136,7 @@ def exchange(teacher: Speaker, pupil: Speaker, word: str, r: Record) -> Speaker:
 def history(
     teacher: Speaker, pupil: Speaker, word: str, situations: Iterable[Record]
 ) -> tuple[Speaker, ...]:
-    """The pupil before any exchange, and after the exchange about each situation."""
+    """The pupil before any exchange, and after that about each of the situations."""
     pupils = [as_speaker(pupil)]
     for r in as_tuple(situations, "situations"):
         pupils.append(exchange(teacher, pupils[-1], word, r))

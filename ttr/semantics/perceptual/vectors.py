@@ -1,4 +1,4 @@
-"""Lists of numbers, as percepts and as weights."""
+"""Lists of numbers: percepts and weights."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ttr.types.syntax import Basic, Object
 __all__ = ["RealVector", "dot", "is_vector", "finite_number", "vector"]
 
 RealVector = Basic("RealVector")
-"""The type of lists of numbers, and of arrays that are like lists of numbers."""
+"""The type of lists of numbers, and of arrays with one axis."""
 
 Vector = tuple[float, ...]
 
@@ -36,7 +36,7 @@ def vector(value: Object, what: str = "a percept") -> Vector:
 
 
 def is_vector(value: Object) -> bool:
-    """Whether it is a list of finite numbers: the witness condition of `RealVector`.
+    """Is it a list of finite numbers? The witness condition of `RealVector`.
 
     >>> is_vector((0.9, 0.1)), is_vector("o1")
     (True, False)
