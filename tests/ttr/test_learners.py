@@ -67,7 +67,7 @@ def test_how_they_are_shown():
 
 
 def test_what_is_no_classifier():
-    with pytest.raises(TTRError, match="a learner is taught a classifier, found"):
+    with pytest.raises(TTRError, match="a learner needs a classifier, found"):
         Learner("a")
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from ttr import Basic, Refused, TTRError
 from ttr.semantics.learning import LAPLACE, LogOdds, NaiveBayes
-from ttr.semantics.learning.logistic_regression import Example, fitted, logistic
+from ttr.semantics.learning.logistic_regression import Example, fit_weights, logistic
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 COPIES = tuple(Basic(f"Copy{n}") for n in range(5))
@@ -131,8 +131,8 @@ def test_copies_and_certainty_at_every_variance(variance):
 
 def test_the_fit_of_one_weight_is_the_frequency():
     rows = [Example((0,), True, 30), Example((0,), False, 10)]
-    assert logistic(fitted(rows, 1, 1e9)[0]) == pytest.approx(0.75)
-    assert fitted([], 2, 1.0) == (0.0, 0.0)
+    assert logistic(fit_weights(rows, 1, 1e9)[0]) == pytest.approx(0.75)
+    assert fit_weights([], 2, 1.0) == (0.0, 0.0)
 
 
 def test_weights_that_were_handed_out_are_not_its_own():

@@ -1,7 +1,13 @@
 """Learning from judgements: frequencies, naive Bayes and a linear classifier.
 
-What was learned is an immutable value: learning gives another one, and so does taking
-evidence back, exactly. A `Learner` holds such a value for whoever wants to be taught.
+What was learned is an immutable value. Learning gives another value, and so does taking
+evidence back, which undoes it exactly. A `Learner` is an object around such a value.
+Sources: Cooper, Dobnik, Lappin and Larsson 2015; Larsson and Bernardy 2021.
+
+Read `counts` first, with `smoothing`; then classifiers over types: `features`,
+`evidence`, `evidence_based`, and on these `naive_bayes` and `linear_classifier` (with
+`logistic_regression`); then `learner`. May import: argument_checks, judging and all
+below.
 """
 
 from ttr.semantics.learning.counts import Counts

@@ -1,9 +1,9 @@
-"""Frequencies over judgements: how probable a type is, by what was judged.
+"""Frequencies over judgements: the probability of a type, by what was judged.
 
 J is a multiset of probabilistic Austinian propositions. ‖T‖ is the sum of the
 probabilities of those whose type is below T; p(T) = ‖T‖ / total and
 p(S|T) = ‖S ∧ T‖ / ‖T‖ (Cooper, Dobnik, Lappin and Larsson 2015). Sums are kept as exact
-fractions, so that evidence can be taken back as if it had never been there.
+fractions, so that taking evidence back leaves no trace.
 """
 
 from __future__ import annotations
@@ -38,18 +38,18 @@ from ttr.types.syntax import (
 __all__ = ["NO_THEORY", "Counts", "Weight"]
 
 NO_THEORY = Signature(definitions=Map())
-"""The theory without axioms, in which every type is below what its form says."""
+"""The theory without axioms: types are below one another by their form alone."""
 
 
 class Weight(NamedTuple):
-    """‖T‖, how much evidence there is: exact, and an interval where it is uncertain."""
+    """‖T‖, the amount of evidence, as exact fractions; an interval if uncertain."""
 
     lo: Fraction
     hi: Fraction
 
 
 class _Sum(NamedTuple):
-    """The evidence of one type: how many propositions, and how much they weigh."""
+    """The evidence for one type: the number of propositions and their weight."""
 
     times: int
     lo: Fraction
@@ -63,15 +63,15 @@ class _Sum(NamedTuple):
 _WORST_FIRST = ("no", "unknown", "yes")
 _EMPTY: Map[Any, Any] = Map()
 _ZERO = Fraction(0)
-_NONE = _Sum(0, _ZERO, _ZERO)
+_NO_SUM = _Sum(0, _ZERO, _ZERO)
 
-Certain = Map[object, Map[TypeNode, int]]
-"""What each situation was certainly said to be of, and how often."""
+CertainTypes = Map[object, Map[TypeNode, int]]
+"""The types that each situation is certain to be of, and how often that was learned."""
 
 
 @dataclass(frozen=True, repr=False)
 class Counts:
-    """What was judged, as a multiset of propositions that can grow and shrink.
+    """A multiset J of propositions, which can grow and shrink.
 
     Equal where the same was learned, in whatever order.
 
@@ -89,7 +89,7 @@ class Counts:
     theory: Signature = NO_THEORY
     held: Map[object, tuple[Record, int]] = _EMPTY
     sums: Map[TypeNode, _Sum] = _EMPTY
-    certain: Certain = _EMPTY
+    certain: CertainTypes = _EMPTY
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "theory", signature_of(self.theory))
@@ -98,9 +98,9 @@ class Counts:
     def learned(self, *evidence: Record | Judgement) -> Counts:
         """J with these propositions or judgements, each once more.
 
-        One without prob is certain. Raises `Refused`, and learns none of them, where
-        nothing can be of a type that something is said to be of, and where what is
-        certain of one situation cannot be together.
+        A proposition without prob is certain. Raises `Refused`, and learns nothing, for
+        a type that nothing can be of, and where one situation would certainly be of
+        types that exclude one another.
 
         >>> from ttr.judging.propositions import proposition
         >>> from ttr.types.syntax import Basic
@@ -115,9 +115,9 @@ class Counts:
         return counts
 
     def retracted(self, *evidence: Record | Judgement) -> Counts:
-        """J without these, each once less; raises `TTRError` where one is not in it.
+        """J without these, each once less; raises `TTRError` for one that is not in J.
 
-        Law: J.learned(e).retracted(e) == J, and answers the same to the last digit.
+        Law: J.learned(e).retracted(e) == J, with the same answers to the last digit.
         """
         counts = self
         for one in evidence:
@@ -131,7 +131,7 @@ class Counts:
         return sum(times for _, times in self.held.values())
 
     def times(self, evidence: Record | Judgement) -> int:
-        """How often this was learned."""
+        """How often this proposition was learned."""
         _, times = self.held.get(identity(_as_evidence(evidence)), (None, 0))
         return times
 
@@ -141,8 +141,8 @@ class Counts:
         return _weight(self.sums.values())
 
     def weight(self, T: TypeNode) -> Weight:
-        """‖T‖; between bounds where the subtyping of some evidence is not derivable."""
-        shares = self._shares(as_type(T), None)
+        """‖T‖; an interval where it is unknown whether some evidence is below T."""
+        shares = self._evidence_by_verdict(as_type(T), None)
         sure, perhaps = _weight(shares["yes"]), _weight(shares["unknown"])
         return Weight(sure.lo, sure.hi + perhaps.hi)
 
@@ -156,8 +156,8 @@ class Counts:
     ) -> Degree:
         """p(T) = ‖T‖ / total, or p(T|S) = ‖S ∧ T‖ / ‖S‖ where S is given.
 
-        Intervals give an interval: the least and the most that the fraction can be.
-        [0, 1] where there is no evidence to divide by.
+        Intervals give an interval: the least and the greatest value of the fraction.
+        [0, 1] where there is no evidence.
 
         >>> from ttr.semantics.learning.smoothing import LAPLACE
         >>> from ttr.judging.propositions import probabilistic
@@ -168,12 +168,16 @@ class Counts:
         >>> print(J.p(A), J.p(A, smoothing=LAPLACE), J.p(A, given=Basic("C")))
         [0.3333, 0.5] [0.4286, 0.5] [0, 1]
         """
-        shares = self._shares(as_type(T), None if given is None else as_type(given))
+        shares = self._evidence_by_verdict(
+            as_type(T), None if given is None else as_type(given)
+        )
         weights = {verdict: _weight(sums) for verdict, sums in shares.items()}
         return _fraction(**weights, extra=as_smoothing(smoothing).pseudocount)
 
-    def _shares(self, T: TypeNode, given: TypeNode | None) -> dict[str, list[_Sum]]:
-        """The evidence for T, against it, and not known which, of what is given."""
+    def _evidence_by_verdict(
+        self, T: TypeNode, given: TypeNode | None
+    ) -> dict[str, list[_Sum]]:
+        """The evidence among what is given: for T, against T, and unknown which."""
         shares: dict[str, list[_Sum]] = {"yes": [], "no": [], "unknown": []}
         for kind, known in self.sums.items():
             inside = "yes" if given is None else self._verdict(kind, given)
@@ -194,7 +198,7 @@ class Counts:
 
     @cached_property
     def _verdicts(self) -> dict[tuple[TypeNode, TypeNode], str]:
-        """What was asked of the types of this evidence already."""
+        """A cache of verdicts S ⊑ T for the types of this evidence."""
         return {}
 
     # --- learning and taking back ----------------------------------------------------
@@ -205,10 +209,10 @@ class Counts:
             raise IllFormed(f"{T} has paths that lead nowhere, so it is no evidence")
         if p.lo > 0.0 and T not in self.sums and consistent(T, theory=self.theory).no:
             raise Refused(f"{evidence} cannot be: nothing can be of {T}")
-        kind = _certainly(T, p)
+        kind = _certain_type(T, p)
         if kind is not None:
-            self._check(sit, kind, evidence)
-        return self._changed(evidence, 1)
+            self._check_consistent(sit, kind, evidence)
+        return self._adjusted(evidence, 1)
 
     def _without(self, evidence: Record) -> Counts:
         if identity(evidence) not in self.held:
@@ -216,20 +220,22 @@ class Counts:
                 f"{evidence} was not learned, so it cannot be taken back",
                 hint="take back what was learned, with the same probability",
             )
-        return self._changed(evidence, -1)
+        return self._adjusted(evidence, -1)
 
-    def _changed(self, evidence: Record, by: int) -> Counts:
-        """J with the evidence once more or once less; what is empty is not kept."""
+    def _adjusted(self, evidence: Record, by: int) -> Counts:
+        """J with the evidence once more or once less; entries of none are dropped."""
         sit, T, p = probabilistic_claim(evidence)
         times = self.times(evidence) + by
-        held = _kept(self.held, identity(evidence), (evidence, times), times)
-        summed = self.sums.get(T, _NONE).plus(by, p)
-        sums = _kept(self.sums, T, summed, summed.times)
-        return replace(self, held=held, sums=sums, certain=self._after(sit, T, p, by))
+        held = _with_entry(self.held, identity(evidence), (evidence, times), times)
+        summed = self.sums.get(T, _NO_SUM).plus(by, p)
+        sums = _with_entry(self.sums, T, summed, summed.times)
+        return replace(
+            self, held=held, sums=sums, certain=self._certain_after(sit, T, p, by)
+        )
 
-    def _check(self, sit: Object, kind: TypeNode, evidence: Record) -> None:
-        """Refuses what cannot be together with what is certain of the situation."""
-        known = self._certain(sit)
+    def _check_consistent(self, sit: Object, kind: TypeNode, evidence: Record) -> None:
+        """Raise `Refused` for what contradicts the certain types of the situation."""
+        known = self._certain_types(sit)
         if not known or kind in known:
             return
         if consistent(*known, kind, theory=self.theory).no:
@@ -240,28 +246,30 @@ class Counts:
                 hint="take back what was learned of it, or say it with a prob",
             )
 
-    def _certain(self, sit: Object) -> Map[TypeNode, int]:
+    def _certain_types(self, sit: Object) -> Map[TypeNode, int]:
         return self.certain.get(identity(sit), _EMPTY)
 
-    def _after(self, sit: Object, T: TypeNode, p: Degree, by: int) -> Certain:
-        kind = _certainly(T, p)
+    def _certain_after(
+        self, sit: Object, T: TypeNode, p: Degree, by: int
+    ) -> CertainTypes:
+        kind = _certain_type(T, p)
         if kind is None:
             return self.certain
-        known = self._certain(sit)
+        known = self._certain_types(sit)
         times = known.get(kind, 0) + by
-        left = _kept(known, kind, times, times)
-        return _kept(self.certain, identity(sit), left, len(left))
+        left = _with_entry(known, kind, times, times)
+        return _with_entry(self.certain, identity(sit), left, len(left))
 
 
 def _as_evidence(one: Record | Judgement) -> Record:
-    """The evidence as a probabilistic Austinian proposition, in one form."""
+    """The evidence as a probabilistic Austinian proposition."""
     if isinstance(one, Judgement):
         return judged(one)
     return probabilistic(*probabilistic_claim(one))
 
 
-def _certainly(T: TypeNode, p: Degree) -> TypeNode | None:
-    """What the situation is certainly of, if it is certain at all."""
+def _certain_type(T: TypeNode, p: Degree) -> TypeNode | None:
+    """The type that a situation is certainly of by p(s : T): T, ~T or none."""
     if p == CERTAIN:
         return T
     return Negation(T) if p == REFUTED else None
@@ -271,8 +279,8 @@ K = TypeVar("K")
 V = TypeVar("V")
 
 
-def _kept(entries: Map[K, V], key: K, value: V, times: int) -> Map[K, V]:
-    """The map with an entry, or without it where it stands for nothing any more."""
+def _with_entry(entries: Map[K, V], key: K, value: V, times: int) -> Map[K, V]:
+    """The map with an entry, or without it where it counts 0 times."""
     if times:
         return entries.set(key, value)
     return entries.delete(key)
@@ -284,9 +292,9 @@ def _weight(sums: Iterable[_Sum]) -> Weight:
 
 
 def _fraction(yes: Weight, no: Weight, unknown: Weight, extra: Fraction) -> Degree:
-    """yes / (yes + no) at its least and its most, with so much extra for each of them.
+    """(yes + extra) / (yes + no + 2 · extra), at its least and its greatest.
 
-    What is not known counts against at the least, and for at the most.
+    The unknown counts as no for the least value, and as yes for the greatest.
     """
     most = yes.hi + unknown.hi
     if not most + no.hi + extra:

@@ -1,4 +1,4 @@
-"""The evidence a classifier keeps: what was learned under which key."""
+"""The evidence that a classifier keeps: what was learned under which key."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from ttr.semantics.learning.features import Features
 __all__ = ["NO_EVIDENCE", "Evidence", "Key", "KeyTaken", "NoSuchKey"]
 
 Key: TypeAlias = int | str
-"""What an observation is known by, so that it can be taken back."""
+"""The name of an observation, by which it can be taken back."""
 
 
 class KeyTaken(TTRError, ValueError):
-    """A key under which something else was learned already."""
+    """A key under which something was already learned."""
 
 
 class NoSuchKey(TTRError, KeyError):
@@ -30,7 +30,7 @@ _EMPTY: Map[Any, Any] = Map()
 
 @dataclass(frozen=True)
 class Evidence:
-    """What was learned under which key, and how often each thing was learned.
+    """Examples (features and label) by key, and how often each was learned.
 
     Equal where the same was learned under the same keys, in whatever order.
     """
@@ -39,7 +39,7 @@ class Evidence:
     times: Map[tuple[Features, str], int] = _EMPTY
 
     def learned(self, seen: Features, label: str, key: Key) -> Evidence:
-        """With one more observation.
+        """The evidence with one more observation.
 
         Raises `KeyTaken`, and `TTRError` for a label that is no word.
         """
@@ -57,7 +57,7 @@ class Evidence:
         return Evidence(self.held.set(key, example), self.times.set(example, again))
 
     def retracted(self, key: Key) -> Evidence:
-        """Without the observation of a key; raises `NoSuchKey`."""
+        """The evidence without the observation of a key; raises `NoSuchKey`."""
         if not isinstance(key, int | str) or key not in self.held:
             raise NoSuchKey(f"nothing was learned under the key {key!r}")
         example = self.held[key]
@@ -71,7 +71,7 @@ class Evidence:
         return tuple(sorted({label for _, label in self.times}))
 
     def __str__(self) -> str:
-        """How much there is of each label.
+        """The number of lessons, and of those for each label.
 
         >>> print(Evidence().learned((True,), "cup", 1).learned((False,), "cup", 2))
         2 lessons: 2 cup
@@ -83,9 +83,9 @@ class Evidence:
         return f"{len(self.held)} lessons" + f": {shown}" * bool(shown)
 
     def rows(self) -> list[tuple[Features, str, int]]:
-        """What was learned and how often, in one order whatever came first."""
+        """The examples and how often each was learned, in sorted order."""
         return sorted((seen, label, n) for (seen, label), n in self.times.items())
 
 
 NO_EVIDENCE = Evidence()
-"""Nothing learned yet."""
+"""The evidence before any learning."""

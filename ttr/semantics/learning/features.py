@@ -1,4 +1,4 @@
-"""What a classifier sees of a situation: of which feature types it is."""
+"""Features of a situation's type: which of some feature types it is below."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from ttr.signature.signature import Signature
 from ttr.types.paths import escaping
 from ttr.types.syntax import Meet, RecordType, TypeNode, as_type, kind_of
 
-__all__ = ["Features", "feature_types", "features_of", "seen", "types_of"]
+__all__ = ["Features", "feature_types", "features_of", "features_below", "types_of"]
 
 Features = tuple[bool, ...]
-"""For each feature type, whether the type of the situation is below it."""
+"""For each feature type: is the type of the situation below it?"""
 
 
 @within_budget
 def feature_types(T: TypeNode, /) -> tuple[TypeNode, ...]:
     """The feature types of a record type: each field with those that it depends on.
 
-    A field that is a meet gives a feature for each part. Any other type is a feature
-    itself.
+    A field with a meet gives a feature for each part. A type that is no record type is
+    itself a feature.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, Pred, this
@@ -37,20 +37,20 @@ def feature_types(T: TypeNode, /) -> tuple[TypeNode, ...]:
         whole = reduce(merge, whole.parts)
     if not isinstance(whole, RecordType):
         return (whole,)
-    return tuple(dict.fromkeys(_by_field(whole)))
+    return tuple(dict.fromkeys(_types_by_field(whole)))
 
 
-def _by_field(T: RecordType) -> Iterator[TypeNode]:
+def _types_by_field(T: RecordType) -> Iterator[TypeNode]:
     for label, field in T.fields:
-        needed = _needed(T, label)
+        needed = _labels_needed(T, label)
         others = {one: f for one, f in T.fields if one in needed and one != label}
         for part in field.parts if isinstance(field, Meet) else (field,):
             fields = {**others, label: part}
             yield RecordType(tuple((one, fields[one]) for one in T if one in fields))
 
 
-def _needed(T: RecordType, label: str) -> set[str]:
-    """The labels of the fields that one depends on, and its own."""
+def _labels_needed(T: RecordType, label: str) -> set[str]:
+    """The labels of the fields that a field depends on, and its own."""
     needed, waiting = {label}, [label]
     while waiting:
         field = T[waiting.pop()]
@@ -61,14 +61,14 @@ def _needed(T: RecordType, label: str) -> set[str]:
 
 
 def types_of(values: Iterable[TypeNode], what: str) -> tuple[TypeNode, ...]:
-    """The values, if they are several types; else `IllFormed`."""
+    """The types of a list; `IllFormed` for what is no list of types."""
     if isinstance(values, tuple | list):
         return tuple(map(as_type, values))
     raise IllFormed(f"expected a list of types as {what}, found {kind_of(values)}")
 
 
 def features_of(types: Iterable[TypeNode]) -> tuple[TypeNode, ...]:
-    """The types as the features of a classifier; raises `IllFormed` for one twice."""
+    """Types as the features of a classifier; `IllFormed` for a type given twice."""
     found = types_of(types, "features")
     twice = next((T for T in found if found.count(T) > 1), None)
     if twice is not None:
@@ -77,16 +77,16 @@ def features_of(types: Iterable[TypeNode]) -> tuple[TypeNode, ...]:
 
 
 @within_budget
-def seen(
+def features_below(
     x: TypeNode, features: tuple[TypeNode, ...], theory: Signature | None = None
 ) -> Features:
-    """Of which features everything of the type x is.
+    """For each feature: is x below it?
 
-    Raises `Refused` where nothing can be of x: then it would be of all of them.
+    Raises `Refused` where nothing can be of x, as x would then be below all features.
 
     >>> from ttr.types.syntax import Basic
     >>> A, B = Basic("A"), Basic("B")
-    >>> seen(A, (A | B, B))
+    >>> features_below(A, (A | B, B))
     (True, False)
     """
     x = as_type(x)

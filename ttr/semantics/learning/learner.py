@@ -1,4 +1,4 @@
-"""A learner, taught one observation at a time, around an immutable classifier."""
+"""A learner: an object around an immutable classifier, taught step by step."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from ttr.errors import TTRError
 from ttr.semantics.learning.evidence import Key, KeyTaken
 from ttr.types.syntax import TypeNode, kind_of
 
-__all__ = ["Classifier", "Learner"]
+__all__ = ["TypeClassifier", "Learner"]
 
 
 @runtime_checkable
-class Classifier(Protocol):
-    """What was learned, as a value: `NaiveBayes` and `LogOdds` are such."""
+class TypeClassifier(Protocol):
+    """A classifier as an immutable value: `NaiveBayes` and `LogOdds` are such."""
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -23,22 +23,22 @@ class Classifier(Protocol):
         ...
 
     def learned(self, x: TypeNode, label: str, *, key: Key) -> Self:
-        """The classifier that has learned that what is of x is so called."""
+        """The classifier after a lesson: what is of x has this label."""
         ...
 
     def retracted(self, key: Key) -> Self:
-        """The classifier that has never learned what is known by the key."""
+        """The classifier as if the lesson of a key had never been."""
         ...
 
     def probabilities(self, x: TypeNode) -> dict[str, float]:
-        """The probability of each label for what is of x; they sum to 1 at most."""
+        """The probability of each label for what is of x; they sum to at most 1."""
         ...
 
 
 class Learner:
-    """The two methods of a learner, and one to forget, around a classifier.
+    """An object that learns, predicts and forgets, around a classifier.
 
-    `classifier` is what has been learned so far, a value to keep or to compare.
+    `classifier` is the value of what was learned so far, to keep or to compare.
 
     >>> from ttr.semantics.learning.naive_bayes import NaiveBayes
     >>> from ttr.types.syntax import Basic
@@ -53,10 +53,10 @@ class Learner:
     {'apple': 1.0}
     """
 
-    def __init__(self, classifier: Classifier) -> None:
-        if not isinstance(classifier, Classifier):
+    def __init__(self, classifier: TypeClassifier) -> None:
+        if not isinstance(classifier, TypeClassifier):
             raise TTRError(
-                f"a learner is taught a classifier, found {kind_of(classifier)}",
+                f"a learner needs a classifier, found {kind_of(classifier)}",
                 hint="write Learner(LogOdds(features)), or NaiveBayes",
             )
         self.classifier = classifier
@@ -68,7 +68,7 @@ class Learner:
         return self.classifier.labels
 
     def copy(self) -> Learner:
-        """Another learner of the same, which is taught apart from this one."""
+        """A learner with the same lessons, which from now on learns by itself."""
         pupil = Learner(self.classifier)
         pupil._lessons = self._lessons
         return pupil
@@ -77,10 +77,9 @@ class Learner:
         return self.copy()
 
     def learn_one(self, x: TypeNode, label: str, *, key: Key | None = None) -> None:
-        """Learns that what is of x is so called; `KeyTaken` if the key is taken.
+        """Learn that what is of x has this label; raises `KeyTaken`.
 
-        A lesson without a key gets the next one that is free of "lesson 1", "lesson 2"
-        and so on.
+        A lesson without a key gets the next free one of "lesson 1", "lesson 2", …
         """
         if key is not None:
             self.classifier = self.classifier.learned(x, label, key=key)
@@ -93,9 +92,9 @@ class Learner:
                 return
 
     def predict_proba_one(self, x: TypeNode) -> dict[str, float]:
-        """The probability of each label for what is of x; they sum to 1 at most."""
+        """The probability of each label for what is of x; they sum to at most 1."""
         return self.classifier.probabilities(x)
 
     def forget(self, key: Key) -> None:
-        """Be as if this had never been learned; `NoSuchKey` if it was not."""
+        """Be as if the lesson of a key had never been; raises `NoSuchKey`."""
         self.classifier = self.classifier.retracted(key)

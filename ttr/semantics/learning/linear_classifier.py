@@ -1,8 +1,8 @@
-"""A linear classifier over types: log-odds that are a sum of weights.
+"""A linear classifier over types, whose log-odds are sums of weights.
 
 For each label, log p/(1 − p) = b + Σ wᵢ over the features that a situation's type is
-below. The weights are fitted together, so that features that go together share their
-weight instead of counting twice. Larsson and Bernardy 2021 use a linear model where
+below. The weights are fitted together, so features that occur together share a weight
+instead of counting twice. Larsson and Bernardy 2021 use a linear model where
 frequencies and naive Bayes go wrong.
 """
 
@@ -15,26 +15,26 @@ from functools import cached_property
 from ttr.errors import TTRError, suggestion
 from ttr.semantics.learning.counts import NO_THEORY
 from ttr.semantics.learning.evidence import NO_EVIDENCE, Evidence
-from ttr.semantics.learning.evidence_based import Taught
-from ttr.semantics.learning.features import Features, features_of, seen
-from ttr.semantics.learning.logistic_regression import Example, fitted, logistic
+from ttr.semantics.learning.evidence_based import EvidenceBased
+from ttr.semantics.learning.features import Features, features_below, features_of
+from ttr.semantics.learning.logistic_regression import Example, fit_weights, logistic
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.syntax import TypeNode
 
 __all__ = ["LogOdds"]
 
-WIDEST = 1e6
-"""The largest variance: a flatter prior hardly makes the weights unique in floats."""
+_WIDEST = 1e6
+"""The largest variance: a flatter prior may not make weights unique in floats."""
 
 
 @dataclass(frozen=True, repr=False)
-class LogOdds(Taught):
+class LogOdds(EvidenceBased):
     """Log-odds of each label against all others, linear in the features.
 
-    The weights are the most probable ones given the evidence, where each is normally
-    distributed around 0 with this variance beforehand: a smoothing, and what makes them
-    unique. They are worked out when they are asked for and depend on nothing but the
-    evidence, so that its order does not matter and what is taken back leaves no trace.
+    The weights are the most probable ones given the evidence. Their prior is normal
+    with mean 0 and this variance, which smooths them and makes them unique. They depend
+    on nothing but the evidence, so that its order does not matter and taking it back
+    leaves no trace.
 
     >>> from ttr.types.syntax import Basic
     >>> Red, Round = Basic("Red"), Basic("Round")
@@ -53,23 +53,22 @@ class LogOdds(Taught):
         object.__setattr__(self, "features", features_of(self.features))
         object.__setattr__(self, "theory", signature_of(self.theory))
         is_number = isinstance(self.variance, int | float)
-        if not is_number or not 0.0 < self.variance <= WIDEST:
+        if not is_number or not 0.0 < self.variance <= _WIDEST:
             raise TTRError(
                 "the variance of weights is a number above 0 and at most "
-                f"{WIDEST:.0f}, found {self.variance!r}"
+                f"{_WIDEST:.0f}, found {self.variance!r}"
             )
 
     @property
     def weights(self) -> dict[str, tuple[float, ...]]:
-        """For each label the weights of the features, after the weight that is always
-        there."""
+        """For each label: the constant weight b, then those of the features."""
         return dict(self._weights)
 
     @cached_property
     def _weights(self) -> dict[str, tuple[float, ...]]:
         rows = self.evidence.rows()
         return {
-            label: fitted(
+            label: fit_weights(
                 [Example(_inputs(f), one == label, n) for f, one, n in rows],
                 len(self.features) + 1,
                 self.variance,
@@ -78,7 +77,7 @@ class LogOdds(Taught):
         }
 
     def log_odds(self, x: TypeNode, label: str) -> float:
-        """b + Σ wᵢ: log p/(1 − p), where p is the label's against all others.
+        """log p/(1 − p) = b + Σ wᵢ, where p is that of the label against all others.
 
         Raises `TTRError` for a label that was never learned.
         """
@@ -89,14 +88,14 @@ class LogOdds(Taught):
                 hint=suggestion(str(label), known),
             )
         weights = self._weights[label]
-        return math.fsum(weights[i] for i in _inputs(self._seen(x)))
+        return math.fsum(weights[i] for i in _inputs(self._features(x)))
 
     def probabilities(self, x: TypeNode) -> dict[str, float]:
         """The probability of each label for what is of x.
 
-        Each is asked against all others; where they sum to more than 1, their shares.
+        Each is that against all others; if they sum to more than 1, they are scaled.
         """
-        inputs = _inputs(self._seen(x))
+        inputs = _inputs(self._features(x))
         found = {
             label: logistic(math.fsum(weights[i] for i in inputs))
             for label, weights in self._weights.items()
@@ -104,10 +103,10 @@ class LogOdds(Taught):
         whole = max(1.0, math.fsum(found.values()))
         return {label: p / whole for label, p in found.items()}
 
-    def _seen(self, x: TypeNode) -> Features:
-        return seen(x, self.features, self.theory)
+    def _features(self, x: TypeNode) -> Features:
+        return features_below(x, self.features, self.theory)
 
 
 def _inputs(features: Features) -> tuple[int, ...]:
-    """The places of the weights that count: the first always, one for each feature."""
-    return (0, *(i for i, is_seen in enumerate(features, 1) if is_seen))
+    """The indices of the weights that count: 0, and those of the features that hold."""
+    return (0, *(i for i, holds in enumerate(features, 1) if holds))

@@ -1,8 +1,8 @@
 """Logistic regression: the most probable weights, by Newton's method.
 
-The posterior of weights with a normal prior has one top, and Newton's steps, shortened
-where they would go too far, lead there from 0. Everything is done in one order, so that
-the same examples give the same weights to the last digit.
+The posterior of weights with a normal prior has one maximum. Newton's steps lead there
+from 0, shortened where they would go too far. The order of all sums is fixed, so the
+same examples give the same weights to the last digit.
 """
 
 from __future__ import annotations
@@ -10,19 +10,19 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-__all__ = ["Example", "fitted", "logistic"]
+__all__ = ["Example", "fit_weights", "logistic"]
 
-STEPS = 100
-"""How many steps are made at most; some ten are enough as a rule."""
+_STEPS = 100
+"""The most steps that are made; about ten are enough as a rule."""
 
-FLAT = 1e-10
-"""The slope, for each example, at which the top is reached."""
+_FLAT = 1e-10
+"""The gradient for each example below which the maximum is reached."""
 
 Matrix = list[list[float]]
 
 
 class Example(NamedTuple):
-    """The places of the weights that count, whether the label is right, how often."""
+    """The indices of the weights that count, whether the label is right, how often."""
 
     inputs: tuple[int, ...]
     right: bool
@@ -41,36 +41,38 @@ def logistic(z: float) -> float:
     return rising / (1.0 + rising)
 
 
-def fitted(examples: list[Example], size: int, variance: float) -> tuple[float, ...]:
-    """The weights at which Σ log p − Σ w² / (2 · variance) is highest.
+def fit_weights(
+    examples: list[Example], size: int, variance: float
+) -> tuple[float, ...]:
+    """The weights that maximise Σ log p − Σ w² / (2 · variance).
 
     >>> once = [Example((0,), True, 3), Example((0,), False, 1)]
-    >>> print(round(logistic(fitted(once, 1, 1e6)[0]), 4))
+    >>> print(round(logistic(fit_weights(once, 1, 1e6)[0]), 4))
     0.75
     """
     weights = [0.0] * size
     loss = _loss(examples, weights, variance)
-    enough = FLAT * (1 + sum(example.times for example in examples))
-    for _ in range(STEPS):
-        slope, curvature = _derivatives(examples, weights, variance)
-        if max(map(abs, slope)) <= enough:
+    enough = _FLAT * (1 + sum(example.times for example in examples))
+    for _ in range(_STEPS):
+        gradient, hessian = _derivatives(examples, weights, variance)
+        if max(map(abs, gradient)) <= enough:
             break
-        weights, loss, moved = _stepped(
-            examples, weights, variance, loss, _solved(curvature, slope)
+        weights, loss, moved = _take_step(
+            examples, weights, variance, loss, _solve(hessian, gradient)
         )
         if not moved:
             break
     return tuple(weights)
 
 
-def _stepped(
+def _take_step(
     examples: list[Example],
     weights: list[float],
     variance: float,
     loss: float,
     step: list[float],
 ) -> tuple[list[float], float, bool]:
-    """The weights after the step, or after the first half of it that leads down."""
+    """The weights after the step, halved until the loss falls."""
     length = 1.0
     while length > 1e-9:
         tried = [w - length * s for w, s in zip(weights, step, strict=True)]
@@ -86,7 +88,7 @@ def _loss(examples: list[Example], weights: list[float], variance: float) -> flo
     penalty = sum(w * w for w in weights) / (2.0 * variance)
     return penalty + math.fsum(
         n * _softplus(-z if right else z)
-        for (_, right, n), z in zip(examples, _odds(examples, weights), strict=True)
+        for (_, right, n), z in zip(examples, _log_odds(examples, weights), strict=True)
     )
 
 
@@ -95,32 +97,34 @@ def _softplus(z: float) -> float:
     return max(z, 0.0) + math.log1p(math.exp(-abs(z)))
 
 
-def _odds(examples: list[Example], weights: list[float]) -> list[float]:
+def _log_odds(examples: list[Example], weights: list[float]) -> list[float]:
     return [sum(weights[i] for i in example.inputs) for example in examples]
 
 
 def _derivatives(
     examples: list[Example], weights: list[float], variance: float
 ) -> tuple[list[float], Matrix]:
-    """How the loss rises with each weight, and how that does."""
+    """The gradient of the loss, and its Hessian."""
     size = len(weights)
-    slope = [w / variance for w in weights]
-    curvature = [[0.0] * size for _ in range(size)]
+    gradient = [w / variance for w in weights]
+    hessian = [[0.0] * size for _ in range(size)]
     for i in range(size):
-        curvature[i][i] = 1.0 / variance
-    for (inputs, right, n), z in zip(examples, _odds(examples, weights), strict=True):
+        hessian[i][i] = 1.0 / variance
+    for (inputs, right, n), z in zip(
+        examples, _log_odds(examples, weights), strict=True
+    ):
         p = logistic(z)
         bent = n * p * (1.0 - p)
         for i in inputs:
-            slope[i] += n * (p - right)
-            row = curvature[i]
+            gradient[i] += n * (p - right)
+            row = hessian[i]
             for j in inputs:
                 row[j] += bent
-    return slope, curvature
+    return gradient, hessian
 
 
-def _solved(matrix: Matrix, values: list[float]) -> list[float]:
-    """The x with Ax = values, for a symmetric A whose curvature is up all around.
+def _solve(matrix: Matrix, values: list[float]) -> list[float]:
+    """The x with Ax = values, for a symmetric positive definite A.
 
     By Cholesky's decomposition A = LLᵀ.
     """

@@ -1,7 +1,7 @@
-"""Naive Bayes: classes by evidence that is taken as independent given the class.
+"""Naive Bayes: p(C | E₁, …, Eₙ) ∝ p(C) · p(E₁|C) · … · p(Eₙ|C).
 
-p(C | E₁, …, Eₙ) is p(C) · p(E₁|C) · … · p(Eₙ|C), normalised over the classes. Evidence
-that depends on other evidence is counted twice; `LogOdds` does not do that.
+The evidence is taken as independent given the class, so evidence that depends on other
+evidence is counted twice. `LogOdds` does not do that.
 """
 
 from __future__ import annotations
@@ -16,8 +16,13 @@ from ttr.probability import UNKNOWN, Degree
 from ttr.safety.budgets import within_budget
 from ttr.semantics.learning.counts import NO_THEORY, Counts
 from ttr.semantics.learning.evidence import NO_EVIDENCE, Evidence
-from ttr.semantics.learning.evidence_based import Taught
-from ttr.semantics.learning.features import Features, features_of, seen, types_of
+from ttr.semantics.learning.evidence_based import EvidenceBased
+from ttr.semantics.learning.features import (
+    Features,
+    features_below,
+    features_of,
+    types_of,
+)
 from ttr.semantics.learning.smoothing import NO_SMOOTHING, Smoothing, as_smoothing
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.syntax import TypeNode, kind_of
@@ -33,11 +38,12 @@ def posterior(
     *,
     smoothing: Smoothing = NO_SMOOTHING,
 ) -> dict[TypeNode, Degree]:
-    """How probable each class is of something that is of all the types of evidence.
+    """The probability of each class, for something that is of all the evidence types.
 
-    Priors and likelihoods are the frequencies of the judgements, likelihoods smoothed
-    as is said. [0, 1] for each class where the evidence is impossible in all of them.
-    Source: Cooper, Dobnik, Lappin and Larsson 2015. Raises `IllFormed` for no class.
+    Priors and likelihoods are frequencies of the judgements; likelihoods are smoothed.
+    Each class has [0, 1] where the evidence is impossible in all of them. Raises
+    `IllFormed` where no class is given. Source: Cooper, Dobnik, Lappin and Larsson
+    2015.
 
     >>> from ttr.judging.propositions import proposition
     >>> from ttr.types.syntax import Basic
@@ -60,11 +66,11 @@ def posterior(
     }
     if not scores:
         raise IllFormed("naive Bayes needs at least one class, found none")
-    return _normalised(scores)
+    return _normalise(scores)
 
 
 Score = tuple[float, float]
-"""The logarithms of the least and the most that a product of degrees can be."""
+"""The logarithms of the least and the greatest product of some degrees."""
 
 
 def _score(prior: Degree, likelihoods: Iterable[Degree]) -> Score:
@@ -79,8 +85,8 @@ def _log(p: float) -> float:
 C = TypeVar("C")
 
 
-def _normalised(scores: Mapping[C, Score]) -> dict[C, Degree]:
-    """Each score as a share of all, at its least and at its most."""
+def _normalise(scores: Mapping[C, Score]) -> dict[C, Degree]:
+    """Each score as a share of all: the least and the greatest."""
     top = max(hi for _, hi in scores.values())
     if top == -math.inf:
         return dict.fromkeys(scores, UNKNOWN)
@@ -100,11 +106,11 @@ def _share(one: C, scaled: Mapping[C, Score]) -> Degree:
 
 
 @dataclass(frozen=True, repr=False)
-class NaiveBayes(Taught):
-    """A naive Bayes classifier over types: which labels go with which features.
+class NaiveBayes(EvidenceBased):
+    """A naive Bayes classifier over types: labels by features.
 
-    The evidence is what features a situation's type is below; features that it is not
-    known to be below say nothing. Equal where the same was learned under the same keys.
+    The features that a situation's type is below are evidence; others count for
+    nothing. Equal where the same was learned under the same keys.
 
     >>> from ttr.types.syntax import Basic
     >>> Red, Round = Basic("Red"), Basic("Round")
@@ -127,23 +133,23 @@ class NaiveBayes(Taught):
     def probabilities(self, x: TypeNode) -> dict[str, float]:
         """The probability of each label for what is of x.
 
-        All are 0 where no label is possible: what was seen was never seen together
-        with any of them, and nothing smooths it.
+        All are 0 where no label is possible: without smoothing, features that never
+        occurred with any of them.
         """
-        found = seen(x, self.features, self.theory)
+        found = features_below(x, self.features, self.theory)
         total = sum(self.evidence.times.values())
         scores = {
             label: self._score(label, found, total) for label in self.evidence.labels
         }
-        shares = _normalised(scores) if scores else {}
+        shares = _normalise(scores) if scores else {}
         return {label: 0.0 if p == UNKNOWN else p.lo for label, p in shares.items()}
 
     def _score(self, label: str, found: Features, total: int) -> Score:
-        """log p(label) + Σ log p(feature | label), over the features that are seen."""
+        """log p(label) + Σ log p(feature | label), over the features that hold."""
         mine = [(f, n) for f, one, n in self.evidence.rows() if one == label]
         whole, extra = sum(n for _, n in mine), self.smoothing.pseudocount
         score = math.log(whole / total)
-        for i in (i for i, is_seen in enumerate(found) if is_seen):
+        for i in (i for i, holds in enumerate(found) if holds):
             times = sum(n for features, n in mine if features[i])
             score += _log(float((times + extra) / (whole + 2 * extra)))
         return score, score

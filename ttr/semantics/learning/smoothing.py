@@ -1,4 +1,4 @@
-"""Smoothing, by name: what is counted for what was never seen."""
+"""Smoothing: counts that are added for what was never observed."""
 
 from __future__ import annotations
 
@@ -20,22 +20,19 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Smoothing:
-    """So much evidence is added for each of two: that it is so, that it is not.
-
-    A frequency n/N becomes (n + a)/(N + 2a), where a is the pseudocount.
-    """
+    """A frequency n/N becomes (n + a)/(N + 2a), where a is the pseudocount."""
 
     name: str
     pseudocount: Fraction
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "pseudocount", _exact(self.pseudocount))
+        object.__setattr__(self, "pseudocount", _as_fraction(self.pseudocount))
 
     def __str__(self) -> str:
         return self.name
 
 
-def _exact(pseudocount: float | Fraction) -> Fraction:
+def _as_fraction(pseudocount: float | Fraction) -> Fraction:
     is_number = isinstance(pseudocount, int | float | Fraction)
     if not is_number or not 0 <= pseudocount < float("inf"):
         raise TTRError(
@@ -46,7 +43,7 @@ def _exact(pseudocount: float | Fraction) -> Fraction:
 
 
 def as_smoothing(value: object) -> Smoothing:
-    """The value, if it is a smoothing; else `TTRError` says what there is."""
+    """A smoothing itself; `TTRError` for what is none."""
     if isinstance(value, Smoothing):
         return value
     raise TTRError(
@@ -61,11 +58,11 @@ def lidstone(pseudocount: float) -> Smoothing:
     >>> print(lidstone(0.1))
     Lidstone(0.1)
     """
-    return Smoothing(f"Lidstone({pseudocount})", _exact(pseudocount))
+    return Smoothing(f"Lidstone({pseudocount})", _as_fraction(pseudocount))
 
 
 NO_SMOOTHING = Smoothing("no smoothing", Fraction(0))
-"""Frequencies as they are: what was never seen has the probability 0."""
+"""Frequencies as they are: what was never observed has the probability 0."""
 
 LAPLACE = Smoothing("Laplace", Fraction(1))
 """Laplace's rule of succession: one observation for and one against."""
