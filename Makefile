@@ -23,12 +23,20 @@ demo: $(INSTALLED) ## a tutor teaches the robot ten objects and where things are
 talk: $(INSTALLED) ## teach the robot yourself
 	@$(BIN)/kille talk
 
-test: $(SENSES) ## format, lint, types, import directions, then all tests and examples
+# Programs that tests start by the hundred need not compile what they import.
+test deep: export PYTHONDONTWRITEBYTECODE :=
+
+ifdef ROOM
+test: $(SENSES)
+	@$(SINGLE) $(BIN)/python tools/rooms.py $(ROOM)
+else
+test: $(SENSES) ## format, lint, types, import directions, then all tests; make test ROOM=memory: one room's, quickly
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(SINGLE) $(BIN)/pytest -n auto --dist worksteal
+endif
 
 deep: $(SENSES) ## the tests that take too long for every day; not a part of test
 	HYPOTHESIS_PROFILE=$${HYPOTHESIS_PROFILE:-deep} $(SINGLE) \

@@ -5,24 +5,85 @@ Those in the folder captures need real ones, and are skipped without.
 
 from __future__ import annotations
 
+from collections import OrderedDict
+from collections.abc import Hashable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from kille.dialogue.meanings import named
+from kille.perception.look import look
 from kille.replay import play
+from kille.scene import Look
+from kille.sensors.sensor import Sensor
+from kille.sensors.synthetic import Synthetic
 from ttr.dialogues.stories import Story, read_stories
 
 FOLDER = Path(__file__).parent / "dialogues"
 
+LONG = 14
+"""Lines of a story that is not played when one room is tested."""
+
 
 def stories(folder: Path) -> list[object]:
-    """The stories in a folder, each as a test by its file and title."""
-    return [
-        pytest.param(story, id=f"{file.stem}: {story.title}")
-        for file in sorted(folder.glob("*.dlg"))
-        for story in read_stories(file)
+    """The stories in a folder, each as a test by its file and title.
+
+    Those that begin alike are next to each other, so that they share their looks.
+    """
+    found = [
+        (story, file) for file in folder.glob("*.dlg") for story in read_stories(file)
     ]
+    return [
+        pytest.param(
+            story,
+            id=f"{file.stem}: {story.title}",
+            marks=[pytest.mark.slow] if len(story.lines) > LONG else [],
+        )
+        for story, file in sorted(found, key=lambda it: (happenings(it[0]), it[1].name))
+    ]
+
+
+def happenings(story: Story) -> list[str]:
+    """What is done in a story, and that something is said, in order."""
+    return [
+        line.text if line.mark == "@" else line.mark
+        for line in story.lines
+        if line.mark in ("@", "U>", "U~")
+    ]
+
+
+# --- looks that stories share --------------------------------------------------------
+
+_LOOKS: OrderedDict[Hashable, Look] = OrderedDict()
+_MOST_LOOKS = 24  # about 25 MB each
+
+
+@pytest.fixture(autouse=True)
+def _shared_looks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Lets stories that begin alike see alike, which costs most of their time.
+
+    The n-th frame of a seed and a sequence of changes is always the same.
+    """
+    monkeypatch.setattr("kille.gaze.look", shared_look)
+
+
+def shared_look(sensor: Sensor, scans: int, pointed: Any = None) -> Look:
+    if not isinstance(sensor, Synthetic) or sensor._meshes or pointed is not None:
+        return look(sensor, scans, pointed)
+    things = tuple((name, body.pose) for name, body in sensor.bodies.items())
+    key = sensor._address, things, sensor._frames, scans
+    if key in _LOOKS:
+        sensor._frames += scans
+    else:
+        _LOOKS[key] = look(sensor, scans)
+    _LOOKS.move_to_end(key)
+    if len(_LOOKS) > _MOST_LOOKS:
+        _LOOKS.popitem(last=False)
+    return _LOOKS[key]
+
+
+# --- stories -------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("story", stories(FOLDER))
