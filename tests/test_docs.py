@@ -151,8 +151,7 @@ class Stage:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         for name in ("ttr", "kille", "grammars"):
-            skipped = shutil.ignore_patterns("__pycache__")
-            shutil.copytree(ROOT / name, folder / name, ignore=skipped)
+            shutil.copytree(ROOT / name, folder / name)
         (folder / "kille" / "grammars").symlink_to("../grammars")
         self.environment = {
             **os.environ,
@@ -227,6 +226,7 @@ def timeless(text: str) -> str:
     return re.sub(r"\d{4}-\d\d-\d\d \d\d:\d\d", "2026-01-31 12:00", text).strip()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", [*filter(rehearsed, PAGES)], ids=named)
 def test_what_a_page_shows_is_what_happens(page: Path, tmp_path: Path) -> None:
     stage = Stage(tmp_path)

@@ -58,6 +58,7 @@ def test_frames_are_what_is_shown(wired: Callable) -> None:
     assert all(step % 2_000_000 == 0 and step > 0 for step in steps)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("harm", Harm, ids=lambda harm: harm.name.lower())
 def test_no_harm_to_packets_makes_a_wrong_frame(wired: Callable, harm: Harm) -> None:
     kinect = Kinect(SHOW)
@@ -70,6 +71,7 @@ def test_no_harm_to_packets_makes_a_wrong_frame(wired: Callable, harm: Harm) -> 
     assert sum(it.broken for it in counts.values()) > 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "reply", [it for it in Reply if it is not Reply.LATE], ids=lambda it: it.name
 )
@@ -176,6 +178,7 @@ def hasty() -> Iterator[None]:
         yield
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("silent", [{0x81}, {0x81, 0x82}], ids=str)
 def test_a_silent_camera_is_a_line(wired: Callable, silent: set[int]) -> None:
     kinect = Kinect()

@@ -65,6 +65,7 @@ sys.exit(3)
 """
 
 
+@pytest.mark.slow
 def test_a_program_sees_what_a_sensor_shows() -> None:
     source = ("--source", "synthetic:empty")
     with on_a_kinect(*source, "--", sys.executable, "-c", LOOKING) as process:

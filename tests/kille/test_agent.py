@@ -246,6 +246,7 @@ def before_a_cup() -> Iterator[Agent]:
         yield robot
 
 
+@pytest.mark.slow
 @given(word=WORD)
 @example("noun")
 @example("learned")

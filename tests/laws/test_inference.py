@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import product
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -80,6 +81,7 @@ def facts(M, texts):
             yield text if true else f"it is not the case that {text}"
 
 
+@pytest.mark.slow
 @given(models(), st.lists(sentences, min_size=1, max_size=3), sentences)
 def test_what_is_proved_is_so_in_every_model(M, texts, hypothesis):
     verdict = follows(list(facts(M, texts)), hypothesis).verdict
@@ -94,6 +96,7 @@ def test_a_sentence_follows_from_itself(text):
     assert follows([text], text).verdict in ("yes", "unknown")
 
 
+@pytest.mark.slow
 @given(sentences)
 def test_a_sentence_and_its_denial_refute_each_other(text):
     denial = f"it is not the case that {text}"

@@ -29,6 +29,7 @@ systems = st.lists(models(), min_size=1, max_size=3).map(
 propositions = st.builds(proposition, names, st.sampled_from([A, B, A & B, A | B, ~A]))
 
 
+@pytest.mark.slow
 @given(systems, types(), types())
 def test_structural_subtyping_is_subtyping_in_every_possibility(w, S, T):
     """Asked of the witnesses themselves, not only of the rules."""
@@ -49,6 +50,7 @@ def test_a_subtyping_that_is_refuted_has_a_counter_judgement(w, S, T):
         assert not w.judge(answer.possibility, answer.counter.sit, T).holds
 
 
+@pytest.mark.slow
 @given(systems, record_types(), record_types())
 def test_witnesses_agree_with_modal_subtyping(w, S, T):
     if w.restrictive.subtype(S, T).yes:
@@ -98,6 +100,7 @@ def test_box_types_are_judged_as_necessity(w, T):
     assert w.restrictive.necessary(necessarily(T)).p.hi <= box.hi
 
 
+@pytest.mark.slow
 @given(systems, names, types(), samples())
 def test_possibilities_are_apart(w, a, T, b):
     try:
@@ -109,6 +112,7 @@ def test_possibilities_are_apart(w, a, T, b):
         assert after.judge(name, b, T).p == w.judge(name, b, T).p
 
 
+@pytest.mark.slow
 @given(systems, types(), types())
 def test_where_all_exists_the_two_notions_agree(w, S, T):
     for ask in ("necessary", "possible"):

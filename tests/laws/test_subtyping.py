@@ -1,5 +1,6 @@
 """Laws of subtyping: sound, refutable, reflexive, transitive."""
 
+import pytest
 from generators import (
     chains,
     has_negations_or_function_types,
@@ -52,6 +53,7 @@ def test_subtyping_is_sound_for_every_constructor(chain, M, sample):
             assert M.judge(a, T).holds
 
 
+@pytest.mark.slow
 @given(chains(), models())
 def test_a_made_up_witness_of_a_subtype_is_one_of_the_type(chain, M):
     T, S, _ = chain
@@ -139,6 +141,7 @@ def test_what_is_below_both_is_below_the_meet(chain):
     assert (U <= S & T) == (U <= S and U <= T)
 
 
+@pytest.mark.slow
 @given(chains())
 def test_what_is_above_both_is_above_the_join(chain):
     S, T, U = chain

@@ -65,6 +65,7 @@ def test_a_mutant_is_found_by_playing(mutant):
 MANY = pytest.param(25_000, marks=pytest.mark.deep)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dialogues", [100, MANY])
 @pytest.mark.parametrize("name", GAMES)
 def test_a_correct_game_is_left_alone(name, dialogues):

@@ -52,6 +52,7 @@ def slow_if_many(slip: Slip):
 SLIPS = [slow_if_many(slip) for slip in (*PLANTED, *HELD_OUT)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slip", SLIPS)
 def test_a_slip_is_found(slip):
     assert report_of(slip).holds == (str(slip) in NOT_FOUND)
@@ -63,6 +64,7 @@ def test_there_are_twenty_and_most_are_found():
     assert {str(slip) for slip in (*PLANTED, *HELD_OUT)} > NOT_FOUND
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ORIGINALS)
 def test_a_correct_game_is_left_alone(name):
     assert Suite(game_of(name), examples=25).run().told() == ""

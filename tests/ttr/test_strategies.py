@@ -94,6 +94,7 @@ REACHED = (
 )
 
 
+@pytest.mark.slow
 def test_every_constructor_is_reached_in_1000_draws():
     found = drawn(tst.types())
     seen = Counter(kind for T in found for kind in set(kinds_in(T)))
@@ -132,6 +133,7 @@ def test_a_theory_without_names_will_do():
     assert all(isinstance(M, Model) for M in drawn(tst.models(Theory.parse("")), few))
 
 
+@pytest.mark.slow
 def test_objects_of_every_kind_are_reached():
     kinds = {type(a) for a in drawn(tst.objects())}
     assert {str, int, float, Record, tuple, FiniteSet, EventString, Function} <= kinds

@@ -153,6 +153,7 @@ def test_rules_of_a_class_may_make_up_different_names():
     assert testing.check_rules(game, properties=["P5"], examples=20).holds
 
 
+@pytest.mark.slow
 def test_a_rule_that_never_applies_is_dead_after_many_turns():
     @rule(when=Board, on=rectype(w=Word @ "hi", e=say("ho")))
     def late(s, e):

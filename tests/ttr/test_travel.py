@@ -231,6 +231,7 @@ def test_who_says_very_much_is_heard_to_the_end():
     assert turn.state.private.nim == ()
 
 
+@pytest.mark.slow
 @given(st.data())
 def test_who_mostly_answers_what_is_asked_gets_an_answer(data):
     so_far = GAME.take(GAME.begin(), GAME.hear("price")).run

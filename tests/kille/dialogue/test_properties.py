@@ -50,6 +50,7 @@ def test_there_is_no_fault_before_anything_is_played():
     ] == []
 
 
+@pytest.mark.slow
 def test_guided_dialogues():
     assert played(EXAMPLES // 2) == ""
 
@@ -66,6 +67,7 @@ def test_guided_dialogues_with_a_robot_that_only_does_what_it_is_told():
     assert played(EXAMPLES // 6, seed=3, mode="driven") == ""
 
 
+@pytest.mark.slow
 def test_what_was_taught_on_another_day_is_unlearned_by_name_only():
     robot = next(it for it in ROBOTS if it.name == "assisted, on another day")
     suite = Suite(

@@ -16,6 +16,8 @@ import pytest
 
 from kille.studies import log
 
+pytestmark = pytest.mark.slow
+
 COMMAND = [sys.executable, "-m", "kille.interfaces.cli"]
 
 Run = Callable[..., Any]

@@ -25,9 +25,12 @@ from kille.interfaces import cli as kille
 from listening import MACHINE, NETWORK, USER, Listening, reach_of, sockets_of, tree
 from ttr.cli import main as ttr
 
-pytestmark = pytest.mark.skipif(
-    not Path("/proc/net/tcp").exists(), reason="only Linux lists sockets in /proc"
-)
+pytestmark = [
+    pytest.mark.skipif(
+        not Path("/proc/net/tcp").exists(), reason="only Linux lists sockets in /proc"
+    ),
+    pytest.mark.slow,
+]
 
 ROOT = Path(__file__).resolve().parents[3]
 IMPORTABLE = Path(listening.__file__).parent

@@ -25,6 +25,8 @@ from kille.studies import log
 from kille.studies.reading.file import parsed
 from kille.studies.study import Run
 
+pytestmark = pytest.mark.slow
+
 COMMAND = [sys.executable, "-m", "kille.interfaces.cli"]
 COLUMNS = 80
 PATIENCE = 120.0

@@ -206,6 +206,7 @@ def at_terminal(*words: str) -> Iterator[Terminal]:
         terminal.close()
 
 
+@pytest.mark.slow
 def test_a_talk_at_a_terminal_has_history_over_sessions(memory: Path) -> None:
     with at_terminal("talk", "--sensor", EMPTY) as screen:
         welcome = screen.wait_for("U> ")
@@ -291,6 +292,7 @@ def lessons(first: int) -> Iterator[subprocess.Popen[str]]:
         yield child
 
 
+@pytest.mark.slow
 def test_kill_9_in_mid_lesson_loses_no_acknowledged_lesson(memory: Path) -> None:
     rng = np.random.default_rng(9)
     known: set[str] = set()

@@ -76,6 +76,7 @@ def test_a_piece_that_is_split_off_in_one_frame_is_no_percept(
     assert len(percept.scans) == 10
 
 
+@pytest.mark.slow
 def test_the_thing_that_is_shown_is_the_nearest_and_seldom_a_part() -> None:
     """Of seeds and specimens that the merge was not fitted to."""
     missed = []

@@ -427,6 +427,7 @@ def test_objects_of_one_real_scene_are_known_in_the_next(data: Path) -> None:
             assert max(degrees.values()) < 0.5
 
 
+@pytest.mark.slow
 def test_ten_things_in_poses_not_seen_before() -> None:
     stage, memory = open_synthetic("synthetic:empty?seed=21"), ObjectMemory()
     for key in range(2):

@@ -13,6 +13,8 @@ import pytest
 
 from kille.bus import BusError, Text
 
+pytestmark = pytest.mark.slow
+
 pytest.importorskip("cyclonedds", reason="the extra ros2 is not installed")
 pytest.importorskip("rosbags", reason="the extra ros2 is not installed")
 

@@ -31,7 +31,7 @@ PATIENT = f"_patience:={2 * WITHIN:g}"
 RECORDING = ("rosbag", "record", "--limit=45")
 """Three seconds of each topic, from whenever its first message comes."""
 
-pytestmark = [pytest.mark.ros, pytest.mark.usefixtures("master")]
+pytestmark = [pytest.mark.slow, pytest.mark.ros, pytest.mark.usefixtures("master")]
 
 
 def test_the_bus_over_ros_keeps_to_what_every_bus_keeps_to() -> None:

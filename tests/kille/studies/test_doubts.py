@@ -62,6 +62,7 @@ def test_of_what_is_meant_there_is_no_doubt(tmp_path: Path) -> None:
     assert found(tmp_path, *PLACES) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "file",
     sorted(Path(__file__).parents[3].glob("examples/studies/**/*.toml")),

@@ -74,6 +74,7 @@ def finished(study: Study, run: Run) -> Finished:
     return found
 
 
+@pytest.mark.slow
 @given(PLAYED, st.floats(0, 1e6))
 def test_what_is_kept_is_what_is_read(played: Played, seconds: float) -> None:
     it = Finished(run_of(STUDY, 1), played, seconds)

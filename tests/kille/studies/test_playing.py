@@ -176,6 +176,7 @@ def test_another_seed_is_another_dialogue():
     assert played(TEACH, ASK, seed=1) != played(TEACH, ASK, seed=2)
 
 
+@pytest.mark.slow
 def test_it_is_the_same_in_every_process():
     """Whatever the order of hashes, and whatever was played before."""
     file = PROTOCOLS / "frames.toml"
@@ -201,6 +202,7 @@ def test_it_is_the_same_in_every_process():
     assert there == f"{hashlib.sha256(here).hexdigest()}\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "file", sorted(PROTOCOLS.glob("*.toml")), ids=lambda file: file.stem
 )

@@ -37,6 +37,8 @@ from kille.studies.study import Run, Study
 from listening import sockets_of
 from little_study import BAD, DEADLY, GOOD, folder_of, play
 
+pytestmark = pytest.mark.slow
+
 HELPERS = str(Path(little_study.__file__).parent)
 SETTLED = 120
 """So many seconds a busy machine may take to start a cluster, or to end programs."""

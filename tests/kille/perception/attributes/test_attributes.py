@@ -68,6 +68,7 @@ def judged(memory: AttributeMemory) -> list[object]:
     return [(memory.degrees(x), memory.denials(x)) for x in THINGS]
 
 
+@pytest.mark.slow
 @given(before=lessons, more=st.sampled_from(THINGS), holds=st.booleans())
 def test_to_forget_is_exact(
     before: list[tuple[Traits, str, bool]], more: Traits, holds: bool

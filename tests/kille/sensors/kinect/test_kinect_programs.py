@@ -22,6 +22,8 @@ from kinect_emulator.kinect import Kinect
 from kinect_emulator.running import environment, finished, patient
 from kinect_emulator.server import Server
 
+pytestmark = pytest.mark.slow
+
 LONG = 120.0
 """Seconds that a program may take on a busy machine, where it needs two or so."""
 

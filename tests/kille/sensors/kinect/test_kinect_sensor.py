@@ -206,6 +206,7 @@ def test_a_stall_is_got_over(kinect: Kinect, sensor: KinectSensor) -> None:
     timer.join()
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("hasty")
 @pytest.mark.parametrize(
     ("faults", "said"),
@@ -243,6 +244,7 @@ def test_replies_that_come_late_are_waited_for(kinect: Kinect, bus: InsideBus) -
     KinectSensor("kinect", bus).close()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("faults", "said"),
     [

@@ -33,6 +33,7 @@ def times(ran: Ran, stream: str) -> list[int]:
     return [int(it) for it in found]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "model", [MODEL_1414, MODEL_1473, FOR_WINDOWS], ids=lambda model: model.name
 )

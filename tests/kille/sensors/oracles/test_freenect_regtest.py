@@ -58,6 +58,7 @@ MAKINGS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("making", MAKINGS.values(), ids=MAKINGS)
 def test_all_depth_is_the_same_bit_for_bit(
     ran: Callable[..., Ran], tmp_path: Path, making: Making

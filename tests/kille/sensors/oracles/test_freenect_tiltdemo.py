@@ -18,6 +18,7 @@ LINE = re.compile(
 )
 
 
+@pytest.mark.slow
 def test_the_motor_does_what_it_is_told(ran: Callable[..., Ran]) -> None:
     kinect = Kinect()
     done = ran(kinect, "freenect-tiltdemo", enough=After("led[", 2))

@@ -34,6 +34,7 @@ def near(view: View) -> View:
     return View(np.where(far, np.uint16(NO_READING), view.depth), view.colour)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
 def test_both_see_the_same(
     program: Callable[[str], str],
