@@ -16,7 +16,7 @@ from ttr import (
     this,
     wellformed,
 )
-from ttr.computing.cycles import in_order
+from ttr.computing.cycles import has_fields_in_order
 from ttr.theories.theory import Axiom, Signature
 
 Dog, Image = Basic("Dog"), Basic("Image")
@@ -125,6 +125,6 @@ def test_a_path_into_alternatives_leads_to_what_all_of_them_have():
 
 def test_fields_are_in_order_where_each_depends_on_those_before_it():
     inner = rectype(x=Ind, n=rectype(c=dog(outer.x)))
-    assert in_order(inner)
-    assert in_order(ListOf(rectype(x=Ind, y=Ind @ this.x)))
-    assert not in_order(rectype(x=Ind @ this.y, y=Ind @ this.x))
+    assert has_fields_in_order(inner)
+    assert has_fields_in_order(ListOf(rectype(x=Ind, y=Ind @ this.x)))
+    assert not has_fields_in_order(rectype(x=Ind @ this.y, y=Ind @ this.x))

@@ -4,7 +4,7 @@ import pytest
 
 from ttr import Basic, Pred, RecordType, Str, Theory, rectype, subtype, this
 from ttr.computing.strings.automata import automaton
-from ttr.computing.strings.inclusion import included
+from ttr.computing.strings.inclusion import check_inclusion
 from ttr.types.forms import star
 from ttr.types.syntax import Ind, ListOf, Plus
 
@@ -17,12 +17,12 @@ def same(event, types):
 
 
 def test_without_another_type_there_should_be_no_strings():
-    assert included(automaton(Str(A) & Str(A, A)), None, same).yes
-    assert included(automaton(Plus(A)), None, same).against == (A,)
+    assert check_inclusion(automaton(Str(A) & Str(A, A)), None, same).yes
+    assert check_inclusion(automaton(Plus(A)), None, same).against == (A,)
 
 
 def test_the_shortest_string_speaks_against_it():
-    found = included(automaton(Str(A, A) | Str(B)), automaton(Str(A)), same)
+    found = check_inclusion(automaton(Str(A, A) | Str(B)), automaton(Str(A)), same)
     assert found.against == (B & ~A,)
 
 
@@ -33,16 +33,19 @@ def test_an_event_may_be_of_several_types():
         return event in types or (event is A and {B, C} <= set(types))
 
     above = automaton(Str(B, D) | Str(C, D))
-    assert included(automaton(Str(A, D)), above, below).yes
+    assert check_inclusion(automaton(Str(A, D)), above, below).yes
     above = automaton(Str(B, D) | Str(C, C))
-    assert included(automaton(Str(A, D)), above, below).against == (A & ~B, D & ~C)
+    assert check_inclusion(automaton(Str(A, D)), above, below).against == (
+        A & ~B,
+        D & ~C,
+    )
 
 
 def test_it_is_left_where_there_are_too_many_states():
     def nth_last(n):
         return Str(star(A | B), A, *[A | B] * n)
 
-    found = included(automaton(nth_last(12)), automaton(nth_last(11)), same)
+    found = check_inclusion(automaton(nth_last(12)), automaton(nth_last(11)), same)
     assert not found.yes
 
 

@@ -4,7 +4,7 @@ from itertools import islice
 
 from ttr import Basic, Plus, Str
 from ttr.computing.strings.automata import automaton
-from ttr.computing.strings.runs import Stop, a_way, all_ways, covers, shortest
+from ttr.computing.strings.runs import Stop, a_way, accepts, all_ways, shortest
 from ttr.types.forms import star
 
 A, B, C = map(Basic, "ABC")
@@ -75,9 +75,9 @@ def test_wholes_may_be_empty_or_long():
 
 def test_whether_there_is_a_way():
     found = automaton(Plus(Str(A, B)))
-    assert covers(4, found, lambda number, T: True)
-    assert not covers(3, found, lambda number, T: True)
-    assert not covers(2, found, lambda number, T: T is A)
+    assert accepts(4, found, lambda number, T: True)
+    assert not accepts(3, found, lambda number, T: True)
+    assert not accepts(2, found, lambda number, T: T is A)
 
 
 def test_strings_shortest_first_but_long_enough():

@@ -25,6 +25,7 @@ from ttr import (
     subtype,
     this,
 )
+from ttr.computing import prover
 from ttr.theories.theory import Axiom, Signature
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
@@ -201,7 +202,7 @@ def test_reasons_are_made_when_they_are_asked_for(monkeypatch):
         return "a type"
 
     with monkeypatch.context() as patched:
-        patched.setattr("ttr.computing.prover.notation", notation)
+        patched.setattr(prover, "notation", notation)
         answer = subtype(A, B)
         assert answer.no
         assert printed == []

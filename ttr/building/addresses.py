@@ -11,16 +11,16 @@ from typing import TypeAlias
 from ttr.errors import IllFormed
 from ttr.types.objects import Path, check_label
 
-__all__ = ["Address", "absolute", "address", "nearest", "written"]
+__all__ = ["Address", "to_absolute", "parse_address", "to_relative", "format_address"]
 
 Address: TypeAlias = tuple[str, ...]
 """The labels from the outermost record type to a field, or to a record type in it."""
 
 
-def address(path: object, what: str) -> Address:
+def parse_address(path: object, what: str) -> Address:
     """The labels of a path written with dots; `what` takes it.
 
-    >>> address("bg.x", "subtract")
+    >>> parse_address("bg.x", "subtract")
     ('bg', 'x')
     """
     if not isinstance(path, str):
@@ -33,15 +33,15 @@ def address(path: object, what: str) -> Address:
     return labels
 
 
-def written(labels: Address) -> str:
+def format_address(labels: Address) -> str:
     """The address as a path with dots."""
     return ".".join(labels)
 
 
-def absolute(path: Path, scope: Address) -> Path:
+def to_absolute(path: Path, scope: Address) -> Path:
     """A path from the record type at an address, as a path from the outermost one.
 
-    >>> absolute(Path(0, ("x",)), ("bg",)), absolute(Path(1, ("y",)), ("bg",))
+    >>> to_absolute(Path(0, ("x",)), ("bg",)), to_absolute(Path(1, ("y",)), ("bg",))
     (this.bg.x, this.y)
     """
     if path.up > len(scope):
@@ -49,11 +49,13 @@ def absolute(path: Path, scope: Address) -> Path:
     return Path(0, scope[: len(scope) - path.up] + path.labels)
 
 
-def nearest(path: Path, scope: Address) -> Path:
+def to_relative(path: Path, scope: Address) -> Path:
     """A path from the outermost record type, as the shortest one from an address.
 
-    >>> nearest(Path(0, ("bg", "x")), ("bg",)), nearest(Path(0, ("y",)), ("bg",))
-    (this.x, outer.y)
+    >>> to_relative(Path(0, ("bg", "x")), ("bg",))
+    this.x
+    >>> to_relative(Path(0, ("y",)), ("bg",))
+    outer.y
     """
     if path.up > 0:
         return Path(path.up + len(scope), path.labels)

@@ -86,7 +86,7 @@ def fun(
     name, domain = _variable("fun", variable, named)
 
     def of(body: object) -> Function:
-        found = Function(domain, _bound(name, freeze(body)), name)
+        found = Function(domain, _bind_variable(name, freeze(body)), name)
         return checked_binder(found, theory)
 
     return of
@@ -107,7 +107,7 @@ def Pi(
     name, domain = _variable("Pi", variable, named)
 
     def of(result: TypeNode) -> FunType:
-        found = FunType(domain, _bound(name, as_type(result)), name)
+        found = FunType(domain, _bind_variable(name, as_type(result)), name)
         return checked_binder(found, theory)
 
     return of
@@ -125,7 +125,7 @@ def _variable(
     return name, as_type(domain)
 
 
-def _bound(name: str, body: Object) -> Object:
+def _bind_variable(name: str, body: Object) -> Object:
     """The body with the variable as the path that its name does not matter for."""
 
     def at(path: Path) -> Object:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Any, TypeVar
 
-from ttr.building.addresses import Address, absolute, nearest, written
+from ttr.building.addresses import Address, format_address, to_absolute, to_relative
 from ttr.errors import IllFormed
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.forms import order_fields
@@ -46,18 +46,18 @@ def flatten(
     """
     if isinstance(value, Record):
         parts = _all_parts(value, ()) if like is None else _parts_like(like, value, ())
-        return Record({_joined(at, sep): part for at, part in parts})
+        return Record({_join_labels(at, sep): part for at, part in parts})
     if isinstance(value, RecordType):
-        return _flat_type(value, sep)
-    raise _no_shape("flatten", value)
+        return _flatten_type(value, sep)
+    raise _wrong_argument("flatten", value)
 
 
-def _flat_type(T: RecordType, sep: str) -> RecordType:
+def _flatten_type(T: RecordType, sep: str) -> RecordType:
     leaves = dict(_leaves(T, ()))
     fields: dict[str, TypeNode] = {}
     for at, field in leaves.items():
         follow = partial(_flat_path, at=at, leaves=leaves, sep=sep)
-        fields[_joined(at, sep)] = replace_paths(field, follow)
+        fields[_join_labels(at, sep)] = replace_paths(field, follow)
     return RecordType(order_fields(fields))
 
 
@@ -75,16 +75,16 @@ def _flat_path(
     path: Path, at: Address, leaves: Mapping[Address, TypeNode], sep: str
 ) -> Path:
     """A path in the field at an address, as it is once all is flat."""
-    found = absolute(path, at[:-1])
+    found = to_absolute(path, at[:-1])
     if found.up > 0:
         return found
     for size in range(1, len(found.labels) + 1):
         if found.labels[:size] in leaves:
-            label = _joined(found.labels[:size], sep)
+            label = _join_labels(found.labels[:size], sep)
             return Path(0, (label, *found.labels[size:]))
-    whole = written(found.labels)
+    whole = format_address(found.labels)
     raise IllFormed(
-        f"{whole} cannot be flattened: {written(at)} is about {whole} as a whole"
+        f"{whole} cannot be flattened: {format_address(at)} is about {whole} as a whole"
     )
 
 
@@ -106,9 +106,8 @@ def _parts_like(
     labels = value._fields if isinstance(value, Record) else {}
     for label, field in T.fields:
         if label not in labels:
-            raise IllFormed(
-                f"there is no {written((*at, label))} in the record, but {T} has one"
-            )
+            there = format_address((*at, label))
+            raise IllFormed(f"there is no {there} in the record, but {T} has one")
         if isinstance(field, RecordType) and field.fields:
             yield from _parts_like(field, labels[label], (*at, label))
         else:
@@ -118,21 +117,21 @@ def _parts_like(
             yield (*at, label), labels[label]
 
 
-def _joined(at: Address, sep: str) -> str:
+def _join_labels(at: Address, sep: str) -> str:
     """One label for an address; it can be taken apart in one way only."""
     _check_separator(sep)
     label = sep.join(at)
     check_label(label)
-    if _taken_apart(label, sep) == at:
+    if _split_label(label, sep) == at:
         return label
     raise IllFormed(
-        f"{written(at)} cannot become the label {label}, which reads as "
-        f"{written(_taken_apart(label, sep))}",
+        f"{format_address(at)} cannot become the label {label}, which reads as "
+        f"{format_address(_split_label(label, sep))}",
         hint='give another separator, as in flatten(T, sep="_in_")',
     )
 
 
-def _taken_apart(label: str, sep: str) -> Address:
+def _split_label(label: str, sep: str) -> Address:
     _check_separator(sep)
     return tuple(label.split(sep))
 
@@ -160,48 +159,48 @@ def unflatten(value: _Shape, sep: str = "__") -> _Shape:
     [bg : [x : Ind, c : dog(x)]]
     """
     if isinstance(value, Record):
-        return _record(_nested(value._fields, sep))
+        return _record(_build_tree(value._fields, sep))
     if not isinstance(value, RecordType):
-        raise _no_shape("unflatten", value)
+        raise _wrong_argument("unflatten", value)
     fields: dict[str, TypeNode] = {}
     for label, field in value.fields:
-        scope = _taken_apart(label, sep)[:-1]
+        scope = _split_label(label, sep)[:-1]
         follow = partial(_nested_path, scope=scope, flat=value, sep=sep)
         fields[label] = replace_paths(field, follow)
-    return _record_type(_nested(fields, sep))
+    return _record_type(_build_tree(fields, sep))
 
 
 def _nested_path(path: Path, scope: Address, flat: RecordType, sep: str) -> Path:
     """A path in a field of a flat type, from the record type it will stand in."""
     first, *rest = path.labels
     if path.up == 0 and first in flat:
-        path = Path(0, (*_taken_apart(first, sep), *rest))
-    return nearest(path, scope)
+        path = Path(0, (*_split_label(first, sep), *rest))
+    return to_relative(path, scope)
 
 
 _Tree = dict[str, Any]
 """Labels with what they have: a field, or a tree again."""
 
 
-def _nested(fields: Mapping[str, Object], sep: str) -> _Tree:
+def _build_tree(fields: Mapping[str, Object], sep: str) -> _Tree:
     tree: _Tree = {}
     for label, inside in fields.items():
-        *around, last = _taken_apart(label, sep)
+        *around, last = _split_label(label, sep)
         here = tree
         for part in around:
             check_label(part)
             here = here.setdefault(part, {})
             if not isinstance(here, dict):
-                raise _both(label, sep)
+                raise _label_clash(label, sep)
         check_label(last)
         if last in here:
-            raise _both(label, sep)
+            raise _label_clash(label, sep)
         here[last] = inside
     return tree
 
 
-def _both(label: str, sep: str) -> IllFormed:
-    path = written(_taken_apart(label, sep))
+def _label_clash(label: str, sep: str) -> IllFormed:
+    path = format_address(_split_label(label, sep))
     return IllFormed(f"{label} cannot become {path}: one of its parts is also a field")
 
 
@@ -221,5 +220,5 @@ def _record_type(tree: _Tree) -> RecordType:
     )
 
 
-def _no_shape(what: str, value: object) -> IllFormed:
+def _wrong_argument(what: str, value: object) -> IllFormed:
     return IllFormed(f"{what} takes a record type or a record, found {kind_of(value)}")

@@ -63,7 +63,7 @@ def wellformed(T: TypeNode, theory: Signature | None = None, /) -> Answer:
     return Answer("yes", "every path leads to a field that fits")
 
 
-Where = tuple[str, ...]
+_Where = tuple[str, ...]
 """The labels that lead to the field that is looked at."""
 
 
@@ -121,7 +121,7 @@ def _scope(value: RecordType | Function | FunType) -> _Scope:
 
 
 def _check(
-    inside: Object, scope: _Scope, where: Where, theory: Signature | None
+    inside: Object, scope: _Scope, where: _Where, theory: Signature | None
 ) -> None:
     """What stands in a scope leads somewhere in it, and to what fits."""
     paths = [path for path in escaping(inside) if path.up == 0]
@@ -131,13 +131,15 @@ def _check(
     }
     if not paths:
         return
-    wanted = _wanted(inside) if isinstance(inside, TypeNode) else None
-    if wanted is None or any(_bare(found[path]) is not T for path, T in wanted):
+    wanted = _argument_types(inside) if isinstance(inside, TypeNode) else None
+    if wanted is None or any(
+        _strip_singletons(found[path]) is not T for path, T in wanted
+    ):
         _check_domains(inside, (scope,), where, theory)
 
 
 @lru_cache(4096)
-def _wanted(inside: TypeNode) -> tuple[tuple[Path, TypeNode], ...] | None:
+def _argument_types(inside: TypeNode) -> tuple[tuple[Path, TypeNode], ...] | None:
     """The paths out of a value that are arguments of predicates, and of which type.
 
     None where it takes more to see whether they fit: functions, several arities.
@@ -172,17 +174,18 @@ def target(path: Path, T: RecordType) -> TypeNode:
             labels = list(_labels(here))
             is_record = labels or isinstance(here, RecordType)
             lacks = f"has no {label}" if is_record else "is no record type"
+            where = f"the path {_format_path(path)} leads nowhere"
             raise IllFormed(
-                f"the path {_written(path)} leads nowhere: {_shown(here)} {lacks}",
+                f"{where}: {_format_scope(here)} {lacks}",
                 hint=f"{label} is in some alternatives only"
                 if label in labels
-                else suggestion(label, labels) or _further_out(path, here),
+                else suggestion(label, labels) or _hint_outer(path, here),
             )
         here = field
     return here
 
 
-def _further_out(path: Path, T: TypeNode) -> str:
+def _hint_outer(path: Path, T: TypeNode) -> str:
     """What to write for a label that another record type around T has."""
     if len(path.labels) > 1 or not isinstance(T, RecordType):
         return ""
@@ -190,12 +193,12 @@ def _further_out(path: Path, T: TypeNode) -> str:
     return f"outer.{label}, written ^.{label}, is the {label} one record further out"
 
 
-def _written(path: Path) -> str:
+def _format_path(path: Path) -> str:
     """The labels of a path; those from a variable after a dot, as its name is gone."""
     return ".".join("" if label == BOUND else label for label in path.labels)
 
 
-def _shown(T: TypeNode) -> str:
+def _format_scope(T: TypeNode) -> str:
     is_variable = isinstance(T, RecordType) and BOUND in T
     return "the function" if is_variable else str(T)
 
@@ -233,7 +236,7 @@ def _labels(T: TypeNode) -> Iterator[str]:
 def _check_domains(
     value: Object,
     around: tuple[_Scope, ...],
-    where: Where,
+    where: _Where,
     theory: Signature | None,
 ) -> None:
     """Every path to the outermost scope that is an argument fits what it is given to.
@@ -275,12 +278,12 @@ def _check_arguments(
     args: tuple[Object, ...],
     arities: list[tuple[TypeNode, ...]],
     around: tuple[_Scope, ...],
-    where: Where,
+    where: _Where,
     theory: Signature | None,
 ) -> None:
     """Refuses arguments that fit none of the arities, as far as their types tell."""
     misfits = [
-        _misfit(args, arity, around[-1].fields, len(around) - 1, theory)
+        _find_misfit(args, arity, around[-1].fields, len(around) - 1, theory)
         for arity in arities
     ]
     first = misfits[0]
@@ -289,16 +292,16 @@ def _check_arguments(
     arg, wanted, found = first
     scope = tuple(one.names for one in around)
     raise IllFormed(
-        f"{_in_field(where)}{notation(value, scope)} needs {wanted} for "
+        f"{_name_field(where)}{notation(value, scope)} needs {wanted} for "
         f"{notation(arg, scope)}, but that is of {found}"
     )
 
 
-def _in_field(where: Where) -> str:
+def _name_field(where: _Where) -> str:
     return f"in the field {'.'.join(where)}, " if where else ""
 
 
-def _misfit(
+def _find_misfit(
     args: tuple[Object, ...],
     arity: tuple[TypeNode, ...],
     scope: RecordType,
@@ -310,12 +313,12 @@ def _misfit(
         if not isinstance(arg, Path) or arg.up != up:
             continue
         found = target(arg, scope)
-        if _bare(found) is not wanted and subtype(found, wanted, theory).no:
+        if _strip_singletons(found) is not wanted and subtype(found, wanted, theory).no:
             return arg, wanted, found
     return None
 
 
-def _bare(T: TypeNode) -> TypeNode:
+def _strip_singletons(T: TypeNode) -> TypeNode:
     """The type without what it is restricted to: T for T@a."""
     while isinstance(T, Singleton):
         T = T.base

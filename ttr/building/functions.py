@@ -62,7 +62,7 @@ def fix(f: Function, theory: Signature | None = None, /) -> RecordType:
     """
     match f:
         case Function(RecordType() as domain, RecordType() as body, hint):
-            inside = _from_the_record(body, hint)
+            inside = _replace_variable(body, hint)
         case _:
             raise IllFormed(
                 "fix takes a function from a record type to a record type, as in "
@@ -72,7 +72,7 @@ def fix(f: Function, theory: Signature | None = None, /) -> RecordType:
     return checked(merged, theory)
 
 
-def _from_the_record(body: RecordType, variable: str) -> RecordType:
+def _replace_variable(body: RecordType, variable: str) -> RecordType:
     """The body with paths from the variable as paths from where its fields stand.
 
     It is one scope instead of two, the record that the variable stood for.

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from ttr.building.addresses import nearest
+from ttr.building.addresses import to_relative
 from ttr.building.constructors import rectype
 from ttr.building.merging import merge
 from ttr.computing.generic_witness import ITSELF, GenericWitness, step
@@ -23,7 +23,7 @@ from ttr.safety.budgets import spend, within_budget
 from ttr.signature.axioms import above
 from ttr.signature.signature import Signature
 from ttr.types.forms import function_type, order_fields
-from ttr.types.objects import in_canonical_order
+from ttr.types.objects import sort_canonically
 from ttr.types.paths import escaping, moved, parts, rebuilt, replace_paths
 from ttr.types.syntax import (
     Basic,
@@ -71,32 +71,36 @@ def common_supertype(
     Traceback (most recent call last):
     ttr.errors.IllFormed: Ind and Real have no common supertype without a join
     """
-    found = _above_both(as_type(S), as_type(T), theory)
+    found = _common_supertype(as_type(S), as_type(T), theory)
     if found is None:
         raise IllFormed(f"{S} and {T} have no common supertype without a join")
     return found
 
 
-def _above_both(S: TypeNode, T: TypeNode, theory: Signature | None) -> TypeNode | None:
+def _common_supertype(
+    S: TypeNode, T: TypeNode, theory: Signature | None
+) -> TypeNode | None:
     higher = [
         upper for lower, upper in ((S, T), (T, S)) if subtype(lower, upper, theory).yes
     ]
     if higher:
-        return in_canonical_order(higher)[0]
-    found = _Both(GenericWitness(S), GenericWitness(T), theory).generalised()
+        return sort_canonically(higher)[0]
+    found = _Generalisation(GenericWitness(S), GenericWitness(T), theory).generalise()
     match found:
         case RecordType():
-            return _fitting(found, theory)
+            return _drop_ill_formed_fields(found, theory)
         case Meet(parts):
             fitting = [
-                _fitting(part, theory) if isinstance(part, RecordType) else part
+                _drop_ill_formed_fields(part, theory)
+                if isinstance(part, RecordType)
+                else part
                 for part in parts
             ]
             return meet(*fitting)
     return found
 
 
-def _fitting(T: RecordType, theory: Signature | None) -> RecordType:
+def _drop_ill_formed_fields(T: RecordType, theory: Signature | None) -> RecordType:
     """The record type without the fields that do not fit the others any more."""
     fields = dict(T.fields)
     try:
@@ -114,7 +118,7 @@ def _fitting(T: RecordType, theory: Signature | None) -> RecordType:
 # --- both together -------------------------------------------------------------------
 
 
-_APART = Path(0, ("",))
+_NO_TERM = Path(0, ("",))
 """What stands for a term where two have none in common; it leads nowhere."""
 
 _Terms: TypeAlias = tuple[object, object]
@@ -122,7 +126,7 @@ _Terms: TypeAlias = tuple[object, object]
 
 
 @dataclass(frozen=True)
-class _Both:
+class _Generalisation:
     """What two types have in common, by an arbitrary witness of each.
 
     `paths` are the places that are kept, by the terms they have on either side;
@@ -133,30 +137,30 @@ class _Both:
     right: GenericWitness
     theory: Signature | None
     paths: dict[_Terms, list[Path]] = field(default_factory=dict)
-    settled: set[Path] = field(default_factory=set)
+    manifest: set[Path] = field(default_factory=set)
 
-    def generalised(self) -> TypeNode | None:
+    def generalise(self) -> TypeNode | None:
         """The type that both witnesses are of; None if they have nothing in common.
 
         All fields that both have are kept at first; then those that have nothing to be
         of, and what depends on them, have to go, until all that are left can stay.
         """
-        kept = list(self._shared(ITSELF))
+        kept = list(self._shared_places(ITSELF))
         for place in kept:
             self.paths.setdefault(self._terms(place), []).append(place)
         while True:
-            self.settled.clear()
+            self.manifest.clear()
             found = self._type(ITSELF)
             still = [place for place in kept if self._is_kept(place)]
             if len(still) == len(kept):
                 return found
             kept = still
 
-    def _shared(self, place: Path) -> Iterator[Path]:
+    def _shared_places(self, place: Path) -> Iterator[Path]:
         """The places of the fields that both have, inside a place."""
         for label in self._labels(place):
             yield step(place, label)
-            yield from self._shared(step(place, label))
+            yield from self._shared_places(step(place, label))
 
     def _labels(self, place: Path) -> list[str]:
         """The labels that both have at a place."""
@@ -166,10 +170,12 @@ class _Both:
         return [label for label in dict.fromkeys(here) if label in there]
 
     def _types(self, side: GenericWitness, place: Path) -> list[TypeNode]:
-        return side.types_of(side.normal(place))
+        return side.types_of(side.normalise(place))
 
     def _terms(self, place: Path) -> _Terms:
-        return identity(self.left.normal(place)), identity(self.right.normal(place))
+        return identity(self.left.normalise(place)), identity(
+            self.right.normalise(place)
+        )
 
     def _is_kept(self, place: Path) -> bool:
         return place in self.paths[self._terms(place)]
@@ -180,20 +186,28 @@ class _Both:
         """The type of what is at a place and what it is set to, as written there."""
         spend()
         value = self._value(place)
-        if value is not _APART:
-            self.settled.add(place)
+        if value is not _NO_TERM:
+            self.manifest.add(place)
         parts = self._parts(place)
         if not parts:
             return None
         base = meet(*parts)
-        return base if value is _APART else Singleton(base, _as_written(value, place))
+        return (
+            base
+            if value is _NO_TERM
+            else Singleton(base, _places_to_paths(value, place))
+        )
 
     def _parts(self, place: Path) -> list[TypeNode]:
         """What is said of a place in both, as a whole and field by field."""
         mine, theirs = self._types(self.left, place), self._types(self.right, place)
-        common = self._common(_others(self.left, mine), _others(self.right, theirs))
-        written = [_as_written(part, place) for part in common]
-        found = [part for part in written if not any(map(_in_witness, escaping(part)))]
+        common = self._generalise_meets(
+            _others(self.left, mine), _others(self.right, theirs)
+        )
+        written = [_places_to_paths(part, place) for part in common]
+        found = [
+            part for part in written if not any(map(_is_in_witness, escaping(part)))
+        ]
         if any(map(_is_record_type, mine)) and any(map(_is_record_type, theirs)):
             found.append(self._record(place))
         return found
@@ -214,67 +228,67 @@ class _Both:
 
         What is in a record that is set to something is not worth saying.
         """
-        if Path(0, place.labels[:-1]) in self.settled:
-            self.settled.add(place)
-            return _APART
-        s, t = self.left.normal(place), self.right.normal(place)
+        if Path(0, place.labels[:-1]) in self.manifest:
+            self.manifest.add(place)
+            return _NO_TERM
+        s, t = self.left.normalise(place), self.right.normalise(place)
         value = self.term(s, t, 0)
         if value is not place:
             return value
-        return _APART if isinstance(s, Path) else self._composed(s, t, 0)
+        return _NO_TERM if isinstance(s, Path) else self._generalise_parts(s, t, 0)
 
     # --- types ---
 
     def common(self, F: TypeNode, G: TypeNode) -> TypeNode | None:
         """The meet of what both types say; None if they say nothing in common."""
         spend()
-        found = self._common([F], [G])
+        found = self._generalise_meets([F], [G])
         return meet(*found) if found else None
 
-    def _common(
+    def _generalise_meets(
         self, mine: Iterable[TypeNode], theirs: Iterable[TypeNode]
     ) -> list[TypeNode]:
         """What two meets of types have in common, none of it implied by the rest."""
-        left = [f for T in mine for f in self._said(T)]
-        right = [g for T in theirs for g in self._said(T)]
-        found = [self._part(f, g) for f in left for g in right]
+        left = [f for T in mine for f in self._implied_types(T)]
+        right = [g for T in theirs for g in self._implied_types(T)]
+        found = [self._generalise_pair(f, g) for f in left for g in right]
         return self._strongest([part for part in found if part is not None])
 
-    def _said(self, T: TypeNode) -> Iterator[TypeNode]:
+    def _implied_types(self, T: TypeNode) -> Iterator[TypeNode]:
         """The types that a type is below by its form, and by the axioms."""
         spend()
         if isinstance(T, Meet):
             for part in T.parts:
-                yield from self._said(part)
+                yield from self._implied_types(part)
             return
         yield T
         if isinstance(T, Singleton):
-            yield from self._said(T.base)
+            yield from self._implied_types(T.base)
         if isinstance(T, Basic | PType) and self.theory:
             yield from [upper for _, upper in above(T, self.theory.axioms)]
 
-    def _part(self, f: TypeNode, g: TypeNode) -> TypeNode | None:
+    def _generalise_pair(self, f: TypeNode, g: TypeNode) -> TypeNode | None:
         """What two types that are no meets have in common."""
         spend()
         if f is not g and not escaping(f) and not escaping(g):
-            higher = self._higher(f, g)
+            higher = self._comparable_supertype(f, g)
             if higher is not None:
                 return higher
         match f, g:
             case (Join(several), other) | (other, Join(several)) if f is not g:
-                return self._each((*several, other))
+                return self._generalise_each((*several, other))
             case (NonEmpty(mine), NonEmpty(theirs)):
-                return self._made(NonEmpty, (mine,), (theirs,))
+                return self._generalise_items(NonEmpty, (mine,), (theirs,))
             case (ListOf(mine) | NonEmpty(mine), ListOf(theirs) | NonEmpty(theirs)):
-                return self._made(ListOf, (mine,), (theirs,))
+                return self._generalise_items(ListOf, (mine,), (theirs,))
             case (SetOf(mine), SetOf(theirs)) | (Plus(mine), Plus(theirs)):
-                return self._made(type(f), (mine,), (theirs,))
+                return self._generalise_items(type(f), (mine,), (theirs,))
             case (Str(several), Str(others)) if len(several) == len(others):
-                return self._made(Str, several, others)
+                return self._generalise_items(Str, several, others)
         found = self.term(f, g, 0)
-        return None if found is _APART else found
+        return None if found is _NO_TERM else found
 
-    def _higher(self, f: TypeNode, g: TypeNode) -> TypeNode | None:
+    def _comparable_supertype(self, f: TypeNode, g: TypeNode) -> TypeNode | None:
         """What two closed types have in common, if they are the same or of one kind."""
         if subtype(f, g, self.theory).yes:
             return g
@@ -282,7 +296,7 @@ class _Both:
             return f
         match f, g:
             case RecordType(), RecordType():
-                return _above_both(f, g, self.theory)
+                return _common_supertype(f, g, self.theory)
             case FunType(), FunType():
                 return self._function(f, g)
         return None
@@ -291,18 +305,18 @@ class _Both:
         """Functions from what both take to what both give, if no result depends."""
         if escaping(f.result) or escaping(g.result):
             return None
-        result = _above_both(f.result, g.result, self.theory)
+        result = _common_supertype(f.result, g.result, self.theory)
         domain = merge(f.domain, g.domain, self.theory)
         return None if result is None else function_type(domain, result)
 
-    def _each(self, several: tuple[TypeNode, ...]) -> TypeNode | None:
+    def _generalise_each(self, several: tuple[TypeNode, ...]) -> TypeNode | None:
         first, *others = several
         found: TypeNode | None = first
         for other in others:
             found = None if found is None else self.common(found, other)
         return found
 
-    def _made(
+    def _generalise_items(
         self,
         kind: type[TypeNode],
         mine: tuple[TypeNode, ...],
@@ -338,37 +352,37 @@ class _Both:
         Both stand `depth` scopes further in than the fields.
         """
         spend()
-        if identity(s) == identity(t) and not _leads_in(s, depth):
+        if identity(s) == identity(t) and not _mentions_witness(s, depth):
             return s
         found = self._path(s, t, depth)
         if found is not None:
             return moved(found, depth)
         if type(s) is not type(t) or isinstance(s, Path):
-            return _APART
-        return self._composed(s, t, depth)
+            return _NO_TERM
+        return self._generalise_parts(s, t, depth)
 
     def _path(self, s: Object, t: Object, depth: int) -> Path | None:
         """The first place kept of what is s on the left and t on the right."""
-        left, right = _lowered(s, depth), _lowered(t, depth)
-        if left is _APART or right is _APART:
+        left, right = _seen_from_outside(s, depth), _seen_from_outside(t, depth)
+        if left is _NO_TERM or right is _NO_TERM:
             return None
         known = self.paths.get((identity(left), identity(right)))
         return known[0] if known else None
 
-    def _composed(self, s: Object, t: Object, depth: int) -> Object:
+    def _generalise_parts(self, s: Object, t: Object, depth: int) -> Object:
         """A term of the same form as both, of what their parts have in common."""
         mine, mine_inside = parts(s)
         theirs, theirs_inside = parts(t)
         if len(mine) != len(theirs) or len(mine_inside) != len(theirs_inside):
-            return _APART
+            return _NO_TERM
         pairs = zip(mine, theirs, strict=True)
         inside = zip(mine_inside, theirs_inside, strict=True)
         common = [self.term(a, b, depth) for a, b in pairs]
         common += [self.term(a, b, depth + 1) for a, b in inside]
-        if not common or any(one is _APART for one in common):
-            return _APART
-        left, right = _with_parts(s, common), _with_parts(t, common)
-        return left if identity(left) == identity(right) else _APART
+        if not common or any(one is _NO_TERM for one in common):
+            return _NO_TERM
+        left, right = _replace_parts(s, common), _replace_parts(t, common)
+        return left if identity(left) == identity(right) else _NO_TERM
 
 
 def _is_record_type(T: TypeNode) -> bool:
@@ -377,10 +391,10 @@ def _is_record_type(T: TypeNode) -> bool:
 
 def _others(witness: GenericWitness, types: Iterable[TypeNode]) -> list[TypeNode]:
     """The types that are no record types, in the terms chosen for the witness."""
-    return [witness.normal(T) for T in types if not _is_record_type(T)]
+    return [witness.normalise(T) for T in types if not _is_record_type(T)]
 
 
-def _as_written(value: Object, place: Path) -> Object:
+def _places_to_paths(value: Object, place: Path) -> Object:
     """What has places as paths, as it is written in the field at a place.
 
     At the witness itself nothing can be written of what is inside it.
@@ -388,34 +402,34 @@ def _as_written(value: Object, place: Path) -> Object:
     here = place.labels[len(ITSELF.labels) :]
 
     def at(path: Path) -> Path:
-        if not _in_witness(path):
+        if not _is_in_witness(path):
             return Path(path.up + len(here), path.labels)
         inside = Path(0, path.labels[len(ITSELF.labels) :])
-        return nearest(inside, here[:-1]) if here else path
+        return to_relative(inside, here[:-1]) if here else path
 
     return replace_paths(value, at)
 
 
-def _in_witness(path: Path) -> bool:
+def _is_in_witness(path: Path) -> bool:
     return path.up == 0 and path.labels[: len(ITSELF.labels)] == ITSELF.labels
 
 
-def _leads_in(value: Object, depth: int) -> bool:
+def _mentions_witness(value: Object, depth: int) -> bool:
     """Whether a path in a term leads into the witness."""
     return any(
-        path.up == depth and _in_witness(Path(0, path.labels))
+        path.up == depth and _is_in_witness(Path(0, path.labels))
         for path in escaping(value)
     )
 
 
-def _lowered(value: Object, depth: int) -> Object:
+def _seen_from_outside(value: Object, depth: int) -> Object:
     """The term as it is seen from outside the scopes further in, else _APART."""
     if isinstance(value, Path):
         inside = value.up < depth
-        return _APART if inside else Path(value.up - depth, value.labels)
-    return value if depth == 0 or not escaping(value) else _APART
+        return _NO_TERM if inside else Path(value.up - depth, value.labels)
+    return value if depth == 0 or not escaping(value) else _NO_TERM
 
 
-def _with_parts(value: Object, common: list[Object]) -> Object:
+def _replace_parts(value: Object, common: list[Object]) -> Object:
     waiting = iter(common)
     return rebuilt(value, lambda part, deeper: next(waiting))

@@ -42,7 +42,7 @@ from ttr.types.syntax import (
 
 __all__ = ["levelled_judgement", "with_levels", "without_levels"]
 
-Scopes = tuple[Mapping[str, TypeNode], ...]
+_Scopes = tuple[Mapping[str, TypeNode], ...]
 """The types of the fields that paths may start from, innermost scope first."""
 
 
@@ -50,7 +50,7 @@ class _Placed(NamedTuple):
     """A value and the scopes around it."""
 
     value: Object
-    around: Scopes
+    around: _Scopes
 
 
 @within_budget
@@ -73,7 +73,7 @@ def with_levels(T: TypeNode, /) -> TypeNode:
     ttr.errors.IllFormed: what is of level 2 is too high for Type^1
     help: write Type^2, or leave the superscript out
     """
-    return as_type(_read(as_type(T), ()))
+    return as_type(_infer_levels(as_type(T), ()))
 
 
 @within_budget
@@ -87,9 +87,9 @@ def levelled_judgement(sit: object, T: TypeNode, /) -> tuple[Object, TypeNode]:
     >>> levelled_judgement(Type, Type)
     (Type, Universe('Type', 1))
     """
-    found = _read(freeze(sit), ())
-    raised = _raised(as_type(T), [_Placed(found, ())])
-    return found, as_type(_read(raised, ()))
+    found = _infer_levels(freeze(sit), ())
+    raised = _raise_levels(as_type(T), [_Placed(found, ())])
+    return found, as_type(_infer_levels(raised, ()))
 
 
 @within_budget
@@ -101,42 +101,46 @@ def without_levels(T: TypeNode, /) -> TypeNode:
     >>> print(without_levels(Universe("Type", 2) @ Universe("RecType", 1)))
     Type@RecType
     """
-    return as_type(_bare(as_type(T)))
+    return as_type(_drop_levels(as_type(T)))
 
 
-def _bare(value: Object) -> Object:
+def _drop_levels(value: Object) -> Object:
     spend()
     if isinstance(value, Universe):
         return Universe(value.name)
-    return rebuilt(value, lambda part, _: _bare(part))
+    return rebuilt(value, lambda part, _: _drop_levels(part))
 
 
 # --- reading -------------------------------------------------------------------------
 
 
-def _read(value: Object, around: Scopes) -> Object:
+def _infer_levels(value: Object, around: _Scopes) -> Object:
     """The value with levels; a field sees the fields before it with theirs."""
     spend()
     match value:
         case RecordType(fields):
             scope = dict(fields)
             for label, field in fields:
-                scope[label] = as_type(_read(field, (scope, *around)))
+                scope[label] = as_type(_infer_levels(field, (scope, *around)))
             return RecordType(tuple(scope.items()))
         case Function(domain, inside, hint) | FunType(domain, inside, hint):
-            read = as_type(_read(domain, around))
-            return type(value)(read, _read(inside, ({BOUND: read}, *around)), hint)
+            read = as_type(_infer_levels(domain, around))
+            return type(value)(
+                read, _infer_levels(inside, ({BOUND: read}, *around)), hint
+            )
         case Singleton(base, obj):
-            found = _Placed(_read(obj, around), around)
-            return Singleton(_read(_raised(base, [found]), around), found.value)
+            found = _Placed(_infer_levels(obj, around), around)
+            return Singleton(
+                _infer_levels(_raise_levels(base, [found]), around), found.value
+            )
         case Application(Function(domain, body, hint), argument):
-            found = _Placed(_read(argument, around), around)
-            wider = Function(_raised(domain, [found]), body, hint)
-            return Application(_read(wider, around), found.value)
-    return rebuilt(value, lambda part, _: _read(part, around))
+            found = _Placed(_infer_levels(argument, around), around)
+            wider = Function(_raise_levels(domain, [found]), body, hint)
+            return Application(_infer_levels(wider, around), found.value)
+    return rebuilt(value, lambda part, _: _infer_levels(part, around))
 
 
-def _raised(T: TypeNode, values: list[_Placed]) -> TypeNode:
+def _raise_levels(T: TypeNode, values: list[_Placed]) -> TypeNode:
     """T with the least superscripts at which the values may be of it."""
     spend()
     if not values:
@@ -145,19 +149,28 @@ def _raised(T: TypeNode, values: list[_Placed]) -> TypeNode:
         case Universe():
             return _at_least(T, max(_level(one) for one in values))
         case ListOf(item) | NonEmpty(item) | SetOf(item) | Plus(item):
-            return type(T)(_raised(item, list(_elements(values))))
+            return type(T)(_raise_levels(item, list(_elements_of(values))))
         case Str(items):
-            return Str(*[_raised(T, _at(i, values)) for i, T in enumerate(items)])
+            return Str(
+                *[_raise_levels(T, _items_at(i, values)) for i, T in enumerate(items)]
+            )
         case RecordType(fields):
             return RecordType(
-                tuple([(label, _raised(T, _in(label, values))) for label, T in fields])
+                tuple(
+                    [
+                        (label, _raise_levels(T, _fields_at(label, values)))
+                        for label, T in fields
+                    ]
+                )
             )
         case Singleton(base, obj):
-            return Singleton(_raised(base, values), obj)
+            return Singleton(_raise_levels(base, values), obj)
         case Meet(kinds):
-            return meet(*[_raised(kind, values) for kind in kinds])
+            return meet(*[_raise_levels(kind, values) for kind in kinds])
         case FunType(domain, result, hint):
-            return FunType(domain, _raised(result, list(_results(values))), hint)
+            return FunType(
+                domain, _raise_levels(result, list(_results_of(values))), hint
+            )
     return T
 
 
@@ -175,11 +188,11 @@ def _at_least(universe: Universe, level: int) -> Universe:
 
 def _level(one: _Placed) -> int:
     """The level of a value, where a path is as high as what its field may hold."""
-    reached = [_reach(path, one.around) for path in escaping(one.value)]
+    reached = [_path_level(path, one.around) for path in escaping(one.value)]
     return max(level_of(one.value), *reached, 0)
 
 
-def _reach(path: Path, around: Scopes) -> int:
+def _path_level(path: Path, around: _Scopes) -> int:
     """How high the type may be that a path leads to."""
     field = _field(path, around)
     if isinstance(field, Singleton) and not escaping(field.value):
@@ -189,7 +202,7 @@ def _reach(path: Path, around: Scopes) -> int:
     return field.level if isinstance(field, Universe) else 0
 
 
-def _field(path: Path, around: Scopes) -> TypeNode | None:
+def _field(path: Path, around: _Scopes) -> TypeNode | None:
     """The type of the field that a path leads to, where that is plain."""
     if path.up >= len(around):
         return None
@@ -203,14 +216,14 @@ def _field(path: Path, around: Scopes) -> TypeNode | None:
 # --- what the values of a constructor are made of ------------------------------------
 
 
-def _elements(values: list[_Placed]) -> Iterator[_Placed]:
+def _elements_of(values: list[_Placed]) -> Iterator[_Placed]:
     """The elements of the values that are lists, sets or strings."""
     for value, around in values:
         if isinstance(value, tuple | FiniteSet | EventString):
             yield from (_Placed(item, around) for item in value)
 
 
-def _at(place: int, values: list[_Placed]) -> list[_Placed]:
+def _items_at(place: int, values: list[_Placed]) -> list[_Placed]:
     """What stands at a place of the values that are strings so long."""
     return [
         _Placed(value.items[place], around)
@@ -219,7 +232,7 @@ def _at(place: int, values: list[_Placed]) -> list[_Placed]:
     ]
 
 
-def _in(label: str, values: list[_Placed]) -> list[_Placed]:
+def _fields_at(label: str, values: list[_Placed]) -> list[_Placed]:
     """What the values that are records have in a field."""
     return [
         _Placed(value[label], around)
@@ -228,7 +241,7 @@ def _in(label: str, values: list[_Placed]) -> list[_Placed]:
     ]
 
 
-def _results(values: list[_Placed]) -> Iterator[_Placed]:
+def _results_of(values: list[_Placed]) -> Iterator[_Placed]:
     """What the values that are functions give."""
     for value, around in values:
         if isinstance(value, Function):

@@ -41,9 +41,9 @@ def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeN
     if S is T:
         return S
     match S, T:
-        case RecordType(), RecordType() if _shares(S, T):
-            return _side_by_side(S, T, theory)
-    simplest = [one for one, other in ((S, T), (T, S)) if _says_all(one, other, theory)]
+        case RecordType(), RecordType() if _is_compatible(S, T):
+            return _merge_compatible(S, T, theory)
+    simplest = [one for one, other in ((S, T), (T, S)) if _is_below(one, other, theory)]
     if simplest:
         return min(simplest, key=lambda one: (len(str(one)), str(one), repr(one)))
     match S, T:
@@ -58,12 +58,14 @@ def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeN
     return meet(S, T)
 
 
-def _shares(S: RecordType, T: RecordType) -> bool:
+def _is_compatible(S: RecordType, T: RecordType) -> bool:
     """Whether the record types have the same field at each label that both have."""
     return all(S[label] is field for label, field in T.fields if label in S)
 
 
-def _side_by_side(S: RecordType, T: RecordType, theory: Signature | None) -> RecordType:
+def _merge_compatible(
+    S: RecordType, T: RecordType, theory: Signature | None
+) -> RecordType:
     """The merge of record types that have the same fields at the labels they share."""
     if all(label in S for label in T):
         return S
@@ -72,7 +74,7 @@ def _side_by_side(S: RecordType, T: RecordType, theory: Signature | None) -> Rec
     return rectype({**dict(S.fields), **dict(T.fields)}, theory)
 
 
-def _says_all(S: TypeNode, T: TypeNode, theory: Signature | None) -> bool:
+def _is_below(S: TypeNode, T: TypeNode, theory: Signature | None) -> bool:
     """Whether S is below T and has its labels, though nothing may be of S."""
     match S, T:
         case RecordType(), RecordType() if any(label not in S for label in T):

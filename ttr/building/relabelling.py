@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import overload
 
-from ttr.building.addresses import Address, address, written
+from ttr.building.addresses import Address, format_address, parse_address
 from ttr.errors import IllFormed, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.forms import order_fields
@@ -73,12 +73,12 @@ def relabel(
     renaming = _Renaming()
     for path, name in labelled("relabel", names, labels).items():
         check_label(name)
-        renaming = renaming.also(address(path, "relabel"), name)
+        renaming = renaming.with_name(parse_address(path, "relabel"), name)
     if isinstance(value, Record):
-        return _record(value, renaming, ())
+        return _relabel_record(value, renaming, ())
     if isinstance(value, RecordType):
-        _check([value], renaming, ())
-        return _record_type(value, renaming, (), ())
+        _check_renaming([value], renaming, ())
+        return _relabel_record_type(value, renaming, (), ())
     raise IllFormed(f"relabel takes a record type or a record, found {kind_of(value)}")
 
 
@@ -92,19 +92,19 @@ class _Renaming:
     names: Mapping[str, str] = field(default_factory=dict)
     inner: Mapping[str, _Renaming] = field(default_factory=dict)
 
-    def also(self, where: Address, name: str) -> _Renaming:
+    def with_name(self, where: Address, name: str) -> _Renaming:
         """The renaming that also gives this name to the label at an address."""
         label, *rest = where
         if not rest:
             return _Renaming({**self.names, label: name}, self.inner)
-        inside = self.at(label).also(tuple(rest), name)
+        inside = self.at(label).with_name(tuple(rest), name)
         return _Renaming(self.names, {**self.inner, label: inside})
 
     def at(self, label: str) -> _Renaming:
         """What is to be renamed inside the field that has this label."""
         return self.inner.get(label, _NOTHING)
 
-    def new(self, label: str) -> str:
+    def new_name(self, label: str) -> str:
         """The new name of a label."""
         return self.names.get(label, label)
 
@@ -125,104 +125,115 @@ _Scopes = tuple[_Renaming, ...]
 # --- in types ------------------------------------------------------------------------
 
 
-def _record_type(
+def _relabel_record_type(
     T: RecordType, renaming: _Renaming, around: _Scopes, where: Address
 ) -> RecordType:
     scopes = (renaming, *around)
     fields = {
-        renaming.new(label): _type(inside, renaming.at(label), scopes, (*where, label))
+        renaming.new_name(label): _relabel_type(
+            inside, renaming.at(label), scopes, (*where, label)
+        )
         for label, inside in T.fields
     }
     return RecordType(order_fields(fields))
 
 
-def _type(
+def _relabel_type(
     T: TypeNode, renaming: _Renaming, scopes: _Scopes, where: Address
 ) -> TypeNode:
     """A type in which something may be renamed, standing in these scopes."""
     spend()
     if not renaming.first():
-        followed: TypeNode = _following(T, scopes, where)
+        followed: TypeNode = _rename_paths(T, scopes, where)
         return followed
     match T:
         case RecordType():
-            return _record_type(T, renaming, scopes, where)
+            return _relabel_record_type(T, renaming, scopes, where)
         case Singleton(base, value):
             return Singleton(
-                _type(base, renaming, scopes, where),
-                _object(value, renaming, scopes, where),
+                _relabel_type(base, renaming, scopes, where),
+                _relabel_object(value, renaming, scopes, where),
             )
         case Meet(parts):
-            return meet(*[_type(part, renaming, scopes, where) for part in parts])
+            return meet(
+                *[_relabel_type(part, renaming, scopes, where) for part in parts]
+            )
         case Join(parts):
-            return join(*[_type(part, renaming, scopes, where) for part in parts])
+            return join(
+                *[_relabel_type(part, renaming, scopes, where) for part in parts]
+            )
         case Negation(body):
-            return Negation(_type(body, renaming, scopes, where))
-    raise _refused(where, renaming, f"{T} is no record type")
+            return Negation(_relabel_type(body, renaming, scopes, where))
+    raise _cannot_rename(where, renaming, f"{T} is no record type")
 
 
-def _object(
+def _relabel_object(
     value: Object, renaming: _Renaming, scopes: _Scopes, where: Address
 ) -> Object:
     """What a manifest field is set to, with the same renamed in it as in its type."""
     spend()
     if not renaming.first():
-        return _following(value, scopes, where)
+        return _rename_paths(value, scopes, where)
     match value:
         case Record():
             fields = {
-                renaming.new(label): _object(
+                renaming.new_name(label): _relabel_object(
                     inside, renaming.at(label), scopes, (*where, label)
                 )
                 for label, inside in value._fields.items()
             }
             return Record(fields)
         case Path(up) if up < len(scopes):
-            path, inside = _followed(value, scopes)
+            path, inside = _rename_path(value, scopes)
             if inside == renaming:
                 return path
-    raise _refused(where, renaming, f"{written(where)} is set to {value}")
+    raise _cannot_rename(where, renaming, f"{format_address(where)} is set to {value}")
 
 
-def _following(value: Object, scopes: _Scopes, where: Address) -> Object:
+def _rename_paths(value: Object, scopes: _Scopes, where: Address) -> Object:
     """A type or object in which nothing but the paths changes."""
 
     def at(path: Path) -> Path:
         if path.up >= len(scopes):
             return path
-        followed, inside = _followed(path, scopes)
+        followed, inside = _rename_path(path, scopes)
         if inside.first():
-            said = f"{written(where)} is about {written(path.labels)} as a whole"
-            raise _refused(path.labels, inside, said)
+            whole = format_address(path.labels)
+            said = f"{format_address(where)} is about {whole} as a whole"
+            raise _cannot_rename(path.labels, inside, said)
         return followed
 
     return replace_paths(value, at)
 
 
-def _followed(path: Path, scopes: _Scopes) -> tuple[Path, _Renaming]:
+def _rename_path(path: Path, scopes: _Scopes) -> tuple[Path, _Renaming]:
     """The path under the new names, and what is renamed in what it leads to."""
     renaming = scopes[path.up]
     labels = []
     for label in path.labels:
-        labels.append(renaming.new(label))
+        labels.append(renaming.new_name(label))
         renaming = renaming.at(label)
     return Path(path.up, tuple(labels)), renaming
 
 
-def _refused(where: Address, renaming: _Renaming, why: str) -> IllFormed:
-    path = written((*where, *renaming.first()))
+def _cannot_rename(where: Address, renaming: _Renaming, why: str) -> IllFormed:
+    path = format_address((*where, *renaming.first()))
     return IllFormed(f"{path} cannot be renamed: {why}")
 
 
 # --- in records ----------------------------------------------------------------------
 
 
-def _record(value: Object, renaming: _Renaming, where: Address) -> Record:
+def _relabel_record(value: Object, renaming: _Renaming, where: Address) -> Record:
     if not isinstance(value, Record):
-        raise IllFormed(f"{written(where)} is no record, so it has no labels to rename")
+        raise IllFormed(
+            f"{format_address(where)} is no record, so it has no labels to rename"
+        )
     _check_labels(value._fields, renaming, where)
     fields = {
-        renaming.new(label): _record(inside, renaming.at(label), (*where, label))
+        renaming.new_name(label): _relabel_record(
+            inside, renaming.at(label), (*where, label)
+        )
         if renaming.at(label).first()
         else inside
         for label, inside in value._fields.items()
@@ -233,7 +244,9 @@ def _record(value: Object, renaming: _Renaming, where: Address) -> Record:
 # --- what can be renamed -------------------------------------------------------------
 
 
-def _check(kinds: Iterable[Object], renaming: _Renaming, where: Address) -> None:
+def _check_renaming(
+    kinds: Iterable[Object], renaming: _Renaming, where: Address
+) -> None:
     """Refuses labels that are not there, and those that would fall together.
 
     `kinds` are what one record is of; it may have the labels of all of them.
@@ -247,26 +260,26 @@ def _check(kinds: Iterable[Object], renaming: _Renaming, where: Address) -> None
             inside.setdefault(label, []).append(of)
     _check_labels(inside, renaming, where)
     for label, kinds in inside.items():
-        _check(kinds, renaming.at(label), (*where, label))
+        _check_renaming(kinds, renaming.at(label), (*where, label))
 
 
 def _check_labels(labels: Iterable[str], renaming: _Renaming, where: Address) -> None:
     known = dict.fromkeys(labels)
     for label in (*renaming.names, *renaming.inner):
         if label not in known:
+            missing = format_address((*where, label))
             raise IllFormed(
-                f"there is no {written((*where, label))}, so it cannot be renamed",
+                f"there is no {missing}, so it cannot be renamed",
                 hint=suggestion(label, known),
             )
     old: dict[str, str] = {}
     for label in known:
-        other = old.setdefault(renaming.new(label), label)
+        other = old.setdefault(renaming.new_name(label), label)
         if other != label:
             both = " and ".join(sorted([other, label]))
-            inside = f" in {written(where)}" if where else ""
-            raise IllFormed(
-                f"the labels {both}{inside} would both be called {renaming.new(label)}"
-            )
+            inside = f" in {format_address(where)}" if where else ""
+            name = renaming.new_name(label)
+            raise IllFormed(f"the labels {both}{inside} would both be called {name}")
 
 
 def _fields(T: Object) -> Iterator[tuple[str, Object]]:

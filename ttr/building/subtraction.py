@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TypeVar
 
-from ttr.building.addresses import Address, address, written
+from ttr.building.addresses import Address, format_address, parse_address
 from ttr.building.formation import checked
 from ttr.errors import IllFormed, suggestion
 from ttr.safety.budgets import spend, within_budget
@@ -38,70 +38,71 @@ def subtract(value: _Shape, /, *paths: str, theory: Signature | None = None) -> 
     >>> print(subtract(T, "y", "e"))
     [x : Ind]
     """
-    addresses = [address(path, "subtract") for path in paths]
+    addresses = [parse_address(path, "subtract") for path in paths]
     if isinstance(value, Record):
         for labels in addresses:
-            value = _record_without(value, labels, ())
+            value = _remove_from_record(value, labels, ())
         return value
     if not isinstance(value, RecordType):
         raise IllFormed(
             f"subtract takes a record type or a record, found {kind_of(value)}"
         )
     for labels in addresses:
-        value = _without(value, labels, ())
-    return _checked(value, paths, theory)
+        value = _remove(value, labels, ())
+    return _check_result(value, paths, theory)
 
 
-def _without(T: RecordType, labels: Address, around: Address) -> RecordType:
+def _remove(T: RecordType, labels: Address, around: Address) -> RecordType:
     spend()
     label, *rest = labels
     here = (*around, label)
     if label not in T:
-        raise _not_there(here, T)
+        raise _missing_path(here, T)
     fields = dict(T.fields)
     if rest:
-        fields[label] = _inside_without(fields[label], tuple(rest), here)
+        fields[label] = _remove_inside(fields[label], tuple(rest), here)
     else:
         del fields[label]
     return RecordType(order_fields(fields))
 
 
-def _inside_without(T: TypeNode, labels: Address, at: Address) -> TypeNode:
+def _remove_inside(T: TypeNode, labels: Address, at: Address) -> TypeNode:
     spend()
     match T:
         case RecordType():
-            return _without(T, labels, at)
+            return _remove(T, labels, at)
         case Meet(parts):
             having = [p for p in parts if isinstance(p, RecordType) and labels[0] in p]
             others = [p for p in parts if p not in having]
             if having:
-                return meet(*others, *[_without(p, labels, at) for p in having])
+                return meet(*others, *[_remove(p, labels, at) for p in having])
     raise IllFormed(
-        f"there is no {written((*at, *labels))} to take away: "
-        f"{written(at)} : {T} is no record type with that label"
+        f"there is no {format_address((*at, *labels))} to take away: "
+        f"{format_address(at)} : {T} is no record type with that label"
     )
 
 
-def _record_without(r: Object, labels: Address, around: Address) -> Record:
+def _remove_from_record(r: Object, labels: Address, around: Address) -> Record:
     label, *rest = labels
     here = (*around, label)
     if not isinstance(r, Record) or label not in r:
-        raise _not_there(here, r if isinstance(r, Record) else ())
+        raise _missing_path(here, r if isinstance(r, Record) else ())
     fields = dict(r._fields)
     if rest:
-        fields[label] = _record_without(fields[label], tuple(rest), here)
+        fields[label] = _remove_from_record(fields[label], tuple(rest), here)
     else:
         del fields[label]
     return Record(fields)
 
 
-def _not_there(path: Address, known: Iterable[str]) -> IllFormed:
+def _missing_path(path: Address, known: Iterable[str]) -> IllFormed:
     return IllFormed(
-        f"there is no {written(path)} to take away", hint=suggestion(path[-1], known)
+        f"there is no {format_address(path)} to take away",
+        hint=suggestion(path[-1], known),
     )
 
 
-def _checked(
+def _check_result(
     T: RecordType, paths: tuple[str, ...], theory: Signature | None
 ) -> RecordType:
     """T, if every path in it still leads somewhere; else `IllFormed`."""

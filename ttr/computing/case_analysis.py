@@ -12,7 +12,7 @@ from functools import partial
 from itertools import chain, product
 from math import prod
 
-from ttr.computing.normal_forms import inwards, meet_normal_form
+from ttr.computing.normal_forms import meet_normal_form, push_negations_inwards
 from ttr.computing.strings.pieces import is_of_strings
 from ttr.errors import Unsupported
 from ttr.safety.budgets import spend
@@ -72,30 +72,30 @@ def cases(T: TypeNode) -> tuple[TypeNode, ...] | None:
         return (T,)
     match T:
         case Join(parts):
-            return _few(tuple(map(cases, parts)))
+            return _all_cases(tuple(map(cases, parts)))
         case Negation():
-            inner = inwards(T)
+            inner = push_negations_inwards(T)
             return (T,) if inner is T else cases(inner)
         case Singleton(base, value):
             found = cases(base)
             return found and tuple([Singleton(case, value) for case in found])
         case Meet(parts):
-            return _chosen(map(cases, parts), meet)
+            return _combine_cases(map(cases, parts), meet)
         case Str(parts):
             # A piece that may be a string of several events stays whole.
             kept = [(p,) if is_of_strings(p) else cases(p) for p in parts]
-            return _chosen(kept, Str)
+            return _combine_cases(kept, Str)
         case RecordType(fields):
             kept = [cases(field) for _, field in fields]
-            return _chosen(kept, partial(_fields, T.labels))
+            return _combine_cases(kept, partial(_record_type_of, T.labels))
     return (T,)
 
 
-def _fields(labels: Iterable[str], *types: TypeNode) -> RecordType:
+def _record_type_of(labels: Iterable[str], *types: TypeNode) -> RecordType:
     return RecordType(order_fields(dict(zip(labels, types, strict=True))))
 
 
-def _chosen(
+def _combine_cases(
     parts: Iterable[tuple[TypeNode, ...] | None], whole: Callable[..., TypeNode]
 ) -> tuple[TypeNode, ...] | None:
     """A case of the whole for each choice of a case for each part."""
@@ -105,7 +105,9 @@ def _chosen(
     return tuple([whole(*choice) for choice in product(*filter(None, found))])
 
 
-def _few(found: tuple[tuple[TypeNode, ...] | None, ...]) -> tuple[TypeNode, ...] | None:
+def _all_cases(
+    found: tuple[tuple[TypeNode, ...] | None, ...],
+) -> tuple[TypeNode, ...] | None:
     """All that were found, each once, unless they are too many."""
     if None in found:
         return None

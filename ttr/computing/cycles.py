@@ -10,7 +10,7 @@ from ttr.types.forms import order_fields
 from ttr.types.paths import escaping, occurring, rebuilt
 from ttr.types.syntax import Object, RecordType, Singleton, TypeNode
 
-__all__ = ["circle", "in_order", "round_about", "straightened"]
+__all__ = ["circle", "has_fields_in_order", "round_about", "straightened"]
 
 Address = tuple[str, ...]
 """A field of a record type or of one nested in it: the labels that lead to it."""
@@ -47,7 +47,9 @@ def round_about(T: TypeNode) -> tuple[str, ...]:
             inner.setdefault(leaf[:length], []).append(leaf)
     needs = {
         leaf: [
-            near for target in _targets(leaf, field) for near in _near(target, inner)
+            near
+            for target in _target_addresses(leaf, field)
+            for near in _leaves_near(target, inner)
         ]
         for leaf, field in leaves.items()
     }
@@ -58,17 +60,19 @@ def round_about(T: TypeNode) -> tuple[str, ...]:
     return ()
 
 
-def in_order(T: TypeNode) -> bool:
+def has_fields_in_order(T: TypeNode) -> bool:
     """Whether each field depends on fields before it only, in T and in what is in it.
 
     Then no paths of it go in a circle.
     """
     return all(
-        _is_in_order(part) for part in occurring([T]) if isinstance(part, RecordType)
+        _has_fields_in_order(part)
+        for part in occurring([T])
+        if isinstance(part, RecordType)
     )
 
 
-def _is_in_order(T: RecordType) -> bool:
+def _has_fields_in_order(T: RecordType) -> bool:
     before: set[str] = set()
     for label, field in T.fields:
         for path in escaping(field):
@@ -86,13 +90,13 @@ def straightened(T: TypeNode) -> TypeNode:
     >>> print(straightened(rectype(x=Ind @ this.y, y=Ind @ this.x)))
     [x : Ind, y = x : Ind]
     """
-    found: TypeNode = _without_circles(T)
+    found: TypeNode = _break_cycles(T)
     return found
 
 
-def _without_circles(value: Object) -> Object:
+def _break_cycles(value: Object) -> Object:
     spend()
-    value = rebuilt(value, lambda part, _: _without_circles(part))
+    value = rebuilt(value, lambda part, _: _break_cycles(part))
     if not isinstance(value, RecordType):
         return value
     fields: dict[str, TypeNode] = {}
@@ -116,13 +120,13 @@ def _leaves(T: TypeNode, at: Address) -> Iterator[tuple[Address, TypeNode]]:
             yield address, field
 
 
-def _targets(leaf: Address, field: TypeNode) -> list[Address]:
+def _target_addresses(leaf: Address, field: TypeNode) -> list[Address]:
     """Where the paths of a field lead; those that leave the whole type lead nowhere."""
     inside = [path for path in escaping(field) if path.up < len(leaf)]
     return sorted(leaf[: len(leaf) - 1 - path.up] + path.labels for path in inside)
 
 
-def _near(target: Address, inner: dict[Address, list[Address]]) -> list[Address]:
+def _leaves_near(target: Address, inner: dict[Address, list[Address]]) -> list[Address]:
     """The leaves in the field a path leads to, or the leaf that the path goes into."""
     for length in range(len(target), 0, -1):
         if target[:length] in inner:

@@ -97,7 +97,7 @@ class GenericWitness:
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
     >>> witness = GenericWitness(rectype(x=Ind, y=Ind @ this.x))
-    >>> witness.normal(step(ITSELF, "y")) is step(ITSELF, "x")
+    >>> witness.normalise(step(ITSELF, "y")) is step(ITSELF, "x")
     True
     >>> GenericWitness(Ind @ "a" & Ind @ "b").is_impossible
     True
@@ -108,8 +108,8 @@ class GenericWitness:
         self._unbound: list[tuple[Object, Object]] = []
         self._around_bound: set[tuple[str, ...]] = set()
         self._absent: set[Path | None] = set()
-        self._followed = True
-        self._classes: dict[object, _Class] = {}
+        self._is_complete = True
+        self._classes: dict[object, _EqualityClass] = {}
         self._claims: list[tuple[Path, TypeNode]] = []
         self.strings: list[Object] = []
         self._claim(ITSELF, S)
@@ -123,18 +123,18 @@ class GenericWitness:
         for place, T in self._claims:
             self._classify(place, T, self._condition(place))
         for term, T in written:
-            self._spread(term, T, None)
+            self._claim_of_term(term, T, None)
         self._find_misfits()
 
-    def normal(self, value: Object) -> Object:
+    def normalise(self, value: Object) -> Object:
         """The value with every place in it replaced by the one chosen for its class."""
-        return replace_paths(value, self._chosen) if self._equal else value
+        return replace_paths(value, self._representative) if self._equal else value
 
-    def same(self, term: Object, other: Object) -> bool:
+    def are_equal(self, term: Object, other: Object) -> bool:
         """Whether two normal terms surely are equal."""
         wanted = {identity(term), identity(other)}
         return len(wanted) == 1 or any(
-            wanted == {identity(self.normal(left)), identity(self.normal(right))}
+            wanted == {identity(self.normalise(left)), identity(self.normalise(right))}
             for left, right in self._unbound
         )
 
@@ -154,13 +154,13 @@ class GenericWitness:
     @property
     def is_certain(self) -> bool:
         """Whether some assignment surely has such a witness, of no more than this."""
-        return self._followed and not self._absent
+        return self._is_complete and not self._absent
 
     def is_absent(self, place: Path) -> bool:
         """Whether there cannot be such an element, so that its list is empty."""
         return place in self._absent
 
-    def negated(self, given: Collection[Path]) -> list[Assumption]:
+    def negations(self, given: Collection[Path]) -> list[Assumption]:
         """The terms that are surely not of a type, each with that type."""
         return [
             (known.term, T.body)
@@ -203,51 +203,53 @@ class GenericWitness:
         """Adds a claim to those of the class of its term."""
         if isinstance(T, Singleton):
             return
-        term = self.normal(term)
-        known = self._classes.setdefault(identity(term), _Class(term))
-        claimed = T if isinstance(T, RecordType) else self.normal(T)
+        term = self.normalise(term)
+        known = self._classes.setdefault(identity(term), _EqualityClass(term))
+        claimed = T if isinstance(T, RecordType) else self.normalise(T)
         known.claims.append((claimed, condition))
-        value = _value(claimed)
+        value = _computed_value(claimed)
         if isinstance(value, Basic | PType):
             known.claims.append((value, condition))
         inside = elements(term)
         match T:
             case ListOf(item) | NonEmpty(item) | SetOf(item) if inside is not None:
                 for one in inside:
-                    self._spread(one, item, condition)
+                    self._claim_of_term(one, item, condition)
             case Str() if inside is not None and len(inside) == _length(T):
                 for one, item in zip(inside, T.items, strict=True):
-                    self._spread(one, item, condition)
+                    self._claim_of_term(one, item, condition)
         if isinstance(T, Str | Plus):
             self.strings.append(term)
 
-    def _spread(self, term: Object, T: TypeNode, condition: Path | None) -> None:
+    def _claim_of_term(self, term: Object, T: TypeNode, condition: Path | None) -> None:
         """Adds what a list's type claims of an element that is written in it."""
         spend()
         match T:
             case Meet(parts):
                 for part in parts:
-                    self._spread(term, part, condition)
+                    self._claim_of_term(term, part, condition)
             case Singleton(base, value):
-                self._compare(term, self.normal(value), condition)
-                self._spread(term, base, condition)
+                self._compare_written(term, self.normalise(value), condition)
+                self._claim_of_term(term, base, condition)
             case RecordType(fields) if isinstance(term, Record):
                 self._classify(term, T, condition)
                 for label, field in fields:
                     inner = follow_labels(term, (label,))
-                    self._spread(inner, field_type(field, term), condition)
+                    self._claim_of_term(inner, field_type(field, term), condition)
             case RecordType():
-                self._followed = False
+                self._is_complete = False
                 self._classify(term, T, condition)
             case _:
                 self._classify(term, T, condition)
 
-    def _compare(self, term: Object, value: Object, condition: Path | None) -> None:
+    def _compare_written(
+        self, term: Object, value: Object, condition: Path | None
+    ) -> None:
         """Notes what follows where an object that is written has to be a value."""
         if identity(term) == identity(value):
             return
         if _is_open(term) or _is_open(value):
-            self._leave(term, value)
+            self._note_unsolved(term, value)
         else:
             self._absent.add(condition)
 
@@ -256,7 +258,7 @@ class GenericWitness:
         if _EACH not in place.labels:
             return None
         labels = _to_element(place)
-        found = self.normal(Path(0, labels[:-1]))
+        found = self.normalise(Path(0, labels[:-1]))
         return element(found) if isinstance(found, Path) else Path(0, labels)
 
     # --- what is equal ---
@@ -271,7 +273,7 @@ class GenericWitness:
 
     def _equate(self, left: Object, right: Object, at: Path) -> None:
         spend()
-        left, right = self.normal(left), self.normal(right)
+        left, right = self.normalise(left), self.normalise(right)
         if identity(left) == identity(right):
             return
         if isinstance(left, Path) and self._may_bind(left, at):
@@ -281,15 +283,17 @@ class GenericWitness:
         elif not _is_open(left) and not _is_open(right):
             self._absent.add(self._condition(at))
         elif _same_form(left, right):
-            for mine, theirs in zip(_contents(left), _contents(right), strict=True):
+            for mine, theirs in zip(
+                _parts_in_order(left), _parts_in_order(right), strict=True
+            ):
                 self._equate(mine, theirs, at)
         else:
-            self._leave(left, right)
+            self._note_unsolved(left, right)
 
-    def _leave(self, left: Object, right: Object) -> None:
+    def _note_unsolved(self, left: Object, right: Object) -> None:
         """Notes that two terms are equal, of which neither is chosen for the other."""
         self._unbound.append((left, right))
-        self._followed = False
+        self._is_complete = False
 
     def _may_bind(self, place: Path, at: Path) -> bool:
         """Whether what holds at a place may say what another one is equal to."""
@@ -305,16 +309,16 @@ class GenericWitness:
         """
         labels = place.labels
         if labels in self._around_bound:
-            self._followed = False
+            self._is_complete = False
         for path in escaping(value):
             size = min(len(path.labels), len(labels))
             if path.up == 0 and path.labels[:size] == labels[:size]:
-                self._leave(place, value)
+                self._note_unsolved(place, value)
                 return
         self._equal[labels] = value
         self._around_bound.update(labels[:size] for size in range(1, len(labels)))
 
-    def _chosen(self, path: Path) -> Object:
+    def _representative(self, path: Path) -> Object:
         """The term chosen for the class of a place, along all equations.
 
         Places on the way are noted to be equal to it, so that no way is gone twice.
@@ -327,7 +331,7 @@ class GenericWitness:
                 passed.append(labels)
             chosen = follow_labels(self._equal[labels[:length]], labels[length:])
         self._equal.update(dict.fromkeys(passed, chosen))
-        return chosen if isinstance(chosen, Path) else self.normal(chosen)
+        return chosen if isinstance(chosen, Path) else self.normalise(chosen)
 
     def _bound_length(self, path: Path) -> int:
         """How many of the path's labels lead to the first place that is bound, or 0."""
@@ -341,21 +345,21 @@ class GenericWitness:
         for known in self._classes.values():
             if isinstance(known.term, Path) and len(known.claims) == 1:
                 continue
-            if known.is_mixed():
-                self._followed = False
-            if known.fits([T for T, _ in known.claims]):
+            if known.mixes_forms():
+                self._is_complete = False
+            if known.can_be_of([T for T, _ in known.claims]):
                 continue
             conditions = dict.fromkeys((None, *(c for _, c in known.claims)))
-            absent = [c for c in conditions if not known.fits(known.types((c,)))]
+            absent = [c for c in conditions if not known.can_be_of(known.types((c,)))]
             self._absent.update(absent)
-            self._followed = False
+            self._is_complete = False
         for known in self._classes.values() if self._absent else ():
             place = known.term
             if isinstance(place, Path) and element(place) in self._absent:
                 self._absent.update(known.conditions(NonEmpty))
 
 
-class _Class:
+class _EqualityClass:
     """A term chosen for equal places, and the claims made of any of them."""
 
     def __init__(self, term: Object) -> None:
@@ -366,7 +370,7 @@ class _Class:
         """The types claimed where these elements of lists are there."""
         return [T for T, c in self.claims if c is None or c in given]
 
-    def is_mixed(self) -> bool:
+    def mixes_forms(self) -> bool:
         """Whether something of a given form is claimed to be of atoms, too.
 
         There may be such things, but none can be made up where it stands.
@@ -378,7 +382,7 @@ class _Class:
         """Under which conditions a type of this kind is claimed."""
         return [c for T, c in self.claims if isinstance(T, kind)]
 
-    def fits(self, types: list[TypeNode]) -> bool:
+    def can_be_of(self, types: list[TypeNode]) -> bool:
         """Whether the types can all be of the term, as far as their form says."""
         shapes = [T for T in types if isinstance(T, _Shape)]
         if isinstance(self.term, Path):
@@ -434,7 +438,7 @@ def _length(T: Str) -> int | None:
     return None if events is None else len(events)
 
 
-def _value(T: TypeNode) -> Object:
+def _computed_value(T: TypeNode) -> Object:
     """What an application of a function that is written out gives, else nothing.
 
     If the argument were outside the domain, nothing would be of the type.
@@ -462,7 +466,7 @@ def _same_form(left: Object, right: Object) -> bool:
     return False
 
 
-def _contents(value: Object) -> list[Object]:
+def _parts_in_order(value: Object) -> list[Object]:
     if isinstance(value, Record):
         return [value[label] for label in sorted(value)]
     return list(elements(value) or ())

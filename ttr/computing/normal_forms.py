@@ -14,7 +14,7 @@ from ttr.errors import Unsupported
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.syntax import Join, Meet, Negation, TypeNode, as_type, join, meet
 
-__all__ = ["inwards", "join_normal_form", "meet_normal_form"]
+__all__ = ["push_negations_inwards", "join_normal_form", "meet_normal_form"]
 
 LIMIT = 4096
 """How many parts a normal form may have; there can be exponentially many."""
@@ -38,7 +38,7 @@ def meet_normal_form(T: TypeNode, /, limit: int = LIMIT) -> TypeNode:
     >>> print(meet_normal_form(~(A | B & C)))
     ~A /\ (~B \/ ~C)
     """
-    found = _parts(inwards(as_type(T)), Meet, limit)
+    found = _find_parts(push_negations_inwards(as_type(T)), Meet, limit)
     return meet(*[join(*part) for part in found])
 
 
@@ -55,43 +55,43 @@ def join_normal_form(T: TypeNode, /, limit: int = LIMIT) -> TypeNode:
     >>> print(join_normal_form(A & (B | ~~C)))
     (A /\ B) \/ (A /\ C)
     """
-    found = _parts(inwards(as_type(T)), Join, limit)
+    found = _find_parts(push_negations_inwards(as_type(T)), Join, limit)
     return join(*[meet(*part) for part in found])
 
 
-def inwards(T: TypeNode) -> TypeNode:
+def push_negations_inwards(T: TypeNode) -> TypeNode:
     """The type with negations only before what is no meet, join or negation."""
     spend()
     match T:
         case Meet(parts):
-            return meet(*map(inwards, parts))
+            return meet(*map(push_negations_inwards, parts))
         case Join(parts):
-            return join(*map(inwards, parts))
+            return join(*map(push_negations_inwards, parts))
         case Negation(Negation(body)):
-            return inwards(body)
+            return push_negations_inwards(body)
         case Negation(Meet(parts)):
-            return join(*[inwards(Negation(part)) for part in parts])
+            return join(*[push_negations_inwards(Negation(part)) for part in parts])
         case Negation(Join(parts)):
-            return meet(*[inwards(Negation(part)) for part in parts])
+            return meet(*[push_negations_inwards(Negation(part)) for part in parts])
     return T
 
 
-def _parts(T: TypeNode, outer: type[Meet] | type[Join], limit: int) -> list[_Part]:
+def _find_parts(T: TypeNode, outer: type[Meet] | type[Join], limit: int) -> list[_Part]:
     """The parts of T as a meet of joins, or as a join of meets: `outer` is outside."""
     spend()
     if not isinstance(T, Meet | Join):
         return [frozenset((T,))]
-    inner = [_parts(part, outer, limit) for part in T.parts]
+    inner = [_find_parts(part, outer, limit) for part in T.parts]
     if isinstance(T, outer):
-        return _needed((part for parts in inner for part in parts), limit)
+        return _drop_redundant((part for parts in inner for part in parts), limit)
     spread: list[_Part] = [frozenset()]
     for parts in inner:
         both = (one | other for one in spread for other in parts)
-        spread = _needed(both, limit)
+        spread = _drop_redundant(both, limit)
     return spread
 
 
-def _needed(parts: Iterable[_Part], limit: int) -> list[_Part]:
+def _drop_redundant(parts: Iterable[_Part], limit: int) -> list[_Part]:
     """The parts that no other one is in; a limited number of them."""
     once: dict[_Part, None] = {}
     for part in parts:

@@ -25,9 +25,9 @@ from ttr.computing.generic_witness import (
     step,
 )
 from ttr.computing.strings.automata import automaton, automaton_above
-from ttr.computing.strings.inclusion import Inclusion, included
+from ttr.computing.strings.inclusion import Inclusion, check_inclusion
 from ttr.computing.strings.pieces import events_of, is_of_strings, is_regular
-from ttr.computing.strings.runs import covers
+from ttr.computing.strings.runs import accepts
 from ttr.computing.universe_levels import why_outside
 from ttr.errors import Unsupported
 from ttr.safety.budgets import spend
@@ -135,8 +135,8 @@ class Prover:
     @property
     def _is_contradictory(self) -> bool:
         """Is something surely of a type that is denied of it?"""
-        negated = self.witness.negated(self.given)
-        return any(self.prove(term, T).yes for term, T in negated)
+        negations = self.witness.negations(self.given)
+        return any(self.prove(term, T).yes for term, T in negations)
 
     @property
     def _has_no_string(self) -> bool:
@@ -145,7 +145,7 @@ class Prover:
         Only the term that was assumed last is looked at, where anything is assumed.
         """
         terms = [term for term, _ in self.assumed[-1:]] or self.witness.strings
-        return any(map(self._is_no_string, map(self.witness.normal, terms)))
+        return any(map(self._is_no_string, map(self.witness.normalise, terms)))
 
     def _is_no_string(self, term: Object) -> bool:
         """Is no string of all the types known of a term, event by event?"""
@@ -156,7 +156,9 @@ class Prover:
             return False
         inside = self._inside_string(term)
         with suppress(Unsupported):
-            return included(automaton_above(known), None, inside._is_event_below).yes
+            return check_inclusion(
+                automaton_above(known), None, inside._is_event_below
+            ).yes
         return False
 
     @property
@@ -181,7 +183,7 @@ class Prover:
         `where` is the field to name in the reason.
         """
         spend()
-        term = self.witness.normal(term)
+        term = self.witness.normalise(term)
         known = self._types_of(term)
         if any(one is T for one in known):
             return _YES
@@ -221,7 +223,7 @@ class Prover:
     # --- atoms, singletons, types of types ---
 
     def _prove_atom(self, term: Object, T: Basic | PType, where: Where) -> Finding:
-        wanted = self.witness.normal(T)
+        wanted = self.witness.normalise(T)
         for known in self._types_of(term):
             if known is wanted:
                 return _YES
@@ -248,8 +250,8 @@ class Prover:
     def _prove_singleton(
         self, term: Object, base: TypeNode, value: Object, where: Where
     ) -> Finding:
-        wanted = self._apply_functions(self.witness.normal(value))
-        if self.witness.same(term, wanted):
+        wanted = self._apply_functions(self.witness.normalise(value))
+        if self.witness.are_equal(term, wanted):
             return self.prove(term, base, where)
         return _no(where, partial(self._why_not_equal, wanted, where))
 
@@ -279,7 +281,7 @@ class Prover:
         plain = [part for part in clause if not isinstance(part, Negation)]
         denied = [part for part in clause if isinstance(part, Negation)]
         known = self._types_of(term)
-        if any(self.witness.normal(part) in known for part in denied):
+        if any(self.witness.normalise(part) in known for part in denied):
             return _YES
         found = self._prove_one_of(term, plain, where)
         if found.yes:
@@ -389,12 +391,12 @@ class Prover:
         events = self._events(term)
         if events is not None:
             found = automaton(T)
-            if covers(len(events), found, lambda i, U: self.prove(events[i], U).yes):
+            if accepts(len(events), found, lambda i, U: self.prove(events[i], U).yes):
                 return _YES
-        included = self._included_in(term, T)
-        if included.yes:
-            return included
-        return replace(self._not_below(term, T, where), assumed=included.assumed)
+        inclusion = self._included_in(term, T)
+        if inclusion.yes:
+            return inclusion
+        return replace(self._not_below(term, T, where), assumed=inclusion.assumed)
 
     def _events(self, term: Object) -> Sequence[Object] | None:
         """The events of a string, or None where it is not known how many they are."""
@@ -420,7 +422,7 @@ class Prover:
         with suppress(Unsupported):
             above = automaton(T)
             for one in (automaton, automaton_above):
-                found = included(one(known), above, inside._is_event_below)
+                found = check_inclusion(one(known), above, inside._is_event_below)
                 if found.yes:
                     return _YES
         if found.against is None:
@@ -525,7 +527,7 @@ class Prover:
         return False
 
     def _prove_application(self, term: Object, T: Application, where: Where) -> Finding:
-        wanted = self.witness.normal(T)
+        wanted = self.witness.normalise(T)
         if any(known is wanted for known in self._types_of(term)):
             return _YES
         value = self._apply_functions(wanted)
@@ -539,7 +541,7 @@ class Prover:
             function, argument = value.function, value.argument
             if not self.prove(argument, function.domain).yes:
                 return value
-            value = self.witness.normal(substitute_variable(function.body, argument))
+            value = self.witness.normalise(substitute_variable(function.body, argument))
         return value
 
     # --- records ---

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ttr.computing.case_analysis import cases
-from ttr.computing.cycles import in_order
+from ttr.computing.cycles import has_fields_in_order
 from ttr.computing.generic_witness import ITSELF, Assumption
 from ttr.computing.prover import Finding, Prover
 from ttr.errors import TooLargeError
@@ -200,7 +200,7 @@ def _refute(prover: Prover, T: TypeNode, found: Finding) -> Answer:
     refutation = Refutation(S, T, prover.theory, found.assumed)
     answer = Answer("no", lambda: found.why, refutation)
     certain = prover.witness.is_certain
-    if certain and _is_plain(S) and _is_plain(T) and in_order(S):
+    if certain and _is_plain(S) and _is_plain(T) and has_fields_in_order(S):
         return answer
     if answer.counter is not None:
         return answer

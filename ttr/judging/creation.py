@@ -175,7 +175,7 @@ def _settled(T: TypeNode) -> TypeNode:
     witness = GenericWitness(T)
     fields: list[tuple[str, TypeNode]] = []
     for label, field in T.fields:
-        value = witness.normal(step(ITSELF, label))
+        value = witness.normalise(step(ITSELF, label))
         known = not isinstance(field, Singleton) and not escaping(value)
         fields.append((label, Singleton(field, value) if known else field))
     return RecordType(tuple(fields))

@@ -12,9 +12,9 @@ from ttr.types.syntax import Basic, Object, Path, Pred, PType, identity
 
 __all__ = ["above", "below", "excluding", "match_schema", "uppers"]
 
-Binding = Mapping[Path, Object]
+_Binding = Mapping[Path, Object]
 
-Atom = Basic | PType
+_Atom = Basic | PType
 
 
 def above(
@@ -28,7 +28,7 @@ def above(
     ...     print(upper, "by", axiom)
     dog(rex) by puppy(x) <: dog(x)
     """
-    yield from _reached(T, [(axiom, axiom.lower, axiom.upper) for axiom in axioms])
+    yield from _closure(T, [(axiom, axiom.lower, axiom.upper) for axiom in axioms])
 
 
 def below(
@@ -38,19 +38,19 @@ def below(
 
     A schematic variable that only the lower side has stays in it as a path.
     """
-    yield from _reached(T, [(axiom, axiom.upper, axiom.lower) for axiom in axioms])
+    yield from _closure(T, [(axiom, axiom.upper, axiom.lower) for axiom in axioms])
 
 
-def uppers(T: Atom, theory: Signature) -> frozenset[Atom]:
+def uppers(T: _Atom, theory: Signature) -> frozenset[_Atom]:
     """The types that the axioms put above T."""
     found = theory._memo.get(T)
     if found is None:
         found = frozenset(upper for _, upper in above(T, theory.axioms))
         theory._memo[T] = found
-    return cast(frozenset[Atom], found)
+    return cast(frozenset[_Atom], found)
 
 
-def excluding(S: Atom, T: Atom, theory: Signature) -> Exclusion | None:
+def excluding(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
     """The exclusion by which nothing is of both types, or of what is above them.
 
     >>> from ttr.types.syntax import Ind, Pred, this
@@ -63,11 +63,11 @@ def excluding(S: Atom, T: Atom, theory: Signature) -> Exclusion | None:
     if not theory.exclusions:
         return None
     if (S, T) not in theory._memo:
-        theory._memo[S, T] = _excluding(S, T, theory)
+        theory._memo[S, T] = _find_exclusion(S, T, theory)
     return cast(Exclusion | None, theory._memo[S, T])
 
 
-def _excluding(S: Atom, T: Atom, theory: Signature) -> Exclusion | None:
+def _find_exclusion(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
     mine, theirs = (S, *uppers(S, theory)), (T, *uppers(T, theory))
     for exclusion in theory.exclusions:
         sides = exclusion.left, exclusion.right
@@ -77,7 +77,7 @@ def _excluding(S: Atom, T: Atom, theory: Signature) -> Exclusion | None:
     return None
 
 
-def _match_both(schemas: tuple[Atom, Atom], types: tuple[Atom, Atom]) -> bool:
+def _match_both(schemas: tuple[_Atom, _Atom], types: tuple[_Atom, _Atom]) -> bool:
     """Whether both types are what the schemas stand for, with the same variables."""
     left, right = (match_schema(*pair) for pair in zip(schemas, types, strict=True))
     if left is None or right is None:
@@ -87,12 +87,12 @@ def _match_both(schemas: tuple[Atom, Atom], types: tuple[Atom, Atom]) -> bool:
     )
 
 
-def _reached(
-    T: Atom, steps: Sequence[tuple[Axiom, Atom, Atom]]
-) -> Iterator[tuple[Axiom, Atom]]:
+def _closure(
+    T: _Atom, steps: Sequence[tuple[Axiom, _Atom, _Atom]]
+) -> Iterator[tuple[Axiom, _Atom]]:
     if not steps:
         return
-    by_head: dict[Basic | Pred, list[tuple[Axiom, Atom, Atom]]] = {}
+    by_head: dict[Basic | Pred, list[tuple[Axiom, _Atom, _Atom]]] = {}
     for step in steps:
         by_head.setdefault(_head(step[1]), []).append(step)
     found, waiting = {T}, [T]
@@ -101,18 +101,18 @@ def _reached(
             bound = match_schema(start, current)
             if bound is None:
                 continue
-            reached = _instance(end, bound)
+            reached = _instantiate(end, bound)
             if reached not in found:
                 found.add(reached)
                 waiting.append(reached)
                 yield axiom, reached
 
 
-def _head(T: Atom) -> Basic | Pred:
+def _head(T: _Atom) -> Basic | Pred:
     return T if isinstance(T, Basic) else T.pred
 
 
-def match_schema(schema: Basic | PType, T: Basic | PType) -> Binding | None:
+def match_schema(schema: Basic | PType, T: Basic | PType) -> _Binding | None:
     """What the schema's variables must be for it to be T, or None."""
     if isinstance(schema, Basic) or isinstance(T, Basic):
         return {} if schema is T else None
@@ -126,7 +126,7 @@ def match_schema(schema: Basic | PType, T: Basic | PType) -> Binding | None:
     return bound
 
 
-def _instance(schema: Basic | PType, bound: Binding) -> Basic | PType:
+def _instantiate(schema: Basic | PType, bound: _Binding) -> Basic | PType:
     """The schema with its variables replaced."""
     found: Basic | PType = replace_paths(schema, lambda path: bound.get(path, path))
     return found

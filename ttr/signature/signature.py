@@ -55,7 +55,7 @@ class Axiom:
     upper: Basic | PType
 
     def __str__(self) -> str:
-        return f"{_schema(self.lower)} <: {_schema(self.upper)}"
+        return f"{_format_schema(self.lower)} <: {_format_schema(self.upper)}"
 
 
 @dataclass(frozen=True)
@@ -69,17 +69,17 @@ class Exclusion:
     right: Basic | PType
 
     def __str__(self) -> str:
-        return f"{_schema(self.left)} <: ~{_schema(self.right)}"
+        return f"{_format_schema(self.left)} <: ~{_format_schema(self.right)}"
 
 
-def _schema(T: Basic | PType) -> str:
+def _format_schema(T: Basic | PType) -> str:
     """The type with its variables bare and the names of objects quoted."""
     if isinstance(T, Basic):
         return T.name
-    return f"{T.pred.name}({', '.join(map(_schematic, T.args))})"
+    return f"{T.pred.name}({', '.join(map(_format_argument, T.args))})"
 
 
-def _schematic(arg: Object) -> str:
+def _format_argument(arg: Object) -> str:
     match arg:
         case Path(_, labels):
             return labels[0]
@@ -129,7 +129,7 @@ class Opening:
     hears: tuple[TypeNode, ...] = ()
 
 
-def _nothing() -> Mapping[str, Object]:
+def _no_definitions() -> Mapping[str, Object]:
     return Map()
 
 
@@ -140,7 +140,7 @@ class Signature:
     axioms: tuple[Axiom, ...] = ()
     opened: frozenset[Basic | Pred] = frozenset()
     givens: tuple[Given | Expected, ...] = ()
-    definitions: Mapping[str, Object] = field(default_factory=_nothing)
+    definitions: Mapping[str, Object] = field(default_factory=_no_definitions)
     exclusions: tuple[Exclusion, ...] = ()
 
     @cached_property

@@ -47,14 +47,14 @@ _pool: dict[tuple[object, ...], _Entry] = {}
 _lock = RLock()
 
 
-def _misfit(cls: type) -> IllFormed:
+def _wrong_arguments(cls: type) -> IllFormed:
     """That the arguments of a node are too few, too many or of other names."""
     wanted = inspect.signature(cls._normal)  # type: ignore[attr-defined]
     names = [name for name in wanted.parameters if name != "args"]
     return IllFormed(f"{cls.__name__} takes {', '.join(names) or 'other arguments'}")
 
 
-def _forget(entry: _Entry, pool: Any = _pool, lock: Any = _lock) -> None:
+def _remove_from_pool(entry: _Entry, pool: Any = _pool, lock: Any = _lock) -> None:
     """Takes a node that is no more out of the pool, unless another has its place.
 
     The pool is bound here, as nodes may outlive the names of this module.
@@ -75,7 +75,7 @@ class _Interning(type):
             except TypeError as error:
                 if error.__traceback__.tb_next is not None:
                     raise
-                raise _misfit(cls) from None
+                raise _wrong_arguments(cls) from None
             purse = open_purse()
             if purse is not None:  # as `spend` does; this is the busiest place of all
                 purse.left -= 1
@@ -91,7 +91,7 @@ class _Interning(type):
                 found = None if entry is None else entry()
                 if found is None:
                     found = super().__call__(*values)
-                    entry = _pool[key] = _Entry(found, _forget)
+                    entry = _pool[key] = _Entry(found, _remove_from_pool)
                     entry.key = key
             return found
 
@@ -100,15 +100,15 @@ class _Interning(type):
 def node(cls: type[Node]) -> Any:
     """Makes an interned, immutable node class of annotated fields."""
     made: Any = dataclass(frozen=True, eq=False, repr=False, slots=True)(cls)
-    made.__setattr__, made.__delattr__ = _kept_from_setting, _kept_from_deleting
+    made.__setattr__, made.__delattr__ = _refuse_setting, _refuse_deleting
     return made
 
 
-def _kept_from_setting(_: Node, name: str, value: object) -> None:
+def _refuse_setting(_: Node, name: str, value: object) -> None:
     raise TTRError(f"types and predicates do not change, so {name} cannot be set")
 
 
-def _kept_from_deleting(_: Node, name: str) -> None:
+def _refuse_deleting(_: Node, name: str) -> None:
     raise TTRError(f"types and predicates do not change, so {name} cannot be deleted")
 
 

@@ -40,7 +40,7 @@ __all__ = [
     "concat",
     "freeze",
     "fst",
-    "in_canonical_order",
+    "sort_canonically",
     "labelled",
     "lasts",
     "outer",
@@ -70,7 +70,7 @@ def freeze(value: object) -> Object:
     """
     kind = type(value)
     if kind is list or kind is tuple:
-        return _frozen(tuple(value))  # type: ignore[arg-type]
+        return _freeze_each(tuple(value))  # type: ignore[arg-type]
     if kind is dict:
         return Record(value)  # type: ignore[arg-type]
     if kind is set or kind is frozenset:
@@ -78,7 +78,7 @@ def freeze(value: object) -> Object:
     return value._path() if isinstance(value, PathTo) else value
 
 
-def _frozen(values: tuple[object, ...]) -> tuple[Object, ...]:
+def _freeze_each(values: tuple[object, ...]) -> tuple[Object, ...]:
     """The values as objects: the same tuple where all of them are objects already."""
     spend()
     if _TAKEN_FOR_NOTATION.isdisjoint(map(type, values)):
@@ -211,7 +211,7 @@ class FiniteSet(Node):
         once = {identity(item): item for item in map(freeze, items)}
         if len(once) < 2:
             return (tuple(once.values()),)
-        return (tuple(in_canonical_order(once.values())),)
+        return (tuple(sort_canonically(once.values())),)
 
     @staticmethod
     def _key(items: tuple[Object, ...]) -> tuple[object, ...]:
@@ -293,16 +293,16 @@ def concat(*parts: object) -> Object:
     if not flat:
         raise IllFormed("a concatenation needs at least one list or string")
     for piece in flat:
-        if not _stays(piece) and not isinstance(piece, tuple | EventString):
+        if not _is_symbolic(piece) and not isinstance(piece, tuple | EventString):
             raise Unresolved(f"only lists and strings can be concatenated, not {piece}")
     joined: list[Object] = []
-    for stays, group in groupby(flat, _stays):
+    for stays, group in groupby(flat, _is_symbolic):
         pieces = list(group)
-        joined += pieces if stays else [_joined(pieces)]
+        joined += pieces if stays else [_concatenate(pieces)]
     return joined[0] if len(joined) == 1 else Operation("+", tuple(joined))
 
 
-def _joined(pieces: list[Object]) -> Object:
+def _concatenate(pieces: list[Object]) -> Object:
     """Lists, or strings, one after the other."""
     kinds = {type(piece) for piece in pieces}
     if len(kinds) > 1:
@@ -321,7 +321,7 @@ def fst(value: object) -> Object:
     'a'
     """
     value = freeze(value)
-    if _stays(value):
+    if _is_symbolic(value):
         return Operation("fst", (value,))
     return _elements(value, "first element")[0]
 
@@ -333,7 +333,11 @@ def rst(value: object) -> Object:
     ('b',)
     """
     value = freeze(value)
-    return Operation("rst", (value,)) if _stays(value) else _elements(value, "rest")[1:]
+    return (
+        Operation("rst", (value,))
+        if _is_symbolic(value)
+        else _elements(value, "rest")[1:]
+    )
 
 
 def _elements(value: Object, wanted: str) -> tuple[Object, ...]:
@@ -347,7 +351,7 @@ def _is_operation(value: Object, name: str) -> bool:
     return isinstance(value, Operation) and value.name == name
 
 
-def _stays(value: Object) -> bool:
+def _is_symbolic(value: Object) -> bool:
     """Whether what an object is depends on what a path or an application leads to."""
     return isinstance(value, Path | Operation | Applied)
 
@@ -365,12 +369,12 @@ class Record(Drawn):
     ('fido', 3, True)
     """
 
-    __slots__ = ("__weakref__", "_fields", "_hash", "_lasts", "_noted")
+    __slots__ = ("__weakref__", "_fields", "_hash", "_is_immutable", "_noted")
 
     # `ttr.judging.certainty` notes what a record was found to be of.
     _fields: dict[str, Object]
     _hash: int | None
-    _lasts: bool | None
+    _is_immutable: bool | None
     _noted: dict[Any, tuple[Any, ...]] | None
 
     def __init__(self, fields: Mapping[str, object]) -> None:
@@ -379,7 +383,7 @@ class Record(Drawn):
             check_label(label)
         object.__setattr__(self, "_fields", {k: freeze(v) for k, v in fields.items()})
         object.__setattr__(self, "_hash", None)
-        object.__setattr__(self, "_lasts", None)
+        object.__setattr__(self, "_is_immutable", None)
         object.__setattr__(self, "_noted", None)
 
     def __getattr__(self, label: str) -> Object:
@@ -468,7 +472,7 @@ def record(fields: Mapping[str, object] | None = None, /, **labels: object) -> R
 
 
 @within_budget
-def in_canonical_order(values: Iterable[_Value]) -> list[_Value]:
+def sort_canonically(values: Iterable[_Value]) -> list[_Value]:
     """The values in one order, however they are given: by structure, not by print.
 
     What is written first counts first: a name, or the sign of a list and so on. Then
@@ -476,7 +480,7 @@ def in_canonical_order(values: Iterable[_Value]) -> list[_Value]:
 
     >>> from ttr.types.syntax import Basic, Pred
     >>> A, B, p = Basic("A"), Basic("B"), Pred("p", Basic("A"))
-    >>> print(*in_canonical_order([~A, p("b"), A & B, p("a"), B, A]), sep="; ")
+    >>> print(*sort_canonically([~A, p("b"), A & B, p("a"), B, A]), sep="; ")
     A; A /\\ B; B; p(a); p(b); ~A
     """
     return sorted(values, key=_order_key)
@@ -523,10 +527,10 @@ def lasts(value: Object) -> bool:
     if type(value) is str:
         return True
     if isinstance(value, Record):
-        if value._lasts is None:
+        if value._is_immutable is None:
             found = all(map(lasts, value._fields.values()))
-            object.__setattr__(value, "_lasts", found)
-        return value._lasts  # type: ignore[return-value]
+            object.__setattr__(value, "_is_immutable", found)
+        return value._is_immutable  # type: ignore[return-value]
     if isinstance(value, tuple):
         return all(map(lasts, value))
     return isinstance(value, _LASTING)

@@ -116,7 +116,7 @@ def rebuilt(value: Object, change: Callable[[Object, int], Object]) -> Object:
         case Application(function, argument):
             return Application(change(function, 0), change(argument, 0))
         case Operation(name, args):
-            return _operated(name, tuple([change(arg, 0) for arg in args]))
+            return _apply_operation(name, tuple([change(arg, 0) for arg in args]))
         case Record():
             return Record({k: change(v, 0) for k, v in value._fields.items()})
         case tuple():
@@ -127,7 +127,7 @@ def rebuilt(value: Object, change: Callable[[Object, int], Object]) -> Object:
 _OPERATIONS: dict[str, Callable[..., Object]] = {"+": concat, "fst": fst, "rst": rst}
 
 
-def _operated(name: str, args: Parts) -> Object:
+def _apply_operation(name: str, args: Parts) -> Object:
     """What an operation comes to; where there is no such object, it stays as it is."""
     try:
         return _OPERATIONS[name](*args)
@@ -195,24 +195,28 @@ def escaping(value: Object) -> frozenset[Path]:
     (frozenset({this.x}), frozenset())
     """
     if type(value) is str:
-        return _NONE
+        return _NO_PATHS
     if not isinstance(value, TypeNode):
-        return frozenset((value,)) if isinstance(value, Path) else _in_parts(value)
-    return _of_type(value)
+        return (
+            frozenset((value,)) if isinstance(value, Path) else _find_free_paths(value)
+        )
+    return _free_paths_of_type(value)
 
 
-def _in_parts(value: Object) -> frozenset[Path]:
+def _find_free_paths(value: Object) -> frozenset[Path]:
     same, inner = parts(value)
-    found = frozenset[Path]().union(*map(escaping, same)) if same else _NONE
+    found = frozenset[Path]().union(*map(escaping, same)) if same else _NO_PATHS
     if inner:
-        further = _NONE.union(*map(escaping, inner))
+        further = _NO_PATHS.union(*map(escaping, inner))
         found |= {Path(path.up - 1, path.labels) for path in further if path.up > 0}
     return found
 
 
-_of_type: Callable[[TypeNode], frozenset[Path]] = cache_on_node(_in_parts)
+_free_paths_of_type: Callable[[TypeNode], frozenset[Path]] = cache_on_node(
+    _find_free_paths
+)
 
-_NONE: frozenset[Path] = frozenset()
+_NO_PATHS: frozenset[Path] = frozenset()
 
 
 def replace_paths(
@@ -229,7 +233,7 @@ def replace_paths(
         if value.up < depth:
             return value
         return moved(at(Path(value.up - depth, value.labels)), depth)
-    if isinstance(value, TypeNode) and not _reaches(value, depth):
+    if isinstance(value, TypeNode) and not _reaches_out(value, depth):
         return value
     if isinstance(value, str):
         return value
@@ -240,7 +244,7 @@ def replace_paths(
     return rebuilt(value, change)
 
 
-def _reaches(T: TypeNode, depth: int) -> bool:
+def _reaches_out(T: TypeNode, depth: int) -> bool:
     """Whether a path in T leads at least so many scopes out."""
     found = escaping(T)
     return bool(found) and (depth == 0 or any(path.up >= depth for path in found))

@@ -53,7 +53,7 @@ from ttr.types.syntax import (
     Universe,
 )
 
-__all__ = ["Scope", "as_object", "head", "notation", "python", "variable"]
+__all__ = ["RESERVED", "Scope", "as_object", "head", "notation", "python", "variable"]
 
 Scope = tuple[frozenset[str] | str, ...]
 """The scopes around, innermost first: the labels of a record type, or a variable."""
@@ -83,19 +83,19 @@ def notation(value: Object, scope: Scope = ()) -> str:
             inner = (frozenset(value.labels), *scope)
             return f"[{', '.join(_field(k, f, inner) for k, f in fields)}]"
         case Singleton(base, obj):
-            return f"{_tight(base, scope)}@{_tight_object(obj, scope)}"
+            return f"{_bracketed_beside(base, scope)}@{_object_beside(obj, scope)}"
         case Meet(parts):
-            return " /\\ ".join(_operand(part, scope) for part in parts)
+            return " /\\ ".join(_bracketed_operand(part, scope) for part in parts)
         case Join(parts):
-            return " \\/ ".join(_operand(part, scope) for part in parts)
+            return " \\/ ".join(_bracketed_operand(part, scope) for part in parts)
         case Negation(body):
-            return f"~{_operand(body, scope)}"
+            return f"~{_bracketed_operand(body, scope)}"
         case FunType() | Function():
             return _binder(value, scope)
         case Application(function, argument):
             return f"{head(function, scope)}({_objects((argument,), scope)})"
         case Operation("+", args):
-            return " + ".join([_tight_object(arg, scope) for arg in args])
+            return " + ".join([_object_beside(arg, scope) for arg in args])
         case Operation(name, args):
             return f"{name}({_objects(args, scope)})"
         case Path():
@@ -116,14 +116,14 @@ def _field(label: str, field: TypeNode, scope: Scope) -> str:
     return f"{label} : {notation(field, scope)}"
 
 
-def _operand(value: Object, scope: Scope) -> str:
+def _bracketed_operand(value: Object, scope: Scope) -> str:
     """A part of a meet, join or negation: in brackets unless it binds closer."""
     spend()
     text = notation(value, scope)
     return f"({text})" if is_loose(value) else text
 
 
-def _tight(value: Object, scope: Scope) -> str:
+def _bracketed_beside(value: Object, scope: Scope) -> str:
     """A part beside @, + or an arrow: in brackets unless it holds together."""
     spend()
     text = notation(value, scope)
@@ -149,14 +149,14 @@ def as_object(value: Object, scope: Scope) -> Object:
     if not isinstance(value, TypeNode):
         return value
     match value:
-        case Basic(name) | Universe(name, 0) if _hides(scope, name):
+        case Basic(name) | Universe(name, 0) if _is_hidden(scope, name):
             return Meet((value, value))
-        case RecordType(()) if _hides(scope, "Rec"):
+        case RecordType(()) if _is_hidden(scope, "Rec"):
             return Meet((value, value))
     return value
 
 
-def _hides(scope: Scope, name: str) -> bool:
+def _is_hidden(scope: Scope, name: str) -> bool:
     return any(name == names or name in _labels(names) for names in scope)
 
 
@@ -165,8 +165,8 @@ def _objects(values: Sequence[Object], scope: Scope) -> str:
     return ", ".join([notation(as_object(v, scope), scope) for v in values])
 
 
-def _tight_object(value: Object, scope: Scope) -> str:
-    return _tight(as_object(value, scope), scope)
+def _object_beside(value: Object, scope: Scope) -> str:
+    return _bracketed_beside(as_object(value, scope), scope)
 
 
 # --- functions and their variables ---------------------------------------------------
@@ -178,13 +178,13 @@ def _binder(value: FunType | Function, scope: Scope) -> str:
             name = variable(value, scope)
             inside = (name, *scope)
             inner = notation(as_object(body, inside), inside)
-            return f"\\{name}:{_tight(domain, scope)}. {inner}"
+            return f"\\{name}:{_bracketed_beside(domain, scope)}. {inner}"
         case FunType(domain, result):
             if not binds(result):
-                inner = _operand(result, ("", *scope))
-                return f"({_tight(domain, scope)} -> {inner})"
+                inner = _bracketed_operand(result, ("", *scope))
+                return f"({_bracketed_beside(domain, scope)} -> {inner})"
             name = variable(value, scope)
-            inner = _operand(result, (name, *scope))
+            inner = _bracketed_operand(result, (name, *scope))
             return f"(({name} : {notation(domain, scope)}) -> {inner})"
 
 
@@ -218,7 +218,7 @@ def head(function: Object, scope: Scope) -> str:
     """
     match function:
         case Path(up, labels) if labels[0] != BOUND:
-            return _dotted(up, labels, scope)
+            return _dotted_path(up, labels, scope)
         case str():
             return json_text(function)
     text = notation(function, scope)
@@ -227,23 +227,23 @@ def head(function: Object, scope: Scope) -> str:
 
 def _path(path: Path, scope: Scope) -> str:
     if path.labels[0] == BOUND:
-        return _bound(path, scope)
+        return _bound_path(path, scope)
     for up, names in enumerate(scope):
         if path.labels[0] == names or path.labels[0] in _labels(names):
             if up == path.up:
                 return ".".join(path.labels)
             break
-    return _dotted(path.up, path.labels, scope)
+    return _dotted_path(path.up, path.labels, scope)
 
 
-def _bound(path: Path, scope: Scope) -> str:
+def _bound_path(path: Path, scope: Scope) -> str:
     """A variable, or a path from it; where it is bound outside, a dot says so."""
     around = scope[path.up] if path.up < len(scope) else ""
     name = around if isinstance(around, str) else ""
     return ".".join([name or BOUND, *path.labels[1:]])
 
 
-def _dotted(up: int, labels: tuple[str, ...], scope: Scope) -> str:
+def _dotted_path(up: int, labels: tuple[str, ...], scope: Scope) -> str:
     """The path with a caret for each record type that it leads out of."""
     binders = sum(isinstance(names, str) for names in scope[:up])
     return f"{'^' * (up - binders)}.{'.'.join(labels)}"
@@ -282,13 +282,13 @@ def _object(value: Object, scope: Scope) -> str:
 def _string(events: list[Object], scope: Scope) -> str:
     """<a b>, with commas where an event could be read as an argument of the last."""
     between = ", " if any(map(begins_with_bracket, events)) else " "
-    return f"<{between.join([_tight(event, scope) for event in events])}>"
+    return f"<{between.join([_bracketed_beside(event, scope) for event in events])}>"
 
 
 def _name(name: str, scope: Scope) -> str:
     """A name, quoted where it would be read as a label or as something else."""
     bare = name.isidentifier() and name not in RESERVED
-    if bare and not _hides(scope, name):
+    if bare and not _is_hidden(scope, name):
         return name
     return json_text(name)
 
@@ -368,11 +368,11 @@ def _python_binder(value: FunType | Function) -> str:
             return f"({python(domain)} >> {python(outside)})"
         case FunType(domain, inside, hint):
             call = "Pi"
-    named = replace_paths(inside, lambda path: _named(path, hint))
+    named = replace_paths(inside, lambda path: _name_variable(path, hint))
     return f"{call}({_keywords([(hint, domain)])})({python(named)})"
 
 
-def _named(path: Path, variable: str) -> Path:
+def _name_variable(path: Path, variable: str) -> Path:
     """The path, with the name of the variable if it is the innermost one."""
     if path.up > 0 or path.labels[0] != BOUND:
         return path

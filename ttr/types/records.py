@@ -26,7 +26,7 @@ def replace(
     >>> print(replace(r, {"bg.size": 4}, x="sam"))
     {bg = {size = 4}, x = sam}
     """
-    new = _Changing(r)
+    new = _RecordEditor(r)
     for path, value in labelled("replace", changes, labels).items():
         if not isinstance(path, str):
             raise TTRError(f"a path is written as a text, as in 'bg.x', found {path!r}")
@@ -34,7 +34,7 @@ def replace(
     return new.record
 
 
-class _Changing:
+class _RecordEditor:
     """A record that is being changed: what is in it is copied once, where it changes.
 
     Nobody else has seen the copies, so that they may be written to until they are done.
@@ -50,15 +50,15 @@ class _Changing:
         here = self.record = self._copy(self.record)
         on_the_way = [here]
         for label in outer:
-            inner = self._copy(_at(here, label, path))
+            inner = self._copy(_join_path(here, label, path))
             here._fields[label] = inner
             here = inner
             on_the_way.append(here)
-        _at(here, last, path)
+        _join_path(here, last, path)
         here._fields[last] = value
         if not lasts(value):
             for one in on_the_way:
-                _write(one, "_lasts", None)
+                _write(one, "_is_immutable", None)
 
     def _copy(self, r: Object) -> Record:
         """The record if it is a copy, or its copy; what is no record is as it is."""
@@ -67,7 +67,7 @@ class _Changing:
         copy = object.__new__(Record)
         _write(copy, "_fields", {**r._fields})
         _write(copy, "_hash", None)
-        _write(copy, "_lasts", r._lasts or None)
+        _write(copy, "_is_immutable", r._is_immutable or None)
         _write(copy, "_noted", None)
         self._copies[id(copy)] = copy
         return copy
@@ -76,7 +76,7 @@ class _Changing:
 _write = object.__setattr__
 
 
-def _at(r: Object, label: str, path: list[str]) -> Object:
+def _join_path(r: Object, label: str, path: list[str]) -> Object:
     """What a record has at a label on the way along a path."""
     if isinstance(r, Record) and label in r._fields:
         return r._fields[label]
@@ -117,7 +117,7 @@ def _list_differences(
     before: tuple[Object, ...], after: tuple[Object, ...], path: str
 ) -> Iterator[str]:
     """What is different between two lists, element by element where that is plain."""
-    came, went = _beyond(after, before), _beyond(before, after)
+    came, went = _extra_elements(after, before), _extra_elements(before, after)
     if came is None and went is None:
         yield f"{path}: {notation(before)} → {notation(after)}"
         return
@@ -125,7 +125,7 @@ def _list_differences(
     yield from (f"{path}: − {notation(a)}" for a in went or ())
 
 
-def _beyond(
+def _extra_elements(
     long: tuple[Object, ...], short: tuple[Object, ...]
 ) -> tuple[Object, ...] | None:
     """What a list has besides another that it begins or ends with, else None."""

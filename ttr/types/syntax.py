@@ -31,9 +31,9 @@ from ttr.types.objects import (
     check_label,
     concat,
     freeze,
-    in_canonical_order,
     outer,
     record,
+    sort_canonically,
     this,
 )
 
@@ -127,10 +127,10 @@ def as_type(value: object) -> TypeNode:
     """The value, if it is a type; else `IllFormed` says what it is."""
     if isinstance(value, TypeNode):
         return value
-    raise _no_type(value)
+    raise _not_a_type(value)
 
 
-def _no_type(found: object) -> IllFormed:
+def _not_a_type(found: object) -> IllFormed:
     return IllFormed(f"expected a type, found {kind_of(found)}")
 
 
@@ -510,7 +510,7 @@ class Pred(Node):
         if not several or len(several) < len(arities):
             several = [arities]
         found = {tuple(map(as_type, arity)): None for arity in several}
-        return str(name), tuple(sorted(in_canonical_order(found), key=len))
+        return str(name), tuple(sorted(sort_canonically(found), key=len))
 
     @staticmethod
     def _key(
@@ -524,7 +524,7 @@ class Pred(Node):
 
     def _refuse(self, *_: object) -> NoReturn:
         """Says that the signs for types take no predicate."""
-        raise _no_type(self)
+        raise _not_a_type(self)
 
     __and__ = __or__ = __invert__ = __rshift__ = __matmul__ = _refuse
     __le__ = __ge__ = _refuse
@@ -544,7 +544,7 @@ def meet(*parts: TypeNode) -> TypeNode:
     >>> meet(B, A) is meet(A, meet(A, B)), meet(A, A) is A
     (True, True)
     """
-    flat = _flat(Meet, parts)
+    flat = _flat_parts(Meet, parts)
     if not flat:
         raise IllFormed("a meet needs at least one type")
     return flat[0] if len(flat) == 1 else Meet(flat)
@@ -558,13 +558,13 @@ def join(*parts: TypeNode) -> TypeNode:
     >>> print(join(B, A, B))
     A \\/ B
     """
-    flat = _flat(Join, parts)
+    flat = _flat_parts(Join, parts)
     if not flat:
         raise IllFormed("a join needs at least one type")
     return flat[0] if len(flat) == 1 else Join(flat)
 
 
-def _flat(
+def _flat_parts(
     kind: type[Meet] | type[Join], parts: tuple[TypeNode, ...]
 ) -> tuple[TypeNode, ...]:
     """The parts without those of the same kind around them, each once, in order."""
@@ -572,7 +572,7 @@ def _flat(
     for part in map(as_type, parts):
         inner = part.parts if isinstance(part, kind) else (part,)
         once.update(dict.fromkeys(inner))
-    return tuple(once) if len(once) < 2 else tuple(in_canonical_order(once))
+    return tuple(once) if len(once) < 2 else tuple(sort_canonically(once))
 
 
 Ind = Basic("Ind")

@@ -18,9 +18,9 @@ from ttr.computing.strings.automaton_steps import (
     Automaton,
     Edge,
     Edges,
-    combined,
-    too_large,
-    trimmed,
+    intersect,
+    too_many_states,
+    trim,
 )
 from ttr.computing.strings.pieces import (
     alternatives,
@@ -48,7 +48,7 @@ def automaton(T: TypeNode) -> Automaton:
     >>> print(first.label, "then", one.rest_of(first.target))
     A then str(plus(A) \\/ str(), B)
     """
-    return _Building(_itself).of(T)
+    return _Builder(_unchanged).of(T)
 
 
 def automaton_above(T: TypeNode) -> Automaton:
@@ -56,13 +56,13 @@ def automaton_above(T: TypeNode) -> Automaton:
 
     Raises `Unsupported` where there is a meet in it with too many states.
     """
-    found = _Building(regular_above).of(T)
+    found = _Builder(regular_above).of(T)
     if any(found.wholes.values()):
-        raise too_large(T)
+        raise too_many_states(T)
     return found
 
 
-def _itself(T: TypeNode) -> TypeNode:
+def _unchanged(T: TypeNode) -> TypeNode:
     return T
 
 
@@ -87,7 +87,7 @@ _END = 0
 """The state in which nothing is left."""
 
 
-class _Building:
+class _Builder:
     """Numbers the states of a type, and finds their steps.
 
     `regular` says what stands for a type of strings that is not regular; where that
@@ -98,7 +98,7 @@ class _Building:
         self._regular = regular
         self._numbers: dict[_Left, int] = {}
         self._left: list[_Left | None] = [None]
-        self._combined: dict[TypeNode, Automaton | None] = {}
+        self._intersections: dict[TypeNode, Automaton | None] = {}
 
     def of(self, T: TypeNode) -> Automaton:
         """The automaton of T, without states that lead nowhere."""
@@ -113,7 +113,7 @@ class _Building:
                 continue
             edges[state], wholes[state] = self._steps_from(state, final)
             waiting += [edge.target for edge in (*edges[state], *wholes[state])]
-        return trimmed(Automaton(start, edges, wholes, frozenset(final), self._rest))
+        return trim(Automaton(start, edges, wholes, frozenset(final), self._rest_of))
 
     def _state(self, head: _Head, then: int) -> int:
         left = (head, then)
@@ -136,14 +136,14 @@ class _Building:
                 continue
             found = [
                 number
-                for number in self._opened(left, edges, wholes)
+                for number in self._expand(left, edges, wholes)
                 if number not in seen
             ]
             seen.update(found)
             waiting += reversed(found)
         return tuple(edges), tuple(wholes)
 
-    def _opened(
+    def _expand(
         self, left: _Left, edges: dict[Edge, None], wholes: dict[Edge, None]
     ) -> Iterator[int]:
         """The states that are the same without an event; notes the steps with one."""
@@ -167,9 +167,9 @@ class _Building:
             case _ if not is_of_strings(head):
                 edges[Edge(head, then)] = None
             case _:
-                yield from self._taken_apart(head, then, wholes)
+                yield from self._expand_alternatives(head, then, wholes)
 
-    def _taken_apart(
+    def _expand_alternatives(
         self, T: TypeNode, then: int, wholes: dict[Edge, None]
     ) -> Iterator[int]:
         """The same for a join, a meet or a singleton of strings."""
@@ -181,26 +181,26 @@ class _Building:
         if isinstance(T, Str | Plus | Join):
             yield self._state(T, then)
             return
-        inner = self._meet(T)
+        inner = self._intersection(T)
         if inner is None:
             wholes[Edge(T, then)] = None
         else:
             yield self._state(_Inside(inner, inner.start), then)
 
-    def _meet(self, T: TypeNode) -> Automaton | None:
+    def _intersection(self, T: TypeNode) -> Automaton | None:
         """The automaton of a meet; None where it has to be asked for as a whole."""
-        if T not in self._combined:
-            self._combined[T] = None
+        if T not in self._intersections:
+            self._intersections[T] = None
             with suppress(Unsupported):
-                self._combined[T] = _product(T, self)
-        return self._combined[T]
+                self._intersections[T] = _product(T, self)
+        return self._intersections[T]
 
     def part(self, T: TypeNode) -> Automaton | None:
         """The automaton of a part of a meet; None where it takes wholes."""
-        found = _Building(self._regular).of(T)
+        found = _Builder(self._regular).of(T)
         return None if any(found.wholes.values()) else found
 
-    def _rest(self, state: int) -> TypeNode:
+    def _rest_of(self, state: int) -> TypeNode:
         """The type of what is left in a state."""
         spend()
         pieces = []
@@ -219,7 +219,7 @@ class _Building:
         return pieces[0] if one_string else Str(*pieces)
 
 
-def _product(T: TypeNode, building: _Building) -> Automaton | None:
+def _product(T: TypeNode, building: _Builder) -> Automaton | None:
     """The automaton of a meet of regular types, where each part has one."""
     if not isinstance(T, Meet) or not is_regular(T):
         return None
@@ -228,4 +228,4 @@ def _product(T: TypeNode, building: _Building) -> Automaton | None:
     asked = [one for one in plain if one is not None]
     if len(asked) < len(plain) or any(any(one.wholes.values()) for one in denied):
         return None
-    return combined(asked, denied)
+    return intersect(asked, denied)

@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeAlias
 from ttr.errors import Unsupported
 from ttr.types.syntax import TypeNode, join, meet
 
-__all__ = ["Automaton", "Edge", "Edges", "combined", "too_large", "trimmed"]
+__all__ = ["Automaton", "Edge", "Edges", "intersect", "too_many_states", "trim"]
 
 EDGES = 4096
 """How many edges the automaton of a meet may have."""
@@ -59,7 +59,7 @@ class Automaton:
         return tuple(dict.fromkeys(edge.label for edge in steps))
 
 
-def trimmed(found: Automaton) -> Automaton:
+def trim(found: Automaton) -> Automaton:
     """The automaton without the steps after which no string can be completed."""
     before: dict[int, list[int]] = {}
     for steps in (found.edges, found.wholes):
@@ -89,11 +89,11 @@ def trimmed(found: Automaton) -> Automaton:
 
 # --- several at once -----------------------------------------------------------------
 
-_Both: TypeAlias = tuple[tuple[int, ...], tuple[frozenset[int], ...]]
+_ProductState: TypeAlias = tuple[tuple[int, ...], tuple[frozenset[int], ...]]
 """A state of each part of a meet; of a part that is denied, all it may be in."""
 
 
-def combined(plain: list[Automaton], denied: list[Automaton]) -> Automaton:
+def intersect(plain: list[Automaton], denied: list[Automaton]) -> Automaton:
     """The automaton of the strings of all of some automata, and of none of others.
 
     Of those that are denied every state that they may be in is followed, so an event of
@@ -108,8 +108,8 @@ class _Product:
 
     def __init__(self, plain: list[Automaton], denied: list[Automaton]) -> None:
         self._plain, self._denied = plain, denied
-        self._states: list[_Both] = []
-        self._numbers: dict[_Both, int] = {}
+        self._states: list[_ProductState] = []
+        self._numbers: dict[_ProductState, int] = {}
 
     def all(self) -> Automaton:
         """All states that are reached; raises `Unsupported` for too many steps."""
@@ -123,10 +123,12 @@ class _Product:
             edges[len(edges)] = found
             count += len(found)
             if count > EDGES:
-                raise too_large(self.rest_of(start))
-        final = frozenset(i for i, both in enumerate(self._states) if self._ends(both))
+                raise too_many_states(self.rest_of(start))
+        final = frozenset(
+            i for i, both in enumerate(self._states) if self._is_final(both)
+        )
         wholes: Edges = dict.fromkeys(edges, ())
-        return trimmed(Automaton(start, edges, wholes, final, self.rest_of))
+        return trim(Automaton(start, edges, wholes, final, self.rest_of))
 
     def rest_of(self, state: int) -> TypeNode:
         """The type of what is left in a state."""
@@ -137,25 +139,25 @@ class _Product:
                 rests.append(~join(*map(one.rest_of, sorted(several))))
         return meet(*rests)
 
-    def _number(self, both: _Both) -> int:
+    def _number(self, both: _ProductState) -> int:
         number = self._numbers.setdefault(both, len(self._states))
         if number == len(self._states):
             self._states.append(both)
         return number
 
-    def _ends(self, both: _Both) -> bool:
+    def _is_final(self, both: _ProductState) -> bool:
         plain = zip(self._plain, both[0], strict=True)
         denied = zip(self._denied, both[1], strict=True)
         return all(state in one.final for one, state in plain) and not any(
             several & one.final for one, several in denied
         )
 
-    def _steps(self, both: _Both) -> Iterator[Edge]:
+    def _steps(self, both: _ProductState) -> Iterator[Edge]:
         choices = [
             one.edges[state] for one, state in zip(self._plain, both[0], strict=True)
         ]
         cases = [
-            tuple(_told_apart(one, several))
+            tuple(_distinguish_events(one, several))
             for one, several in zip(self._denied, both[1], strict=True)
         ]
         for edges in product(*choices):
@@ -169,7 +171,7 @@ class _Product:
                 yield Edge(meet(*labels, *known), self._number((targets, after)))
 
 
-def _told_apart(
+def _distinguish_events(
     one: Automaton, several: frozenset[int]
 ) -> Iterator[tuple[tuple[TypeNode, ...], frozenset[int]]]:
     """What an event may be of, as far as that matters to a denied type in its states.
@@ -179,14 +181,14 @@ def _told_apart(
     edges = [edge for state in sorted(several) for edge in one.edges.get(state, ())]
     labels = tuple(dict.fromkeys(edge.label for edge in edges))
     if len(labels) > DENIED:
-        raise too_large(join(*map(one.rest_of, sorted(several))))
+        raise too_many_states(join(*map(one.rest_of, sorted(several))))
     for case in product((True, False), repeat=len(labels)):
         so = dict(zip(labels, case, strict=True))
         known = tuple([label if so[label] else ~label for label in labels])
         yield known, frozenset(edge.target for edge in edges if so[edge.label])
 
 
-def too_large(T: TypeNode) -> Unsupported:
+def too_many_states(T: TypeNode) -> Unsupported:
     """The error that a type has too many cases."""
     return Unsupported(
         f"{T} has too many cases to be followed event by event",

@@ -22,7 +22,7 @@ States: TypeAlias = frozenset[int]
 NOWHERE: States = frozenset()
 """No state: what was seen does not go on to anything that is expected."""
 
-Together: TypeAlias = Callable[[Degree, Degree], Degree]
+_Conjunction: TypeAlias = Callable[[Degree, Degree], Degree]
 """How probable two things are together."""
 
 
@@ -68,32 +68,32 @@ class Beliefs:
         one, other = REFUTED, REFUTED
         for states, p in self.degrees.items():
             if holds(states):
-                one = _either(one, p)
+                one = _disjoint_sum(one, p)
             else:
-                other = _either(other, p)
+                other = _disjoint_sum(other, p)
         low = min(1.0, max(one.lo, 1.0 - other.hi))
         return Degree(low, max(low, min(one.hi, 1.0 - other.lo)))
 
     def after(
         self,
         steps: Callable[[States], Iterable[tuple[States, Degree]]],
-        together: Together,
+        together: _Conjunction,
     ) -> Beliefs:
         """The beliefs after an event, which leads from each set to others."""
         found: dict[States, Degree] = {}
         for states, p in self.degrees.items():
             for reached, q in steps(states):
                 both = together(p, q)
-                found[reached] = _either(found.get(reached, REFUTED), both)
-        return Beliefs(_fewest(found))
+                found[reached] = _disjoint_sum(found.get(reached, REFUTED), both)
+        return Beliefs(_merge_unlikely(found))
 
 
-def _either(p: Degree, q: Degree) -> Degree:
+def _disjoint_sum(p: Degree, q: Degree) -> Degree:
     """How probable it is that one of two things is so that cannot both be."""
     return Degree(min(1.0, p.lo + q.lo), min(1.0, p.hi + q.hi))
 
 
-def _fewest(degrees: Mapping[States, Degree]) -> Mapping[States, Degree]:
+def _merge_unlikely(degrees: Mapping[States, Degree]) -> Mapping[States, Degree]:
     """The same with the least probable sets made two where there are too many.
 
     What is reached then lies between those two: what all have and what any has.
@@ -106,5 +106,5 @@ def _fewest(degrees: Mapping[States, Degree]) -> Mapping[States, Degree]:
     least, whole = frozenset.intersection(*others), frozenset.union(*others)
     most = min(1.0, sum(degrees[states].hi for states in others))
     for states in (whole, least):
-        kept[states] = _either(kept.get(states, REFUTED), Degree(0.0, most))
+        kept[states] = _disjoint_sum(kept.get(states, REFUTED), Degree(0.0, most))
     return kept

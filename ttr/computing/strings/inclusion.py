@@ -19,7 +19,7 @@ from ttr.computing.strings.automata import Automaton, Edges
 from ttr.safety.budgets import spend
 from ttr.types.syntax import TypeNode, meet
 
-__all__ = ["Below", "Inclusion", "included"]
+__all__ = ["_Below", "Inclusion", "check_inclusion"]
 
 PAIRS = 1024
 """How many pairs of a state and a set of states are followed before it is left."""
@@ -27,7 +27,7 @@ PAIRS = 1024
 TOLD_APART = 6
 """How many types an event may be of or not, for its cases to be told apart."""
 
-Below: TypeAlias = Callable[[TypeNode, tuple[TypeNode, ...]], bool]
+_Below: TypeAlias = Callable[[TypeNode, tuple[TypeNode, ...]], bool]
 """Whether what is of a type surely is of one of some others; of none, if nothing is."""
 
 
@@ -43,7 +43,7 @@ class Inclusion:
     against: tuple[TypeNode, ...] | None = None
 
 
-def included(S: Automaton, T: Automaton | None, below: Below) -> Inclusion:
+def check_inclusion(S: Automaton, T: Automaton | None, below: _Below) -> Inclusion:
     """Whether the strings of S are among those of T; without T, whether there are none.
 
     >>> from ttr.computing.strings.automata import automaton
@@ -51,28 +51,28 @@ def included(S: Automaton, T: Automaton | None, below: Below) -> Inclusion:
     >>> A = Basic("A")
     >>> pairs, some = automaton(Plus(Str(A, A))), automaton(Plus(A))
     >>> same = lambda event, types: event in types
-    >>> included(pairs, some, same).yes
+    >>> check_inclusion(pairs, some, same).yes
     True
-    >>> [str(one) for one in included(some, pairs, same).against]
+    >>> [str(one) for one in check_inclusion(some, pairs, same).against]
     ['A']
     """
-    return _Following(S, T, below).all()
+    return _InclusionSearch(S, T, below).all()
 
 
 _Pair: TypeAlias = tuple[int, frozenset[int]]
-_Came: TypeAlias = dict[_Pair, tuple[_Pair, TypeNode] | None]
+_Predecessors: TypeAlias = dict[_Pair, tuple[_Pair, TypeNode] | None]
 
 
-class _Following:
+class _InclusionSearch:
     """Follows pairs of a state of S and the states that T may be in, shortest first."""
 
-    def __init__(self, S: Automaton, T: Automaton | None, below: Below) -> None:
+    def __init__(self, S: Automaton, T: Automaton | None, below: _Below) -> None:
         self._S, self._T, self._below = S, T, below
         self._known: dict[tuple[TypeNode, tuple[TypeNode, ...]], bool] = {}
 
     def all(self) -> Inclusion:
         start = (self._S.start, frozenset((self._T.start,) if self._T else ()))
-        came: _Came = {start: None}
+        came: _Predecessors = {start: None}
         smallest: dict[int, list[frozenset[int]]] = {start[0]: [start[1]]}
         waiting = [start]
         for pair in waiting:  # grows on the way
@@ -80,8 +80,8 @@ class _Following:
                 return Inclusion(False)
             state, others = pair
             if state in self._S.final and not self._ends(others):
-                return Inclusion(False, _word(came, pair))
-            for after, label in self._after(state, others):
+                return Inclusion(False, _word_to(came, pair))
+            for after, label in self._successors(state, others):
                 seen = smallest.setdefault(after[0], [])
                 if any(fewer <= after[1] for fewer in seen):
                     continue
@@ -93,24 +93,24 @@ class _Following:
     def _ends(self, others: frozenset[int]) -> bool:
         return self._T is not None and not others.isdisjoint(self._T.final)
 
-    def _after(
+    def _successors(
         self, state: int, others: frozenset[int]
     ) -> Iterator[tuple[_Pair, TypeNode]]:
         """The pairs after an event of S, or after a string that it takes as a whole."""
-        for steps in (_by_events, _by_wholes):
+        for steps in (_edges_of, _wholes_of):
             theirs = [
                 edge for q in sorted(others) if self._T for edge in steps(self._T)[q]
             ]
             labels = tuple(dict.fromkeys(edge.label for edge in theirs))
             for label, target in steps(self._S)[state]:
-                for denied in self._denied(label, labels):
+                for denied in self._deniable_labels(label, labels):
                     after = frozenset(
                         edge.target for edge in theirs if edge.label not in denied
                     )
                     event = meet(label, *[~one for one in denied])
                     yield (target, after), event
 
-    def _denied(
+    def _deniable_labels(
         self, label: TypeNode, labels: tuple[TypeNode, ...]
     ) -> list[tuple[TypeNode, ...]]:
         """Of which of the labels an event of a type may not be, as many as can be.
@@ -145,15 +145,15 @@ class _Following:
         return self._known[asked]
 
 
-def _by_events(one: Automaton) -> Edges:
+def _edges_of(one: Automaton) -> Edges:
     return one.edges
 
 
-def _by_wholes(one: Automaton) -> Edges:
+def _wholes_of(one: Automaton) -> Edges:
     return one.wholes
 
 
-def _word(came: _Came, pair: _Pair) -> tuple[TypeNode, ...]:
+def _word_to(came: _Predecessors, pair: _Pair) -> tuple[TypeNode, ...]:
     """The types of the events on the way to a pair."""
     labels = []
     step = came[pair]

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from itertools import product
 from math import prod
 
-from ttr.computing.normal_forms import inwards
+from ttr.computing.normal_forms import push_negations_inwards
 from ttr.safety.budgets import spend
 from ttr.types.syntax import (
     EventString,
@@ -55,7 +55,7 @@ def is_of_strings(T: TypeNode) -> bool:
         case Singleton(base, _):
             return is_of_strings(base)
         case Negation():
-            inner = inwards(T)
+            inner = push_negations_inwards(T)
             return inner is not T and is_of_strings(inner)
     return False
 
@@ -95,7 +95,7 @@ def alternatives(T: TypeNode) -> tuple[TypeNode, ...]:
     spend()
     if not is_of_strings(T):
         return (T,)
-    T = inwards(T)
+    T = push_negations_inwards(T)
     match T:
         case Join(parts):
             found = [one for part in parts for one in alternatives(part)]
@@ -129,11 +129,13 @@ def is_regular(T: TypeNode) -> bool:
         case Join(parts):
             return all(map(is_regular, parts))
         case Meet(parts):
-            return any(map(is_regular, parts)) and all(map(_says_all, parts))
+            return any(map(is_regular, parts)) and all(
+                map(_is_regular_or_denied, parts)
+            )
     return False
 
 
-def _says_all(T: TypeNode) -> bool:
+def _is_regular_or_denied(T: TypeNode) -> bool:
     """Whether a part of a meet is regular, or denies what is."""
     return is_regular(T.body if isinstance(T, Negation) else T)
 
@@ -148,7 +150,7 @@ def regular_above(T: TypeNode) -> TypeNode:
     spend()
     match T:
         case Meet(parts):
-            kept = [part for part in parts if _says_all(part)]
+            kept = [part for part in parts if _is_regular_or_denied(part)]
             others = [p for p in parts if p not in kept and is_of_strings(p)]
             return meet(*kept, *map(regular_above, others))
         case Join(parts):

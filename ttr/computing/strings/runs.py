@@ -18,13 +18,13 @@ from ttr.types.syntax import TypeNode, join
 
 __all__ = [
     "Division",
-    "Fits",
-    "FitsWhole",
+    "_Fits",
+    "_FitsWhole",
     "Piece",
     "Stop",
     "a_way",
     "all_ways",
-    "covers",
+    "accepts",
 ]
 
 WAYS = 64
@@ -33,10 +33,10 @@ WAYS = 64
 FOLLOWED = 4096
 """How many beginnings of strings are followed to find the shortest ones."""
 
-Fits: TypeAlias = Callable[[int, TypeNode], bool]
+_Fits: TypeAlias = Callable[[int, TypeNode], bool]
 """Whether an event, by its number, is of a type of events."""
 
-FitsWhole: TypeAlias = Callable[[int, int, TypeNode], bool]
+_FitsWhole: TypeAlias = Callable[[int, int, TypeNode], bool]
 """Whether events start to end as one string are of a type."""
 
 
@@ -114,7 +114,9 @@ class _States:
         return found
 
 
-def a_way(length: int, automaton: Automaton, fits: Fits) -> tuple[TypeNode, ...] | Stop:
+def a_way(
+    length: int, automaton: Automaton, fits: _Fits
+) -> tuple[TypeNode, ...] | Stop:
     """What the events of a string are of, one by one, or where that leads nowhere.
 
     The automaton takes no wholes. The time is linear in the length.
@@ -135,12 +137,12 @@ def a_way(length: int, automaton: Automaton, fits: Fits) -> tuple[TypeNode, ...]
         labels = states.labels(here)
         step = states.step(here, tuple([fits(number, label) for label in labels]))
         if not step.states:
-            return _stop(number, here, automaton)
+            return _stop_at(number, here, automaton)
         steps.append(step)
         here = step.states
     ending = [state for state in here if state in automaton.final]
     if not ending:
-        return _stop(length, here, automaton)
+        return _stop_at(length, here, automaton)
     state, way = ending[0], []
     for step in reversed(steps):
         state, label = step.back[state]
@@ -148,7 +150,7 @@ def a_way(length: int, automaton: Automaton, fits: Fits) -> tuple[TypeNode, ...]
     return tuple(reversed(way))
 
 
-def _stop(number: int, states: tuple[int, ...], automaton: Automaton) -> Stop:
+def _stop_at(number: int, states: tuple[int, ...], automaton: Automaton) -> Stop:
     labels = [label for state in states for label in automaton.labels(state)]
     may_end = any(state in automaton.final for state in states)
     return Stop(number, tuple(dict.fromkeys(labels)), may_end)
@@ -158,15 +160,15 @@ def _stop(number: int, states: tuple[int, ...], automaton: Automaton) -> Stop:
 
 
 def all_ways(
-    length: int, automaton: Automaton, fits: Fits, fits_whole: FitsWhole
+    length: int, automaton: Automaton, fits: _Fits, fits_whole: _FitsWhole
 ) -> Division | Stop:
     """The ways to divide a string, told apart by the pieces and what they are of."""
     came = _Arrivals(length, automaton, fits, fits_whole).all()
     ending = [state for state in came[length] if state in automaton.final]
     if not ending:
         furthest = max(number for number, states in enumerate(came) if states)
-        return _stop(furthest, tuple(came[furthest]), automaton)
-    found = _backwards(came, automaton.start, frozenset(ending))
+        return _stop_at(furthest, tuple(came[furthest]), automaton)
+    found = _walk_back(came, automaton.start, frozenset(ending))
     ways = tuple(map(tuple, islice(found, WAYS + 1)))
     return Division(ways[:WAYS], len(ways) <= WAYS)
 
@@ -180,7 +182,7 @@ class _Arrival(NamedTuple):
     whole: bool = False
 
 
-_Came: TypeAlias = list[dict[int, list[_Arrival]]]
+_ArrivalTable: TypeAlias = list[dict[int, list[_Arrival]]]
 """How each state is reached after so many events."""
 
 
@@ -188,16 +190,16 @@ class _Arrivals:
     """Finds how states are reached, forwards."""
 
     def __init__(
-        self, length: int, automaton: Automaton, fits: Fits, fits_whole: FitsWhole
+        self, length: int, automaton: Automaton, fits: _Fits, fits_whole: _FitsWhole
     ) -> None:
         self._length, self._automaton = length, automaton
         self._fits, self._fits_whole = fits, fits_whole
-        self._came: _Came = [{} for _ in range(length + 1)]
+        self._came: _ArrivalTable = [{} for _ in range(length + 1)]
         self._came[0][automaton.start] = []
 
-    def all(self) -> _Came:
+    def all(self) -> _ArrivalTable:
         """How each state is reached after each number of events."""
-        edges = _joined(self._automaton.edges)
+        edges = _join_parallel_edges(self._automaton.edges)
         has_wholes = any(self._automaton.wholes.values())
         for number, states in enumerate(self._came):
             if has_wholes:
@@ -245,7 +247,7 @@ class _Arrivals:
         return found
 
 
-def _joined(edges: Edges) -> Edges:
+def _join_parallel_edges(edges: Edges) -> Edges:
     """The edges with those between the same states made one: a way less to tell."""
     found: dict[int, tuple[Edge, ...]] = {}
     for state, several in edges.items():
@@ -256,8 +258,8 @@ def _joined(edges: Edges) -> Edges:
     return found
 
 
-def _backwards(
-    came: _Came, start: int, ending: frozenset[int]
+def _walk_back(
+    came: _ArrivalTable, start: int, ending: frozenset[int]
 ) -> Iterator[list[Piece]]:
     """The ways from the start to the end, found backwards; without recursion."""
     # A way so far is a linked list, so that ways share what they have in common. What
@@ -266,7 +268,7 @@ def _backwards(
     while waiting:
         end, states, passed, rest = waiting.pop()
         if end == 0 and start in states:
-            yield _unlinked(rest)
+            yield _unlink(rest)
         before: dict[Piece, list[int]] = {}
         for state in sorted(states - passed):
             for begin, source, label, whole in came[end][state]:
@@ -281,7 +283,7 @@ _Way: TypeAlias = tuple[int, frozenset[int], frozenset[int], Any]
 """Before how many events, in which states, after which others there; and the rest."""
 
 
-def _unlinked(way: Any) -> list[Any]:
+def _unlink(way: Any) -> list[Any]:
     found = []
     while way is not None:
         piece, way = way
@@ -292,15 +294,15 @@ def _unlinked(way: Any) -> list[Any]:
 # --- whether there is a way ----------------------------------------------------------
 
 
-def covers(length: int, automaton: Automaton, fits: Fits) -> bool:
+def accepts(length: int, automaton: Automaton, fits: _Fits) -> bool:
     """Whether so many events can be divided, where `fits` says what an event is of.
 
     >>> from ttr.computing.strings.automata import automaton
     >>> from ttr.types.syntax import Ind, Plus, Str
     >>> pairs = automaton(Plus(Str(Ind, Ind)))
-    >>> covers(4, pairs, lambda number, T: True)
+    >>> accepts(4, pairs, lambda number, T: True)
     True
-    >>> covers(3, pairs, lambda number, T: True)
+    >>> accepts(3, pairs, lambda number, T: True)
     False
     """
     states = {automaton.start}
@@ -334,7 +336,7 @@ def shortest(automaton: Automaton, length: int = 0) -> Iterator[tuple[TypeNode, 
         followed += 1
         state, size, way = waiting.popleft()
         if state in automaton.final:
-            labels = tuple(reversed(_unlinked(way)))
+            labels = tuple(reversed(_unlink(way)))
             if size >= length:
                 yield labels
             else:
