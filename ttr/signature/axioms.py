@@ -24,7 +24,8 @@ def above(
 
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> dog, puppy = Pred("dog", Ind), Pred("puppy", Ind)
-    >>> for axiom, upper in above(puppy("rex"), (Axiom(puppy(this.x), dog(this.x)),)):
+    >>> axioms = (Axiom(puppy(this.x), dog(this.x)),)
+    >>> for axiom, upper in above(puppy("rex"), axioms):
     ...     print(upper, "by", axiom)
     dog(rex) by puppy(x) <: dog(x)
     """

@@ -191,8 +191,10 @@ def escaping(value: Object) -> frozenset[Path]:
 
     >>> from ttr.types.syntax import Ind, this
     >>> dog = Pred("dog", Ind)
-    >>> escaping(dog(this.x)), escaping(RecordType((("x", Ind), ("c", dog(this.x)))))
-    (frozenset({this.x}), frozenset())
+    >>> escaping(dog(this.x))
+    frozenset({this.x})
+    >>> escaping(RecordType((("x", Ind), ("c", dog(this.x)))))
+    frozenset()
     """
     if type(value) is str:
         return _NO_PATHS

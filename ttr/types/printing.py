@@ -213,8 +213,10 @@ def head(function: Object, scope: Scope) -> str:
 
     A path has a dot and a name has quotes, so that neither is read as a predicate.
 
-    >>> print(head(Path(0, ("f",)), (frozenset({"f"}),)), head("f", ()), head(3, ()))
-    .f "f" (3)
+    >>> print(head(Path(0, ("f",)), (frozenset({"f"}),)))
+    .f
+    >>> print(head("f", ()), head(3, ()))
+    "f" (3)
     """
     match function:
         case Path(up, labels) if labels[0] != BOUND:
