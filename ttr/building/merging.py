@@ -7,6 +7,8 @@ from ttr.computing.subtyping import subtype
 from ttr.errors import TTRError
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature, signature_of
+from ttr.types.objects import sort_canonically
+from ttr.types.paths import occurring
 from ttr.types.syntax import (
     Record,
     RecordType,
@@ -45,7 +47,7 @@ def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeN
             return _merge_compatible(S, T, theory)
     simplest = [one for one, other in ((S, T), (T, S)) if _is_below(one, other, theory)]
     if simplest:
-        return min(simplest, key=lambda one: (len(str(one)), str(one), repr(one)))
+        return min(sort_canonically(simplest), key=_count_terms)
     match S, T:
         case RecordType(), RecordType():
             return _merge_records(S, T, theory)
@@ -72,6 +74,11 @@ def _merge_compatible(
     if all(label in T for label in S):
         return T
     return rectype({**dict(S.fields), **dict(T.fields)}, theory)
+
+
+def _count_terms(T: TypeNode) -> int:
+    """How many different types and objects T is made of."""
+    return sum(1 for _ in occurring([T]))
 
 
 def _is_below(S: TypeNode, T: TypeNode, theory: Signature | None) -> bool:

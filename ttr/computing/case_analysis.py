@@ -28,9 +28,9 @@ from ttr.types.syntax import (
     meet,
 )
 
-__all__ = ["CASES", "Clause", "cases", "clauses", "splits"]
+__all__ = ["Clause", "cases", "clauses", "splits"]
 
-CASES = 256
+_CASES = 256
 """How many cases or clauses a type may have before it is left whole."""
 
 Clause = tuple[TypeNode, ...]
@@ -100,7 +100,7 @@ def _combine_cases(
 ) -> tuple[TypeNode, ...] | None:
     """A case of the whole for each choice of a case for each part."""
     found = list(parts)
-    if prod(len(choices or ()) for choices in found) > CASES or None in found:
+    if prod(len(choices or ()) for choices in found) > _CASES or None in found:
         return None
     return tuple([whole(*choice) for choice in product(*filter(None, found))])
 
@@ -112,7 +112,7 @@ def _all_cases(
     if None in found:
         return None
     once = tuple(dict.fromkeys(chain.from_iterable(filter(None, found))))
-    return once if len(once) <= CASES else None
+    return once if len(once) <= _CASES else None
 
 
 def clauses(T: TypeNode) -> tuple[Clause, ...] | None:
@@ -124,7 +124,7 @@ def clauses(T: TypeNode) -> tuple[Clause, ...] | None:
     ['A or ~A or ~C', 'B or ~A or ~C']
     """
     try:
-        T = meet_normal_form(T, CASES)
+        T = meet_normal_form(T, _CASES)
     except Unsupported:
         return None
     whole = T.parts if isinstance(T, Meet) else (T,)

@@ -50,11 +50,11 @@ class _RecordEditor:
         here = self.record = self._copy(self.record)
         on_the_way = [here]
         for label in outer:
-            inner = self._copy(_join_path(here, label, path))
+            inner = self._copy(_value_at(here, label, path))
             here._fields[label] = inner
             here = inner
             on_the_way.append(here)
-        _join_path(here, last, path)
+        _value_at(here, last, path)
         here._fields[last] = value
         if not lasts(value):
             for one in on_the_way:
@@ -76,7 +76,7 @@ class _RecordEditor:
 _write = object.__setattr__
 
 
-def _join_path(r: Object, label: str, path: list[str]) -> Object:
+def _value_at(r: Object, label: str, path: list[str]) -> Object:
     """What a record has at a label on the way along a path."""
     if isinstance(r, Record) and label in r._fields:
         return r._fields[label]
