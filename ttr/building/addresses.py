@@ -18,7 +18,7 @@ Address: TypeAlias = tuple[str, ...]
 
 
 def parse_address(path: object, what: str) -> Address:
-    """The labels of a path written with dots; `what` takes it.
+    """The labels of a path written with dots; `what` is the function that was given it.
 
     >>> parse_address("bg.x", "subtract")
     ('bg', 'x')
@@ -39,7 +39,7 @@ def format_address(labels: Address) -> str:
 
 
 def to_absolute(path: Path, scope: Address) -> Path:
-    """A path from the record type at an address, as a path from the outermost one.
+    """A path that starts in the record type at an address, as one from the outermost.
 
     >>> to_absolute(Path(0, ("x",)), ("bg",)), to_absolute(Path(1, ("y",)), ("bg",))
     (this.bg.x, this.y)
@@ -50,7 +50,7 @@ def to_absolute(path: Path, scope: Address) -> Path:
 
 
 def to_relative(path: Path, scope: Address) -> Path:
-    """A path from the outermost record type, as the shortest one from an address.
+    """A path that starts in the outermost record type, as the shortest from an address.
 
     >>> to_relative(Path(0, ("bg", "x")), ("bg",))
     this.x

@@ -126,7 +126,7 @@ def _variable(
 
 
 def _bind_variable(name: str, body: Object) -> Object:
-    """The body with the variable as the path that its name does not matter for."""
+    """The body with its variable as the path `BOUND`, whatever its name."""
 
     def at(path: Path) -> Object:
         first, *rest = path.labels

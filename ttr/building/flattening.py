@@ -62,7 +62,7 @@ def _flatten_type(T: RecordType, sep: str) -> RecordType:
 
 
 def _leaves(T: RecordType, at: Address) -> Iterator[tuple[Address, TypeNode]]:
-    """The fields that are no record types with fields, and where they stand."""
+    """The fields that are not record types with fields, each with its address."""
     spend((1 + len(at) // 4) * len(T.fields))
     for label, field in T.fields:
         if isinstance(field, RecordType) and field.fields:
@@ -74,7 +74,7 @@ def _leaves(T: RecordType, at: Address) -> Iterator[tuple[Address, TypeNode]]:
 def _flat_path(
     path: Path, at: Address, leaves: Mapping[Address, TypeNode], sep: str
 ) -> Path:
-    """A path in the field at an address, as it is once all is flat."""
+    """A path in the field at an address, as it is written in the flat type."""
     found = to_absolute(path, at[:-1])
     if found.up > 0:
         return found
@@ -89,7 +89,7 @@ def _flat_path(
 
 
 def _all_parts(r: Record, at: Address) -> Iterator[tuple[Address, Object]]:
-    """What is in a record and in the records with labels that it holds."""
+    """The addresses and values in a record, and in the nonempty records inside it."""
     spend()
     for label, value in r._fields.items():
         if isinstance(value, Record) and len(value) > 0:
@@ -101,7 +101,7 @@ def _all_parts(r: Record, at: Address) -> Iterator[tuple[Address, Object]]:
 def _parts_like(
     T: RecordType, value: Object, at: Address
 ) -> Iterator[tuple[Address, Object]]:
-    """What is in a record, and in a record in it where T has a record type."""
+    """The addresses and values in a record, nested wherever T has a record type."""
     spend()
     labels = value._fields if isinstance(value, Record) else {}
     for label, field in T.fields:
@@ -118,7 +118,7 @@ def _parts_like(
 
 
 def _join_labels(at: Address, sep: str) -> str:
-    """One label for an address; it can be taken apart in one way only."""
+    """One label for an address; refuses one that would split in another way."""
     _check_separator(sep)
     label = sep.join(at)
     check_label(label)
@@ -171,7 +171,7 @@ def unflatten(value: _Shape, sep: str = "__") -> _Shape:
 
 
 def _nested_path(path: Path, scope: Address, flat: RecordType, sep: str) -> Path:
-    """A path in a field of a flat type, from the record type it will stand in."""
+    """A path in a field of a flat type, as it is written in the nested one."""
     first, *rest = path.labels
     if path.up == 0 and first in flat:
         path = Path(0, (*_split_label(first, sep), *rest))

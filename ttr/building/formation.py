@@ -39,10 +39,10 @@ __all__ = ["checked", "checked_binder", "checked_within", "target", "wellformed"
 
 @within_budget
 def wellformed(T: TypeNode, theory: Signature | None = None, /) -> Answer:
-    """Whether every path in T leads to a field that fits, and none in a circle.
+    """Does every path in T lead to a field that fits, and none in a circle?
 
-    A type with a circle can be judged, but no witness of it built. Where the theory is
-    given, what fits by an axiom fits. Raises `IllFormed` for what is no type.
+    A type with a circle can be judged, but no witness of it can be created. With a
+    theory, its axioms count. Raises `IllFormed` if T is not a type.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
@@ -85,7 +85,7 @@ _BINDER = TypeVar("_BINDER", Function, FunType)
 
 @within_budget
 def checked_binder(binder: _BINDER, theory: Signature | None = None) -> _BINDER:
-    """The function or function type itself, if its paths resolve and fit."""
+    """The binder itself, if its paths resolve and fit; else `IllFormed`."""
     inside = binder.body if isinstance(binder, Function) else binder.result
     _check(inside, _scope(binder), (), signature_of(theory))
     return binder
@@ -94,9 +94,9 @@ def checked_binder(binder: _BINDER, theory: Signature | None = None) -> _BINDER:
 def checked_within(
     value: Object, around: RecordType, theory: Signature | None = None
 ) -> None:
-    """Refuses a value whose paths do not resolve in records of `around`, or misfit.
+    """Check that the paths of a value resolve and fit, if it stands in `around`.
 
-    The value stands in such a record, as the type of a field of it does.
+    Raises `IllFormed` if they do not. The value stands there like the type of a field.
 
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> checked_within(Pred("dog", Ind)(this.s.y), RecordType((("s", RecordType(())),)))
@@ -107,7 +107,7 @@ def checked_within(
 
 
 class _Scope(NamedTuple):
-    """The fields that paths may start from, and what they are called in print."""
+    """The fields that paths may start from, and their names in print."""
 
     fields: RecordType
     names: frozenset[str] | str
@@ -123,7 +123,7 @@ def _scope(value: RecordType | Function | FunType) -> _Scope:
 def _check(
     inside: Object, scope: _Scope, where: _Where, theory: Signature | None
 ) -> None:
-    """What stands in a scope leads somewhere in it, and to what fits."""
+    """Check that the paths of what stands in a scope lead to fields that fit."""
     paths = [path for path in escaping(inside) if path.up == 0]
     found = {
         path: target(path, scope.fields)
@@ -140,9 +140,9 @@ def _check(
 
 @lru_cache(4096)
 def _argument_types(inside: TypeNode) -> tuple[tuple[Path, TypeNode], ...] | None:
-    """The paths out of a value that are arguments of predicates, and of which type.
+    """The paths out of a type that are arguments of predicates, with the types due.
 
-    None where it takes more to see whether they fit: functions, several arities.
+    None where that is not enough to check them: with functions or several arities.
     """
     wanted: list[tuple[Path, TypeNode]] = []
     waiting: list[tuple[Object, int]] = [(inside, 0)]
@@ -186,7 +186,7 @@ def target(path: Path, T: RecordType) -> TypeNode:
 
 
 def _hint_outer(path: Path, T: TypeNode) -> str:
-    """What to write for a label that another record type around T has."""
+    """A hint for a label that a record type around T may have."""
     if len(path.labels) > 1 or not isinstance(T, RecordType):
         return ""
     label = path.labels[0]
@@ -194,7 +194,7 @@ def _hint_outer(path: Path, T: TypeNode) -> str:
 
 
 def _format_path(path: Path) -> str:
-    """The labels of a path; those from a variable after a dot, as its name is gone."""
+    """The labels of a path; the name of a variable is not known and left out."""
     return ".".join("" if label == BOUND else label for label in path.labels)
 
 
@@ -239,7 +239,7 @@ def _check_domains(
     where: _Where,
     theory: Signature | None,
 ) -> None:
-    """Every path to the outermost scope that is an argument fits what it is given to.
+    """Check that the paths to the outermost scope fit wherever they are arguments.
 
     `around` are the scopes around the value, innermost first.
     """
@@ -267,7 +267,7 @@ def _check_domains(
 
 
 def _domain(T: TypeNode) -> TypeNode | None:
-    """What functions of the type are surely defined for, where that is plain."""
+    """The domain of functions of the type, where it depends on nothing."""
     if isinstance(T, FunType) and not escaping(T.domain):
         return T.domain
     return None
@@ -281,7 +281,7 @@ def _check_arguments(
     where: _Where,
     theory: Signature | None,
 ) -> None:
-    """Refuses arguments that fit none of the arities, as far as their types tell."""
+    """Refuse arguments that fit none of the arities, as far as their types tell."""
     misfits = [
         _find_misfit(args, arity, around[-1].fields, len(around) - 1, theory)
         for arity in arities
@@ -308,7 +308,7 @@ def _find_misfit(
     up: int,
     theory: Signature | None,
 ) -> tuple[Path, TypeNode, TypeNode] | None:
-    """The first argument that is a path to an object of the scope that does not fit."""
+    """The first argument that does not fit: its path, the type due and its own type."""
     for arg, wanted in zip(args, arity, strict=True):
         if not isinstance(arg, Path) or arg.up != up:
             continue
@@ -319,7 +319,7 @@ def _find_misfit(
 
 
 def _strip_singletons(T: TypeNode) -> TypeNode:
-    """The type without what it is restricted to: T for T@a."""
+    """T for T@a, at every depth."""
     while isinstance(T, Singleton):
         T = T.base
     return T

@@ -73,9 +73,9 @@ def fix(f: Function, theory: Signature | None = None, /) -> RecordType:
 
 
 def _replace_variable(body: RecordType, variable: str) -> RecordType:
-    """The body with paths from the variable as paths from where its fields stand.
+    """The body with paths from the variable as paths from the record itself.
 
-    It is one scope instead of two, the record that the variable stood for.
+    So it has one scope instead of two.
     """
 
     def at(path: Path) -> Path:

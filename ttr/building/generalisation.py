@@ -101,7 +101,7 @@ def _common_supertype(
 
 
 def _drop_ill_formed_fields(T: RecordType, theory: Signature | None) -> RecordType:
-    """The record type without the fields that do not fit the others any more."""
+    """The record type without the fields that no longer fit the others."""
     fields = dict(T.fields)
     try:
         return rectype(fields, theory)
@@ -119,18 +119,18 @@ def _drop_ill_formed_fields(T: RecordType, theory: Signature | None) -> RecordTy
 
 
 _NO_TERM = Path(0, ("",))
-"""What stands for a term where two have none in common; it leads nowhere."""
+"""Stands for "no common term"; a path that leads nowhere."""
 
 _Terms: TypeAlias = tuple[object, object]
-"""What tells a term of the one record type, and one of the other, from others."""
+"""The identities of a term on the left and a term on the right."""
 
 
 @dataclass(frozen=True)
 class _Generalisation:
-    """What two types have in common, by an arbitrary witness of each.
+    """The generalisation of two types, found from a generic witness of each.
 
-    `paths` are the places that are kept, by the terms they have on either side;
-    `settled` are those that are set to something, and what is in them.
+    `paths` are the places that are kept, by their terms on either side; `manifest` are
+    those that are set to something, and the places inside them.
     """
 
     left: GenericWitness
@@ -142,8 +142,8 @@ class _Generalisation:
     def generalise(self) -> TypeNode | None:
         """The type that both witnesses are of; None if they have nothing in common.
 
-        All fields that both have are kept at first; then those that have nothing to be
-        of, and what depends on them, have to go, until all that are left can stay.
+        At first all fields that both have are kept. Then those without a type, and
+        those that depend on them, are dropped until all that are left can stay.
         """
         kept = list(self._shared_places(ITSELF))
         for place in kept:
@@ -199,7 +199,7 @@ class _Generalisation:
         )
 
     def _parts(self, place: Path) -> list[TypeNode]:
-        """What is said of a place in both, as a whole and field by field."""
+        """The types that both have at a place, as a whole and field by field."""
         mine, theirs = self._types(self.left, place), self._types(self.right, place)
         common = self._generalise_meets(
             _others(self.left, mine), _others(self.right, theirs)
@@ -224,9 +224,9 @@ class _Generalisation:
         return RecordType(order_fields(fields))
 
     def _value(self, place: Path) -> Object:
-        """What a field is set to on both sides, if that is worth saying; else _APART.
+        """The value to which a field is set on both sides, or `_NO_TERM`.
 
-        What is in a record that is set to something is not worth saying.
+        It is left out inside a record that is itself set to something.
         """
         if Path(0, place.labels[:-1]) in self.manifest:
             self.manifest.add(place)
@@ -240,7 +240,7 @@ class _Generalisation:
     # --- types ---
 
     def common(self, F: TypeNode, G: TypeNode) -> TypeNode | None:
-        """The meet of what both types say; None if they say nothing in common."""
+        """The generalisation of two types; None if they have nothing in common."""
         spend()
         found = self._generalise_meets([F], [G])
         return meet(*found) if found else None
@@ -248,14 +248,14 @@ class _Generalisation:
     def _generalise_meets(
         self, mine: Iterable[TypeNode], theirs: Iterable[TypeNode]
     ) -> list[TypeNode]:
-        """What two meets of types have in common, none of it implied by the rest."""
+        """The generalisation of two meets: parts, none of which follows from others."""
         left = [f for T in mine for f in self._implied_types(T)]
         right = [g for T in theirs for g in self._implied_types(T)]
         found = [self._generalise_pair(f, g) for f in left for g in right]
         return self._strongest([part for part in found if part is not None])
 
     def _implied_types(self, T: TypeNode) -> Iterator[TypeNode]:
-        """The types that a type is below by its form, and by the axioms."""
+        """The type itself, and the types above it by form and by axioms."""
         spend()
         if isinstance(T, Meet):
             for part in T.parts:
@@ -268,7 +268,7 @@ class _Generalisation:
             yield from [upper for _, upper in above(T, self.theory.axioms)]
 
     def _generalise_pair(self, f: TypeNode, g: TypeNode) -> TypeNode | None:
-        """What two types that are no meets have in common."""
+        """The generalisation of two types that are not meets."""
         spend()
         if f is not g and not escaping(f) and not escaping(g):
             higher = self._comparable_supertype(f, g)
@@ -289,7 +289,7 @@ class _Generalisation:
         return None if found is _NO_TERM else found
 
     def _comparable_supertype(self, f: TypeNode, g: TypeNode) -> TypeNode | None:
-        """What two closed types have in common, if they are the same or of one kind."""
+        """The generalisation of two closed types that are comparable or of one kind."""
         if subtype(f, g, self.theory).yes:
             return g
         if subtype(g, f, self.theory).yes:
@@ -302,7 +302,7 @@ class _Generalisation:
         return None
 
     def _function(self, f: FunType, g: FunType) -> TypeNode | None:
-        """Functions from what both take to what both give, if no result depends."""
+        """The generalisation of two function types whose results do not depend."""
         if escaping(f.result) or escaping(g.result):
             return None
         result = _common_supertype(f.result, g.result, self.theory)
@@ -335,7 +335,7 @@ class _Generalisation:
         return kind(*several) if fits else None
 
     def _strongest(self, found: list[TypeNode]) -> list[TypeNode]:
-        """The types that no other one is below; of equal ones the first."""
+        """The types without those that lie above another; of equal ones the first."""
         once = list(dict.fromkeys(found))
         kept: list[TypeNode] = []
         for i, T in enumerate(once):
@@ -347,7 +347,7 @@ class _Generalisation:
     # --- terms ---
 
     def term(self, s: Object, t: Object, depth: int) -> Object:
-        """A term that is s on the left and t on the right, or _APART.
+        """A term that is s on the left and t on the right, or `_NO_TERM`.
 
         Both stand `depth` scopes further in than the fields.
         """
@@ -370,7 +370,7 @@ class _Generalisation:
         return known[0] if known else None
 
     def _generalise_parts(self, s: Object, t: Object, depth: int) -> Object:
-        """A term of the same form as both, of what their parts have in common."""
+        """A term of the same form as both, made of generalisations of their parts."""
         mine, mine_inside = parts(s)
         theirs, theirs_inside = parts(t)
         if len(mine) != len(theirs) or len(mine_inside) != len(theirs_inside):
@@ -390,14 +390,14 @@ def _is_record_type(T: TypeNode) -> bool:
 
 
 def _others(witness: GenericWitness, types: Iterable[TypeNode]) -> list[TypeNode]:
-    """The types that are no record types, in the terms chosen for the witness."""
+    """The types that are not record types, in normal form."""
     return [witness.normalise(T) for T in types if not _is_record_type(T)]
 
 
 def _places_to_paths(value: Object, place: Path) -> Object:
-    """What has places as paths, as it is written in the field at a place.
+    """The value with its places written as paths from the field at a place.
 
-    At the witness itself nothing can be written of what is inside it.
+    From the witness itself no path leads inside it.
     """
     here = place.labels[len(ITSELF.labels) :]
 
@@ -415,7 +415,7 @@ def _is_in_witness(path: Path) -> bool:
 
 
 def _mentions_witness(value: Object, depth: int) -> bool:
-    """Whether a path in a term leads into the witness."""
+    """Does a path in a term lead into the witness?"""
     return any(
         path.up == depth and _is_in_witness(Path(0, path.labels))
         for path in escaping(value)
@@ -423,7 +423,7 @@ def _mentions_witness(value: Object, depth: int) -> bool:
 
 
 def _seen_from_outside(value: Object, depth: int) -> Object:
-    """The term as it is seen from outside the scopes further in, else _APART."""
+    """The term as seen from `depth` scopes further out, or `_NO_TERM`."""
     if isinstance(value, Path):
         inside = value.up < depth
         return _NO_TERM if inside else Path(value.up - depth, value.labels)

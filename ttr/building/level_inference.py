@@ -115,7 +115,7 @@ def _drop_levels(value: Object) -> Object:
 
 
 def _infer_levels(value: Object, around: _Scopes) -> Object:
-    """The value with levels; a field sees the fields before it with theirs."""
+    """The value with levels filled in; fields are read in order of dependency."""
     spend()
     match value:
         case RecordType(fields):
@@ -141,7 +141,7 @@ def _infer_levels(value: Object, around: _Scopes) -> Object:
 
 
 def _raise_levels(T: TypeNode, values: list[_Placed]) -> TypeNode:
-    """T with the least superscripts at which the values may be of it."""
+    """T with the least superscripts at which the values can be of it."""
     spend()
     if not values:
         return T
@@ -175,7 +175,7 @@ def _raise_levels(T: TypeNode, values: list[_Placed]) -> TypeNode:
 
 
 def _at_least(universe: Universe, level: int) -> Universe:
-    """The type of types at this level, unless a superscript says which is meant."""
+    """The universe at this level, unless it has a superscript already."""
     if universe.level == 0:
         return Universe(universe.name, level)
     if level <= universe.level:
@@ -187,13 +187,13 @@ def _at_least(universe: Universe, level: int) -> Universe:
 
 
 def _level(one: _Placed) -> int:
-    """The level of a value, where a path is as high as what its field may hold."""
+    """The level of a value; a path has the highest level that its field may hold."""
     reached = [_path_level(path, one.around) for path in escaping(one.value)]
     return max(level_of(one.value), *reached, 0)
 
 
 def _path_level(path: Path, around: _Scopes) -> int:
-    """How high the type may be that a path leads to."""
+    """The highest level that what a path leads to may have."""
     field = _field(path, around)
     if isinstance(field, Singleton) and not escaping(field.value):
         return level_of(field.value)
@@ -224,7 +224,7 @@ def _elements_of(values: list[_Placed]) -> Iterator[_Placed]:
 
 
 def _items_at(place: int, values: list[_Placed]) -> list[_Placed]:
-    """What stands at a place of the values that are strings so long."""
+    """The items at a position of those values that are strings of that length."""
     return [
         _Placed(value.items[place], around)
         for value, around in values
@@ -233,7 +233,7 @@ def _items_at(place: int, values: list[_Placed]) -> list[_Placed]:
 
 
 def _fields_at(label: str, values: list[_Placed]) -> list[_Placed]:
-    """What the values that are records have in a field."""
+    """The values of a field, in those values that are records with it."""
     return [
         _Placed(value[label], around)
         for value, around in values
@@ -242,7 +242,7 @@ def _fields_at(label: str, values: list[_Placed]) -> list[_Placed]:
 
 
 def _results_of(values: list[_Placed]) -> Iterator[_Placed]:
-    """What the values that are functions give."""
+    """The bodies of those values that are functions."""
     for value, around in values:
         if isinstance(value, Function):
             yield _Placed(value.body, ({BOUND: value.domain}, *around))

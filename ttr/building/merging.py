@@ -61,7 +61,7 @@ def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeN
 
 
 def _is_compatible(S: RecordType, T: RecordType) -> bool:
-    """Whether the record types have the same field at each label that both have."""
+    """Do the record types have the same field at each label that both have?"""
     return all(S[label] is field for label, field in T.fields if label in S)
 
 
@@ -82,7 +82,7 @@ def _count_terms(T: TypeNode) -> int:
 
 
 def _is_below(S: TypeNode, T: TypeNode, theory: Signature | None) -> bool:
-    """Whether S is below T and has its labels, though nothing may be of S."""
+    """Is S below T, with all labels of T even if nothing can be of S?"""
     match S, T:
         case RecordType(), RecordType() if any(label not in S for label in T):
             return False
@@ -101,7 +101,7 @@ def _merge_records(
 
 @within_budget
 def amerge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeNode:
-    """The asymmetric merge: T's say wins wherever one side is no record type.
+    """The asymmetric merge: T wins wherever S and T are not both record types.
 
     Raises `IllFormed` where a path of S would lead nowhere in the result.
     Source: Cooper 2023, where it models non-monotonic update.

@@ -101,7 +101,7 @@ class _Renaming:
         return _Renaming(self.names, {**self.inner, label: inside})
 
     def at(self, label: str) -> _Renaming:
-        """What is to be renamed inside the field that has this label."""
+        """The renaming inside the field with this label."""
         return self.inner.get(label, _NOTHING)
 
     def new_name(self, label: str) -> str:
@@ -109,7 +109,7 @@ class _Renaming:
         return self.names.get(label, label)
 
     def first(self) -> Address:
-        """One of the addresses that are renamed; empty where nothing is."""
+        """One of the addresses that are renamed; empty if there are none."""
         if self.names:
             return (min(self.names),)
         labels = sorted(label for label, inside in self.inner.items() if inside.first())
@@ -119,7 +119,7 @@ class _Renaming:
 _NOTHING = _Renaming()
 
 _Scopes = tuple[_Renaming, ...]
-"""What is renamed in the record types around, innermost first."""
+"""The renamings of the record types around, innermost first."""
 
 
 # --- in types ------------------------------------------------------------------------
@@ -141,7 +141,7 @@ def _relabel_record_type(
 def _relabel_type(
     T: TypeNode, renaming: _Renaming, scopes: _Scopes, where: Address
 ) -> TypeNode:
-    """A type in which something may be renamed, standing in these scopes."""
+    """A type with its labels and paths renamed; it stands in these scopes."""
     spend()
     if not renaming.first():
         followed: TypeNode = _rename_paths(T, scopes, where)
@@ -170,7 +170,7 @@ def _relabel_type(
 def _relabel_object(
     value: Object, renaming: _Renaming, scopes: _Scopes, where: Address
 ) -> Object:
-    """What a manifest field is set to, with the same renamed in it as in its type."""
+    """The value of a manifest field, with the same labels renamed as in its type."""
     spend()
     if not renaming.first():
         return _rename_paths(value, scopes, where)
@@ -207,7 +207,7 @@ def _rename_paths(value: Object, scopes: _Scopes, where: Address) -> Object:
 
 
 def _rename_path(path: Path, scopes: _Scopes) -> tuple[Path, _Renaming]:
-    """The path under the new names, and what is renamed in what it leads to."""
+    """The path in the new names, and what is to be renamed where it leads."""
     renaming = scopes[path.up]
     labels = []
     for label in path.labels:
@@ -247,9 +247,9 @@ def _relabel_record(value: Object, renaming: _Renaming, where: Address) -> Recor
 def _check_renaming(
     kinds: Iterable[Object], renaming: _Renaming, where: Address
 ) -> None:
-    """Refuses labels that are not there, and those that would fall together.
+    """Refuse labels that are missing, and new names that would coincide.
 
-    `kinds` are what one record is of; it may have the labels of all of them.
+    `kinds` are all the types of one record: it may have the labels of each.
     """
     spend()
     if not renaming.first():
@@ -283,7 +283,7 @@ def _check_labels(labels: Iterable[str], renaming: _Renaming, where: Address) ->
 
 
 def _fields(T: Object) -> Iterator[tuple[str, Object]]:
-    """The fields of a type, of all its parts, and of what it is set to."""
+    """The fields of a type, of its parts, and of the value it is restricted to."""
     spend()
     match T:
         case RecordType(fields):

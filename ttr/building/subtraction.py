@@ -105,7 +105,7 @@ def _missing_path(path: Address, known: Iterable[str]) -> IllFormed:
 def _check_result(
     T: RecordType, paths: tuple[str, ...], theory: Signature | None
 ) -> RecordType:
-    """T, if every path in it still leads somewhere; else `IllFormed`."""
+    """T itself, if every path in it still leads somewhere; else `IllFormed`."""
     try:
         for part in occurring([T]):
             if isinstance(part, RecordType):

@@ -31,13 +31,13 @@ from ttr.types.syntax import (
 __all__ = ["Clause", "cases", "clauses", "splits"]
 
 _CASES = 256
-"""How many cases or clauses a type may have before it is left whole."""
+"""How many cases or clauses a type may have; with more it is not divided."""
 
 Clause = tuple[TypeNode, ...]
 
 
 def splits(T: TypeNode) -> bool:
-    """Whether T has a join or a negation where cases can be told apart."""
+    """Has T a join or a negation that can be split into cases?"""
     match T:
         case Join() | Negation():
             return True
@@ -59,8 +59,7 @@ def splits(T: TypeNode) -> bool:
 def cases(T: TypeNode) -> tuple[TypeNode, ...] | None:
     """The types of which T is the join, or None where they are too many.
 
-    A record type has a case for each choice of a case for its fields: what a field is
-    of is one of the cases, whatever the others are.
+    A record type has a case for each way to choose a case of each field.
 
     >>> from ttr.types.syntax import Basic
     >>> A, B, C = map(Basic, "ABC")
@@ -98,7 +97,7 @@ def _record_type_of(labels: Iterable[str], *types: TypeNode) -> RecordType:
 def _combine_cases(
     parts: Iterable[tuple[TypeNode, ...] | None], whole: Callable[..., TypeNode]
 ) -> tuple[TypeNode, ...] | None:
-    """A case of the whole for each choice of a case for each part."""
+    """A case of the whole for each way to choose a case of each part."""
     found = list(parts)
     if prod(len(choices or ()) for choices in found) > _CASES or None in found:
         return None
@@ -108,7 +107,7 @@ def _combine_cases(
 def _all_cases(
     found: tuple[tuple[TypeNode, ...] | None, ...],
 ) -> tuple[TypeNode, ...] | None:
-    """All that were found, each once, unless they are too many."""
+    """All cases, each once; None if they are too many."""
     if None in found:
         return None
     once = tuple(dict.fromkeys(chain.from_iterable(filter(None, found))))

@@ -1,4 +1,4 @@
-"""Do the paths of a record type go in a circle?"""
+"""Cycles: do the fields of a record type depend on each other in a circle?"""
 
 from __future__ import annotations
 
@@ -19,8 +19,9 @@ Address = tuple[str, ...]
 def circle(T: TypeNode) -> str:
     """The fields that depend on one another in a circle, or the empty string.
 
-    A field depends on another where its type or value mentions a path to it, to what is
-    in it or to what it is in. Such a type can be checked, but no witness built.
+    A field depends on another if its type or value mentions a path to it, to something
+    inside it, or to something around it. Judgements of such a type can be checked, but
+    no witness of it can be created.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
@@ -33,7 +34,7 @@ def circle(T: TypeNode) -> str:
 
 
 def round_about(T: TypeNode) -> tuple[str, ...]:
-    """The paths of the fields in a circle, the first of them once more at the end.
+    """The paths of the fields on a cycle, the first repeated at the end; or none.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
@@ -61,9 +62,9 @@ def round_about(T: TypeNode) -> tuple[str, ...]:
 
 
 def has_fields_in_order(T: TypeNode) -> bool:
-    """Whether each field depends on fields before it only, in T and in what is in it.
+    """Does each field, at every depth, depend only on fields before it?
 
-    Then no paths of it go in a circle.
+    Then there is no cycle.
     """
     return all(
         _has_fields_in_order(part)
@@ -83,7 +84,7 @@ def _has_fields_in_order(T: RecordType) -> bool:
 
 
 def straightened(T: TypeNode) -> TypeNode:
-    """T without the equations that go in a circle, each of which may be so by itself.
+    """T without the equations that close a cycle.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
@@ -127,7 +128,7 @@ def _target_addresses(leaf: Address, field: TypeNode) -> list[Address]:
 
 
 def _leaves_near(target: Address, inner: dict[Address, list[Address]]) -> list[Address]:
-    """The leaves in the field a path leads to, or the leaf that the path goes into."""
+    """The leaves inside the field at an address, or the leaf around it."""
     for length in range(len(target), 0, -1):
         if target[:length] in inner:
             return inner[target[:length]]

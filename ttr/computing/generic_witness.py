@@ -54,16 +54,16 @@ __all__ = [
 ]
 
 Assumption = tuple[Object, TypeNode]
-"""That a place or an object is of a type."""
+"""The assumption that a place or an object is of a type."""
 
 
 # --- places --------------------------------------------------------------------------
 
 ITSELF = Path(0, ("·",))
-"""The place of the witness itself; its name is no label."""
+"""The place of the witness itself; its name cannot be a label."""
 
 _EACH = "*"
-"""The step from a list or set to an arbitrary element of it; it is no label."""
+"""The step from a list or set to an arbitrary element of it; not a label."""
 
 
 def step(place: Path, label: str) -> Path:
@@ -82,7 +82,7 @@ def event(place: Path, number: int) -> Path:
 
 
 def elements(term: Object) -> tuple[Object, ...] | None:
-    """What is in a list, a set or a string that is written out; else None."""
+    """The elements of a list, a set or a string that is written out, else None."""
     if isinstance(term, FiniteSet | EventString):
         return term.items
     return term if isinstance(term, tuple) else None
@@ -92,7 +92,7 @@ def elements(term: Object) -> tuple[Object, ...] | None:
 
 
 class GenericWitness:
-    """An arbitrary witness of S, and others that are assumed beside it.
+    """An arbitrary witness of S, and whatever else is assumed to be of some type.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
@@ -127,11 +127,11 @@ class GenericWitness:
         self._find_misfits()
 
     def normalise(self, value: Object) -> Object:
-        """The value with every place in it replaced by the one chosen for its class."""
+        """The value with every place replaced by the term that represents it."""
         return replace_paths(value, self._representative) if self._equal else value
 
     def are_equal(self, term: Object, other: Object) -> bool:
-        """Whether two normal terms surely are equal."""
+        """Are two normal terms surely equal?"""
         wanted = {identity(term), identity(other)}
         return len(wanted) == 1 or any(
             wanted == {identity(self.normalise(left)), identity(self.normalise(right))}
@@ -139,29 +139,29 @@ class GenericWitness:
         )
 
     def types_of(self, term: Object, given: Collection[Path] = ()) -> list[TypeNode]:
-        """The types claimed of a normal term, none of them a singleton or a meet.
+        """The types claimed of a normal term; singletons and meets are taken apart.
 
-        `given` are the elements of lists that there are.
+        `given` are the list elements that are taken to be there.
         """
         known = self._classes.get(identity(term))
         return known.types(given) if known else []
 
     @property
     def is_impossible(self) -> bool:
-        """Whether nothing is of S, under no assignment."""
+        """Is there no witness of S under any assignment?"""
         return None in self._absent
 
     @property
     def is_certain(self) -> bool:
-        """Whether some assignment surely has such a witness, of no more than this."""
+        """Does some assignment surely have a witness with just these types?"""
         return self._is_complete and not self._absent
 
     def is_absent(self, place: Path) -> bool:
-        """Whether there cannot be such an element, so that its list is empty."""
+        """Can there be no such element, so that its list is empty?"""
         return place in self._absent
 
     def negations(self, given: Collection[Path]) -> list[Assumption]:
-        """The terms that are surely not of a type, each with that type."""
+        """The negations that are known: each term with the type that it is not of."""
         return [
             (known.term, T.body)
             for known in self._classes.values()
@@ -170,7 +170,7 @@ class GenericWitness:
         ]
 
     def atoms(self, given: Collection[Path]) -> Iterator[list[Basic | PType]]:
-        """The basic types and ptypes that each of the terms is surely of."""
+        """For each term, the basic types and ptypes that it is surely of."""
         for known in self._classes.values():
             yield [T for T in known.types(given) if isinstance(T, Basic | PType)]
 
@@ -200,7 +200,7 @@ class GenericWitness:
         self._claims.append((place, T))
 
     def _classify(self, term: Object, T: TypeNode, condition: Path | None) -> None:
-        """Adds a claim to those of the class of its term."""
+        """Add a claim to the class of its term."""
         if isinstance(T, Singleton):
             return
         term = self.normalise(term)
@@ -222,7 +222,7 @@ class GenericWitness:
             self.strings.append(term)
 
     def _claim_of_term(self, term: Object, T: TypeNode, condition: Path | None) -> None:
-        """Adds what a list's type claims of an element that is written in it."""
+        """Add what a type claims of a term that is written out, and of its parts."""
         spend()
         match T:
             case Meet(parts):
@@ -245,7 +245,7 @@ class GenericWitness:
     def _compare_written(
         self, term: Object, value: Object, condition: Path | None
     ) -> None:
-        """Notes what follows where an object that is written has to be a value."""
+        """Note that a term must be equal to a value."""
         if identity(term) == identity(value):
             return
         if _is_open(term) or _is_open(value):
@@ -254,7 +254,7 @@ class GenericWitness:
             self._absent.add(condition)
 
     def _condition(self, place: Path) -> Path | None:
-        """The innermost element of a list that a place is, or is in."""
+        """The innermost list element that a place is, or is inside; else None."""
         if _EACH not in place.labels:
             return None
         labels = _to_element(place)
@@ -264,7 +264,7 @@ class GenericWitness:
     # --- what is equal ---
 
     def _equate_manifest(self) -> None:
-        """Makes manifest places equal to their values, outer places first."""
+        """Make manifest places equal to their values, outer places first."""
         manifest = [
             (place, T.value) for place, T in self._claims if isinstance(T, Singleton)
         ]
@@ -291,21 +291,21 @@ class GenericWitness:
             self._note_unsolved(left, right)
 
     def _note_unsolved(self, left: Object, right: Object) -> None:
-        """Notes that two terms are equal, of which neither is chosen for the other."""
+        """Note that two terms are equal although neither can represent the other."""
         self._unbound.append((left, right))
         self._is_complete = False
 
     def _may_bind(self, place: Path, at: Path) -> bool:
-        """Whether what holds at a place may say what another one is equal to."""
+        """May an equation at one place determine what is at another?"""
         needed = self._condition(at)
         inside = needed is None or place.labels[: len(needed.labels)] == needed.labels
         return place.up == 0 and inside
 
     def _bind(self, place: Path, value: Object) -> None:
-        """Chooses the value for the class of a free place.
+        """Let the value represent the class of a free place.
 
-        What is not followed up, a place equal to something around or inside it, or one
-        whose parts were equated before it, is noted: then a refutation is not certain.
+        A place may be equal to something around or inside it, or its parts may have
+        been equated before. That is not followed up, so no refutation is certain then.
         """
         labels = place.labels
         if labels in self._around_bound:
@@ -319,9 +319,9 @@ class GenericWitness:
         self._around_bound.update(labels[:size] for size in range(1, len(labels)))
 
     def _representative(self, path: Path) -> Object:
-        """The term chosen for the class of a place, along all equations.
+        """The term that represents a place, found along all equations.
 
-        Places on the way are noted to be equal to it, so that no way is gone twice.
+        It is kept for the places on the way, so that no way is followed twice.
         """
         passed: list[tuple[str, ...]] = []
         chosen: Object = path
@@ -334,14 +334,14 @@ class GenericWitness:
         return chosen if isinstance(chosen, Path) else self.normalise(chosen)
 
     def _bound_length(self, path: Path) -> int:
-        """How many of the path's labels lead to the first place that is bound, or 0."""
+        """How many labels lead to the first bound place of a path; 0 if none."""
         if path.up > 0 or not self._equal:
             return 0
         lengths = range(1, len(path.labels) + 1)
         return next((n for n in lengths if path.labels[:n] in self._equal), 0)
 
     def _find_misfits(self) -> None:
-        """Notes what cannot be there, as nothing has the form of all its types."""
+        """Note the places where nothing can be, as their types have different forms."""
         for known in self._classes.values():
             if isinstance(known.term, Path) and len(known.claims) == 1:
                 continue
@@ -360,7 +360,7 @@ class GenericWitness:
 
 
 class _EqualityClass:
-    """A term chosen for equal places, and the claims made of any of them."""
+    """The term that represents equal places, and the types claimed of any of them."""
 
     def __init__(self, term: Object) -> None:
         self.term = term
@@ -371,19 +371,19 @@ class _EqualityClass:
         return [T for T, c in self.claims if c is None or c in given]
 
     def mixes_forms(self) -> bool:
-        """Whether something of a given form is claimed to be of atoms, too.
+        """Is it claimed to have a form and also to be of atoms?
 
-        There may be such things, but none can be made up where it stands.
+        There may be such things, but none can be created.
         """
         kinds = {isinstance(T, Basic | PType) for T, _ in self.claims}
         return len(kinds) > 1
 
     def conditions(self, kind: type[TypeNode]) -> list[Path | None]:
-        """Under which conditions a type of this kind is claimed."""
+        """The conditions under which a type of this kind is claimed."""
         return [c for T, c in self.claims if isinstance(T, kind)]
 
     def can_be_of(self, types: list[TypeNode]) -> bool:
-        """Whether the types can all be of the term, as far as their form says."""
+        """Can the term be of all the types, as far as their form tells?"""
         shapes = [T for T in types if isinstance(T, _Shape)]
         if isinstance(self.term, Path):
             lengths = {_length(T) for T in shapes if isinstance(T, Str)} - {None}
@@ -403,7 +403,7 @@ _SHAPES: dict[type[TypeNode], str] = {
     FunType: "function",
     Universe: "type",
 }
-"""The form that everything of a type has, where it says so."""
+"""The form that all witnesses of such a type have."""
 
 _Shape = tuple(_SHAPES)
 
@@ -433,15 +433,15 @@ def _has_form(term: Object, shape: TypeNode) -> bool:
 
 
 def _length(T: Str) -> int | None:
-    """How many events the strings of a type have, if all have as many by its form."""
+    """The length of all strings of a type, if its form fixes it."""
     events = events_of(T)
     return None if events is None else len(events)
 
 
 def _computed_value(T: TypeNode) -> Object:
-    """What an application of a function that is written out gives, else nothing.
+    """The value of an application of a function that is written out, else None.
 
-    If the argument were outside the domain, nothing would be of the type.
+    If the argument is outside the domain, nothing is of the type anyway.
     """
     match T:
         case Application(Function(_, body), argument):
@@ -450,14 +450,14 @@ def _computed_value(T: TypeNode) -> Object:
 
 
 def _is_open(value: Object) -> bool:
-    """Whether what the value is depends on a place or on what a function gives."""
+    """Does the value depend on a place, or on the value of a function?"""
     return bool(escaping(value)) or any(
         isinstance(part, Application) for part in occurring([value])
     )
 
 
 def _same_form(left: Object, right: Object) -> bool:
-    """Whether two objects are equal just where their contents are, one by one."""
+    """Are two objects equal if and only if their contents are, one by one?"""
     match left, right:
         case Record(), Record():
             return left._fields.keys() == right._fields.keys()
@@ -473,7 +473,7 @@ def _parts_in_order(value: Object) -> list[Object]:
 
 
 def _to_element(place: Path) -> tuple[str, ...]:
-    """The labels to the innermost element of a list that the place is in, or none."""
+    """The labels to the innermost list element around a place, or none."""
     labels = place.labels
     lengths = range(len(labels), 0, -1)
     return next((labels[:n] for n in lengths if labels[n - 1] == _EACH), ())

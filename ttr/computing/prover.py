@@ -73,10 +73,10 @@ ASSUMPTIONS = 24
 
 @dataclass(frozen=True)
 class Finding:
-    """Whether something is derivable; what was assumed where it is not.
+    """Is something derivable? If not, under which assumptions it failed.
 
-    `reason` gives the reason in words when somebody asks for it: to print types takes
-    longer than to compare them.
+    `reason` makes the reason in words, and is called only when somebody asks: to print
+    types takes longer than to compare them.
     """
 
     yes: bool
@@ -581,7 +581,7 @@ class Prover:
         return f"{self._format_types(term)} has no field {label}"
 
     def _format_types(self, term: Object) -> str:
-        """What is known of a term, as one type in words."""
+        """The types known of a term, written as a meet."""
         known = self._types_of(term)
         return " /\\ ".join(map(self._format, known)) or self._format(term)
 

@@ -12,7 +12,7 @@ __all__ = ["level_of", "why_outside"]
 
 
 def why_outside(value: Object, universe: Universe) -> str:
-    """Why the object is not of a type of types, or the empty string where it is.
+    """Why the object is not of a universe; the empty string if it is.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, RecType, Type

@@ -1,4 +1,4 @@
-"""What declared axioms put above and below a type, schematic ones instantiated."""
+"""The types that declared axioms put above and below a type, by matching schemas."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _Atom = Basic | PType
 def above(
     T: Basic | PType, axioms: tuple[Axiom, ...]
 ) -> Iterator[tuple[Axiom, Basic | PType]]:
-    """Every type that the axioms put above T, each once, with the last axiom used.
+    """Each type that the axioms put above T, once, with the last axiom used.
 
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> dog, puppy = Pred("dog", Ind), Pred("puppy", Ind)
@@ -35,9 +35,9 @@ def above(
 def below(
     T: Basic | PType, axioms: tuple[Axiom, ...]
 ) -> Iterator[tuple[Axiom, Basic | PType]]:
-    """Every type that the axioms put below T, each once, with the last axiom used.
+    """Each type that the axioms put below T, once, with the last axiom used.
 
-    A schematic variable that only the lower side has stays in it as a path.
+    A schematic variable that occurs only on the lower side stays a path.
     """
     yield from _closure(T, [(axiom, axiom.upper, axiom.lower) for axiom in axioms])
 
@@ -52,7 +52,7 @@ def uppers(T: _Atom, theory: Signature) -> frozenset[_Atom]:
 
 
 def excluding(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
-    """The exclusion by which nothing is of both types, or of what is above them.
+    """The exclusion of the two types, or of types above them; None if there is none.
 
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> dog, cat = Pred("dog", Ind), Pred("cat", Ind)
@@ -79,7 +79,7 @@ def _find_exclusion(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
 
 
 def _match_both(schemas: tuple[_Atom, _Atom], types: tuple[_Atom, _Atom]) -> bool:
-    """Whether both types are what the schemas stand for, with the same variables."""
+    """Do both types match their schemas with the same values of the variables?"""
     left, right = (match_schema(*pair) for pair in zip(schemas, types, strict=True))
     if left is None or right is None:
         return False
@@ -114,7 +114,7 @@ def _head(T: _Atom) -> Basic | Pred:
 
 
 def match_schema(schema: Basic | PType, T: Basic | PType) -> _Binding | None:
-    """What the schema's variables must be for it to be T, or None."""
+    """The values of the variables for which the schema is T, or None."""
     if isinstance(schema, Basic) or isinstance(T, Basic):
         return {} if schema is T else None
     if schema.pred is not T.pred or len(schema.args) != len(T.args):

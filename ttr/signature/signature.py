@@ -90,9 +90,9 @@ def _format_argument(arg: Object) -> str:
 
 @dataclass(frozen=True)
 class Given:
-    """A judgement a theory starts from: a : T with a probability.
+    """A judgement that a theory states: a : T with a probability.
 
-    Where `when` names other judgements, it is the probability if they hold.
+    If `when` has other judgements, it is the probability given those.
     """
 
     sit: Object
@@ -104,7 +104,7 @@ class Given:
 
 @dataclass(frozen=True)
 class Expected:
-    """p(T || S₁, …): how probably whatever is of the conditions is of T, too."""
+    """p(T || S₁, …): how probable T is for whatever is of all the conditions."""
 
     type: TypeNode
     when: tuple[TypeNode, ...]
@@ -116,8 +116,8 @@ class Expected:
 class Opening:
     """How a theory declares a game: all of it but the model in which it is played.
 
-    `start` is its first state, of `type`; `agenda` the path of what it plans, `hears`
-    the types of the events that come from outside, where it says which.
+    `start` is its first state, of `type`; `agenda` is the path of planned moves;
+    `hears` are the types of events from outside, where these are restricted.
     """
 
     name: str
@@ -145,7 +145,7 @@ class Signature:
 
     @cached_property
     def _memo(self) -> dict[object, Any]:
-        """What follows from the axioms, as `ttr.signature.axioms` has found out."""
+        """What `ttr.signature.axioms` has derived from the axioms so far."""
         return {}
 
     @cached_property
@@ -167,7 +167,7 @@ class Signature:
 
 
 def signature_of(theory: object) -> Signature:
-    """The theory, or the empty one for None; raises `IllFormed` for what is none."""
+    """The theory, or the empty one for None; raises `IllFormed` for anything else."""
     if theory is None:
         return Signature()
     if not isinstance(theory, Signature):

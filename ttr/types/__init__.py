@@ -1,4 +1,4 @@
-"""What there is: types, predicates, records, paths, as immutable values, and as text.
+"""The values of the theory: types, predicates, records and paths, and their text.
 
 Read `syntax` (types), `objects` (records and paths) and `paths` first; `interning`
 makes equal structure one object; `forms` and `substitution` build what others need;

@@ -13,7 +13,7 @@ __all__ = ["function_type", "order_fields", "star"]
 
 
 def order_fields(fields: Mapping[str, TypeNode]) -> tuple[tuple[str, TypeNode], ...]:
-    """The fields by (depth of dependency, label); those on or behind a cycle last."""
+    """The fields ordered by (depth of dependency, label), cyclic ones last."""
     spend(len(fields))
     waits: dict[str, int] = {}
     needed_by: dict[str, list[str]] = {}

@@ -48,16 +48,16 @@ _lock = RLock()
 
 
 def _wrong_arguments(cls: type) -> IllFormed:
-    """That the arguments of a node are too few, too many or of other names."""
+    """The error for arguments of a node that are too few, too many or misnamed."""
     wanted = inspect.signature(cls._normal)  # type: ignore[attr-defined]
     names = [name for name in wanted.parameters if name != "args"]
     return IllFormed(f"{cls.__name__} takes {', '.join(names) or 'other arguments'}")
 
 
 def _remove_from_pool(entry: _Entry, pool: Any = _pool, lock: Any = _lock) -> None:
-    """Takes a node that is no more out of the pool, unless another has its place.
+    """Remove a node that is gone from the pool, unless another has taken its place.
 
-    The pool is bound here, as nodes may outlive the names of this module.
+    The pool is a default argument, as nodes may outlive the names of this module.
     """
     with lock:
         if pool.get(entry.key) is entry:
@@ -119,7 +119,7 @@ class Node(Drawn, metaclass=_Interning):
     __match_args__: tuple[str, ...] = ()
     _cache: dict[object, Any]
     _sign: ClassVar[str] = ""
-    """What is written before the first part: it counts in the canonical order."""
+    """The sign before the first part, as the canonical order sees it."""
 
     @staticmethod
     def _normal(*args: Any) -> tuple[Any, ...]:
@@ -154,9 +154,9 @@ _R = TypeVar("_R")
 
 
 def cache_on_node(function: Callable[[_N], _R]) -> Callable[[_N], _R]:
-    """Has what a function finds of a node kept on the node, as long as that lives.
+    """Keep the results of a function on the nodes, as long as these live.
 
-    A node never changes, so neither does what is found of it.
+    Nodes never change, so the results do not either.
     """
 
     def look_up(node: _N) -> _R:

@@ -1,4 +1,4 @@
-"""Values that draw themselves in a notebook."""
+"""Values that a notebook shows as they are drawn in papers."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def as_latex(value: object) -> str:
 
 
 class Drawn:
-    """Something that a notebook shows as it is drawn in papers.
+    """A value that a notebook shows as it is drawn in papers.
 
     >>> from ttr.types.syntax import Ind
     >>> Ind._repr_latex_()

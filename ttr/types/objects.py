@@ -1,4 +1,4 @@
-"""What types are about: objects, records of them, and paths into records.
+"""Objects, which types are about: also records, and paths into records.
 
 Objects are any Python values. A Python string is a name; a list is a tuple; a record is
 a `Record`, a set a `FiniteSet`, a string of events an `EventString`; an array is
@@ -62,8 +62,8 @@ class Unresolved(TTRError):
 def freeze(value: object) -> Object:
     """The value as an object of the theory: lists become tuples, `this.x` a path.
 
-    Only plain lists, tuples and dictionaries are taken for notation; an object of a
-    class of its own stays what it is.
+    Only plain lists, tuples, dictionaries and sets are notation; an object of any other
+    class stays what it is.
 
     >>> freeze([1, {"x": "fido"}])
     (1, record(x='fido'))
@@ -79,7 +79,7 @@ def freeze(value: object) -> Object:
 
 
 def _freeze_each(values: tuple[object, ...]) -> tuple[Object, ...]:
-    """The values as objects: the same tuple where all of them are objects already."""
+    """The values as objects; the same tuple if all of them are objects already."""
     spend()
     if _TAKEN_FOR_NOTATION.isdisjoint(map(type, values)):
         return values
@@ -112,11 +112,11 @@ class Path(Node):
 
 @node
 class Missing(Node):
-    """What a record has where it lacks a label: no object at all."""
+    """Stands for the value of a label that a record lacks: there is no object."""
 
 
 class Applied:
-    """What stands for what a function gives: `ttr.types.syntax.Application`."""
+    """Base class of `ttr.types.syntax.Application`."""
 
     __slots__ = ()
 
@@ -188,7 +188,7 @@ outer = PathTo(1)
 
 
 _TAKEN_FOR_NOTATION = frozenset((list, tuple, dict, set, frozenset, PathTo))
-"""What Python has its own way of writing for; other objects stay what they are."""
+"""The classes that are read as notation; objects of others stay what they are."""
 
 
 @node
@@ -266,8 +266,8 @@ class EventString(Node):
 class Operation(Node):
     """A list or string computed from others: a + b, fst(a) or rst(a).
 
-    It stands where a part of it is a path or an application; else `concat`, `fst` and
-    `rst` give what it comes to.
+    It is kept as long as a part of it is a path or an application; otherwise `concat`,
+    `fst` and `rst` give the result.
     """
 
     name: str
@@ -303,7 +303,7 @@ def concat(*parts: object) -> Object:
 
 
 def _concatenate(pieces: list[Object]) -> Object:
-    """Lists, or strings, one after the other."""
+    """The concatenation of lists, or of strings."""
     kinds = {type(piece) for piece in pieces}
     if len(kinds) > 1:
         whole = Operation("+", tuple(pieces))
@@ -352,7 +352,7 @@ def _is_operation(value: Object, name: str) -> bool:
 
 
 def _is_symbolic(value: Object) -> bool:
-    """Whether what an object is depends on what a path or an application leads to."""
+    """Does the object depend on the value of a path or an application?"""
     return isinstance(value, Path | Operation | Applied)
 
 
@@ -473,10 +473,10 @@ def record(fields: Mapping[str, object] | None = None, /, **labels: object) -> R
 
 @within_budget
 def sort_canonically(values: Iterable[_Value]) -> list[_Value]:
-    """The values in one order, however they are given: by structure, not by print.
+    """The values in canonical order, which depends on their structure alone.
 
-    What is written first counts first: a name, or the sign of a list and so on. Then
-    counts the kind of value, then its parts from left to right.
+    They are compared by what is written first (a name, or a sign as of a list), then by
+    the kind of value, then part by part.
 
     >>> from ttr.types.syntax import Basic, Pred
     >>> A, B, p = Basic("A"), Basic("B"), Pred("p", Basic("A"))
@@ -487,11 +487,11 @@ def sort_canonically(values: Iterable[_Value]) -> list[_Value]:
 
 
 _OrderKey: TypeAlias = tuple[Any, ...]
-"""What is written first and the kind, then the keys of the parts."""
+"""The text written first and the kind of value, then the keys of its parts."""
 
 
 def _order_key(value: object) -> _OrderKey:
-    """The place of a value in the canonical order, the same for no other value."""
+    """The sort key of a value; no other value has the same."""
     if type(value) is str:
         return value, "str"
     if isinstance(value, Node):
@@ -519,7 +519,7 @@ def _compose_key(sign: str, kind: str, parts: list[_OrderKey]) -> _OrderKey:
 
 
 def lasts(value: Object) -> bool:
-    """Whether nothing inside an object can change: other people's objects may.
+    """Can nothing inside the object change? Objects of foreign classes may.
 
     >>> lasts(record(x=("a", 1))), lasts(record(x=bytearray()))
     (True, False)
@@ -543,7 +543,7 @@ _LASTING = (str, int, float, complex, bytes, NoneType, Node)
 def labelled(
     what: str, fields: Mapping[str, _Value] | None, labels: Mapping[str, _Value]
 ) -> dict[str, _Value]:
-    """The labels of a mapping and of keywords together; a label is there once."""
+    """The labels of a mapping and of keywords together; none may occur twice."""
     if fields is None:
         return dict(labels)
     if not isinstance(fields, Mapping):
@@ -557,9 +557,9 @@ def labelled(
 
 
 def check_label(label: object) -> None:
-    """Refuses what is no label: labels are identifiers that do not start with `_`.
+    """Refuse what is not a label: an identifier that does not start with `_`.
 
-    Nor may Python read another identifier for it: `r.ﬁ` would look for `fi`.
+    Python must read it as it is written: `r.ﬁ` would look for `fi`.
     """
     if isinstance(label, str) and label.isidentifier() and label[0] != "_":
         if label.isascii() or unicodedata.normalize("NFKC", label) == label:

@@ -89,10 +89,10 @@ def parts(value: Object) -> tuple[Parts, Parts]:
 
 
 def rebuilt(value: Object, change: Callable[[Object, int], Object]) -> Object:
-    """The value with change(part, deeper) for each of its parts, made anew.
+    """The value rebuilt with change(part, deeper) in place of each of its parts.
 
-    `deeper` is 1 for a part that stands one scope further in, else 0. As a change never
-    refers to a nested record, the order of its fields stays what it is.
+    `deeper` is 1 for a part that stands one scope further in, else 0. The fields of a
+    record type keep their order: no change may add a dependency.
     """
     match value:
         case PType(pred, args):
@@ -128,7 +128,7 @@ _OPERATIONS: dict[str, Callable[..., Object]] = {"+": concat, "fst": fst, "rst":
 
 
 def _apply_operation(name: str, args: Parts) -> Object:
-    """What an operation comes to; where there is no such object, it stays as it is."""
+    """The result of an operation; if there is none, the operation itself."""
     try:
         return _OPERATIONS[name](*args)
     except Unresolved:
@@ -165,7 +165,7 @@ def mentions(value: Object, kind: type[TypeNode]) -> bool:
 
 
 def _kinds(value: Object) -> frozenset[type]:
-    """The kinds of the types in a value, in it too."""
+    """The kinds of the types in a value, its own included."""
     if type(value) is str:
         return _NO_KINDS
     return _kinds_in(value) if isinstance(value, TypeNode) else _kinds_of(value)
@@ -247,7 +247,7 @@ def replace_paths(
 
 
 def _reaches_out(T: TypeNode, depth: int) -> bool:
-    """Whether a path in T leads at least so many scopes out."""
+    """Does a path in T lead at least so many scopes out?"""
     found = escaping(T)
     return bool(found) and (depth == 0 or any(path.up >= depth for path in found))
 

@@ -46,7 +46,7 @@ WORDS: dict[type, str] = {
 
 
 def is_loose(value: Object) -> bool:
-    r"""Whether it needs brackets as a part of a meet, join or negation, or as a result.
+    r"""Does it need brackets as a part of a meet, join or negation, or as a result?
 
     >>> from ttr.types.syntax import Ind
     >>> A = Basic("A")
@@ -59,7 +59,7 @@ def is_loose(value: Object) -> bool:
 
 
 def is_loose_beside(value: Object) -> bool:
-    """Whether it needs brackets beside `@` or `+`, before an arrow, or as an event.
+    """Does it need brackets beside `@` or `+`, before an arrow, or as an event?
 
     >>> from ttr.types.syntax import Ind
     >>> is_loose_beside(~Ind), is_loose_beside(ListOf(Ind))
@@ -74,9 +74,9 @@ def is_loose_beside(value: Object) -> bool:
 
 
 def holds_as_head(function: Object) -> bool:
-    """Whether it can be applied without brackets: a path, a name or an application.
+    """Can it be applied without brackets? A path, a name or an application can.
 
-    A basic type is here a name that is put for a function, as in a folded display.
+    A basic type here is the name of a function, as in an abbreviated display.
 
     >>> from ttr.building.constructors import fun
     >>> from ttr.types.syntax import Ind
@@ -87,7 +87,7 @@ def holds_as_head(function: Object) -> bool:
 
 
 def begins_with_bracket(event: Object) -> bool:
-    """Whether an event begins with `(`: it would be an argument of the one before it.
+    """Does an event begin with `(`? It would read as an argument of the one before.
 
     >>> from ttr.building.constructors import fun
     >>> from ttr.types.syntax import Ind, Type, this
@@ -107,7 +107,7 @@ def begins_with_bracket(event: Object) -> bool:
 
 
 def binds(inside: Object) -> bool:
-    """Whether the inside of a binder mentions its variable, which then needs a name.
+    """Does the inside of a binder mention its variable, which then needs a name?
 
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> dog = Pred("dog", Ind)

@@ -134,10 +134,10 @@ def _bracketed_beside(value: Object, scope: Scope) -> str:
 
 
 def as_object(value: Object, scope: Scope) -> Object:
-    """What to write for it where an object stands, as an argument or after `=` or `@`.
+    """What to write for a value as an argument, or after `=` or `@`.
 
-    There a label or variable of the name of a type hides the type. T ∧ T is T, and in
-    a meet names are types.
+    There a label or variable with the name of a type hides the type. Then T ∧ T is
+    written, which is T: names in a meet are types.
 
     >>> from ttr.types.syntax import Ind
     >>> near, far = frozenset({"x"}), frozenset({"Ind"})
@@ -189,9 +189,9 @@ def _binder(value: FunType | Function, scope: Scope) -> str:
 
 
 def variable(value: FunType | Function, scope: Scope) -> str:
-    """The name to write for the variable: its hint, unless that would be misread.
+    """The name to write for the variable: its hint, with a number if it is taken.
 
-    It is another than the variables around, and than the labels, predicates and basic
+    Taken are the names of the variables around, and of the labels, predicates and basic
     types in the body.
     """
     inside = value.body if isinstance(value, Function) else value.result
@@ -209,7 +209,7 @@ def variable(value: FunType | Function, scope: Scope) -> str:
 
 
 def head(function: Object, scope: Scope) -> str:
-    """What is applied, as it stands before its argument.
+    """The notation of a function before its argument.
 
     A path has a dot and a name has quotes, so that neither is read as a predicate.
 
@@ -300,7 +300,7 @@ RESERVED = frozenset((*WORDS.values(), "Type", "RecType", "Rec", "fst", "rst", "
 
 
 def _size(value: object) -> object:
-    """What tells an object without notation from others: its length, else its value."""
+    """The length of an object without notation; if it has none, the object itself."""
     try:
         return len(value)  # type: ignore[arg-type]
     except TypeError:

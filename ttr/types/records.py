@@ -35,9 +35,9 @@ def replace(
 
 
 class _RecordEditor:
-    """A record that is being changed: what is in it is copied once, where it changes.
+    """Edits a record: what is on the way to a change is copied once.
 
-    Nobody else has seen the copies, so that they may be written to until they are done.
+    Nobody else has seen the copies, so they may be written to until they are done.
     """
 
     def __init__(self, r: Record) -> None:
@@ -45,7 +45,7 @@ class _RecordEditor:
         self._copies: dict[int, Record] = {}
 
     def set(self, path: list[str], value: Object) -> None:
-        """Puts a frozen object at a path that is there."""
+        """Put a frozen object at a path that is in the record."""
         *outer, last = path
         here = self.record = self._copy(self.record)
         on_the_way = [here]
@@ -61,7 +61,7 @@ class _RecordEditor:
                 _write(one, "_is_immutable", None)
 
     def _copy(self, r: Object) -> Record:
-        """The record if it is a copy, or its copy; what is no record is as it is."""
+        """A copy of the record; the value itself if it is a copy or no record."""
         if id(r) in self._copies or not isinstance(r, Record):
             return r  # type: ignore[no-any-return]
         copy = object.__new__(Record)
@@ -77,7 +77,7 @@ _write = object.__setattr__
 
 
 def _value_at(r: Object, label: str, path: list[str]) -> Object:
-    """What a record has at a label on the way along a path."""
+    """The value of a label, on the way along a path."""
     if isinstance(r, Record) and label in r._fields:
         return r._fields[label]
     raise TTRError(
@@ -87,9 +87,9 @@ def _value_at(r: Object, label: str, path: list[str]) -> Object:
 
 
 def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:
-    """What is different, path by path, as lines `path: old → new`.
+    """The differences, path by path, as lines `path: old → new`.
 
-    Of a list that has only got longer or shorter, what came (+) or went (−) is told.
+    For a list that only grew or shrank: what was added (+) or removed (−).
 
     >>> from ttr.types.syntax import record
     >>> list(differences(record(x="a", y=["b"]), record(x="c", y=["b", "d"])))
@@ -116,7 +116,7 @@ def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:
 def _list_differences(
     before: tuple[Object, ...], after: tuple[Object, ...], path: str
 ) -> Iterator[str]:
-    """What is different between two lists, element by element where that is plain."""
+    """The differences between two lists: what was added or removed, if that is all."""
     came, went = _extra_elements(after, before), _extra_elements(before, after)
     if came is None and went is None:
         yield f"{path}: {notation(before)} → {notation(after)}"
@@ -128,7 +128,7 @@ def _list_differences(
 def _extra_elements(
     long: tuple[Object, ...], short: tuple[Object, ...]
 ) -> tuple[Object, ...] | None:
-    """What a list has besides another that it begins or ends with, else None."""
+    """The elements of a list beyond another that it begins or ends with, else None."""
     rest = len(long) - len(short)
     if rest < 0:
         return None

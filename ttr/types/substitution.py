@@ -25,8 +25,7 @@ __all__ = [
 ]
 
 Around = tuple[Mapping[str, Object], ...]
-"""What the scopes around say: labels of records, the variable of a binder; innermost
-first."""
+"""The values of labels and of bound variables, scope by scope, innermost first."""
 
 
 def along(value: Object, labels: tuple[str, ...]) -> Object:
@@ -104,9 +103,9 @@ def substitute_variable(body: Object, term: Object) -> Object:
 
 
 def follow_labels(value: Object, labels: tuple[str, ...]) -> Object:
-    """Where the labels lead in an object or from a place.
+    """Where the labels lead, from an object or from a path.
 
-    A path that leads nowhere becomes one that starts nowhere: it equals nothing else.
+    If they lead nowhere, it is a path that equals nothing else.
     """
     for done, label in enumerate(labels):
         if isinstance(value, Path):
@@ -121,5 +120,5 @@ def follow_labels(value: Object, labels: tuple[str, ...]) -> Object:
 
 
 def _is_event(string: EventString, label: str) -> bool:
-    """Whether a label, which may be a number, is that of an event of the string."""
+    """Is the label the number of an event of the string?"""
     return label.isdigit() and int(label) < len(string)

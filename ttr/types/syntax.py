@@ -1,4 +1,4 @@
-"""What may be written: types, predicates and record types, as immutable values.
+"""The abstract syntax: types, predicates and record types, as immutable values.
 
 Nodes are interned: two nodes of the same structure are the same Python object, so that
 `is` is structural identity, a hash is an address and a type can be a key. The classes
@@ -135,7 +135,7 @@ def _not_a_type(found: object) -> IllFormed:
 
 
 def kind_of(value: object) -> str:
-    """What a value is, in a word or two, for an error."""
+    """A short description of a value, for an error message."""
     match value:
         case Pred():
             domain = ", ".join(map(str, value.arities[0]))
@@ -405,7 +405,7 @@ class Function(_Binder):
 
 @node
 class Application(Applied, TypeNode):
-    """f(a): what a function gives for an argument, a type or any other object."""
+    """f(a): the value of a function for an argument, a type or any other object."""
 
     function: Object
     argument: Object
@@ -415,7 +415,7 @@ class Application(Applied, TypeNode):
         return freeze(function), freeze(argument)
 
     def __call__(self, *args: object) -> Application:
-        """What the result, a function, gives for another argument: f(a)(b)."""
+        """The result, a function, applied to another argument: f(a)(b)."""
         return applied(self, *args)
 
     def __add__(self, other: object) -> Object:
@@ -523,7 +523,7 @@ class Pred(Node):
         return PType(self, args)
 
     def _refuse(self, *_: object) -> NoReturn:
-        """Says that the signs for types take no predicate."""
+        """Refuse a predicate as an operand: the operators are for types."""
         raise _not_a_type(self)
 
     __and__ = __or__ = __invert__ = __rshift__ = __matmul__ = _refuse

@@ -1,9 +1,9 @@
-"""Automata of types of strings: what a string may begin with, and what may follow then.
+"""Automata of types of strings, built from partial derivatives.
 
-A state is what is left to come, itself a type of strings; an edge is an event of a type
-and what is left after it. These are the partial derivatives of a type of strings. They
-are found without recursion over its length, and there are never more of them than the
-type has places for events, but for meets, whose states are combined.
+A state is a type of strings, those that may still come; an edge is labelled with the
+type of an event and leads to what may come after it. There are no more states than
+events in the type, except for meets, whose states are combined. Building them takes no
+recursion over the length.
 
 Source: Antimirov 1996 for partial derivatives; Fernando 2007 for strings of events.
 """
@@ -39,7 +39,7 @@ __all__ = ["Automaton", "Edge", "Edges", "automaton", "automaton_above"]
 def automaton(T: TypeNode) -> Automaton:
     """The automaton of a type of strings.
 
-    A meet in it that has too many states is asked for as a whole.
+    A meet in it that has too many states is taken as a whole.
 
     >>> from ttr.types.syntax import Basic
     >>> A, B = Basic("A"), Basic("B")
@@ -52,9 +52,9 @@ def automaton(T: TypeNode) -> Automaton:
 
 
 def automaton_above(T: TypeNode) -> Automaton:
-    """An automaton that takes no wholes, of all strings of a type and perhaps more.
+    """An automaton without wholes, of all strings of a type and perhaps more.
 
-    Raises `Unsupported` where there is a meet in it with too many states.
+    Raises `Unsupported` if a meet in the type has too many states.
     """
     found = _Builder(regular_above).of(T)
     if any(found.wholes.values()):
@@ -67,13 +67,13 @@ def _unchanged(T: TypeNode) -> TypeNode:
 
 
 class _Repeated(NamedTuple):
-    """As what comes next: pieces of a type, none or more of them."""
+    """A head of a state: any number of pieces of a type."""
 
     item: TypeNode
 
 
 class _Inside(NamedTuple):
-    """As what comes next: what another automaton has left in a state."""
+    """A head of a state: what remains in a state of another automaton."""
 
     automaton: Automaton
     state: int
@@ -81,17 +81,17 @@ class _Inside(NamedTuple):
 
 _Head: TypeAlias = TypeNode | _Repeated | _Inside
 _Left: TypeAlias = tuple[_Head, int]
-"""What comes next, and the number of the state after that."""
+"""The head of a state, what comes next; and the number of the state after that."""
 
 _END = 0
-"""The state in which nothing is left."""
+"""The state in which nothing more comes."""
 
 
 class _Builder:
     """Numbers the states of a type, and finds their steps.
 
-    `regular` says what stands for a type of strings that is not regular; where that
-    is not regular itself, a string is asked for as a whole.
+    `regular` replaces a type of strings that is not regular; if the replacement is not
+    regular either, a string is taken as a whole.
     """
 
     def __init__(self, regular: Callable[[TypeNode], TypeNode]) -> None:
@@ -125,7 +125,7 @@ class _Builder:
     def _steps_from(
         self, start: int, final: set[int]
     ) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
-        """The steps from a state, through what may be empty; notes if it may end."""
+        """The steps from a state, also through empty pieces; notes if it is final."""
         edges: dict[Edge, None] = {}
         wholes: dict[Edge, None] = {}
         waiting, seen = [start], {start}
@@ -146,7 +146,7 @@ class _Builder:
     def _expand(
         self, left: _Left, edges: dict[Edge, None], wholes: dict[Edge, None]
     ) -> Iterator[int]:
-        """The states that are the same without an event; notes the steps with one."""
+        """The states reached without an event; notes the steps with one."""
         spend()
         head, then = left
         match head:
@@ -172,7 +172,7 @@ class _Builder:
     def _expand_alternatives(
         self, T: TypeNode, then: int, wholes: dict[Edge, None]
     ) -> Iterator[int]:
-        """The same for a join, a meet or a singleton of strings."""
+        """Expands a join, a meet or a singleton of strings."""
         parts = alternatives(T)
         if parts != (T,):
             yield from [self._state(part, then) for part in parts]
@@ -188,7 +188,7 @@ class _Builder:
             yield self._state(_Inside(inner, inner.start), then)
 
     def _intersection(self, T: TypeNode) -> Automaton | None:
-        """The automaton of a meet; None where it has to be asked for as a whole."""
+        """The automaton of a meet; None if it has to be taken as a whole."""
         if T not in self._intersections:
             self._intersections[T] = None
             with suppress(Unsupported):
@@ -196,12 +196,12 @@ class _Builder:
         return self._intersections[T]
 
     def part(self, T: TypeNode) -> Automaton | None:
-        """The automaton of a part of a meet; None where it takes wholes."""
+        """The automaton of a part of a meet; None if it has wholes."""
         found = _Builder(self._regular).of(T)
         return None if any(found.wholes.values()) else found
 
     def _rest_of(self, state: int) -> TypeNode:
-        """The type of what is left in a state."""
+        """The type of the strings that lead from a state to the end."""
         spend()
         pieces = []
         left = self._left[state]
@@ -220,7 +220,7 @@ class _Builder:
 
 
 def _product(T: TypeNode, building: _Builder) -> Automaton | None:
-    """The automaton of a meet of regular types, where each part has one."""
+    """The automaton of a meet of regular types, if each part has one."""
     if not isinstance(T, Meet) or not is_regular(T):
         return None
     plain = [building.part(p) for p in T.parts if not isinstance(p, Negation)]

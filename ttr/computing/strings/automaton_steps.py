@@ -1,4 +1,4 @@
-"""Automata, and those that are several others at once: what meets of types come to."""
+"""Automata, and their intersection: the automata of meets of types."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ EDGES = 4096
 """How many edges the automaton of a meet may have."""
 
 DENIED = 6
-"""How many types of events a denied type of strings may tell apart in a state."""
+"""How many event types a denied type of strings may distinguish in a state."""
 
 
 class Edge(NamedTuple):
-    """A step of an automaton: what it takes, and the state after that."""
+    """A step of an automaton: the type it takes, and the state it leads to."""
 
     label: TypeNode
     target: int
@@ -34,8 +34,8 @@ class Automaton:
     """The states of a type of strings, and the steps between them.
 
     `edges` take one event of a type; `wholes` take several events that as one string
-    are of a type. In a `final` state the string may end. There is no state from which
-    none of these can be reached. `rest_of` gives the type of what is left in a state.
+    are of a type. In a `final` state the string may end, and one can be reached from
+    every state. `rest_of` gives the type of the strings from a state to the end.
     """
 
     start: int
@@ -46,7 +46,7 @@ class Automaton:
 
     @property
     def empty(self) -> bool:
-        """Whether no string is of the type, by its form."""
+        """Is no string of the type, by its form?"""
         return not (
             self.start in self.final
             or self.edges.get(self.start)
@@ -54,13 +54,13 @@ class Automaton:
         )
 
     def labels(self, state: int) -> tuple[TypeNode, ...]:
-        """What a string may go on with in a state, each type once."""
+        """The types that may come next in a state, each once."""
         steps = (*self.edges.get(state, ()), *self.wholes.get(state, ()))
         return tuple(dict.fromkeys(edge.label for edge in steps))
 
 
 def trim(found: Automaton) -> Automaton:
-    """The automaton without the steps after which no string can be completed."""
+    """The automaton without steps that lead to no final state."""
     before: dict[int, list[int]] = {}
     for steps in (found.edges, found.wholes):
         for state, edges in steps.items():
@@ -90,15 +90,15 @@ def trim(found: Automaton) -> Automaton:
 # --- several at once -----------------------------------------------------------------
 
 _ProductState: TypeAlias = tuple[tuple[int, ...], tuple[frozenset[int], ...]]
-"""A state of each part of a meet; of a part that is denied, all it may be in."""
+"""A state of each part of a meet, and the set of states of each denied part."""
 
 
 def intersect(plain: list[Automaton], denied: list[Automaton]) -> Automaton:
-    """The automaton of the strings of all of some automata, and of none of others.
+    """The automaton of the strings of all `plain` automata and of none `denied`.
 
-    Of those that are denied every state that they may be in is followed, so an event of
-    a label is told apart from one that is not. Raises `Unsupported` where there are too
-    many states.
+    For those that are denied all possible states are followed, so that an event of a
+    label is distinguished from one that is not. Raises `Unsupported` if there are too
+    many edges.
     """
     return _Product(plain, denied).all()
 
@@ -112,7 +112,7 @@ class _Product:
         self._numbers: dict[_ProductState, int] = {}
 
     def all(self) -> Automaton:
-        """All states that are reached; raises `Unsupported` for too many steps."""
+        """The automaton of all states that are reached, built step by step."""
         starts = tuple([one.start for one in self._plain])
         denied = tuple([frozenset((one.start,)) for one in self._denied])
         start = self._number((starts, denied))
@@ -131,7 +131,7 @@ class _Product:
         return trim(Automaton(start, edges, wholes, final, self.rest_of))
 
     def rest_of(self, state: int) -> TypeNode:
-        """The type of what is left in a state."""
+        """The type of the strings that lead from a state to the end."""
         plain, denied = self._states[state]
         rests = [one.rest_of(q) for one, q in zip(self._plain, plain, strict=True)]
         for one, several in zip(self._denied, denied, strict=True):
@@ -174,9 +174,9 @@ class _Product:
 def _distinguish_events(
     one: Automaton, several: frozenset[int]
 ) -> Iterator[tuple[tuple[TypeNode, ...], frozenset[int]]]:
-    """What an event may be of, as far as that matters to a denied type in its states.
+    """The cases of an event that matter to a denied type in its states.
 
-    With each case come the states that are reached in it.
+    Each comes with the states that it leads to.
     """
     edges = [edge for state in sorted(several) for edge in one.edges.get(state, ())]
     labels = tuple(dict.fromkeys(edge.label for edge in edges))

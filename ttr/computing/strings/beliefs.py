@@ -1,7 +1,7 @@
-"""What may be so, and how probably: sets of states of an automaton with their degrees.
+"""Beliefs about the state of an automaton: sets of states with their probabilities.
 
-One of the sets is the set of states that are reached, or lies between two of them that
-stand for it. Degrees are numbers where all that they come of is, else intervals.
+One of the sets is the set of states that are reached, or it lies between two of them.
+A degree is a number if all that it is computed from are numbers, else an interval.
 """
 
 from __future__ import annotations
@@ -15,24 +15,28 @@ from ttr.probability import CERTAIN, REFUTED, Degree
 __all__ = ["NOWHERE", "Beliefs", "States", "frechet", "independent"]
 
 SETS = 32
-"""How many sets of states are told apart."""
+"""How many sets of states are distinguished."""
 
 States: TypeAlias = frozenset[int]
 
 NOWHERE: States = frozenset()
-"""No state: what was seen does not go on to anything that is expected."""
+"""No state: the events that were seen begin no string of the type."""
 
 _Conjunction: TypeAlias = Callable[[Degree, Degree], Degree]
-"""How probable two things are together."""
+"""The probability of a conjunction, from those of its two parts."""
 
 
 def independent(p: Degree, q: Degree) -> Degree:
-    """How probable two things are together that do not depend on one another."""
+    """p · q: the probability of both of two independent events.
+
+    >>> print(independent(Degree(0.5, 0.5), Degree(0.25, 1.0)))
+    [0.125, 0.5]
+    """
     return Degree(p.lo * q.lo, p.hi * q.hi)
 
 
 def frechet(p: Degree, q: Degree) -> Degree:
-    """How probable two things are together, however they depend on one another.
+    """[max(0, p + q − 1), min(p, q)]: the Fréchet bounds of the probability of both.
 
     >>> print(frechet(Degree(0.75, 0.75), Degree(0.5, 0.5)))
     [0.25, 0.5]
@@ -42,7 +46,7 @@ def frechet(p: Degree, q: Degree) -> Degree:
 
 @dataclass(frozen=True)
 class Beliefs:
-    """Sets of states, one of which is reached, and how probable each of them is.
+    """Sets of states, one of which is reached, with their probabilities.
 
     >>> some, nothing = Degree(0.25, 0.5), Degree(0.5, 0.75)
     >>> print(Beliefs({frozenset((1,)): some, NOWHERE: nothing}).probability(bool))
@@ -53,7 +57,7 @@ class Beliefs:
 
     @classmethod
     def certain(cls, states: States) -> Beliefs:
-        """That just these states are reached."""
+        """The belief that exactly these states are reached."""
         return cls({states: CERTAIN})
 
     def states(self) -> list[int]:
@@ -61,9 +65,10 @@ class Beliefs:
         return sorted({state for states in self.degrees for state in states})
 
     def probability(self, holds: Callable[[States], bool]) -> Degree:
-        """How probable it is that the set of states is such, as larger ones are, too.
+        """How probable it is that a condition holds of the set of states.
 
-        It is such, or it is not: so there are two ways to know each bound.
+        If it holds of a set, it must hold of larger ones. Each bound is found in two
+        ways: from the sets where it holds, and from those where it does not.
         """
         one, other = REFUTED, REFUTED
         for states, p in self.degrees.items():
@@ -89,14 +94,14 @@ class Beliefs:
 
 
 def _disjoint_sum(p: Degree, q: Degree) -> Degree:
-    """How probable it is that one of two things is so that cannot both be."""
+    """p + q: the probability of one of two events that exclude each other."""
     return Degree(min(1.0, p.lo + q.lo), min(1.0, p.hi + q.hi))
 
 
 def _merge_unlikely(degrees: Mapping[States, Degree]) -> Mapping[States, Degree]:
-    """The same with the least probable sets made two where there are too many.
+    """The same degrees, with the least probable sets merged into two if too many.
 
-    What is reached then lies between those two: what all have and what any has.
+    The set that is reached lies between those two, their intersection and union.
     """
     if len(degrees) <= SETS:
         return degrees

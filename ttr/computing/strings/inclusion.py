@@ -1,12 +1,11 @@
 """Is every string of a type one of another? Two automata are followed side by side.
 
 A state of the one is followed with all states that the other may be in for the same
-events. Whether an event of a type is of another one is asked of a function that may not
-know; so a yes follows for every assignment, and a string that speaks against it has to
-be checked.
+events. A function says whether events of a type are surely of another. It may not know:
+so a yes holds under every assignment, while a counterexample has to be checked.
 
 Source: the subset construction of Rabin and Scott 1959, with the smallest sets only, as
-in De Wulf and others 2006; labels that are types are told apart as far as is needed.
+in De Wulf and others 2006; types as labels are distinguished only as far as needed.
 """
 
 from __future__ import annotations
@@ -22,21 +21,21 @@ from ttr.types.syntax import TypeNode, meet
 __all__ = ["_Below", "Inclusion", "check_inclusion"]
 
 PAIRS = 1024
-"""How many pairs of a state and a set of states are followed before it is left."""
+"""How many pairs of a state and a set of states are followed at most."""
 
 TOLD_APART = 6
-"""How many types an event may be of or not, for its cases to be told apart."""
+"""How many types an event may be of or not, if its cases are to be distinguished."""
 
 _Below: TypeAlias = Callable[[TypeNode, tuple[TypeNode, ...]], bool]
-"""Whether what is of a type surely is of one of some others; of none, if nothing is."""
+"""Is an event of a type surely of one of others? If none: can there be no event?"""
 
 
 @dataclass(frozen=True)
 class Inclusion:
-    """Whether every string is one of the other type, as far as that is derivable.
+    """Is every string of the one type of the other, as far as is derivable?
 
-    If not, `against` are types of events, a string of which may speak against it, or
-    None where none was found.
+    If not, `against` has the event types of a possible counterexample, or is None if
+    none was found.
     """
 
     yes: bool
@@ -44,7 +43,7 @@ class Inclusion:
 
 
 def check_inclusion(S: Automaton, T: Automaton | None, below: _Below) -> Inclusion:
-    """Whether the strings of S are among those of T; without T, whether there are none.
+    """Are the strings of S among those of T? Without T: are there none?
 
     >>> from ttr.computing.strings.automata import automaton
     >>> from ttr.types.syntax import Basic, Plus, Str
@@ -96,7 +95,7 @@ class _InclusionSearch:
     def _successors(
         self, state: int, others: frozenset[int]
     ) -> Iterator[tuple[_Pair, TypeNode]]:
-        """The pairs after an event of S, or after a string that it takes as a whole."""
+        """The pairs reached by an event of S, or by a string taken as a whole."""
         for steps in (_edges_of, _wholes_of):
             theirs = [
                 edge for q in sorted(others) if self._T for edge in steps(self._T)[q]
@@ -113,9 +112,9 @@ class _InclusionSearch:
     def _deniable_labels(
         self, label: TypeNode, labels: tuple[TypeNode, ...]
     ) -> list[tuple[TypeNode, ...]]:
-        """Of which of the labels an event of a type may not be, as many as can be.
+        """The largest sets of labels of which an event of the type may be none.
 
-        If it is of more of them, no more speaks against what is asked.
+        Smaller sets are no better counterexamples.
         """
         open_ones = tuple([one for one in labels if not self._is_below(label, (one,))])
         found: list[tuple[TypeNode, ...]] = []

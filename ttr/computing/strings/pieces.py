@@ -36,11 +36,11 @@ __all__ = [
 ]
 
 ALTERNATIVES = 256
-"""How many alternatives a piece may have before it is left whole."""
+"""How many alternatives a piece may have; with more it is not divided."""
 
 
 def is_of_strings(T: TypeNode) -> bool:
-    """Whether T by its form is a type of strings, rather than of events.
+    """Is T by its form a type of strings, rather than of events?
 
     >>> from ttr.types.syntax import Ind
     >>> is_of_strings(Plus(Ind)), is_of_strings(Ind), is_of_strings(~~Str(Ind))
@@ -61,7 +61,7 @@ def is_of_strings(T: TypeNode) -> bool:
 
 
 def events_of(T: Str) -> tuple[TypeNode, ...] | None:
-    """The types of the events, one by one; None where a piece may be of several.
+    """The types of the events, one by one; None if a piece may have several.
 
     >>> from ttr.types.syntax import Ind
     >>> events_of(Str(Ind, Ind)), events_of(Str(Ind, Plus(Ind)))
@@ -71,7 +71,7 @@ def events_of(T: Str) -> tuple[TypeNode, ...] | None:
 
 
 def string_of(types: Iterable[TypeNode], pieces: Iterable[Object]) -> EventString:
-    """The string of these pieces: the events of a string, or what is one event.
+    """The string of these pieces: a piece is a string, or one event.
 
     >>> from ttr.types.syntax import Ind
     >>> print(string_of((Plus(Ind), Ind), (EventString("a", "b"), "c")))
@@ -85,7 +85,7 @@ def string_of(types: Iterable[TypeNode], pieces: Iterable[Object]) -> EventStrin
 
 
 def alternatives(T: TypeNode) -> tuple[TypeNode, ...]:
-    """The types that T is the join of as a piece, each of strings only or of events.
+    """The types whose join is T, each of them either of strings or of events.
 
     >>> from ttr.types.syntax import Basic
     >>> A, B = Basic("A"), Basic("B")
@@ -112,15 +112,15 @@ def alternatives(T: TypeNode) -> tuple[TypeNode, ...]:
 
 
 def _choices(T: TypeNode) -> tuple[TypeNode, ...]:
-    """The parts of a join in a meet, where that is not for an automaton to follow."""
+    """The parts of a join in a meet, unless an automaton can follow the join itself."""
     return T.parts if isinstance(T, Join) and not is_regular(T) else (T,)
 
 
 def is_regular(T: TypeNode) -> bool:
-    """Whether its types of events say all of a type of strings, event by event.
+    """Is a type of strings decided event by event?
 
-    They do not where a string as a whole is asked for: to be another string, or of a
-    type that is not of strings.
+    It is not if a string as a whole has to be equal to another, or of a type that is
+    not a type of strings.
     """
     spend()
     match T:
@@ -136,12 +136,12 @@ def is_regular(T: TypeNode) -> bool:
 
 
 def _is_regular_or_denied(T: TypeNode) -> bool:
-    """Whether a part of a meet is regular, or denies what is."""
+    """Is a part of a meet regular, or the negation of a regular type?"""
     return is_regular(T.body if isinstance(T, Negation) else T)
 
 
 def regular_above(T: TypeNode) -> TypeNode:
-    """The part of a type of strings that is regular: what is of T is of it, too.
+    """A regular type of strings above T: T without the parts that are not regular.
 
     >>> from ttr.types.syntax import Ind, Basic
     >>> print(regular_above(Str(Ind) & Basic("Short")))

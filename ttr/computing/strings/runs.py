@@ -1,7 +1,7 @@
 """Running an automaton over a string of events: the ways to divide it into pieces.
 
-What events are of is asked of functions, so this knows nothing of models. One way is
-found in one pass, in which every event is asked for each type once at most.
+The types of events are asked of functions, so this knows nothing of models. One way is
+found in one pass, which asks for each event and type once at most.
 """
 
 from __future__ import annotations
@@ -28,23 +28,23 @@ __all__ = [
 ]
 
 WAYS = 64
-"""How many ways to divide a string are told apart."""
+"""How many ways to divide a string are listed."""
 
 FOLLOWED = 4096
 """How many beginnings of strings are followed to find the shortest ones."""
 
 _Fits: TypeAlias = Callable[[int, TypeNode], bool]
-"""Whether an event, by its number, is of a type of events."""
+"""Is the event with this number of a type of events?"""
 
 _FitsWhole: TypeAlias = Callable[[int, int, TypeNode], bool]
-"""Whether events start to end as one string are of a type."""
+"""Are the events from start to end, as one string, of a type?"""
 
 
 @dataclass(frozen=True)
 class Stop:
-    """Where a string cannot be gone on with: after how many events, and what may come.
+    """Where a string fails: after how many events, and which types could have come.
 
-    `may_end` says whether the string could have ended there.
+    `may_end`: could the string have ended there?
     """
 
     furthest: int
@@ -53,9 +53,9 @@ class Stop:
 
 
 class Piece(NamedTuple):
-    """Events start to end, the type they are of, and whether that is asked as a whole.
+    """A piece of a string: events start to end, of a type.
 
-    Else it is one event.
+    If it is not `whole`, it is one event of that type.
     """
 
     start: int
@@ -66,7 +66,7 @@ class Piece(NamedTuple):
 
 @dataclass(frozen=True)
 class Division:
-    """Ways to divide a string, at most `WAYS`, and whether those are all."""
+    """Ways to divide a string, at most `WAYS`; `all` says if there are no others."""
 
     ways: tuple[tuple[Piece, ...], ...]
     all: bool
@@ -77,14 +77,14 @@ class Division:
 
 @dataclass(frozen=True)
 class _Step:
-    """From some states to others: for each of these, from where and by which edge."""
+    """A step between sets of states; `back` has the edge by which each is reached."""
 
     states: tuple[int, ...]
     back: dict[int, tuple[int, TypeNode]]
 
 
 class _States:
-    """The steps from sets of states, each worked out once."""
+    """The steps from sets of states, each computed once."""
 
     def __init__(self, automaton: Automaton) -> None:
         self._edges = automaton.edges
@@ -92,7 +92,7 @@ class _States:
         self._labels: dict[tuple[int, ...], tuple[TypeNode, ...]] = {}
 
     def labels(self, states: tuple[int, ...]) -> tuple[TypeNode, ...]:
-        """The types of events that some of the states go on with."""
+        """The types of events that may come next in some of the states."""
         found = self._labels.get(states)
         if found is None:
             edges = (edge for state in states for edge in self._edges[state])
@@ -101,7 +101,7 @@ class _States:
         return found
 
     def step(self, states: tuple[int, ...], fits: tuple[bool, ...]) -> _Step:
-        """Where an event leads that fits those labels, as said in their order."""
+        """The step with an event; `fits` says for each label if it fits."""
         found = self._steps.get((states, fits))
         if found is None:
             so = dict(zip(self.labels(states), fits, strict=True))
@@ -117,9 +117,9 @@ class _States:
 def a_way(
     length: int, automaton: Automaton, fits: _Fits
 ) -> tuple[TypeNode, ...] | Stop:
-    """What the events of a string are of, one by one, or where that leads nowhere.
+    """The types of the events of a string, one by one, or where it fails.
 
-    The automaton takes no wholes. The time is linear in the length.
+    The automaton must have no wholes. The time is linear in the length.
 
     >>> from ttr.computing.strings.automata import automaton
     >>> from ttr.types.syntax import Basic, Plus, Str
@@ -162,7 +162,7 @@ def _stop_at(number: int, states: tuple[int, ...], automaton: Automaton) -> Stop
 def all_ways(
     length: int, automaton: Automaton, fits: _Fits, fits_whole: _FitsWhole
 ) -> Division | Stop:
-    """The ways to divide a string, told apart by the pieces and what they are of."""
+    """The ways to divide a string into pieces of types, or where it fails."""
     came = _Arrivals(length, automaton, fits, fits_whole).all()
     ending = [state for state in came[length] if state in automaton.final]
     if not ending:
@@ -174,7 +174,7 @@ def all_ways(
 
 
 class _Arrival(NamedTuple):
-    """How a state is reached: after how many events, from which one, with what."""
+    """How a state is reached: from where, after how many events, by which label."""
 
     start: int
     source: int
@@ -215,7 +215,7 @@ class _Arrivals:
                 self._came[number + 1].setdefault(target, []).append(arrival)
 
     def _take_wholes(self, number: int) -> None:
-        """Notes where the strings may end that begin here and are asked for whole."""
+        """Note where strings that begin here may end, if they are taken as a whole."""
         waiting = list(self._came[number])
         for state in waiting:  # grows on the way
             for label, target in self._automaton.wholes[state]:
@@ -227,7 +227,7 @@ class _Arrivals:
                     self._came[end].setdefault(target, []).append(arrival)
 
     def _ends(self, T: TypeNode, start: int) -> list[int]:
-        """Where the strings of a type may end that begin after so many events."""
+        """The ends of the strings of a type that begin after so many events."""
         try:
             above = automaton_above(T)
         except Unsupported:
@@ -248,7 +248,7 @@ class _Arrivals:
 
 
 def _join_parallel_edges(edges: Edges) -> Edges:
-    """The edges with those between the same states made one: a way less to tell."""
+    """The edges, with those between the same states joined into one."""
     found: dict[int, tuple[Edge, ...]] = {}
     for state, several in edges.items():
         labels: dict[int, list[TypeNode]] = {}
@@ -280,7 +280,7 @@ def _walk_back(
 
 
 _Way: TypeAlias = tuple[int, frozenset[int], frozenset[int], Any]
-"""Before how many events, in which states, after which others there; and the rest."""
+"""The events so far, the states, those passed without an event, and the rest."""
 
 
 def _unlink(way: Any) -> list[Any]:
@@ -295,7 +295,7 @@ def _unlink(way: Any) -> list[Any]:
 
 
 def accepts(length: int, automaton: Automaton, fits: _Fits) -> bool:
-    """Whether so many events can be divided, where `fits` says what an event is of.
+    """Does the automaton accept so many events? `fits` says what they are of.
 
     >>> from ttr.computing.strings.automata import automaton
     >>> from ttr.types.syntax import Ind, Plus, Str
@@ -317,9 +317,9 @@ def accepts(length: int, automaton: Automaton, fits: _Fits) -> bool:
 
 
 def shortest(automaton: Automaton, length: int = 0) -> Iterator[tuple[TypeNode, ...]]:
-    """What the events may be of in the strings of a type, shortest first.
+    """The event types of the strings of a type, shortest first.
 
-    They have so many events or more, if the type has such strings.
+    Strings of at least `length` events come first, if there are any.
 
     >>> from ttr.computing.strings.automata import automaton
     >>> from ttr.types.syntax import Basic, Plus, Str
