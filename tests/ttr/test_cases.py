@@ -459,7 +459,7 @@ def test_P13_an_interval_where_cases_differ():
     Flu, Ill = Basic("Flu"), Basic("Ill")
     M = Model()
     for age, p in ages.items():
-        M = M.expects(Ill, p, when=[Flu, Basic(age)])
+        M = M.with_conditional(Ill, p, when=[Flu, Basic(age)])
     for number in range(10):
         age = list(ages)[number % 4]
         M = M.given(f"p{number}", Basic(age)).given(f"p{number}", Flu)

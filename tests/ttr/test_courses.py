@@ -100,7 +100,11 @@ def test_what_was_in_doubt_before_is_not_taken_as_independent():
 
 
 def test_events_that_depend_on_one_another_have_bounds():
-    model = M.given("u", A, 0.5).dependent(("u", A), ("v", A)).given("v", A, 0.5)
+    model = (
+        M.given("u", A, 0.5)
+        .with_unknown_dependence(("u", A), ("v", A))
+        .given("v", A, 0.5)
+    )
     course = begun(Plus(A), model).seen("u").seen("v")
     assert course.may_end == (0, 0.5)
 

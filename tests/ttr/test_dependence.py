@@ -39,7 +39,7 @@ def test_one_judgement_under_a_condition():
 def test_a_record_along_its_dependencies():
     cloudy, rain = Pred("cloudy", Ind), Pred("rain", Ind)
     M = Model().given("d", Ind).given("s1", cloudy("d"), 0.5)
-    M = M.tabled(
+    M = M.with_table(
         ("s2", rain("d")),
         on=[("s1", cloudy("d"))],
         rows={(True,): 0.8, (False,): 0.1},
@@ -59,12 +59,12 @@ def test_what_is_said_again_replaces_what_was_said():
 
 def test_the_model_before_is_as_it_was():
     M = Model().given("a", A, 0.5).given("a", B, 0.5)
-    M.dependent(("a", A), ("a", B))
+    M.with_unknown_dependence(("a", A), ("a", B))
     assert M.judge("a", A & B).p == pytest.approx((0.25, 0.25))
 
 
 def test_what_is_said_of_an_object_goes_before_what_is_said_in_general():
-    M = Model().expects(B, 0.6, when=A).given("a", A).given("b", A)
+    M = Model().with_conditional(B, 0.6, when=A).given("a", A).given("b", A)
     M = M.given("a", B, 0.1, when=[("a", A)])
     assert M.judge("a", B).p == (0.1, 0.1)
     assert M.judge("b", B).p == (0.6, 0.6)
@@ -72,13 +72,13 @@ def test_what_is_said_of_an_object_goes_before_what_is_said_in_general():
 
 def test_a_table_with_a_gap():
     with pytest.raises(TTRError, match=r"no row for \(True, False\)"):
-        Model().tabled(C, on=[A, B], rows={(True, True): 1, (False, True): 0})
+        Model().with_table(C, on=[A, B], rows={(True, True): 1, (False, True): 0})
 
 
 def test_a_table_with_a_row_too_many():
     rows = {(True,): 1, (False,): 0, (True, True): 0.5}
     with pytest.raises(TTRError, match="about 1 judgements"):
-        Model().tabled(C, on=[A], rows=rows)
+        Model().with_table(C, on=[A], rows=rows)
 
 
 @pytest.mark.parametrize("p", [1.5, (0.4, 0.2), "half", float("nan")])
@@ -86,7 +86,7 @@ def test_a_conditional_that_is_no_probability(p):
     with pytest.raises(TTRError, match="is a number in"):
         Model().given("a", B, p, when=[("a", A)])
     with pytest.raises(TTRError, match=r"p\(B \|\| A\)"):
-        Model().expects(B, p, when=A)
+        Model().with_conditional(B, p, when=A)
 
 
 def test_a_judgement_does_not_depend_on_itself():
@@ -188,7 +188,11 @@ def test_something_is_of_a_type():
 
 
 def test_any_one_object():
-    M = Model().expects(B, 0.6, when=[A, C]).expects(B, 0.3, when=[A, ~C])
+    M = (
+        Model()
+        .with_conditional(B, 0.6, when=[A, C])
+        .with_conditional(B, 0.3, when=[A, ~C])
+    )
     assert M.chance(B, when=A).p == (0, 1)
     M = M.given("a", A).given("b", A, 0.5).given("b", C)
     assert M.chance(B, when=A).p == (0.3, 0.6)
@@ -293,10 +297,10 @@ def test_a_long_chain_of_conditionals():
 
 
 def test_what_is_given_goes_before_what_is_expected():
-    M = Model().expects(B, 0.9, when=A)
+    M = Model().with_conditional(B, 0.9, when=A)
     for one in (
         M.given("a", A, 0.9).given("a", B, 0.1),
-        Model().given("a", A, 0.9).given("a", B, 0.1).expects(B, 0.9, when=A),
+        Model().given("a", A, 0.9).given("a", B, 0.1).with_conditional(B, 0.9, when=A),
     ):
         assert one.judge("a", A & B).p == pytest.approx((0.09, 0.09))
 
@@ -322,14 +326,14 @@ def test_models_can_be_copied_and_kept():
 @pytest.mark.parametrize(
     "wrong",
     [
-        lambda M: M.tabled(C, on="A", rows={}),
-        lambda M: M.tabled(C, on=None, rows={}),
-        lambda M: M.tabled(C, on=[A] * 30, rows={}),
-        lambda M: M.tabled(C, on=[A], rows=None),
+        lambda M: M.with_table(C, on="A", rows={}),
+        lambda M: M.with_table(C, on=None, rows={}),
+        lambda M: M.with_table(C, on=[A] * 30, rows={}),
+        lambda M: M.with_table(C, on=[A], rows=None),
         lambda M: M.true(A, among=5),
         lambda M: M.true(A, among="ab"),
         lambda M: M.chance(A, when=B, among=5),
-        lambda M: M.stated("x"),
+        lambda M: M.with_given("x"),
         lambda M: M.judge("a", A, when=3),
         lambda M: RandomVariable("V", A, B).judge("M", "a", A),
         lambda M: RandomVariable("V", A, B).judge(M, "a", A, when=3),
@@ -356,7 +360,12 @@ def test_a_field_that_is_a_join_is_perceived():
 
 
 def test_why_says_that_nothing_is_known_of_dependence():
-    M = Model().given("a", A, 0.6).given("a", B, 0.5).dependent(("a", A), ("a", B))
+    M = (
+        Model()
+        .given("a", A, 0.6)
+        .given("a", B, 0.5)
+        .with_unknown_dependence(("a", A), ("a", B))
+    )
     why = M.judge("a", A & B).why
     assert "nothing is known of how they depend" in why.because
 
@@ -374,7 +383,7 @@ def test_two_types_that_exclude_each_other_and_of_which_nothing_is_told():
 
 
 def test_any_one_of_many_objects_is_any():
-    M = Model().expects(B, 0.6, when=A)
+    M = Model().with_conditional(B, 0.6, when=A)
     for number in range(1_001):
         M = M.given(f"o{number}", A)
     assert M.given("o1000", B, 0.1).chance(B, when=A).p == (0.1, 0.6)

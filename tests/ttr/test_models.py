@@ -506,3 +506,18 @@ def test_an_axiom_about_two_arguments_says_nothing_of_one():
 def test_what_certainly_is_not_of_a_type_is_no_candidate():
     M = Model().given("a", A).given("b", A, 0).given("c", A, 0.5)
     assert list(candidates(M.facts, A)) == ["a", "c"]
+
+
+@pytest.mark.parametrize(
+    ("former", "now"),
+    [
+        ("expects", "with_conditional"),
+        ("tabled", "with_table"),
+        ("dependent", "with_unknown_dependence"),
+        ("stated", "with_given"),
+    ],
+)
+def test_former_names_of_methods_work_and_warn(former, now):
+    M = Model()
+    with pytest.warns(DeprecationWarning, match=f"Model.{former} is now Model.{now}$"):
+        assert getattr(M, former) == getattr(M, now)

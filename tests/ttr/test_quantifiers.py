@@ -402,7 +402,7 @@ def test_judgements_that_are_linked_are_not_multiplied(M):
     M = M.given("bf", bark("f"), 0.5).given("bs", bark("s"), 0.5)
     M = M.given("br", bark("r"), 0.5)
     assert settle(M, every(dog, bark)).p == (0.125, 0.125)
-    M = M.dependent(("bf", bark("f")), ("bs", bark("s")))
+    M = M.with_unknown_dependence(("bf", bark("f")), ("bs", bark("s")))
     found = settle(M, every(dog, bark)).p
     assert found.lo == 0
     assert found.hi >= 0.5

@@ -13,6 +13,7 @@ from typing import Any, Protocol, TypeAlias, cast
 
 from immutables import Map
 
+from ttr.aliases import Alias
 from ttr.errors import IllFormed, Refused, TooLargeError, TTRError, Unsupported
 from ttr.judging.assignments import Assignment, WitnessFunction
 from ttr.judging.conditioning import (
@@ -135,7 +136,7 @@ class Model:
         )
         start = self
         for given in signature.givens:
-            start = start.stated(given)
+            start = start.with_given(given)
         self._facts = start._facts
 
     @classmethod
@@ -194,14 +195,14 @@ class Model:
             )
         return self._with(facts)
 
-    def expects(self, T: TypeNode, /, p: object, *, when: Types) -> Model:
+    def with_conditional(self, T: TypeNode, /, p: object, *, when: Types) -> Model:
         """The model in which whatever is of the conditions is of T so probably.
 
         This is p(T || S, …): of the same object, whatever it is. What was given of a
         particular object goes before it.
 
         >>> Flu, Ill = Basic("Flu"), Basic("Ill")
-        >>> M = Model().expects(Ill, 0.6, when=Flu).given("kim", Flu)
+        >>> M = Model().with_conditional(Ill, 0.6, when=Flu).given("kim", Flu)
         >>> print(M.judge("kim", Ill).p)
         0.6
         """
@@ -211,7 +212,7 @@ class Model:
         degree = _degree_of(f"p({T} || {', '.join(map(str, of))})", p)
         return self._with(expected(self._facts, T, degree, of))
 
-    def tabled(self, T: object, /, on: Sequence[object], rows: Table) -> Model:
+    def with_table(self, T: object, /, on: Sequence[object], rows: Table) -> Model:
         """The model with a table of conditional probabilities for T.
 
         `on` are what T depends on, and `rows` says, for each case of whether they are
@@ -220,7 +221,7 @@ class Model:
 
         >>> Rain, Wet = Basic("Rain"), Basic("Wet")
         >>> M = Model().given("now", Rain, 0.2)
-        >>> M = M.tabled(Wet, on=[Rain], rows={(True,): 0.9, (False,): 0.1})
+        >>> M = M.with_table(Wet, on=[Rain], rows={(True,): 0.9, (False,): 0.1})
         >>> print(M.judge("now", Wet).p, M.judge("now", Rain, when=[("now", Wet)]).p)
         0.26 0.6923
         """
@@ -229,13 +230,13 @@ class Model:
         for case, p in table_rows(on, rows):
             literals = [_literal(one, so) for one, so in zip(on, case, strict=True)]
             if isinstance(T, TypeNode):
-                model = model.expects(T, p, when=literals)
+                model = model.with_conditional(T, p, when=literals)
             else:
                 sit, kind = conditions([T])[0]
                 model = model.given(sit, kind, p, when=literals)
         return model
 
-    def dependent(self, *claims: tuple[object, TypeNode]) -> Model:
+    def with_unknown_dependence(self, *claims: tuple[object, TypeNode]) -> Model:
         """The model in which nothing is known of how these judgements depend.
 
         What rests on several of them then has the bounds that hold in any case.
@@ -244,15 +245,15 @@ class Model:
         >>> M = Model().given("a", A, 0.7).given("a", B, 0.8)
         >>> print(M.judge("a", A & B).p)
         0.56
-        >>> print(M.dependent(("a", A), ("a", B)).judge("a", A & B).p)
+        >>> print(M.with_unknown_dependence(("a", A), ("a", B)).judge("a", A & B).p)
         [0.5, 0.7]
         """
         return self._with(undetermined(self._facts, conditions(claims)))
 
-    def stated(self, given: Given | Expected, /) -> Model:
+    def with_given(self, given: Given | Expected, /) -> Model:
         """The model in which also what a theory starts from is so."""
         if isinstance(given, Expected):
-            return self.expects(given.type, given.p, when=given.when)
+            return self.with_conditional(given.type, given.p, when=given.when)
         if not isinstance(given, Given):
             raise TTRError(f"what a theory starts from is a Given, found {given!r}")
         return self.given(given.sit, given.type, given.p, when=given.when)
@@ -426,8 +427,8 @@ class Model:
         of S, or of those named.
 
         >>> Flu, Ill, Old = Basic("Flu"), Basic("Ill"), Basic("Old")
-        >>> M = Model().expects(Ill, 0.6, when=[Flu, Old])
-        >>> M = M.expects(Ill, 0.3, when=[Flu, ~Old])
+        >>> M = Model().with_conditional(Ill, 0.6, when=[Flu, Old])
+        >>> M = M.with_conditional(Ill, 0.3, when=[Flu, ~Old])
         >>> M = M.given("kim", Flu).given("kim", Old).given("sam", Flu)
         >>> print(M.chance(Ill, when=Flu))
         P(Ill || Flu) = [0.3, 0.6]   (2 objects)
@@ -438,6 +439,11 @@ class Model:
         _, T = _closed((), T)
         objects = None if among is None else _objects(among)
         return of_any(self._facts, T, [_closed((), S)[1] for S in types], objects)
+
+    expects = Alias("with_conditional")
+    tabled = Alias("with_table")
+    dependent = Alias("with_unknown_dependence")
+    stated = Alias("with_given")
 
     def _borne_out(self, proposition: Object) -> Degree:
         """How certain it is that an Austinian proposition is true."""
@@ -546,7 +552,7 @@ def model_of(theory: Signature, purse: SharedPurse | None = None) -> Model:
     for given in theory.givens:
         try:
             with one_of_several(purse):
-                model = model.stated(given)
+                model = model.with_given(given)
         except TTRError as error:
             raise error.at(given.span) if given.span else error from None
     return model

@@ -223,7 +223,7 @@ def _afresh(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Ses
 
 def _told(model: Model, given: Given | Expected) -> Model:
     try:
-        return model.stated(given)
+        return model.with_given(given)
     except TTRError as error:
         raise error.at(given.span) if given.span else error from None
 
