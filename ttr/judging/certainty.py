@@ -146,7 +146,7 @@ class _Certainty(Evaluator[bool]):
     ) -> bool:
         if not isinstance(sit, Record):
             return False
-        if sit._noted is not None and _is_noted(self.facts, sit, T):
+        if sit._noted is not None and _is_remembered(self.facts, sit, T):
             return True
         found = Evaluator._judge_record(self, sit, T, around, where)
         if found:
@@ -159,7 +159,7 @@ class _Certainty(Evaluator[bool]):
         return Evaluator._judge_ptype(self, sit, T, around, where)
 
     def _judge_join(self, sit: Object, T: Join, around: Around, where: str) -> bool:
-        left = _sieve(T).left(sit, self.facts)
+        left = _index_of_parts(T).left(sit, self.facts)
         possible = [T.parts[n] for n in left if not self._excludes(sit, T.parts[n])]
         if len(possible) < 2:
             return any(self.of(sit, part, around) for part in possible)
@@ -204,7 +204,7 @@ def _most_telling_first(T: RecordType) -> tuple[tuple[str, TypeNode], ...]:
 
 
 @lru_cache(4096)
-def _sieve(T: Join) -> Sieve:
+def _index_of_parts(T: Join) -> Sieve:
     """What leaves out the parts of a join that something cannot be of."""
     return Sieve(map(demands_of, T.parts))
 
@@ -252,7 +252,7 @@ same objects, the same is of types made of them."""
 def note(facts: Assignment, sit: Record, T: RecordType) -> None:
     """Notes that a record is certainly of T, so that it need not be judged again."""
     basics = _basics(T)
-    if basics is None or not lasts(sit) or not _alone(facts, basics):
+    if basics is None or not lasts(sit) or not _need_no_axioms(facts, basics):
         return
     noted = sit._noted
     if noted is None:
@@ -261,7 +261,7 @@ def note(facts: Assignment, sit: Record, T: RecordType) -> None:
     noted[T] = _grounds(facts, basics)
 
 
-def _is_noted(facts: Assignment, sit: Record, T: RecordType) -> bool:
+def _is_remembered(facts: Assignment, sit: Record, T: RecordType) -> bool:
     grounds = (sit._noted or {}).get(T)
     if grounds is None:
         return False
@@ -270,14 +270,14 @@ def _is_noted(facts: Assignment, sit: Record, T: RecordType) -> bool:
         return False
     basics = _basics(T) or ()
     now = map(facts.told.get, basics)
-    return all(map(is_, told, now)) and _alone(facts, basics)
+    return all(map(is_, told, now)) and _need_no_axioms(facts, basics)
 
 
 def _grounds(facts: Assignment, basics: tuple[Basic, ...]) -> Grounds:
     return (ref(facts.functions), *map(facts.told.get, basics))
 
 
-def _alone(facts: Assignment, basics: tuple[Basic, ...]) -> bool:
+def _need_no_axioms(facts: Assignment, basics: tuple[Basic, ...]) -> bool:
     """Whether nothing but what was told and seen says what is of these types."""
     return facts.theory.axiom_heads.isdisjoint(basics)
 

@@ -12,10 +12,10 @@ from itertools import product
 
 from ttr.errors import Refused, TTRError, Unsupported
 from ttr.judging.assignments import Assignment
-from ttr.judging.degrees_of_claims import reckoned
+from ttr.judging.degrees_of_claims import probability_of
 from ttr.judging.dependence_analysis import check_together, dependence
 from ttr.judging.evaluator import claims_of, derivation
-from ttr.judging.judgements import Why, together
+from ttr.judging.judgements import Why, combine_events
 from ttr.judging.stated_dependence import Atom, Claim, Conditioned, Expectation
 from ttr.probability import (
     All,
@@ -31,7 +31,13 @@ from ttr.safety.budgets import spend
 from ttr.types.printing import notation
 from ttr.types.syntax import Basic, Meet, Negation, Object, PType, TypeNode
 
-__all__ = ["conditional", "expected", "table_rows", "told_when", "undetermined"]
+__all__ = [
+    "derive_conditional",
+    "with_expectation",
+    "table_rows",
+    "with_conditional_fact",
+    "with_unknown_dependence",
+]
 
 Pair = tuple[Object, TypeNode]
 
@@ -39,7 +45,7 @@ PARENTS = 10
 """On how many judgements a table may depend."""
 
 
-def conditional(
+def derive_conditional(
     facts: Assignment, sit: Object, T: TypeNode, when: Sequence[Pair]
 ) -> Why:
     """How probable sit : T is given other judgements, and why.
@@ -50,20 +56,22 @@ def conditional(
     conditions = tuple([derivation(facts, *pair) for pair in when])
     given = ", ".join([f"{notation(one.sit)} : {one.type}" for one in conditions])
     known = dependence(facts, claims_of([claim, *conditions]))
-    event, condition = claim.event(), together("all", conditions)
+    event, condition = claim.event(), combine_events("all", conditions)
     try:
-        found = reckoned(event, known, condition)
+        found = probability_of(event, known, condition)
     except Impossible:
         raise Refused(
             f"nothing follows given {given}, as that cannot be",
             hint="judge under conditions that are possible",
         ) from None
-    said = partial(_quotient, event, condition, known, found)
+    said = partial(_explain_quotient, event, condition, known, found)
     parts = (claim, *conditions)
     return Why(sit, T, found.p, f"given {given}", parts, reckoned=said)
 
 
-def _quotient(event: Event, condition: Event, known: Dependence, found: Chance) -> str:
+def _explain_quotient(
+    event: Event, condition: Event, known: Dependence, found: Chance
+) -> str:
     """How the degree of what is conditional comes about: p(E and C) / p(C)."""
     links = [link for one in found.rests_on for link in one.links()]
     said = ["bounds, as too much hangs together"] * (not found.exact)
@@ -76,7 +84,7 @@ def _quotient(event: Event, condition: Event, known: Dependence, found: Chance) 
     return "; ".join((*said, *links))
 
 
-def told_when(
+def with_conditional_fact(
     facts: Assignment, sit: Object, T: TypeNode, p: Degree, when: Sequence[Pair]
 ) -> Assignment:
     """The assignment in which p(sit : T | when) is known to be p.
@@ -96,7 +104,7 @@ def told_when(
     return told
 
 
-def expected(
+def with_expectation(
     facts: Assignment, T: TypeNode, p: Degree, when: Sequence[TypeNode]
 ) -> Assignment:
     """The assignment in which what is of the conditions so probably is of T."""
@@ -107,7 +115,7 @@ def expected(
     return facts.with_expected(Expectation(kind, tuple(literals), p))
 
 
-def undetermined(facts: Assignment, claims: Sequence[Pair]) -> Assignment:
+def with_unknown_dependence(facts: Assignment, claims: Sequence[Pair]) -> Assignment:
     """The assignment in which nothing is known of how these depend on one another."""
     found = [Claim(sit, _atom(T, "what depends on others")) for sit, T in claims]
     if len(found) < 2:

@@ -12,7 +12,7 @@ from ttr.computing.strings.pieces import is_of_strings
 from ttr.computing.subtyping import Refutation, counterexample
 from ttr.errors import TTRError
 from ttr.judging.assignments import Assignment
-from ttr.judging.creation import created, told
+from ttr.judging.creation import create_witness, with_judgement
 from ttr.judging.judgements import Judgement, Why
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
@@ -23,14 +23,14 @@ from ttr.types.paths import replace_paths
 from ttr.types.substitution import along
 from ttr.types.syntax import Object, Path, RecordType, TypeNode, meet
 
-__all__ = ["counter", "witness"]
+__all__ = ["find_counterexample", "witness"]
 
 SIZES = (1, 0, 2)
 """How many elements lists and sets have in what is tried: one shows the most."""
 
 
 @counterexample.provided_by
-def counter(refutation: Refutation) -> Judgement | None:
+def find_counterexample(refutation: Refutation) -> Judgement | None:
     """A judgement of a witness of S that is not of T; None where none was made up."""
     T, theory = refutation.T, refutation.theory
     for size, (S, assumed) in product(SIZES, _starts(refutation)):
@@ -112,22 +112,24 @@ def witness(
     spend()
     facts = Assignment(Signature(axioms=theory.axioms, exclusions=theory.exclusions))
     try:
-        sit, facts = created(facts, S, size)
+        sit, facts = create_witness(facts, S, size)
         for term, T in assumed:
-            facts = _told(facts, sit, term, T)
+            facts = _with_assumption(facts, sit, term, T)
     except TTRError:
         return None
     made = Judgement(sit, S, CERTAIN, Why(sit, S, CERTAIN, "made up"), Model.of(facts))
     return made if _degree(made, S) == CERTAIN else None
 
 
-def _told(facts: Assignment, sit: Object, term: Object, T: TypeNode) -> Assignment:
+def _with_assumption(
+    facts: Assignment, sit: Object, term: Object, T: TypeNode
+) -> Assignment:
     """The assignment in which also a part of the witness, or an object, is of T."""
     if not isinstance(term, Path):
-        return told(facts, term, T)
+        return with_judgement(facts, term, T)
     if term.labels[0] != ITSELF.labels[0]:
         return facts
-    return told(facts, _part(sit, term.labels[1:]), T)
+    return with_judgement(facts, _part(sit, term.labels[1:]), T)
 
 
 def _part(sit: Object, labels: tuple[str, ...]) -> Object:

@@ -22,7 +22,7 @@ from ttr.computing.strings.runs import shortest
 from ttr.errors import Refused, TTRError
 from ttr.judging.assignments import Assignment
 from ttr.judging.certainty import certainly
-from ttr.judging.evaluator import derivation, made_up, reduced, stands
+from ttr.judging.evaluator import derivation, is_reduced, make_witness, reduced
 from ttr.probability import CERTAIN, REFUTED
 from ttr.safety.budgets import spend
 from ttr.types.objects import Unresolved
@@ -59,10 +59,10 @@ from ttr.types.syntax import (
     identity,
 )
 
-__all__ = ["created", "told"]
+__all__ = ["create_witness", "with_judgement"]
 
 
-def told(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
+def with_judgement(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
     """The assignment in which sit is of T, taken apart into its atoms.
 
     T has no paths that escape it. Raises `Refused` where sit cannot be of T.
@@ -72,24 +72,24 @@ def told(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
             return facts.with_fact(sit, T, CERTAIN)
         case Meet(parts):
             for part in parts:
-                facts = told(facts, sit, part)
+                facts = with_judgement(facts, sit, part)
             return facts
         case Singleton(base, value) if identity(value) == identity(sit):
-            return told(facts, sit, base)
+            return with_judgement(facts, sit, base)
         case ListOf(item) | NonEmpty(item) if isinstance(sit, tuple) and sit:
-            return _told_each(facts, sit, item)
+            return _with_each(facts, sit, item)
         case SetOf(item) if isinstance(sit, FiniteSet):
-            return _told_each(facts, sit, item)
+            return _with_each(facts, sit, item)
         case Str(items) if _has_events(sit, T):
             for event, item in zip(sit, items, strict=True):
-                facts = told(facts, event, item)
+                facts = with_judgement(facts, event, item)
             return facts
         case RecordType() if isinstance(sit, Record):
-            return _told_fields(facts, sit, T)
+            return _with_fields(facts, sit, T)
         case Negation(body):
-            return _denied(facts, sit, body)
+            return _with_denial(facts, sit, body)
         case Application():
-            return told(facts, sit, _worked_out(facts, T))
+            return with_judgement(facts, sit, _reduce_to_type(facts, T))
     why = derivation(facts, sit, T)
     if why.p != CERTAIN:
         raise Refused(f"{notation(sit)} : {T} cannot be given: {why.rule}")
@@ -104,29 +104,29 @@ def _has_events(sit: Object, T: Str) -> bool:
     )
 
 
-def _told_each(facts: Assignment, sit: Iterable[Object], T: TypeNode) -> Assignment:
+def _with_each(facts: Assignment, sit: Iterable[Object], T: TypeNode) -> Assignment:
     for element in sit:
-        facts = told(facts, element, T)
+        facts = with_judgement(facts, element, T)
     return facts
 
 
-def _denied(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
+def _with_denial(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
     """The assignment in which sit is not of T."""
     match T:
         case Basic() | PType():
             return facts.with_fact(sit, T, REFUTED)
         case Negation(body):
-            return told(facts, sit, body)
+            return with_judgement(facts, sit, body)
         case Join(parts):
             for part in parts:
-                facts = _denied(facts, sit, part)
+                facts = _with_denial(facts, sit, part)
             return facts
     if derivation(facts, sit, T).p == REFUTED:
         return facts
     raise Refused(f"{notation(sit)} : {Negation(T)} cannot be given: only of atoms")
 
 
-def _worked_out(facts: Assignment, T: Application) -> TypeNode:
+def _reduce_to_type(facts: Assignment, T: Application) -> TypeNode:
     """The type that a function gives; raises `Refused` where it gives none."""
     found = reduced(facts, T)
     if isinstance(found, TypeNode) and not isinstance(found, Application):
@@ -134,7 +134,7 @@ def _worked_out(facts: Assignment, T: Application) -> TypeNode:
     raise Refused(f"{T} is no type, so nothing is of it")
 
 
-def _told_fields(facts: Assignment, sit: Record, T: RecordType) -> Assignment:
+def _with_fields(facts: Assignment, sit: Record, T: RecordType) -> Assignment:
     for label, field in T.fields:
         if label not in sit:
             raise Refused(f"{notation(sit)} : {T} cannot be given: there is no {label}")
@@ -144,12 +144,14 @@ def _told_fields(facts: Assignment, sit: Record, T: RecordType) -> Assignment:
             raise Refused(
                 f"{notation(sit)} : {T} cannot be given: {unresolved.message}"
             ) from unresolved
-        facts = told(facts, sit._fields[label], ground)
+        facts = with_judgement(facts, sit._fields[label], ground)
     return facts
 
 
-@made_up.provided_by
-def created(facts: Assignment, T: TypeNode, size: int = 0) -> tuple[Object, Assignment]:
+@make_witness.provided_by
+def create_witness(
+    facts: Assignment, T: TypeNode, size: int = 0
+) -> tuple[Object, Assignment]:
     """A fresh witness of T, and the assignment that has it.
 
     `size` is how many elements the lists, sets and repetitions in it have, if they may;
@@ -157,12 +159,12 @@ def created(facts: Assignment, T: TypeNode, size: int = 0) -> tuple[Object, Assi
     has no paths that escape it. Raises `Refused` where none can be made up.
     """
     try:
-        sit, facts = _Making(size).one(facts, T)
+        sit, facts = _WitnessMaker(size).make(facts, T)
     except Refused:
         settled = _settled(T)
         if settled is T:
             raise
-        sit, facts = _Making(size).one(facts, settled)
+        sit, facts = _WitnessMaker(size).make(facts, settled)
     if mentions(T, Negation):
         _check(facts, sit, T)
     return sit, facts
@@ -191,26 +193,26 @@ Made = tuple[Object, Assignment]
 """A witness, and the assignment in which it is one."""
 
 
-class _Making:
+class _WitnessMaker:
     """Makes up witnesses; lists and sets get so many elements."""
 
     def __init__(self, size: int) -> None:
         self._size = size
 
-    def one(self, facts: Assignment, T: TypeNode) -> Made:
+    def make(self, facts: Assignment, T: TypeNode) -> Made:
         """A fresh witness of T, and the assignment that has it."""
         match T:
             case Basic():
                 sit, facts = facts.with_new("a")
-                return sit, told(facts, sit, T)
+                return sit, with_judgement(facts, sit, T)
             case PType():
                 sit, facts = facts.with_new("s")
-                return sit, told(facts, sit, T)
+                return sit, with_judgement(facts, sit, T)
             case Meet() | Join() | Negation():
                 return self._combined(facts, T)
             case Singleton(base, value):
                 value = reduced(facts, value)
-                return value, _surely(facts, value, base)
+                return value, _with_certainty(facts, value, base)
             case ListOf(item):
                 return self._list(facts, item, self._size)
             case NonEmpty(item):
@@ -227,7 +229,7 @@ class _Making:
             case Universe():
                 return _type(T, self._size), facts
             case Application():
-                return self.one(facts, _worked_out(facts, T))
+                return self.make(facts, _reduce_to_type(facts, T))
         raise assert_never(T)  # type: ignore[arg-type]
 
     # --- lists, strings, records ---
@@ -239,7 +241,7 @@ class _Making:
         kinds = cases(item) or (item,)
         items: list[Object] = []
         for _, kind in zip(range(size), cycle(kinds), strict=False):
-            made, facts = self.one(facts, kind)
+            made, facts = self.make(facts, kind)
             items.append(made)
         return tuple(items), facts
 
@@ -256,7 +258,7 @@ class _Making:
         items = T.items if isinstance(T, Str) else self._repeated(T)
         pieces: list[Object] = []
         for item in items:
-            piece, facts = self.one(facts, item)
+            piece, facts = self.make(facts, item)
             pieces.append(piece)
         return string_of(items, pieces), facts
 
@@ -269,11 +271,11 @@ class _Making:
         spend(1 + len(T.fields))
         fields: dict[str, Object] = {}
         for label, field in T.fields:
-            if type(field) is Singleton and stands(field):
+            if type(field) is Singleton and is_reduced(field):
                 fields[label] = value = field.value
                 empty = type(value) is tuple and not value
                 if not (empty and isinstance(field.base, ListOf)):
-                    facts = _surely(facts, value, field.base)
+                    facts = _with_certainty(facts, value, field.base)
                 continue
             try:
                 ground = grounded(field, (fields,))
@@ -284,7 +286,7 @@ class _Making:
                     f"the field {label} cannot be created: {why or unresolved.message}",
                     hint="fields on a cycle can be judged, but not created",
                 ) from unresolved
-            fields[label], facts = self.one(facts, ground)
+            fields[label], facts = self.make(facts, ground)
         if self._size > 1:
             fields[_another(fields)], facts = facts.with_new("a")
         return Record(fields), facts
@@ -314,7 +316,7 @@ class _Making:
         if isinstance(T.result, Singleton):
             yield T.result.value, facts
         if all(path.up > 0 for path in escaping(T.result)):
-            yield self.one(facts, replace_paths(T.result, _further_out))
+            yield self.make(facts, replace_paths(T.result, _further_out))
 
     # --- meets, joins, negations ---
 
@@ -334,22 +336,22 @@ class _Making:
         if splits(T) and isinstance(T, Join):
             raise Refused(f"{T} has too many cases for a witness to be made up")
         if not isinstance(T, Meet | Negation):
-            return self.one(facts, T)
+            return self.make(facts, T)
         parts = T.parts if isinstance(T, Meet) else (T,)
         values = [part.value for part in parts if isinstance(part, Singleton)]
         if values:
             value = reduced(facts, values[0])
-            return value, _surely(facts, value, T)
+            return value, _with_certainty(facts, value, T)
         if any(map(is_of_strings, parts)):
             return self._by_events(facts, T)
         shapes = [part for part in parts if not isinstance(part, _FORMLESS)]
         if not shapes:
             sit, facts = facts.with_new("a" if _individual(parts) else "s")
-            return sit, _surely(facts, sit, T)
+            return sit, _with_certainty(facts, sit, T)
         if all(isinstance(shape, RecordType) for shape in shapes):
             shapes = [reduce(partial(_merged, facts), shapes)]
-        sit, facts = self.one(facts, min(shapes, key=lambda U: type(U) in _VAGUE))
-        return sit, _surely(facts, sit, T)
+        sit, facts = self.make(facts, min(shapes, key=lambda U: type(U) in _VAGUE))
+        return sit, _with_certainty(facts, sit, T)
 
     def _by_events(self, facts: Assignment, T: TypeNode) -> Made:
         """A string as the types of its events say, told to be of what is left of T."""
@@ -358,7 +360,7 @@ class _Making:
         for labels in islice(shortest(found, self._size), TRIED):
             try:
                 sit, known = self._string(facts, Str(*labels))
-                return sit, _surely(known, sit, T)
+                return sit, _with_certainty(known, sit, T)
             except TTRError as error:
                 refused = Refused(error.message, hint=error.hint)
         raise refused
@@ -397,9 +399,9 @@ def _further_out(path: Path) -> Path:
     return Path(path.up - 1, path.labels)
 
 
-def _surely(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
+def _with_certainty(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
     """The assignment itself if sit certainly is of T, else one told so."""
-    return facts if certainly(facts, sit, T) else told(facts, sit, T)
+    return facts if certainly(facts, sit, T) else with_judgement(facts, sit, T)
 
 
 def _merged(facts: Assignment, S: TypeNode, T: TypeNode) -> TypeNode:

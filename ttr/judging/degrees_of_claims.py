@@ -22,7 +22,7 @@ from ttr.probability import (
 )
 from ttr.probability.events import SURE, atoms
 
-__all__ = ["reckoned", "reckoning"]
+__all__ = ["probability_of", "explain_probability"]
 
 SHOWN = 6
 """How many factors of a product are shown."""
@@ -31,7 +31,7 @@ NAMED = 3
 """How many links between judgements are named."""
 
 
-def reckoned(event: Event, known: Dependence, given: Event = SURE) -> Chance:
+def probability_of(event: Event, known: Dependence, given: Event = SURE) -> Chance:
     """How probable an event is; raises `Refused` where the facts contradict it."""
     try:
         return chance(event, known, given)
@@ -39,7 +39,7 @@ def reckoned(event: Event, known: Dependence, given: Event = SURE) -> Chance:
         raise contradiction(wrong.component) from None
 
 
-def reckoning(
+def explain_probability(
     how: How,
     grounds: Sequence[Why],
     found: Chance,
@@ -50,7 +50,7 @@ def reckoning(
     >>> from ttr.probability import All, Atomic
     >>> from ttr.types.syntax import Ind
     >>> some = [Why(a, Ind, Degree(0.5, 0.5), "given") for a in ("a", "b")]
-    >>> reckoning("any", some, chance(All(())))
+    >>> explain_probability("any", some, chance(All(())))
     '1 − (1 − 0.5) × (1 − 0.5)'
     """
     uncertain = [ground for ground in grounds if ground.p not in (CERTAIN, REFUTED)]

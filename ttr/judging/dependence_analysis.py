@@ -45,15 +45,15 @@ def dependence(facts: Assignment, asked: Mapping[Claim, Degree]) -> Dependence:
     theory = facts.theory
     if not (theory.axioms or theory.exclusions or facts.links):
         return INDEPENDENT
-    linked = _linked(facts, asked)
+    linked = _follow_links(facts, asked)
     more, whole = _relatives(facts, linked.claims)
     while more:
-        linked = _linked(facts, [*linked.claims, *more])
+        linked = _follow_links(facts, [*linked.claims, *more])
         more, whole = _relatives(facts, linked.claims)
-    untold = _untold(facts, linked)
+    untold = _known_by_axioms(facts, linked)
     claims = [claim for claim in linked.claims if claim not in untold]
-    entailed = tuple(_entailed(facts, claims))
-    exclusive = tuple(_exclusive(facts, claims))
+    entailed = tuple(_entailments(facts, claims))
+    exclusive = tuple(_exclusions(facts, claims))
     conditionals = tuple([_by_keys(one) for one in linked.said])
     links: list[tuple[Hashable, ...]] = [*entailed, *exclusive, *linked.unknown]
     links += [one.atoms for one in conditionals]
@@ -76,7 +76,7 @@ def dependence(facts: Assignment, asked: Mapping[Claim, Degree]) -> Dependence:
     )
 
 
-def _untold(facts: Assignment, linked: _Linked) -> dict[Claim, None]:
+def _known_by_axioms(facts: Assignment, linked: _LinkedClaims) -> dict[Claim, None]:
     """The claims of which only axioms say anything, in a fixed order."""
     heads = facts.theory.axiom_heads
     targets = {claim for one in linked.said for claim in one.claims()}
@@ -132,7 +132,7 @@ def _by_keys(said: Conditioned) -> Conditional:
     return Conditional(said.target.key, condition, said.p)
 
 
-class _Linked(NamedTuple):
+class _LinkedClaims(NamedTuple):
     """Claims, with those they are conditioned on and those that may depend on them."""
 
     claims: list[Claim]
@@ -140,7 +140,7 @@ class _Linked(NamedTuple):
     unknown: tuple[tuple[Key, ...], ...]
 
 
-def _linked(facts: Assignment, claims: Iterable[Claim]) -> _Linked:
+def _follow_links(facts: Assignment, claims: Iterable[Claim]) -> _LinkedClaims:
     """The claims and what was said of how they depend, followed all the way."""
     links = facts.links
     found = {claim.key: claim for claim in claims}
@@ -156,16 +156,16 @@ def _linked(facts: Assignment, claims: Iterable[Claim]) -> _Linked:
         together = links.unknown.get(claim.key, ())
         unknown.update((tuple([one.key for one in group]), None) for group in together)
         more = [other for one in mine for other, _ in one.condition]
-        more += [other for other in links.on(claim) if _tells(facts, other)]
+        more += [other for other in links.on(claim) if _is_informative(facts, other)]
         more += [other for group in together for other in group]
         for other in more:
             if other.key not in found:
                 found[other.key] = other
                 waiting.append(other)
-    return _Linked(list(found.values()), said, tuple(unknown))
+    return _LinkedClaims(list(found.values()), said, tuple(unknown))
 
 
-def _tells(facts: Assignment, claim: Claim) -> bool:
+def _is_informative(facts: Assignment, claim: Claim) -> bool:
     """Whether a claim tells of what it is conditioned on.
 
     In a network what nothing else is known of does not; but there each claim has its
@@ -221,7 +221,9 @@ def _is_related(theory: Signature, S: Atom, T: Atom) -> bool:
     return excluding(S, T, theory) is not None
 
 
-def _entailed(facts: Assignment, claims: Iterable[Claim]) -> Iterator[tuple[Key, Key]]:
+def _entailments(
+    facts: Assignment, claims: Iterable[Claim]
+) -> Iterator[tuple[Key, Key]]:
     heads = facts.theory.axiom_heads
     for mine in _by_object(claims).values():
         types = [claim for claim in mine if head(claim.type) in heads]
@@ -230,7 +232,9 @@ def _entailed(facts: Assignment, claims: Iterable[Claim]) -> Iterator[tuple[Key,
                 yield one.key, other.key
 
 
-def _exclusive(facts: Assignment, claims: Iterable[Claim]) -> Iterator[tuple[Key, Key]]:
+def _exclusions(
+    facts: Assignment, claims: Iterable[Claim]
+) -> Iterator[tuple[Key, Key]]:
     if not facts.theory.exclusions:
         return
     for mine in _by_object(claims).values():

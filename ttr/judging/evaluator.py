@@ -19,10 +19,10 @@ from ttr.computing.universe_levels import why_outside
 from ttr.errors import Refused
 from ttr.hooks import hook
 from ttr.judging.assignments import Assignment
-from ttr.judging.degrees_of_claims import reckoned, reckoning
+from ttr.judging.degrees_of_claims import explain_probability, probability_of
 from ttr.judging.dependence_analysis import dependence
-from ttr.judging.judgements import How, Why, together
-from ttr.judging.segmentation import Dividing, events_in_words, stopped
+from ttr.judging.judgements import How, Why, combine_events
+from ttr.judging.segmentation import Segmentation, describe_stop, events_in_words
 from ttr.judging.stated_dependence import Atom, Claim
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import spend
@@ -58,7 +58,14 @@ from ttr.types.syntax import (
     identity,
 )
 
-__all__ = ["Evaluator", "claims_of", "derivation", "made_up", "reduced", "stands"]
+__all__ = [
+    "Evaluator",
+    "claims_of",
+    "derivation",
+    "make_witness",
+    "reduced",
+    "is_reduced",
+]
 
 Answer = TypeVar("Answer")
 """What is asked of a judgement."""
@@ -68,7 +75,9 @@ TRIED = 100
 
 
 @hook
-def made_up(facts: Assignment, T: TypeNode, size: int = 0) -> tuple[Object, Assignment]:
+def make_witness(
+    facts: Assignment, T: TypeNode, size: int = 0
+) -> tuple[Object, Assignment]:
     """A made-up witness, and the facts that make it one (`ttr.judging.creation`)."""
     raise NotImplementedError
 
@@ -159,7 +168,7 @@ class Evaluator(ABC, Generic[Answer]):
 
     def _judge_ptype(self, sit: Object, T: PType, around: Around, where: str) -> Answer:
         try:
-            ground = T if stands(T) else self._value_of(T, around)
+            ground = T if is_reduced(T) else self._value_of(T, around)
             return self.judge_atom(sit, ground, where)
         except (Unresolved, Refused) as wrong:
             return self.conclude(sit, T, REFUTED, wrong.message, where)
@@ -309,7 +318,7 @@ class Evaluator(ABC, Generic[Answer]):
 
     def _value_in(self, T: Singleton, around: Around) -> Object:
         """The object that a singleton type is of."""
-        return T.value if stands(T) else self._value_of(T.value, around)
+        return T.value if is_reduced(T) else self._value_of(T.value, around)
 
 
 _CLAUSES: Mapping[type[TypeNode], str] = {
@@ -351,12 +360,12 @@ class _Derivation(Evaluator[Why]):
         grounds: Iterable[Why],
     ) -> Why:
         grounds = tuple(grounds)
-        p = _decided(how, [ground.p for ground in grounds])
+        p = _decide(how, [ground.p for ground in grounds])
         if p is not None:
             return Why(sit, T, p, rule, grounds, where, how)
         known = dependence(self.facts, claims_of(grounds))
-        found = reckoned(together(how, grounds), known)
-        said = partial(reckoning, how, grounds, found, known)
+        found = probability_of(combine_events(how, grounds), known)
+        said = partial(explain_probability, how, grounds, found, known)
         return Why(sit, T, found.p, rule, grounds, where, how, None, said)
 
     # --- atoms ---
@@ -365,17 +374,20 @@ class _Derivation(Evaluator[Why]):
         p, rule = self.facts.degree_of(sit, T)
         asked = self.facts if p == REFUTED else None
         why = Why(sit, T, p, rule, where=where, facts=asked)
-        return why if p in (CERTAIN, REFUTED) else self._linked(why)
+        return why if p in (CERTAIN, REFUTED) else self._adjust_for_dependence(why)
 
-    def _linked(self, why: Why) -> Why:
+    def _adjust_for_dependence(self, why: Why) -> Why:
         """An uncertain judgement in the light of those that it depends on."""
         known = dependence(self.facts, claims_of([why]))
         if not known.defined and all(one.is_order for one in known.components):
             return why
-        found = reckoned(why.event(), known)
+        found = probability_of(why.event(), known)
         if found.p == why.p and found.exact:
             return why
-        rule = reckoning("all", (why,), found) or f"{why.rule}, and by other axioms"
+        rule = (
+            explain_probability("all", (why,), found)
+            or f"{why.rule}, and by other axioms"
+        )
         return replace(why, p=found.p, rule=rule, alone=why.p)
 
     def judge_missing(self, label: str, T: TypeNode, around: Around) -> Why:
@@ -396,13 +408,13 @@ class _Derivation(Evaluator[Why]):
             return self.of(part, U, around)
 
         found = automaton(T)
-        dividing = Dividing(self.facts, sit, derives, around)
+        dividing = Segmentation(self.facts, sit, derives, around)
         way = dividing.certain_way(found)
         if way is not None:
             return Why(sit, T, CERTAIN, "piece by piece", way, where)
         division = dividing.possible_ways(found)
         if isinstance(division, Stop):
-            rule = stopped(self.facts, sit, division)
+            rule = describe_stop(self.facts, sit, division)
             return Why(sit, T, REFUTED, rule, where=where)
         if not division.all:
             rule = f"one of more than {len(division.ways)} ways to divide it"
@@ -449,7 +461,7 @@ class _Derivation(Evaluator[Why]):
                 yield x, self.facts
         for case, size in product(cases(domain) or (domain,), (1, 0, 2)):
             with suppress(Refused):
-                yield made_up(self.facts, case, size)
+                yield make_witness(self.facts, case, size)
 
     def _derive_value(self, sit: Function, T: FunType, x: Object) -> list[Why]:
         """Is an object of the function's domain, and what it gives of the result?"""
@@ -474,7 +486,7 @@ def claims_of(grounds: Iterable[Why]) -> dict[Claim, Degree]:
     }
 
 
-def _decided(how: How, degrees: list[Degree]) -> Degree | None:
+def _decide(how: How, degrees: list[Degree]) -> Degree | None:
     """What is certain of a claim, whatever its uncertain grounds come to; else None."""
     if how == "all":
         if REFUTED in degrees:
@@ -501,7 +513,7 @@ def reduced(facts: Assignment, value: Object) -> Object:
     value = rebuilt(value, lambda part, _: reduced(facts, part))
     if not isinstance(value, Application) or escaping(value):
         return value
-    return reduced(facts, _applied(facts, value.function, value.argument))
+    return reduced(facts, _apply(facts, value.function, value.argument))
 
 
 def _reduce_head(facts: Assignment, T: Application) -> Object:
@@ -514,11 +526,11 @@ def _reduce_head(facts: Assignment, T: Application) -> Object:
         function, argument = value.function, reduced(facts, value.argument)
         if isinstance(function, Application):
             function = _reduce_head(facts, function)
-        value = _applied(facts, function, argument)
+        value = _apply(facts, function, argument)
     return value
 
 
-def _applied(facts: Assignment, function: Object, argument: Object) -> Object:
+def _apply(facts: Assignment, function: Object, argument: Object) -> Object:
     """The body of a function for an argument of its domain; else `Refused`."""
     if not isinstance(function, Function):
         whole = Application(function, argument)
@@ -538,11 +550,11 @@ def _where(why: Why) -> str:
 
 
 @cache_on_node
-def stands(T: TypeNode) -> bool:
+def is_reduced(T: TypeNode) -> bool:
     """Whether nothing in a type is to be worked out: no path leads out, no function.
 
     >>> from ttr.types.syntax import Ind, this
-    >>> stands(Ind @ "a"), stands(Ind @ this.x)
+    >>> is_reduced(Ind @ "a"), is_reduced(Ind @ this.x)
     (True, False)
     """
     return not mentions(T, Application) and not escaping(T)

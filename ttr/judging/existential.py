@@ -14,8 +14,8 @@ from itertools import islice
 from ttr.computing.subtyping import subtype
 from ttr.errors import Refused
 from ttr.judging.assignments import Assignment
-from ttr.judging.conditioning import conditional
-from ttr.judging.degrees_of_claims import reckoned
+from ttr.judging.conditioning import derive_conditional
+from ttr.judging.degrees_of_claims import probability_of
 from ttr.judging.dependence_analysis import dependence
 from ttr.judging.evaluator import claims_of, derivation
 from ttr.judging.judgements import Why
@@ -34,7 +34,7 @@ from ttr.probability.events import SURE
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, TypeNode, meet
 
-__all__ = ["Range", "of_any", "some"]
+__all__ = ["Range", "probability_of_any", "probability_of_some"]
 
 TRIED = 1_000
 """How many objects are told apart; beyond, another one may be of the type."""
@@ -57,15 +57,15 @@ class Range:
         whys = sorted(self.whys, key=lambda why: why.p)
         ends = dict.fromkeys([*whys[:SHOWN], *whys[-SHOWN:]])
         given = ", ".join(map(str, self.when))
-        head = f"P({self.type} || {given}) = {self.p}   ({_counted(len(whys))})"
+        head = f"P({self.type} || {given}) = {self.p}   ({_count_objects(len(whys))})"
         return "\n".join([head, *(f"  {why.p}: {notation(why.sit)}" for why in ends)])
 
 
-def _counted(number: int) -> str:
+def _count_objects(number: int) -> str:
     return "1 object" if number == 1 else f"{number} objects"
 
 
-def of_any(
+def probability_of_any(
     facts: Assignment,
     T: TypeNode,
     when: Sequence[TypeNode],
@@ -86,14 +86,14 @@ def of_any(
     whys = []
     for sit in objects:
         if derivation(facts, sit, S).p != REFUTED:
-            whys.append(conditional(facts, sit, T, [(sit, S)]))
+            whys.append(derive_conditional(facts, sit, T, [(sit, S)]))
     if not whys:
         return Range(T, tuple(when), UNKNOWN, ())
     lo, hi = min(why.p.lo for why in whys), max(why.p.hi for why in whys)
     return Range(T, tuple(when), Degree(lo, hi), tuple(whys))
 
 
-def some(
+def probability_of_some(
     facts: Assignment,
     T: TypeNode,
     when: TypeNode | None = None,
@@ -109,17 +109,17 @@ def some(
     objects = None if among is None else list(among)
     if when is None and objects is None and next(witnesses(facts, T), None) is not None:
         return CERTAIN
-    whys, event = _event(facts, T, objects)
-    more, given = _event(facts, when, objects) if when is not None else ([], None)
+    whys, event = _some_event(facts, T, objects)
+    more, given = _some_event(facts, when, objects) if when is not None else ([], None)
     known = dependence(facts, claims_of([*whys, *more]))
     try:
-        found = reckoned(event, known, SURE if given is None else given)
+        found = probability_of(event, known, SURE if given is None else given)
     except Impossible:
         raise Refused(f"nothing is of {when}, so nothing follows from it") from None
     return found.p
 
 
-def _event(
+def _some_event(
     facts: Assignment, T: TypeNode, among: Sequence[Object] | None
 ) -> tuple[list[Why], Event]:
     """That something is of T: one of the known objects, or another one."""

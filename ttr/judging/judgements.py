@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ttr.judging.assignments import Assignment
     from ttr.judging.models import Model
 
-__all__ = ["How", "Judgement", "Why", "mark", "together"]
+__all__ = ["How", "Judgement", "Why", "mark", "combine_events"]
 
 How: TypeAlias = Literal["all", "any", "none"]
 """What a claim needs of its grounds: that all of them hold, any or none."""
@@ -66,7 +66,7 @@ class Why(Drawn):
             return AnyOf(())
         if not self.parts:
             return Atomic((identity(self.sit), self.type), self.p)
-        return together(self.how, self.parts)
+        return combine_events(self.how, self.parts)
 
     def uncertain(self) -> Iterator[Why]:
         """The uncertain judgements it rests on, in order, as often as they occur."""
@@ -92,12 +92,12 @@ class Why(Drawn):
         """
         if self.p == CERTAIN:
             return None
-        failing = self._failing()
+        failing = self._first_failing_part()
         return failing.failure() if failing else self
 
     def path(self) -> str:
         """The path of the field that fails first, or the empty string."""
-        failing = self._failing()
+        failing = self._first_failing_part()
         if failing is None:
             return ""
         return ".".join(filter(None, (failing.where, failing.path())))
@@ -114,10 +114,13 @@ class Why(Drawn):
         """
         if self.facts is None:
             return ""
-        found = (_found(self.facts, self.sit), _would_do(self.facts, self.type))
+        found = (
+            _describe_types(self.facts, self.sit),
+            _describe_remedy(self.facts, self.type),
+        )
         return "; ".join(filter(None, found))
 
-    def _failing(self) -> Why | None:
+    def _first_failing_part(self) -> Why | None:
         if self.how == "none":
             return None
         uncertain = [part for part in self.parts if part.p != CERTAIN]
@@ -136,7 +139,7 @@ class Why(Drawn):
             yield from part._lines(indent + "  ")
 
 
-def together(how: How, parts: Sequence[Why]) -> Event:
+def combine_events(how: How, parts: Sequence[Why]) -> Event:
     """What a claim needs of its grounds, as one event."""
     events = tuple([part.event() for part in parts])
     match how:
@@ -149,13 +152,13 @@ def together(how: How, parts: Sequence[Why]) -> Event:
     raise assert_never(how)
 
 
-def _found(facts: Assignment, sit: Object) -> str:
+def _describe_types(facts: Assignment, sit: Object) -> str:
     kinds = sorted(str(kind) for kind in facts.types_of(sit))
     shown = ", ".join(kinds[:SHOWN]) + ", …" * (len(kinds) > SHOWN)
     return f"{notation(sit)} is of {shown}" if kinds else ""
 
 
-def _would_do(facts: Assignment, T: TypeNode) -> str:
+def _describe_remedy(facts: Assignment, T: TypeNode) -> str:
     if not isinstance(T, Basic | PType):
         return ""
     some = list(islice(facts.witnesses(T), SHOWN + 1))

@@ -17,18 +17,18 @@ from ttr.aliases import Alias
 from ttr.errors import IllFormed, Refused, TooLargeError, TTRError, Unsupported
 from ttr.judging.assignments import Assignment, WitnessFunction
 from ttr.judging.conditioning import (
-    conditional,
-    expected,
+    derive_conditional,
     table_rows,
-    told_when,
-    undetermined,
+    with_conditional_fact,
+    with_expectation,
+    with_unknown_dependence,
 )
-from ttr.judging.creation import created, told
+from ttr.judging.creation import create_witness, with_judgement
 from ttr.judging.dependence_analysis import check_together
 from ttr.judging.evaluator import derivation, reduced
-from ttr.judging.existential import Range, of_any, some
+from ttr.judging.existential import Range, probability_of_any, probability_of_some
 from ttr.judging.judgements import Judgement, Why
-from ttr.judging.perception import filled
+from ttr.judging.perception import fill_fields
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
 from ttr.judging.witnesses import witnesses
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
@@ -177,7 +177,7 @@ class Model:
         p = _degree_of(f"{notation(sit)} : {T}", p)
         pairs = conditions(when)
         if pairs:
-            return self._with(told_when(self._facts, sit, T, p, pairs))
+            return self._with(with_conditional_fact(self._facts, sit, T, p, pairs))
         if isinstance(T, Basic | PType):
             facts = self._facts.with_fact(sit, T, p)
             if facts.links or p not in (CERTAIN, REFUTED):
@@ -187,7 +187,7 @@ class Model:
             raise Unsupported(
                 f"only basic types and ptypes take a degree, but {T} was given {p}"
             )
-        facts = told(self._facts, sit, T)
+        facts = with_judgement(self._facts, sit, T)
         why = derivation(facts, sit, T)
         if why.p == REFUTED:
             raise Refused(
@@ -210,7 +210,7 @@ class Model:
         _, T = _closed((), T)
         of = [_closed((), S)[1] for S in types]
         degree = _degree_of(f"p({T} || {', '.join(map(str, of))})", p)
-        return self._with(expected(self._facts, T, degree, of))
+        return self._with(with_expectation(self._facts, T, degree, of))
 
     def with_table(self, T: object, /, on: Sequence[object], rows: Table) -> Model:
         """The model with a table of conditional probabilities for T.
@@ -248,7 +248,7 @@ class Model:
         >>> print(M.with_unknown_dependence(("a", A), ("a", B)).judge("a", A & B).p)
         [0.5, 0.7]
         """
-        return self._with(undetermined(self._facts, conditions(claims)))
+        return self._with(with_unknown_dependence(self._facts, conditions(claims)))
 
     def with_given(self, given: Given | Expected, /) -> Model:
         """The model in which also what a theory starts from is so."""
@@ -297,7 +297,7 @@ class Model:
         sit, T = _closed(sit, T)
         pairs = conditions(when)
         why = (
-            conditional(self._facts, sit, T, pairs)
+            derive_conditional(self._facts, sit, T, pairs)
             if pairs
             else derivation(self._facts, sit, T)
         )
@@ -321,7 +321,7 @@ class Model:
         sit, T = _closed(sit, T)
         if not isinstance(sit, Record):
             return self.judge(sit, T)
-        seen, facts = filled(self._facts, sit, T)
+        seen, facts = fill_fields(self._facts, sit, T)
         return self._with(facts).judge(seen, T)
 
     @within_budget
@@ -334,7 +334,7 @@ class Model:
         ('a1', True)
         """
         _, T = _closed((), T)
-        witness, facts = created(self._facts, T)
+        witness, facts = create_witness(self._facts, T)
         return witness, self._with(facts)
 
     @within_budget
@@ -403,14 +403,14 @@ class Model:
         [0.58, 1] 0.58
         """
         if not isinstance(proposition, TypeNode):
-            return self._borne_out(freeze(proposition))
+            return self._truth_of_proposition(freeze(proposition))
         _, T = _closed((), proposition)
         given = None if when is None else _closed((), when)[1]
         objects = None if among is None else _objects(among)
         try:
-            return some(self._facts, T, given, objects)
+            return probability_of_some(self._facts, T, given, objects)
         except Unsupported:
-            return CERTAIN if self._has_unlisted(T) else UNKNOWN
+            return CERTAIN if self._has_unlisted_witness(T) else UNKNOWN
 
     @within_budget(otherwise=_range_unknown)
     def chance(
@@ -438,14 +438,16 @@ class Model:
         types = when if isinstance(when, tuple | list) else (when,)
         _, T = _closed((), T)
         objects = None if among is None else _objects(among)
-        return of_any(self._facts, T, [_closed((), S)[1] for S in types], objects)
+        return probability_of_any(
+            self._facts, T, [_closed((), S)[1] for S in types], objects
+        )
 
     expects = Alias("with_conditional")
     tabled = Alias("with_table")
     dependent = Alias("with_unknown_dependence")
     stated = Alias("with_given")
 
-    def _borne_out(self, proposition: Object) -> Degree:
+    def _truth_of_proposition(self, proposition: Object) -> Degree:
         """How certain it is that an Austinian proposition is true."""
         sit, T = claim(proposition)
         found = self.judge(sit, T).p
@@ -453,7 +455,7 @@ class Model:
             return found
         return borne_out(probabilistic_claim(proposition)[2], found)
 
-    def _has_unlisted(self, T: TypeNode) -> bool:
+    def _has_unlisted_witness(self, T: TypeNode) -> bool:
         """Whether something is of a type whose witnesses have no end, by what is known.
 
         It may be an empty list, or made of known objects.
@@ -463,7 +465,7 @@ class Model:
         if any(self._is_certain(sit, T) for sit in _EMPTY):
             return True
         try:
-            sit, _ = created(self._facts, T)
+            sit, _ = create_witness(self._facts, T)
         except Refused:
             return False
         return self._is_certain(sit, T)

@@ -10,10 +10,12 @@ from ttr.types.objects import Unresolved
 from ttr.types.substitution import grounded
 from ttr.types.syntax import Join, Meet, Object, PType, Record, RecordType, TypeNode
 
-__all__ = ["filled"]
+__all__ = ["fill_fields"]
 
 
-def filled(facts: Assignment, sit: Record, T: TypeNode) -> tuple[Record, Assignment]:
+def fill_fields(
+    facts: Assignment, sit: Record, T: TypeNode
+) -> tuple[Record, Assignment]:
     """The record with what it lacks of T and can be perceived, and what was seen.
 
     A missing field whose ptype has a witness function gets a fresh situation, of the
@@ -23,14 +25,14 @@ def filled(facts: Assignment, sit: Record, T: TypeNode) -> tuple[Record, Assignm
     match T:
         case Meet(parts):
             for part in parts:
-                sit, facts = filled(facts, sit, part)
+                sit, facts = fill_fields(facts, sit, part)
             return sit, facts
         case RecordType():
-            return _filled_fields(facts, sit, T)
+            return _fill_record(facts, sit, T)
     return sit, facts
 
 
-def _filled_fields(
+def _fill_record(
     facts: Assignment, sit: Record, T: RecordType
 ) -> tuple[Record, Assignment]:
     fields = dict(sit._fields)
@@ -39,24 +41,24 @@ def _filled_fields(
             ground = reduced(facts, grounded(field, (fields,)))
         except (Unresolved, Refused):
             continue
-        seen, facts = _seen(facts, fields.get(label), ground)
+        seen, facts = _perceive_field(facts, fields.get(label), ground)
         if seen is not None:
             fields[label] = seen
     return Record(fields), facts
 
 
-def _seen(
+def _perceive_field(
     facts: Assignment, value: Object | None, T: TypeNode
 ) -> tuple[Object | None, Assignment]:
     """The value of a field after looking, or None where there is nothing to see."""
     if isinstance(value, Record):
-        return filled(facts, value, T)
+        return fill_fields(facts, value, T)
     if value is not None:
         return value, facts
     perceptual = _perceptual(facts, T)
     if perceptual:
         return _new_situation(facts, perceptual)
-    inner, seen = filled(facts, Record({}), T)
+    inner, seen = fill_fields(facts, Record({}), T)
     return (inner, seen) if len(inner) else (None, facts)
 
 

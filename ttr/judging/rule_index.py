@@ -112,9 +112,9 @@ class Sieve:
                 return _NONE
             there = there._fields[label]
         told = self._every.intersection(map(head, facts.types_of(there)))
-        return told | self._untold(facts)
+        return told | self._open_predicates(facts)
 
-    def _untold(self, facts: Assignment) -> frozenset[Pred]:
+    def _open_predicates(self, facts: Assignment) -> frozenset[Pred]:
         """Those that may be true of anything, be it told or not."""
         by = facts.functions, facts.opened, facts.theory.axiom_heads
         known, found = self._open

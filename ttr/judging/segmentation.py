@@ -32,14 +32,14 @@ from ttr.types.syntax import (
     identity,
 )
 
-__all__ = ["Dividing", "events_in_words", "stopped"]
+__all__ = ["Segmentation", "events_in_words", "describe_stop"]
 
 Derives = Callable[[Object, TypeNode], Why]
 """Why an object is of a type, or not."""
 
 
 @dataclass(frozen=True, eq=False)
-class Grounds(Sequence[Why]):
+class LazyGrounds(Sequence[Why]):
     """Why each event of a string is of its type, worked out when it is asked for."""
 
     derives: Derives
@@ -55,11 +55,11 @@ class Grounds(Sequence[Why]):
     def __getitem__(self, index: slice) -> Sequence[Why]: ...
     def __getitem__(self, index: int | slice) -> Why | Sequence[Why]:
         if isinstance(index, slice):
-            return Grounds(self.derives, self.events[index], self.types[index])
+            return LazyGrounds(self.derives, self.events[index], self.types[index])
         return self.derives(self.events[index], self.types[index])
 
 
-class Dividing:
+class Segmentation:
     """Judges the pieces of a string; `around` are the scopes around it.
 
     Where witness functions may be asked, what is derived of an event is kept, so that
@@ -86,7 +86,7 @@ class Dividing:
         way = a_way(length, found, self._is_certain)
         if isinstance(way, Stop):
             return None
-        return Grounds(self._why, self._events, way)
+        return LazyGrounds(self._why, self._events, way)
 
     def possible_ways(self, found: Automaton) -> Division | Stop:
         """The ways to divide the string that are possible."""
@@ -139,19 +139,19 @@ class Dividing:
 
     def _degree(self, event: Object, T: TypeNode) -> Degree:
         """How probably an event is of a type, if need be by a derivation."""
-        plain = None if self._facts.functions else self._plainly(event, T)
+        plain = None if self._facts.functions else self._decide(event, T)
         return self._why(event, T).p if plain is None else plain
 
-    def _plainly(self, event: Object, T: TypeNode) -> Degree | None:
+    def _decide(self, event: Object, T: TypeNode) -> Degree | None:
         """Whether an event is of a type, where the facts say yes or no; else None."""
         spend()
         match T:
             case Join(parts):
-                return _any([self._plainly(event, part) for part in parts])
+                return _any([self._decide(event, part) for part in parts])
             case Meet(parts):
-                return _all([self._plainly(event, part) for part in parts])
+                return _all([self._decide(event, part) for part in parts])
             case Negation(body):
-                return _DENIED.get(self._plainly(event, body))
+                return _DENIED.get(self._decide(event, body))
         atom = self._atom(T)
         if atom is None:
             return None
@@ -165,12 +165,12 @@ class Dividing:
     def _atom(self, T: TypeNode) -> Atom | None:
         """The atom that a type comes to, where it is plain what that is."""
         if T not in self._atoms:
-            atom = self._atoms[T] = self._worked_out(T)
+            atom = self._atoms[T] = self._reduce_to_atom(T)
             if atom is not None:
                 self._closed[atom] = self._is_free and not self._facts.leaves_open(atom)
         return self._atoms[T]
 
-    def _worked_out(self, T: TypeNode) -> Atom | None:
+    def _reduce_to_atom(self, T: TypeNode) -> Atom | None:
         with suppress(Unresolved):
             ground = grounded(T, self._around) if isinstance(T, PType) else T
             applies = any(isinstance(part, Application) for part in occurring([ground]))
@@ -203,7 +203,7 @@ def _all(degrees: list[Degree | None]) -> Degree | None:
     return None if None in degrees else CERTAIN
 
 
-def stopped(facts: Assignment, sit: EventString, stop: Stop) -> str:
+def describe_stop(facts: Assignment, sit: EventString, stop: Stop) -> str:
     """Where a string cannot be divided further, what is there and what could be."""
     done = stop.furthest
     wanted = " or ".join(map(str, stop.expected)) or "no more events"

@@ -101,16 +101,16 @@ class _Listing:
                 found = [string_of(items, pieces) for pieces in product(*choices)]
                 yield from {identity(sit): sit for sit in found}.values()
             case RecordType():
-                yield from map(Record, self._filled(T))
+                yield from map(Record, self._fillings(T))
             case Application():
-                yield from self._worked_out(T)
+                yield from self._of_application(T)
             case _:
                 raise Unsupported(
                     f"what is of {T} cannot be listed, as there may be no end of it",
                     hint="judge an object, or create a witness",
                 )
 
-    def _worked_out(self, T: Application) -> Iterator[Object]:
+    def _of_application(self, T: Application) -> Iterator[Object]:
         """What is of the type that a function gives, if it gives one."""
         try:
             value = reduced(self.facts, T)
@@ -125,7 +125,7 @@ class _Listing:
     def _enough(self, p: Degree) -> bool:
         return p.hi > 0.0 and p.lo >= self.least
 
-    def _filled(self, T: RecordType) -> Iterator[dict[str, Object]]:
+    def _fillings(self, T: RecordType) -> Iterator[dict[str, Object]]:
         """The ways to fill the fields, one after the other; without recursion."""
         labels = T.labels
         waiting: list[Iterator[dict[str, Object]]] = [iter(({},))]
@@ -136,9 +136,9 @@ class _Listing:
             elif len(fields) == len(labels):
                 yield fields
             else:
-                waiting.append(self._next(T, labels[len(fields)], fields))
+                waiting.append(self._extensions(T, labels[len(fields)], fields))
 
-    def _next(
+    def _extensions(
         self, T: RecordType, label: str, fields: dict[str, Object]
     ) -> Iterator[dict[str, Object]]:
         """The fields with each witness of the next one, given those before it."""

@@ -16,11 +16,11 @@ from ttr.probability.events import (
     Not,
     Truth,
     atoms,
-    decided,
     literals,
     signs,
+    simplify,
 )
-from ttr.probability.independent import bounds, in_cases
+from ttr.probability.independent import bounds, sum_over_cases
 from ttr.probability.linear_programs import Infeasible
 from ttr.probability.networks import Impossible, Network, conjunction, network
 from ttr.probability.polytopes import Polytope, polytope
@@ -66,7 +66,7 @@ def chance(
     """
     event, given = known.spelt_out(event), known.spelt_out(given)
     if given == SURE and not known.components:
-        found = in_cases(event)
+        found = sum_over_cases(event)
         if found is not None:
             return Chance(found, True)
     condition = literals(given)
@@ -117,7 +117,7 @@ def _joint(component: Component, needed: tuple[Hashable, ...]) -> Joint | None:
     return network(component, needed) or polytope(component, needed)
 
 
-def _conjoined(component: Component, event: Event, given: Truth) -> Degree | None:
+def _conjoin(component: Component, event: Event, given: Truth) -> Degree | None:
     """How probable an event of a network is that says of atoms that all are so, or any.
 
     None where it says more, or says something of other atoms.
@@ -145,22 +145,22 @@ class _Solving:
         """How probable an event is under the condition, which is what is given."""
         place = self._known.place
         free = {a: so for a, so in self._condition.items() if a not in place}
-        if decided(given, {}) == AnyOf(()):
+        if simplify(given, {}) == AnyOf(()):
             raise Impossible
         for number in dict.fromkeys(place[a] for a in self._condition if a in place):
             self._in_cases(number, SURE)
         self._rests_on.clear()
-        p = self._solved(decided(event, free))
+        p = self._solve(simplify(event, free))
         found = tuple([self._known.components[number] for number in self._rests_on])
         return Chance(p, self._exact, found)
 
-    def _solved(self, event: Event) -> Degree:
+    def _solve(self, event: Event) -> Degree:
         spend()
         match event:
             case Atomic(atom, p):
-                return self._entangled(event) if atom in self._known.place else p
+                return self._solve_component(event) if atom in self._known.place else p
             case Not(part):
-                lo, hi = self._solved(part)
+                lo, hi = self._solve(part)
                 return Degree(1.0 - hi, 1.0 - lo)
             case All(()):
                 return CERTAIN
@@ -168,35 +168,34 @@ class _Solving:
                 return REFUTED
         groups = list(_groups(event.parts, self._known))
         if len(groups) == 1:
-            return self._entangled(event)
+            return self._solve_component(event)
         kind = type(event)
         found = [
-            self._solved(kind(group) if len(group) > 1 else group[0])
-            for group in groups
+            self._solve(kind(group) if len(group) > 1 else group[0]) for group in groups
         ]
         apart = [Atomic(number, p) for number, p in enumerate(found)]
-        return in_cases(kind(tuple(apart))) or UNKNOWN
+        return sum_over_cases(kind(tuple(apart))) or UNKNOWN
 
-    def _entangled(self, event: Event) -> Degree:
+    def _solve_component(self, event: Event) -> Degree:
         """An event whose parts hang together, in each world of a component of it."""
         place = self._known.place
         number = next(
             (place[one.atom] for one in atoms(event) if one.atom in place), None
         )
         if number is None:
-            found = in_cases(event)
-            return self._bounded(event) if found is None else found
+            found = sum_over_cases(event)
+            return self._bound(event) if found is None else found
         event = _minimal(event, self._known.components[number])
         found = self._in_cases(number, event)
         self._exact = self._exact and not self._is_mixed(event)
-        return self._bounded(event) if found is None else found
+        return self._bound(event) if found is None else found
 
     def _in_cases(self, number: int, event: Event) -> Degree | None:
         """How probable it is by what is left in each case; None if they are many."""
         spend()
         component = self._known.components[number]
         mine = {a: so for a, so in self._condition.items() if a in component.degrees}
-        conjoined = _conjoined(component, event, mine)
+        conjoined = _conjoin(component, event, mine)
         if conjoined is not None:
             self._rests_on[number] = None
             return conjoined
@@ -207,7 +206,7 @@ class _Solving:
             return None
         self._branches *= len(joint.cases)
         self._rests_on[number] = None
-        worth = [self._solved(decided(event, case)) for case in joint.cases]
+        worth = [self._solve(simplify(event, case)) for case in joint.cases]
         self._branches = branches
         wide = any(p.lo < p.hi for p in worth)
         self._exact = self._exact and joint.exact and not (wide and branches > 1)
@@ -228,7 +227,7 @@ class _Solving:
             if one.atom not in self._known.place
         )
 
-    def _bounded(self, event: Event) -> Degree:
+    def _bound(self, event: Event) -> Degree:
         """What holds whatever depends on what; nothing, where something is given."""
         self._exact = False
         given = {self._known.place.get(a, a) for a in self._condition}

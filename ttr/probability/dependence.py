@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import TypeVar
 
 from ttr.probability.degrees import UNKNOWN, Degree
-from ttr.probability.events import Event, Truth, substituted
+from ttr.probability.events import Event, Truth, substitute
 from ttr.safety.budgets import spend
 
 __all__ = ["INDEPENDENT", "Component", "Conditional", "Dependence"]
@@ -137,10 +137,10 @@ class Component:
                 return None
             if self.degrees[one.target] != UNKNOWN:
                 return None
-        return _in_order(self.atoms, found)
+        return _sort_by_parents(self.atoms, found)
 
 
-def _in_order(
+def _sort_by_parents(
     names: tuple[Atom, ...], parents: Mapping[Atom, tuple[Atom, ...]]
 ) -> dict[Atom, tuple[Atom, ...]] | None:
     """The atoms with their parents before them; None where they go in a circle."""
@@ -180,19 +180,19 @@ class Dependence:
 
     def spelt_out(self, event: Event) -> Event:
         """The event with what is defined by others in their terms."""
-        return substituted(event, self.defined) if self.defined else event
+        return substitute(event, self.defined) if self.defined else event
 
     @cached_property
     def components(self) -> tuple[Component, ...]:
         """The atoms that are linked, put together."""
         links = [*self.entailed, *self.exclusive, *self.unknown]
         links += [one.atoms for one in self.conditionals]
-        groups = list(_grouped(links))
+        groups = list(_group(links))
         place = {atom: number for number, group in enumerate(groups) for atom in group}
-        entailed = _shared_out(self.entailed, [place[a] for a, _ in self.entailed])
-        exclusive = _shared_out(self.exclusive, [place[a] for a, _ in self.exclusive])
+        entailed = _distribute(self.entailed, [place[a] for a, _ in self.entailed])
+        exclusive = _distribute(self.exclusive, [place[a] for a, _ in self.exclusive])
         targets = [place[one.target] for one in self.conditionals]
-        conditionals = _shared_out(self.conditionals, targets)
+        conditionals = _distribute(self.conditionals, targets)
         unknown = {place[atom] for link in self.unknown for atom in link}
         return tuple(
             Component(
@@ -218,7 +218,7 @@ INDEPENDENT = Dependence()
 """Nothing depends on anything."""
 
 
-def _grouped(links: Iterable[tuple[Atom, ...]]) -> Iterator[tuple[Atom, ...]]:
+def _group(links: Iterable[tuple[Atom, ...]]) -> Iterator[tuple[Atom, ...]]:
     """The atoms of links that share one, directly or by others, put together."""
     group: dict[Atom, dict[Atom, None]] = {}
     for link in links:
@@ -233,7 +233,7 @@ def _grouped(links: Iterable[tuple[Atom, ...]]) -> Iterator[tuple[Atom, ...]]:
             yield tuple(whole)
 
 
-def _shared_out(
+def _distribute(
     values: Iterable[T], numbers: Iterable[int]
 ) -> defaultdict[int, list[T]]:
     """The values by their numbers."""

@@ -21,10 +21,10 @@ __all__ = [
     "Not",
     "Truth",
     "atoms",
-    "decided",
+    "simplify",
     "literals",
     "signs",
-    "substituted",
+    "substitute",
 ]
 
 
@@ -85,13 +85,13 @@ def signs(event: Event) -> Iterator[tuple[Atomic, bool]]:
                 waiting += [(part, sign) for part in parts]
 
 
-def decided(event: Event, truth: Truth) -> Event:
+def simplify(event: Event, truth: Truth) -> Event:
     """What is left of an event where some atoms are so, or are not.
 
     >>> a, b = Atomic("a", Degree(0.5, 0.5)), Atomic("b", Degree(0.4, 0.4))
-    >>> decided(All((a, b)), {"a": True})
+    >>> simplify(All((a, b)), {"a": True})
     Atomic(atom='b', p=Degree(lo=0.4, hi=0.4))
-    >>> decided(All((a, b)), {"a": False})
+    >>> simplify(All((a, b)), {"a": False})
     AnyOf(parts=())
     """
     spend()
@@ -103,14 +103,14 @@ def decided(event: Event, truth: Truth) -> Event:
                 return SURE
             return NEVER if p == REFUTED else event
         case Not(part):
-            return _denied(decided(part, truth))
+            return _negate(simplify(part, truth))
         case All(parts):
-            return _joined(All, SURE, NEVER, parts, truth)
+            return _join(All, SURE, NEVER, parts, truth)
         case AnyOf(parts):
-            return _joined(AnyOf, NEVER, SURE, parts, truth)
+            return _join(AnyOf, NEVER, SURE, parts, truth)
 
 
-def _denied(event: Event) -> Event:
+def _negate(event: Event) -> Event:
     match event:
         case Not(part):
             return part
@@ -121,7 +121,7 @@ def _denied(event: Event) -> Event:
     return Not(event)
 
 
-def _joined(
+def _join(
     kind: type[All] | type[AnyOf],
     empty: Event,
     decisive: Event,
@@ -132,7 +132,7 @@ def _joined(
     spend()
     kept: list[Event] = []
     for part in parts:
-        left = decided(part, truth)
+        left = simplify(part, truth)
         if left == decisive:
             return decisive
         kept += left.parts if isinstance(left, kind) else [left]
@@ -142,11 +142,11 @@ def _joined(
     return kept[0] if len(kept) == 1 else kind(tuple(kept))
 
 
-def substituted(event: Event, by: Mapping[Hashable, Event]) -> Event:
+def substitute(event: Event, by: Mapping[Hashable, Event]) -> Event:
     """The event with other events in place of some atoms.
 
     >>> a, b = Atomic("a", Degree(0.5, 0.5)), Atomic("b", Degree(0.4, 0.4))
-    >>> substituted(Not(a), {"a": b}) == Not(b)
+    >>> substitute(Not(a), {"a": b}) == Not(b)
     True
     """
     spend()
@@ -154,9 +154,9 @@ def substituted(event: Event, by: Mapping[Hashable, Event]) -> Event:
         case Atomic(atom):
             return by.get(atom, event)
         case Not(part):
-            return Not(substituted(part, by))
+            return Not(substitute(part, by))
         case All(parts) | AnyOf(parts):
-            return type(event)(tuple([substituted(part, by) for part in parts]))
+            return type(event)(tuple([substitute(part, by) for part in parts]))
 
 
 def literals(event: Event) -> dict[Hashable, bool] | None:

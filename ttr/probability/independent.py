@@ -11,19 +11,19 @@ from ttr.probability.degrees import Degree, ordered
 from ttr.probability.events import All, AnyOf, Atomic, Event, Not, atoms, signs
 from ttr.safety.budgets import spend
 
-__all__ = ["bounds", "in_cases", "shared"]
+__all__ = ["bounds", "sum_over_cases", "shared_atoms"]
 
 SHARED = 10
 """How many atoms may occur more than once for a probability to be exact."""
 
 
-def shared(event: Event) -> list[Hashable]:
+def shared_atoms(event: Event) -> list[Hashable]:
     """The atoms that occur more than once, in the order in which they do."""
     times = Counter(one.atom for one in atoms(event))
     return [atom for atom, count in times.items() if count > 1]
 
 
-def in_cases(event: Event) -> Degree | None:
+def sum_over_cases(event: Event) -> Degree | None:
     """The sum over the cases of the shared atoms, at the corners of their intervals.
 
     An event rises with an atom that it is only for, so a corner is enough there; with
@@ -31,12 +31,12 @@ def in_cases(event: Event) -> Degree | None:
     more than `SHARED` atoms are shared.
 
     >>> a, b = Atomic("a", Degree(0.4, 0.4)), Atomic("b", Degree(0.5, 1))
-    >>> print(in_cases(AnyOf((a, b))), in_cases(All((a, Not(a)))))
+    >>> print(sum_over_cases(AnyOf((a, b))), sum_over_cases(All((a, Not(a)))))
     [0.7, 1] 0
     """
-    names = shared(event)
+    names = shared_atoms(event)
     if not names:
-        return ordered(*_apart(event, {}))
+        return ordered(*_separate(event, {}))
     degrees = {one.atom: one.p for one in atoms(event)}
     rising: dict[Hashable, set[bool]] = {}
     for one, sign in signs(event):
@@ -49,37 +49,37 @@ def in_cases(event: Event) -> Degree | None:
         fixed = dict(zip(mixed, corner, strict=True))
         low = {a: fixed.get(a, degrees[a][False in rising[a]]) for a in names}
         high = {a: fixed.get(a, degrees[a][True in rising[a]]) for a in names}
-        lows.append(_weighted(event, low)[0])
-        highs.append(_weighted(event, high)[1])
+        lows.append(_weigh(event, low)[0])
+        highs.append(_weigh(event, high)[1])
     return ordered(min(lows), max(highs))
 
 
-def _weighted(event: Event, p: Mapping[Hashable, float]) -> tuple[float, float]:
+def _weigh(event: Event, p: Mapping[Hashable, float]) -> tuple[float, float]:
     """Lower and upper probability where the shared atoms have these probabilities."""
     lo = hi = 0.0
     for truth in product((True, False), repeat=len(p)):
         case = dict(zip(p, truth, strict=True))
         weight = math.prod(x if case[a] else 1.0 - x for a, x in p.items())
         if weight > 0.0:
-            one = _apart(event, case)
+            one = _separate(event, case)
             lo, hi = lo + weight * one[0], hi + weight * one[1]
     return lo, hi
 
 
-def _apart(event: Event, case: Mapping[Hashable, bool]) -> tuple[float, float]:
+def _separate(event: Event, case: Mapping[Hashable, bool]) -> tuple[float, float]:
     """The probability where all atoms are apart but those that the case decides."""
     spend()
     match event:
         case Atomic(atom, p):
             return (float(case[atom]),) * 2 if atom in case else (p.lo, p.hi)
         case Not(part):
-            lo, hi = _apart(part, case)
+            lo, hi = _separate(part, case)
             return 1.0 - hi, 1.0 - lo
         case All(parts):
-            found = [_apart(part, case) for part in parts]
+            found = [_separate(part, case) for part in parts]
             return math.prod([p[0] for p in found]), math.prod([p[1] for p in found])
         case AnyOf(parts):
-            found = [_apart(part, case) for part in parts]
+            found = [_separate(part, case) for part in parts]
             return _any([p[0] for p in found]), _any([p[1] for p in found])
 
 

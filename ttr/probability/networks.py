@@ -121,8 +121,8 @@ def conjunction(component: Component, truth: Truth, given: Truth) -> Degree | No
     corners = _corners(component, parents)
     found = []
     for tables in corners or ():
-        mine = _joint([_settled(table, both) for table in tables], ())
-        whole = _joint([_settled(table, given) for table in tables], ())
+        mine = _joint([_fix_values(table, both) for table in tables], ())
+        whole = _joint([_fix_values(table, given) for table in tables], ())
         if mine is None or whole is None:
             return None
         if whole[()] > 0:
@@ -200,7 +200,7 @@ def _tables(parents: Parents, chosen: Mapping[Row, int], unit: int) -> list[Tabl
     return found
 
 
-def _settled(table: Table, truth: Truth) -> Table:
+def _fix_values(table: Table, truth: Truth) -> Table:
     """The part of a table in which some atoms are so, or not; they are left out."""
     names, weights = table
     spend(len(weights))
@@ -218,7 +218,7 @@ def _joint(tables: list[Table], needed: tuple[Hashable, ...]) -> dict[Case, int]
 
     The one that stands with the fewest others is next.
     """
-    around = _together(tables)
+    around = _neighbours(tables)
     others = [atom for atom in around if atom not in needed]
     while others:
         atom = min(others, key=lambda one: len(around[one]))
@@ -231,11 +231,11 @@ def _joint(tables: list[Table], needed: tuple[Hashable, ...]) -> dict[Case, int]
             around[one].update(dict.fromkeys(names))
         mine = [table for table in tables if atom in table[0]]
         tables = [table for table in tables if atom not in table[0]]
-        tables.append((names, _multiplied(mine, names, (atom,))))
-    return _multiplied(tables, needed, ())
+        tables.append((names, _multiply(mine, names, (atom,))))
+    return _multiply(tables, needed, ())
 
 
-def _together(tables: Iterable[Table]) -> dict[Hashable, dict[Hashable, None]]:
+def _neighbours(tables: Iterable[Table]) -> dict[Hashable, dict[Hashable, None]]:
     """For each atom those that it stands in a table with, itself too."""
     found: dict[Hashable, dict[Hashable, None]] = {}
     for names, _ in tables:
@@ -244,7 +244,7 @@ def _together(tables: Iterable[Table]) -> dict[Hashable, dict[Hashable, None]]:
     return found
 
 
-def _multiplied(
+def _multiply(
     tables: Sequence[Table], names: tuple[Hashable, ...], out: tuple[Hashable, ...]
 ) -> dict[Case, int]:
     """The product of tables as one for some atoms, summed over the cases of others."""

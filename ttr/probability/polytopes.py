@@ -98,7 +98,7 @@ def polytope(component: Component, needed: Sequence[Hashable]) -> Polytope | Non
     cases: list[dict[Hashable, bool]] = [{}]
     kept: list[Hashable] = []
     for atom in component.closest(needed):
-        more = list(_extended(component, cases, atom)) if len(kept) < ATOMS else None
+        more = list(_extend(component, cases, atom)) if len(kept) < ATOMS else None
         if more is not None and len(more) <= WORLDS:
             cases = more
             kept.append(atom)
@@ -109,7 +109,7 @@ def polytope(component: Component, needed: Sequence[Hashable]) -> Polytope | Non
     return Polytope(inside, list(cases), inside.whole and component.parents is None)
 
 
-def _extended(
+def _extend(
     component: Component, cases: Sequence[dict[Hashable, bool]], atom: Hashable
 ) -> Iterator[dict[Hashable, bool]]:
     """The worlds with one more atom made true or false."""
@@ -118,11 +118,11 @@ def _extended(
     for case in cases:
         for so in choices:
             world = {**case, atom: so}
-            if _allowed(component, world, atom):
+            if _is_allowed(component, world, atom):
                 yield world
 
 
-def _allowed(component: Component, world: Truth, new: Hashable) -> bool:
+def _is_allowed(component: Component, world: Truth, new: Hashable) -> bool:
     """Is the new atom in line with what entails and excludes what?"""
     spend()
     for lower, upper in component.entailed:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.semantics.quantifiers.thresholds import Threshold
 
-__all__ = ["EXACT", "Chances", "chance_of", "together"]
+__all__ = ["EXACT", "Chances", "chance_of", "independent_chances"]
 
 EXACT = 500
 """How many uncertain things are counted exactly."""
@@ -30,10 +30,10 @@ class Chances:
     only: Degree
 
 
-def together(p: Degree, q: Degree) -> Chances:
+def independent_chances(p: Degree, q: Degree) -> Chances:
     """The chances of a thing that is P with one degree and Q with another, apart.
 
-    >>> found = together(Degree(0.5, 0.5), Degree(0.5, 1.0))
+    >>> found = independent_chances(Degree(0.5, 0.5), Degree(0.5, 1.0))
     >>> print(found.first, found.both, found.only)
     0.5 [0.25, 0.5] [0, 0.25]
     """
@@ -47,7 +47,7 @@ def chance_of(
     """How probably k of n meet all thresholds; `sure` are the certain k and n - k.
 
     >>> from ttr.semantics.quantifiers.thresholds import number
-    >>> half = together(Degree(0.5, 0.5), CERTAIN)
+    >>> half = independent_chances(Degree(0.5, 0.5), CERTAIN)
     >>> print(chance_of([number("at least", 2)], (1, 0), [half, half]))
     0.75
     """
@@ -73,10 +73,10 @@ def _chance(
     need = threshold.bound - base
     low = [(one.both.lo, one.only.hi) for one in open_]
     high = [(one.both.hi, one.only.lo) for one in open_]
-    reached = _decided(need, inside, outside, low, high)
+    reached = _decide(need, inside, outside, low, high)
     if reached is None:
-        lo = _reaching(need, inside, outside, low)[0]
-        hi = _reaching(need, inside, outside, high)[1]
+        lo = _chance_of_reaching(need, inside, outside, low)[0]
+        hi = _chance_of_reaching(need, inside, outside, high)[1]
         reached = _uncertain(min(lo, hi), hi)
     rising = threshold.rising
     p = reached if rising else Degree(1.0 - reached.hi, 1.0 - reached.lo)
@@ -102,7 +102,7 @@ Steps = Sequence[tuple[float, float]]
 """How probably each thing adds to the score, and how probably it takes away."""
 
 
-def _decided(
+def _decide(
     need: int, inside: int, outside: int, low: Steps, high: Steps
 ) -> Degree | None:
     """What is certain, whatever the uncertain things come to."""
@@ -114,7 +114,7 @@ def _decided(
     return REFUTED if need > most else None
 
 
-def _reaching(
+def _chance_of_reaching(
     need: int, inside: int, outside: int, steps: Steps
 ) -> tuple[float, float]:
     """Lower and upper chance that the sum of the steps is at least `need`."""

@@ -27,10 +27,10 @@ __all__ = [
     "Atoms",
     "Truth",
     "all_true",
-    "derived",
-    "in_fields",
+    "truth_of_derivation",
+    "conjoin_fields",
     "one_true",
-    "own",
+    "own_atoms",
 ]
 
 Atoms: TypeAlias = frozenset[Hashable]
@@ -60,14 +60,14 @@ class Truth:
         return self.why.sit
 
 
-def own(M: Model, p: Degree, T: TypeNode) -> Atoms:
+def own_atoms(M: Model, p: Degree, T: TypeNode) -> Atoms:
     """What is uncertain in itself rests on itself."""
     if p in (CERTAIN, REFUTED):
         return frozenset()
     return frozenset({_atom(M, Missing(), T)})
 
 
-def derived(M: Model, why: Why) -> Truth:
+def truth_of_derivation(M: Model, why: Why) -> Truth:
     """What a derivation says, with the uncertain judgements in it."""
     steps = why.uncertain()
     atoms = frozenset(_atom(M, identity(step.sit), step.type) for step in steps)
@@ -87,7 +87,7 @@ def _atom(M: Model, sit: object, T: TypeNode) -> Hashable:
     return sit, T
 
 
-def in_fields(T: RecordType, parts: list[tuple[str, Truth]]) -> Truth:
+def conjoin_fields(T: RecordType, parts: list[tuple[str, Truth]]) -> Truth:
     """The fields together."""
     p, atoms = all_true([found for _, found in parts])
     sit = Record({label: found.witness for label, found in parts})
@@ -105,7 +105,7 @@ def all_true(grounds: list[Truth]) -> tuple[Degree, Atoms]:
     atoms = frozenset[Hashable]().union(*(found.atoms for found in grounds))
     if REFUTED in degrees:
         return REFUTED, frozenset()
-    if _apart(grounds, atoms):
+    if _are_independent(grounds, atoms):
         lo, hi = math.prod(p.lo for p in degrees), math.prod(p.hi for p in degrees)
         return Degree(lo, hi), atoms
     low = sum(p.lo for p in degrees) - (len(degrees) - 1)
@@ -117,10 +117,10 @@ def one_true(T: TypeNode, truths: Iterable[Truth], rule: str) -> Truth:
     grounds = list(truths)
     sure = next((found for found in grounds if found.p == CERTAIN), None)
     if sure is not None:
-        return Truth(CERTAIN, _under(T, sure, CERTAIN, rule, [sure]))
+        return Truth(CERTAIN, _sum_up(T, sure, CERTAIN, rule, [sure]))
     degrees = [found.p for found in grounds]
     atoms = frozenset[Hashable]().union(*(found.atoms for found in grounds))
-    if _apart(grounds, atoms):
+    if _are_independent(grounds, atoms):
         low = 1.0 - math.prod(1.0 - p.lo for p in degrees)
         p = Degree(low, 1.0 - math.prod(1.0 - p.hi for p in degrees))
     else:
@@ -128,14 +128,14 @@ def one_true(T: TypeNode, truths: Iterable[Truth], rule: str) -> Truth:
         p = Degree(max(p.lo for p in degrees), high)
     best = max(grounds, key=lambda found: found.p.lo, default=None)
     shown = sorted(grounds, key=lambda found: -found.p.hi)[:SHOWN]
-    return Truth(p, _under(T, best, p, rule, shown), atoms)
+    return Truth(p, _sum_up(T, best, p, rule, shown), atoms)
 
 
-def _apart(grounds: list[Truth], atoms: Atoms) -> bool:
+def _are_independent(grounds: list[Truth], atoms: Atoms) -> bool:
     return len(atoms) == sum(len(found.atoms) for found in grounds)
 
 
-def _under(
+def _sum_up(
     T: TypeNode, best: Truth | None, p: Degree, rule: str, grounds: list[Truth]
 ) -> Why:
     whys = tuple(found.why for found in grounds)

@@ -44,7 +44,7 @@ __all__ = [
     "most",
     "no",
     "not_every",
-    "prop",
+    "as_property",
     "properties",
     "several",
 ]
@@ -81,7 +81,7 @@ class Determiner:
 
     def __call__(self, P: object, Q: object, /) -> PType:
         """q(P, Q): the type of the situations in which so many of P are Q."""
-        properties = (prop(P), prop(Q))
+        properties = (as_property(P), as_property(Q))
         if self.amount is None:
             return self.pred(*properties)
         return self.pred(self.amount, *properties)
@@ -105,20 +105,20 @@ several = Determiner("several")
 
 def at_least(n: int) -> Determiner:
     """The quantifier "at least n"."""
-    return _counted("at_least", n)
+    return _determiner_with_number("at_least", n)
 
 
 def at_most(n: int) -> Determiner:
     """The quantifier "at most n"."""
-    return _counted("at_most", n)
+    return _determiner_with_number("at_most", n)
 
 
 def exactly(n: int) -> Determiner:
     """The quantifier "exactly n", which neither rises nor falls."""
-    return _counted("exactly", n)
+    return _determiner_with_number("exactly", n)
 
 
-def _counted(name: str, n: int) -> Determiner:
+def _determiner_with_number(name: str, n: int) -> Determiner:
     number("at least", n)
     return Determiner(name, n)
 
@@ -178,10 +178,10 @@ def determiner_of(T: object) -> Determiner | None:
     return _BY_PRED.get(T.pred)
 
 
-def prop(value: object) -> Property:
+def as_property(value: object) -> Property:
     """The property that a predicate of one object stands for; any other as it is.
 
-    >>> print(prop(Pred("dog", Ind)))
+    >>> print(as_property(Pred("dog", Ind)))
     \\x:Ind. dog(x)
     """
     if isinstance(value, Function | TypeNode):

@@ -10,9 +10,13 @@ from ttr.judging.models import Model, as_model
 from ttr.probability import CERTAIN, REFUTED, Degree, degree
 from ttr.safety.budgets import within_budget
 from ttr.semantics.quantifiers.degrees_of_truth import Atoms, Truth
-from ttr.semantics.quantifiers.determiners import Property, prop
+from ttr.semantics.quantifiers.determiners import Property, as_property
 from ttr.semantics.quantifiers.thresholds import Thresholds, thresholds_of
-from ttr.semantics.quantifiers.truth import instance, known, thing
+from ttr.semantics.quantifiers.truth import (
+    known_objects,
+    truth_of_instance,
+    truth_of_judgement,
+)
 from ttr.types.printing import notation
 from ttr.types.syntax import (
     Basic,
@@ -115,20 +119,20 @@ def extension(
     \\x:Ind. dog(x): fido
     """
     as_model(M)
-    P = prop(P)
+    P = as_property(P)
     chosen = thresholds_of(thresholds)
     domain = P.domain if isinstance(P, Function) else P
     if not isinstance(domain, TypeNode):
         raise IllFormed(f"{notation(domain)} is no domain of a property")
     members = {}
-    for sit, p in known(M, domain, chosen):
+    for sit, p in known_objects(M, domain, chosen):
         if not isinstance(P, Function):
-            atoms = thing(M, sit, P).atoms if p != CERTAIN else frozenset()
+            atoms = truth_of_judgement(M, sit, P).atoms if p != CERTAIN else frozenset()
             members[identity(sit)] = Member(sit, p, atoms)
             continue
         one = member(M, P, sit, chosen)
         if p != CERTAIN:
-            one = _within(one, thing(M, sit, domain))
+            one = _restrict_to_domain(one, truth_of_judgement(M, sit, domain))
         if one.p != REFUTED:
             members[identity(sit)] = one
     return Extension(members, P)
@@ -137,13 +141,13 @@ def extension(
 def member(M: Model, P: Property, sit: Object, thresholds: Thresholds) -> Member:
     """How certainly a thing has a property."""
     if isinstance(P, Function):
-        found = instance(M, P, sit, thresholds)
+        found = truth_of_instance(M, P, sit, thresholds)
         return Member(sit, found.p, found.atoms, found)
-    found = thing(M, sit, P)
+    found = truth_of_judgement(M, sit, P)
     return Member(sit, found.p, found.atoms)
 
 
-def _within(one: Member, domain: Truth) -> Member:
+def _restrict_to_domain(one: Member, domain: Truth) -> Member:
     """The member, if it is in the domain of the property at all."""
     p = Degree(one.p.lo * domain.p.lo, one.p.hi * domain.p.hi)
     return Member(one.sit, p, one.atoms | domain.atoms, one.found)

@@ -46,7 +46,7 @@ from ttr.types.syntax import (
     kind_of,
 )
 
-__all__ = ["Quantification", "Undefined", "named", "quantify", "settle"]
+__all__ = ["Quantification", "Undefined", "list_names", "quantify", "settle"]
 
 
 class Undefined(TTRError):
@@ -129,10 +129,10 @@ class Quantification:
         """How many are, how many it takes, and who are the exceptions."""
         said = f"{len(self.refset)} of {len(self.maxset)}"
         if self.open_:
-            said += f" and perhaps {named(self.open_)}"
+            said += f" and perhaps {list_names(self.open_)}"
         said += f"; it takes {' and '.join(map(str, self.asked))}"
         if exceptions:
-            said += f", but for {named(exceptions)}"
+            said += f", but for {list_names(exceptions)}"
         return said
 
     def _exceptions(self) -> tuple[Case, ...]:
@@ -144,7 +144,7 @@ class Quantification:
         return self.compset if failing and failing[0].rising else self.refset
 
 
-def named(cases: tuple[Case, ...]) -> str:
+def list_names(cases: tuple[Case, ...]) -> str:
     """The first of some things, by their names."""
     names = ", ".join(notation(it.sit) for it in cases[:SHOWN])
     return names + ", …" * (len(cases) > SHOWN)
@@ -175,7 +175,7 @@ def quantify(
         if not isinstance(one, Extension):
             raise TTRError(f"a quantifier counts two extensions, found {kind_of(one)}")
     found = split(P.members, Q.members)
-    return _counted(q(P.property, Q.property), found, thresholds_of(thresholds))
+    return _quantification(q(P.property, Q.property), found, thresholds_of(thresholds))
 
 
 @within_budget
@@ -205,7 +205,7 @@ def settle(
     if P is not Q:
         each = members.items()
         others = {key: member(M, Q, one.sit, chosen) for key, one in each}
-    return _counted(quantified, split(members, others), chosen)
+    return _quantification(quantified, split(members, others), chosen)
 
 
 @truth_of_quantified.provided_by
@@ -217,7 +217,7 @@ def _domain(P: Property) -> object:
     return P.domain if isinstance(P, Function) else P
 
 
-def _counted(T: PType, found: Split, thresholds: Thresholds) -> Quantification:
+def _quantification(T: PType, found: Split, thresholds: Thresholds) -> Quantification:
     asked = demands(T, thresholds)
     if not found.P and any(one.presupposes for one in asked):
         P, _ = properties(T)

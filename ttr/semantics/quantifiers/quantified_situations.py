@@ -12,7 +12,7 @@ from ttr.safety.budgets import within_budget
 from ttr.semantics.quantifiers.determiners import determiner_of, properties
 from ttr.semantics.quantifiers.quantified_propositions import (
     Quantification,
-    named,
+    list_names,
     settle,
 )
 from ttr.semantics.quantifiers.thresholds import Thresholds
@@ -71,7 +71,7 @@ class _Fitting:
         if objection is not None:
             return REFUTED, objection
         if self._found.open_:
-            return UNKNOWN, f"{named(self._found.open_)} may decide"
+            return UNKNOWN, f"{list_names(self._found.open_)} may decide"
         return CERTAIN, "X is a witness set"
 
     def _objections(self, s: Object) -> Iterator[str]:

@@ -87,7 +87,7 @@ def number(sign: Sign, amount: int) -> Threshold:
     """
     if type(amount) is not int or amount < 0:
         raise TTRError(f"a number of things is 0, 1, 2 and so on, found {amount!r}")
-    return Threshold(_checked(sign), Fraction(amount), "number")
+    return Threshold(_check_sign(sign), Fraction(amount), "number")
 
 
 def share(sign: Sign, amount: Rational | float | str) -> Threshold:
@@ -105,14 +105,14 @@ def share(sign: Sign, amount: Rational | float | str) -> Threshold:
         raise TTRError(f"a share is a number from 0 to 1, found {amount!r}")
     if part.denominator > LARGEST:
         raise TTRError(f"a share is of at most {LARGEST} parts, found {amount!r}")
-    return Threshold(_checked(sign), part, "share")
+    return Threshold(_check_sign(sign), part, "share")
 
 
 LARGEST = 10_000
 """Into how many parts P may be divided to say a share."""
 
 
-def _checked(sign: str) -> Sign:
+def _check_sign(sign: str) -> Sign:
     for known in SIGNS:
         if sign == known:
             return known

@@ -20,10 +20,10 @@ from ttr.semantics.quantifiers.degrees_of_truth import (
     SHOWN,
     Truth,
     all_true,
-    derived,
-    in_fields,
+    conjoin_fields,
     one_true,
-    own,
+    own_atoms,
+    truth_of_derivation,
 )
 from ttr.semantics.quantifiers.determiners import determiner_of
 from ttr.semantics.quantifiers.thresholds import Thresholds, thresholds_of
@@ -48,7 +48,13 @@ from ttr.types.syntax import (
     as_type,
 )
 
-__all__ = ["absent", "instance", "known", "thing", "truth"]
+__all__ = [
+    "absent",
+    "truth_of_instance",
+    "known_objects",
+    "truth_of_judgement",
+    "truth",
+]
 
 absent = Pred("absent", Type)
 """Sentence negation: `absent(T)` is true if nothing is of T.
@@ -98,16 +104,16 @@ class _Truths:
             case PType(pred, (TypeNode() as denied,)) if pred is absent:
                 return self._absent(T, denied)
             case Basic() | PType():
-                return _told(self._M, T)
+                return _truth_of_atom(self._M, T)
             case RecordType():
                 return self._record(T)
             case Join(parts):
                 return one_true(T, map(self.of, parts), "one part is true")
             case FunType(domain, result):
-                return self._whatever(T, domain, result)
+                return self._function_type(T, domain, result)
             case Application():
-                return self._applied(T)
-        return self._listed(T)
+                return self._application(T)
+        return self._other(T)
 
     def _absent(self, T: TypeNode, denied: TypeNode) -> Truth:
         found = self.of(denied)
@@ -122,19 +128,21 @@ class _Truths:
         needed = {path.labels[0] for _, S in T.fields for path in escaping(S)}
         if needed.isdisjoint(T.labels):
             parts = [(label, self.of(S)) for label, S in T.fields]
-            return in_fields(T, parts)
-        ways = [in_fields(T, way) for way in self.ways(T)]
+            return conjoin_fields(T, parts)
+        ways = [conjoin_fields(T, way) for way in self.ways(T)]
         if not ways:
             p = UNKNOWN if _may_have_more(self._M, T) else REFUTED
             return Truth(
-                p, Why(Missing(), T, p, "nothing known is of it"), own(self._M, p, T)
+                p,
+                Why(Missing(), T, p, "nothing known is of it"),
+                own_atoms(self._M, p, T),
             )
         if len(ways) == 1 and not _may_have_more(self._M, T):
             return ways[0]
         found = one_true(T, ways, "there is one")
         if found.p != CERTAIN and _may_have_more(self._M, T):
             p = Degree(found.p.lo, 1.0)
-            return Truth(p, found.why, found.atoms | own(self._M, p, T))
+            return Truth(p, found.why, found.atoms | own_atoms(self._M, p, T))
         return found
 
     def ways(self, T: RecordType) -> Iterator[list[tuple[str, Truth]]]:
@@ -150,9 +158,9 @@ class _Truths:
             elif len(way) == len(T.fields):
                 yield way
             else:
-                waiting.append(self._longer(T, way, needed))
+                waiting.append(self._extend(T, way, needed))
 
-    def _longer(
+    def _extend(
         self, T: RecordType, way: list[tuple[str, Truth]], needed: set[str]
     ) -> Iterator[list[tuple[str, Truth]]]:
         """The ways to fill one field more; each object, where others depend on it."""
@@ -166,21 +174,21 @@ class _Truths:
             found = self.of(S)
             yield from [[*way, (label, found)]] if found.p != REFUTED else []
             return
-        for sit, p in known(self._M, S, self._thresholds):
-            found = derived(self._M, Why(sit, S, p, "given"))
+        for sit, p in known_objects(self._M, S, self._thresholds):
+            found = truth_of_derivation(self._M, Why(sit, S, p, "given"))
             yield [*way, (label, found)]
 
-    def _whatever(self, T: FunType, domain: TypeNode, result: TypeNode) -> Truth:
+    def _function_type(self, T: FunType, domain: TypeNode, result: TypeNode) -> Truth:
         """((x : S) → T) is true if for whatever is of S, T is true of it."""
         grounds = []
-        for sit, p in known(self._M, domain, self._thresholds):
-            found = self.of(_worked_out(self._M, grounded(result, ({BOUND: sit},))))
+        for sit, p in known_objects(self._M, domain, self._thresholds):
+            found = self.of(_reduce_to_type(self._M, grounded(result, ({BOUND: sit},))))
             if p != CERTAIN:
                 found = Truth(Degree(found.p.lo, 1.0), found.why, found.atoms)
             grounds.append(found)
         p, atoms = all_true(grounds)
         if _may_have_more(self._M, domain) and p != REFUTED:
-            p, atoms = Degree(0.0, p.hi), atoms | own(self._M, UNKNOWN, T)
+            p, atoms = Degree(0.0, p.hi), atoms | own_atoms(self._M, UNKNOWN, T)
         failing = [found.why for found in grounds if found.p != CERTAIN]
         shown = failing or [found.why for found in grounds]
         rule = f"for each of {len(grounds)} of {domain}"
@@ -188,42 +196,48 @@ class _Truths:
             rule = f"not for {len(failing)} of {len(grounds)} of {domain}"
         return Truth(p, Why(Missing(), T, p, rule, tuple(shown[:SHOWN])), atoms)
 
-    def _applied(self, T: Application) -> Truth:
-        return self.of(_worked_out(self._M, T))
+    def _application(self, T: Application) -> Truth:
+        return self.of(_reduce_to_type(self._M, T))
 
-    def _listed(self, T: TypeNode) -> Truth:
+    def _other(self, T: TypeNode) -> Truth:
         """Any other type is true as the model says."""
-        found = next((sit for sit, p in known(self._M, T) if p == CERTAIN), None)
+        found = next(
+            (sit for sit, p in known_objects(self._M, T) if p == CERTAIN), None
+        )
         if found is not None:
-            return derived(self._M, self._M.judge(found, T).why)
+            return truth_of_derivation(self._M, self._M.judge(found, T).why)
         p = self._M.true(T)
-        return Truth(p, Why(Missing(), T, p, "as far as is known"), own(self._M, p, T))
+        return Truth(
+            p, Why(Missing(), T, p, "as far as is known"), own_atoms(self._M, p, T)
+        )
 
 
 # --- what the model has been told ----------------------------------------------------
 
 
-def _told(M: Model, T: Basic | PType) -> Truth:
+def _truth_of_atom(M: Model, T: Basic | PType) -> Truth:
     """How probable the situations are together that were told to be of T."""
     facts = M.facts
     seen = facts.perceived(Missing(), T) if isinstance(T, PType) else None
     if seen is not None:
         why = Why(Missing(), T, seen, "by the witness function")
-        return Truth(seen, why, own(M, seen, T))
-    possible = known(M, T)
+        return Truth(seen, why, own_atoms(M, seen, T))
+    possible = known_objects(M, T)
     sure = next((sit for sit, p in possible if p == CERTAIN), None)
     if sure is not None:
         return Truth(CERTAIN, Why(sure, T, CERTAIN, "given"))
     if possible:
-        grounds = [derived(M, Why(sit, T, p, "given")) for sit, p in possible]
+        grounds = [
+            truth_of_derivation(M, Why(sit, T, p, "given")) for sit, p in possible
+        ]
         return one_true(T, grounds, "one of these is of it")
     if facts.leaves_open(T):
         why = Why(Missing(), T, UNKNOWN, "nothing is known of it")
-        return Truth(UNKNOWN, why, own(M, UNKNOWN, T))
+        return Truth(UNKNOWN, why, own_atoms(M, UNKNOWN, T))
     return Truth(REFUTED, Why(Missing(), T, REFUTED, "nothing says so"))
 
 
-def known(
+def known_objects(
     M: Model, T: TypeNode, thresholds: Thresholds | None = None
 ) -> list[tuple[Object, Degree]]:
     """The objects that are, or may be, of T by what was told, in the order told.
@@ -234,14 +248,14 @@ def known(
     """
     if isinstance(T, RecordType):
         ways = _Truths(M, thresholds_of(thresholds)).ways(T)
-        records = [in_fields(T, way) for way in ways]
+        records = [conjoin_fields(T, way) for way in ways]
         return [(found.witness, found.p) for found in records]
     if not isinstance(T, Basic | PType):
         return [(sit, CERTAIN) for sit in M.witnesses(T)]
-    return [(sit, _how_surely(M, sit, T)) for sit in candidates(M.facts, T)]
+    return [(sit, _degree_of(M, sit, T)) for sit in candidates(M.facts, T)]
 
 
-def _how_surely(M: Model, sit: Object, T: Basic | PType) -> Degree:
+def _degree_of(M: Model, sit: Object, T: Basic | PType) -> Degree:
     """How probably an object is of a type, in the light of what it depends on."""
     p, _ = M.facts.degree_of(sit, T)
     return p if p == CERTAIN else M.judge(sit, T).p
@@ -256,26 +270,28 @@ def _may_have_more(M: Model, T: TypeNode) -> bool:
     )
 
 
-def thing(M: Model, sit: Object, T: TypeNode) -> Truth:
+def truth_of_judgement(M: Model, sit: Object, T: TypeNode) -> Truth:
     """How certain it is that one object is of T."""
-    return derived(M, M.judge(sit, T).why)
+    return truth_of_derivation(M, M.judge(sit, T).why)
 
 
-def instance(M: Model, f: Function, sit: Object, thresholds: Thresholds) -> Truth:
+def truth_of_instance(
+    M: Model, f: Function, sit: Object, thresholds: Thresholds
+) -> Truth:
     """How certain it is that what a function gives for an object is true."""
-    body = _worked_out(M, grounded(f.body, ({BOUND: sit},)))
+    body = _reduce_to_type(M, grounded(f.body, ({BOUND: sit},)))
     return _Truths(M, thresholds).of(body)
 
 
-def _worked_out(M: Model, value: Object) -> TypeNode:
-    if any(isinstance(part, Application) for part in _quick(value)):
+def _reduce_to_type(M: Model, value: Object) -> TypeNode:
+    if any(isinstance(part, Application) for part in _parts_to_search(value)):
         value = M.reduced(value)
     if isinstance(value, TypeNode):
         return value
     raise Refused(f"{notation(value)} is no type, so it is neither true nor false")
 
 
-def _quick(value: Object) -> Iterable[Object]:
+def _parts_to_search(value: Object) -> Iterable[Object]:
     if isinstance(value, PType) and all(isinstance(arg, str) for arg in value.args):
         return ()
     return occurring([value])
