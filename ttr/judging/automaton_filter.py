@@ -1,4 +1,4 @@
-"""Following an automaton over events that may be uncertain, one after the other."""
+"""Filtering: the states an automaton may be in after events that may be uncertain."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from ttr.types.syntax import TypeNode, identity, meet
 __all__ = ["Following", "followed_from"]
 
 TOLD_APART = 4
-"""How many types that one event may or may not be of are told apart."""
+"""The number of uncertain types of one event for which all cases are distinguished."""
 
 Reads: TypeAlias = Callable[[TypeNode], Why]
-"""Why an event is of a type, or not."""
+"""Derives whether the event that was observed is of a type."""
 
 _NOTHING: Map[object, bool] = Map()
 
 
 @dataclass(frozen=True, eq=False)
 class Following:
-    """In which states an automaton may be, and how probably; made by `followed_from`.
+    """The states an automaton may be in, with their degrees; made by `followed_from`.
 
-    `doubted` are the objects of which something uncertain was asked. What is uncertain
-    of different objects is independent, unless it is said to be `linked`.
+    `doubted` are the objects of which something uncertain was asked. Uncertain
+    judgements of different objects are independent, unless they are `linked`.
     """
 
     automaton: Automaton
@@ -42,17 +42,17 @@ class Following:
 
     @property
     def goes_on(self) -> Degree:
-        """How probable it is that what was seen begins a string of the automaton."""
+        """The probability that the events so far begin a string of the automaton."""
         return self.beliefs.probability(bool)
 
     @property
     def may_end(self) -> Degree:
-        """How probable it is that what was seen is a string of the automaton."""
+        """The probability that the events so far are a string of the automaton."""
         final = self.automaton.final
         return self.beliefs.probability(lambda states: not states.isdisjoint(final))
 
     def after(self, reads: Reads) -> Following:
-        """What is so after one more event, which may lead nowhere."""
+        """The filter after one more event, which may lead nowhere."""
         event = _Event(reads)
         steps = partial(self._steps, event)
         for states in self.beliefs.degrees:
@@ -64,7 +64,7 @@ class Following:
         return replace(self, beliefs=beliefs, doubted=doubted)
 
     def _steps(self, event: _Event, states: States) -> Iterator[tuple[States, Degree]]:
-        """The states that an event leads to, and how probably."""
+        """The sets of states that an event leads to, each with its degree."""
         edges = [edge for q in sorted(states) for edge in self.automaton.edges[q]]
         labels = dict.fromkeys(edge.label for edge in edges)
         for fitting, p in event.cases(list(labels)):
@@ -72,13 +72,13 @@ class Following:
 
 
 def followed_from(automaton: Automaton, linked: bool) -> Following:
-    """The start of an automaton that takes no wholes, before anything happens."""
+    """The filter before the first event, for an automaton that asks for no wholes."""
     start = NOWHERE if automaton.empty else frozenset((automaton.start,))
     return Following(automaton, linked, Beliefs.certain(start))
 
 
 class _Event:
-    """What an event is of, asked once for each type; of what it is uncertain."""
+    """The degrees of one event for each type; every type is asked for once."""
 
     def __init__(self, reads: Reads) -> None:
         self._reads = reads
@@ -88,9 +88,10 @@ class _Event:
     def cases(
         self, labels: list[TypeNode]
     ) -> Iterator[tuple[frozenset[TypeNode], Degree]]:
-        """Of which of the labels the event may be, all of them, and how probably.
+        """The sets of labels that the event may be of, each with its degree.
 
-        Where too many are uncertain, only the two extremes, of unknown degree.
+        Where too many labels are uncertain, these are the two extremes only, of unknown
+        degree.
         """
         certain = [T for T in labels if self._degree(T) == CERTAIN]
         possible = [T for T in labels if self._degree(T) not in (CERTAIN, REFUTED)]

@@ -87,14 +87,14 @@ def certainly_also(
 
 
 _NOWHERE: Around = ()
-"""Around the whole that is judged, there are no scopes."""
+"""The scopes around what is judged as a whole."""
 
 
 class _Certainty(Evaluator[bool]):
-    """Answers whether a claim is certain, as soon as that is plain.
+    """Gives whether a claim is certain, without a derivation where it can.
 
-    What was certain before is remembered, what cannot be is left out, and what rests
-    on several uncertain judgements is derived.
+    Records found certain are remembered, and parts of joins that are plainly refuted
+    are skipped. What rests on several uncertain judgements is derived.
     """
 
     def conclude(
@@ -136,7 +136,7 @@ class _Certainty(Evaluator[bool]):
     def _derive(self, sit: Object, T: TypeNode, around: Around) -> bool:
         return derivation(self.facts, sit, T, around).p == CERTAIN
 
-    # --- short cuts ---
+    # --- shortcuts ---
 
     def fields_to_judge(self, T: RecordType) -> Sequence[tuple[str, TypeNode]]:
         return _most_telling_first(T)
@@ -166,7 +166,7 @@ class _Certainty(Evaluator[bool]):
         return self.judge_one_of(sit, T, possible, around, where)
 
     def _excludes(self, sit: Object, T: TypeNode) -> bool:
-        """Is it plain that sit cannot be of T? Where this says no, it may be or not."""
+        """Is it plain that sit cannot be of T? Where this says no, it may be either."""
         if isinstance(T, PType):
             return not self.facts.can_be(sit, T.pred)
         if not isinstance(T, RecordType):
@@ -182,7 +182,7 @@ class _Certainty(Evaluator[bool]):
     # --- what is left to judge where something is known ---
 
     def has_value(self, sit: Object, T: Singleton, around: Around) -> bool:
-        """Is it the object that a singleton type is of?"""
+        """Is sit the object that a singleton type is of?"""
         try:
             value = self._value_in(T, around)
         except (Unresolved, Refused):
@@ -196,16 +196,13 @@ class _Certainty(Evaluator[bool]):
 
 @lru_cache(4096)
 def _most_telling_first(T: RecordType) -> tuple[tuple[str, TypeNode], ...]:
-    """The fields, those first in which records are most likely to differ.
-
-    What is of which basic type is mostly the same, but not which predicate is true.
-    """
+    """The fields of a record type, ptypes first, as those are refuted most often."""
     return tuple(sorted(T.fields, key=lambda field: not isinstance(field[1], PType)))
 
 
 @lru_cache(4096)
 def _index_of_parts(T: Join) -> Sieve:
-    """What leaves out the parts of a join that something cannot be of."""
+    """An index that finds the parts of a join that an object may be of."""
     return Sieve(map(demands_of, T.parts))
 
 
@@ -213,12 +210,12 @@ Claims: TypeAlias = tuple[
     tuple[tuple[str, ...], Callable[[_Certainty, Object, Any, Around], bool], TypeNode],
     ...,
 ]
-"""The path of each claim, what is to hold there, and of which type."""
+"""For each claim its path, the check to make there, and the type to check for."""
 
 
 @lru_cache(4096)
 def _remainder(T: TypeNode, known: TypeNode) -> Claims:
-    """What T says that the known type does not."""
+    """The claims of T that the known type does not make."""
     if T is known:
         return ()
     if isinstance(T, Singleton):
@@ -241,16 +238,16 @@ def _remainder(T: TypeNode, known: TypeNode) -> Claims:
     return (((), _Certainty.of, T),)
 
 
-# --- what need not be judged twice ---------------------------------------------------
+# --- what was certain before ---------------------------------------------------------
 
 
 Grounds: TypeAlias = tuple[object, ...]
-"""Witness functions, and what was told of some basic types: as long as these are the
-same objects, the same is of types made of them."""
+"""The witness functions and the facts about some basic types. As long as these are the
+same objects, the same records are of types made of those basic types."""
 
 
 def note(facts: Assignment, sit: Record, T: RecordType) -> None:
-    """Notes that a record is certainly of T, so that it need not be judged again."""
+    """Remember that a record is certainly of T, so that it is not judged again."""
     basics = _basics(T)
     if basics is None or not lasts(sit) or not _need_no_axioms(facts, basics):
         return
@@ -278,15 +275,15 @@ def _grounds(facts: Assignment, basics: tuple[Basic, ...]) -> Grounds:
 
 
 def _need_no_axioms(facts: Assignment, basics: tuple[Basic, ...]) -> bool:
-    """Whether nothing but what was told and seen says what is of these types."""
+    """Do facts and witness functions alone, and no axioms, tell what is of these?"""
     return facts.theory.axiom_heads.isdisjoint(basics)
 
 
 @lru_cache(4096)
 def _basics(T: RecordType) -> tuple[Basic, ...] | None:
-    """The basic types in a type of lists, records and universes; None for another.
+    """The basic types in a type made of lists, records and universes; else None.
 
-    Its fields may be set to names, and to lists of names.
+    Its fields may be set to names and to lists of names.
     """
     within = (Basic, Universe, ListOf, RecordType, Singleton, str, tuple)
     found = list(occurring([T]))

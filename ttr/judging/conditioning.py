@@ -42,15 +42,15 @@ __all__ = [
 Pair = tuple[Object, TypeNode]
 
 PARENTS = 10
-"""On how many judgements a table may depend."""
+"""The largest number of judgements that a table may depend on."""
 
 
 def derive_conditional(
     facts: Assignment, sit: Object, T: TypeNode, when: Sequence[Pair]
 ) -> Why:
-    """How probable sit : T is given other judgements, and why.
+    """Derive p(sit : T | when), the probability given other judgements.
 
-    Raises `Refused` where these cannot all be so.
+    Raises `Refused` where these cannot all hold.
     """
     claim = derivation(facts, sit, T)
     conditions = tuple([derivation(facts, *pair) for pair in when])
@@ -72,7 +72,7 @@ def derive_conditional(
 def _explain_quotient(
     event: Event, condition: Event, known: Dependence, found: Chance
 ) -> str:
-    """How the degree of what is conditional comes about: p(E and C) / p(C)."""
+    """Say how a conditional degree is computed: p(E and C) / p(C)."""
     links = [link for one in found.rests_on for link in one.links()]
     said = ["bounds, as too much hangs together"] * (not found.exact)
     if are_apart((event, condition), known):
@@ -87,9 +87,9 @@ def _explain_quotient(
 def with_conditional_fact(
     facts: Assignment, sit: Object, T: TypeNode, p: Degree, when: Sequence[Pair]
 ) -> Assignment:
-    """The assignment in which p(sit : T | when) is known to be p.
+    """The assignment in which p(sit : T | when) is p.
 
-    Raises `Refused` where that contradicts what was told before.
+    Raises `Refused` where that contradicts the facts.
     """
     literals = [
         (Claim(one, kind), so)
@@ -107,7 +107,7 @@ def with_conditional_fact(
 def with_expectation(
     facts: Assignment, T: TypeNode, p: Degree, when: Sequence[TypeNode]
 ) -> Assignment:
-    """The assignment in which what is of the conditions so probably is of T."""
+    """The assignment in which p(T || when) is p for every object."""
     kind = _atom(T, "what depends on others")
     literals = [one for S in when for one in _literals(S, "a condition")]
     if not literals or any(one is kind for one, _ in literals):
@@ -116,7 +116,7 @@ def with_expectation(
 
 
 def with_unknown_dependence(facts: Assignment, claims: Sequence[Pair]) -> Assignment:
-    """The assignment in which nothing is known of how these depend on one another."""
+    """The assignment in which it is unknown how these claims depend on one another."""
     found = [Claim(sit, _atom(T, "what depends on others")) for sit, T in claims]
     if len(found) < 2:
         raise TTRError("two judgements or more depend on one another, found fewer")
@@ -126,7 +126,7 @@ def with_unknown_dependence(facts: Assignment, claims: Sequence[Pair]) -> Assign
 def table_rows(
     on: Sequence[object], rows: Mapping[tuple[bool, ...], object]
 ) -> Iterator[tuple[tuple[bool, ...], object]]:
-    """The rows of a table in order; `TTRError` where one is missing or too many."""
+    """The rows of a table in order; `TTRError` if one is missing or superfluous."""
     if len(on) > PARENTS:
         raise TTRError(f"a table is on {PARENTS} judgements at most, found {len(on)}")
     if not isinstance(rows, Mapping):
@@ -159,7 +159,7 @@ def _atom(T: TypeNode, what: str) -> Atom:
 
 
 def _literals(T: TypeNode, what: str) -> list[tuple[Atom, bool]]:
-    """The basic types and ptypes that T says something is of, or is not."""
+    """The basic types and ptypes that T is a meet of; False for those it denies."""
     spend()
     match T:
         case Meet(parts):

@@ -1,4 +1,4 @@
-"""How the degree of a claim is reckoned from those of its grounds, and in words."""
+"""The degree of a claim from those of its grounds, and the arithmetic in words."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ from ttr.probability.events import SURE, atoms
 __all__ = ["probability_of", "explain_probability"]
 
 SHOWN = 6
-"""How many factors of a product are shown."""
+"""The number of factors of a product that are shown."""
 
 NAMED = 3
-"""How many links between judgements are named."""
+"""The number of links between judgements that are named."""
 
 
 def probability_of(event: Event, known: Dependence, given: Event = SURE) -> Chance:
-    """How probable an event is; raises `Refused` where the facts contradict it."""
+    """The probability of an event; `Refused` where the facts are contradictory."""
     try:
         return chance(event, known, given)
     except Contradiction as wrong:
@@ -45,7 +45,7 @@ def explain_probability(
     found: Chance,
     known: Dependence = INDEPENDENT,
 ) -> str:
-    """How a degree comes of those of its grounds: a product, or what they rest on.
+    """Say how a degree follows from those of the grounds: a product, or their links.
 
     >>> from ttr.probability import All, Atomic
     >>> from ttr.types.syntax import Ind
@@ -84,7 +84,7 @@ def _chain(grounds: Sequence[Why], known: Dependence) -> str:
 
 
 def _product(how: How, degrees: Sequence[Degree]) -> str:
-    """The product of independent judgements, ends apart where they are intervals."""
+    """The product of the degrees of independent judgements, in words."""
     some = degrees[:SHOWN]
     more = f" × … ({len(degrees)} of them)" if len(degrees) > SHOWN else ""
     match how:

@@ -1,4 +1,9 @@
-"""Deriving a judgement: a : T from the facts, with the derivation as its reason."""
+"""The clauses of a : T, and the derivations made by them.
+
+`Evaluator` says what a judgement comes down to, form by form. What is asked about it is
+up to a subclass: `derivation` answers with the degree and the reason; `certainty` only
+with whether the judgement is certain.
+"""
 
 from __future__ import annotations
 
@@ -68,17 +73,17 @@ __all__ = [
 ]
 
 Answer = TypeVar("Answer")
-"""What is asked of a judgement."""
+"""What an evaluator gives: a derivation, or yes or no."""
 
 TRIED = 100
-"""How many known objects a function is tried on."""
+"""The number of known objects that a function is tried on."""
 
 
 @hook
 def make_witness(
     facts: Assignment, T: TypeNode, size: int = 0
 ) -> tuple[Object, Assignment]:
-    """A made-up witness, and the facts that make it one (`ttr.judging.creation`)."""
+    """A new witness, and the facts that make it one (`ttr.judging.creation`)."""
     raise NotImplementedError
 
 
@@ -95,11 +100,11 @@ def derivation(facts: Assignment, sit: Object, T: TypeNode, around: Around = ())
 
 
 class Evaluator(ABC, Generic[Answer]):
-    """What sit : T comes down to, by the form of T, whatever an answer is.
+    """What sit : T comes down to, by the form of T.
 
-    A clause refutes sit : T by the form of sit, or makes the answer of those to
-    simpler claims, lazily. Subclasses say what an answer is: a derivation
-    (`derivation`), or only whether the claim is certain (`ttr.judging.certainty`).
+    Each clause either refutes sit : T by the form of sit, or combines the answers to
+    simpler claims, which it gives one by one as they are asked for. A subclass defines
+    what an answer is.
 
     `around` are the scopes that paths lead out to, innermost first; `where` is the
     label of the field that the claim is about, or empty.
@@ -137,7 +142,7 @@ class Evaluator(ABC, Generic[Answer]):
         rule: str,
         grounds: Iterable[Answer],
     ) -> Answer:
-        """The answer where sit : T holds if all its grounds do, any or none of them."""
+        """The answer where sit : T holds if all of its grounds do, or any, or none."""
 
     @abstractmethod
     def judge_atom(self, sit: Object, T: Atom, where: str) -> Answer:
@@ -145,13 +150,13 @@ class Evaluator(ABC, Generic[Answer]):
 
     @abstractmethod
     def judge_missing(self, label: str, T: TypeNode, around: Around) -> Answer:
-        """The answer for a field that a record lacks."""
+        """The answer for a field of type T that a record lacks."""
 
     @abstractmethod
     def judge_pieces(
         self, sit: EventString, T: Str | Plus, around: Around, where: str
     ) -> Answer:
-        """The answer for a string that can be divided in more ways than one."""
+        """The answer for a string that may have to be divided into pieces."""
 
     @abstractmethod
     def judge_function(self, sit: Function, T: FunType, where: str) -> Answer:
@@ -217,7 +222,7 @@ class Evaluator(ABC, Generic[Answer]):
         around: Around,
         where: str,
     ) -> Answer:
-        """The answer for a join of which sit is, if at all, of one of some parts."""
+        """The answer for a join, given that sit can only be of these parts of it."""
         spend(len(parts))
         grounds = (self.of(sit, part, around) for part in parts)
         return self.combine(sit, T, around, where, "any", "one part", grounds)
@@ -342,7 +347,7 @@ _CLAUSES: Mapping[type[TypeNode], str] = {
 
 
 class _Derivation(Evaluator[Why]):
-    """Answers with the degree and the derivation of a claim."""
+    """Gives the degree and the derivation of a claim."""
 
     def conclude(
         self, sit: Object, T: TypeNode, p: Degree, rule: str, where: str
@@ -377,7 +382,7 @@ class _Derivation(Evaluator[Why]):
         return why if p in (CERTAIN, REFUTED) else self._adjust_for_dependence(why)
 
     def _adjust_for_dependence(self, why: Why) -> Why:
-        """An uncertain judgement in the light of those that it depends on."""
+        """An uncertain judgement with the degree that others it depends on leave it."""
         known = dependence(self.facts, claims_of([why]))
         if not known.defined and all(one.is_order for one in known.components):
             return why
@@ -401,7 +406,7 @@ class _Derivation(Evaluator[Why]):
     def judge_pieces(
         self, sit: EventString, T: Str | Plus, around: Around, where: str
     ) -> Why:
-        """Pieces in a row: in a way that is certain, or in one of those possible."""
+        """The string is divided in a way that is certain, else in each possible way."""
 
         def derives(part: Object, U: TypeNode) -> Why:
             spend()
@@ -433,9 +438,9 @@ class _Derivation(Evaluator[Why]):
     def judge_function(self, sit: Function, T: FunType, where: str) -> Why:
         """Does the function take whatever is of the domain to what is of the result?
 
-        Certainly if that follows for an arbitrary object of the domain, from the rules
-        of subtyping and the facts about what the function mentions; not if it fails for
-        a known object or a made-up one.
+        Certainly if that follows for an arbitrary object of the domain from the rules
+        of subtyping and the facts about what the function mentions; certainly not if
+        it fails for a known or a new object.
         """
         theory = self.facts.theory
         prover = replace(Prover.for_type(Rec, theory), is_judged=self._is_certain)
@@ -455,7 +460,7 @@ class _Derivation(Evaluator[Why]):
         return self.of(sit, T, ()).p == CERTAIN
 
     def _arguments(self, domain: TypeNode) -> Iterator[tuple[Object, Assignment]]:
-        """Objects of a domain to try: some that are known, and made-up ones."""
+        """Objects of the domain to try: some that are known, then new ones."""
         if isinstance(domain, Basic | PType):
             for x in islice(self.facts.witnesses(domain), TRIED):
                 yield x, self.facts
@@ -464,7 +469,7 @@ class _Derivation(Evaluator[Why]):
                 yield make_witness(self.facts, case, size)
 
     def _derive_value(self, sit: Function, T: FunType, x: Object) -> list[Why]:
-        """Is an object of the function's domain, and what it gives of the result?"""
+        """Is x of the function's domain, and the value for x of the result type?"""
         inside = self.of(x, sit.domain, ())
         if inside.p != CERTAIN:
             return [inside]
@@ -477,7 +482,7 @@ class _Derivation(Evaluator[Why]):
 
 
 def claims_of(grounds: Iterable[Why]) -> dict[Claim, Degree]:
-    """The uncertain judgements of atoms that grounds rest on, each with its degree."""
+    """The uncertain judgements of atoms behind the grounds, with their degrees."""
     return {
         Claim(step.sit, step.type): step.alone or step.p
         for ground in grounds
@@ -487,7 +492,7 @@ def claims_of(grounds: Iterable[Why]) -> dict[Claim, Degree]:
 
 
 def _decide(how: How, degrees: list[Degree]) -> Degree | None:
-    """What is certain of a claim, whatever its uncertain grounds come to; else None."""
+    """The degree of a claim if its certain grounds settle it; else None."""
     if how == "all":
         if REFUTED in degrees:
             return REFUTED
@@ -502,10 +507,10 @@ def _decide(how: How, degrees: list[Degree]) -> Degree | None:
 
 
 def reduced(facts: Assignment, value: Object) -> Object:
-    """The value with every application in it worked out that mentions no path.
+    """The value with every application in it reduced, except those that mention paths.
 
-    Raises `Refused` where an argument is not certainly of the function's domain, or
-    what is applied is no function.
+    Raises `Refused` where an argument is not certainly of the function's domain, and
+    where something that is no function is applied.
     """
     spend()
     if not mentions(value, Application):
@@ -517,9 +522,9 @@ def reduced(facts: Assignment, value: Object) -> Object:
 
 
 def _reduce_head(facts: Assignment, T: Application) -> Object:
-    """What an application gives; applications inside that are left as they are.
+    """The value of an application, with the applications inside it left as they are.
 
-    So a join holds where one part does, whatever becomes of the others.
+    So a join holds where one part does, even if another part cannot be reduced.
     """
     value: Object = T
     while isinstance(value, Application):
@@ -531,7 +536,7 @@ def _reduce_head(facts: Assignment, T: Application) -> Object:
 
 
 def _apply(facts: Assignment, function: Object, argument: Object) -> Object:
-    """The body of a function for an argument of its domain; else `Refused`."""
+    """The body of a function for an argument; `Refused` outside its domain."""
     if not isinstance(function, Function):
         whole = Application(function, argument)
         raise Refused(f"{notation(function)} is no function, so {whole} is nothing")
@@ -551,7 +556,7 @@ def _where(why: Why) -> str:
 
 @cache_on_node
 def is_reduced(T: TypeNode) -> bool:
-    """Whether nothing in a type is to be worked out: no path leads out, no function.
+    """Is there nothing left to reduce in a type: no application, no path out of it?
 
     >>> from ttr.types.syntax import Ind, this
     >>> is_reduced(Ind @ "a"), is_reduced(Ind @ this.x)

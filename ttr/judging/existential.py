@@ -1,4 +1,4 @@
-"""How probable it is that something is of a type, or whatever is of another type.
+"""How probable it is that something is of a type, or that any one object is.
 
 p(T) is the probability that something is of T; p(T | S) that something is, given that
 something is of S; and p(T || S) that any one object is of T, given that it is of S
@@ -37,10 +37,10 @@ from ttr.types.syntax import Object, TypeNode, meet
 __all__ = ["Range", "probability_of_any", "probability_of_some"]
 
 TRIED = 1_000
-"""How many objects are told apart; beyond, another one may be of the type."""
+"""The number of objects that are judged one by one; any others may be of the type."""
 
 SHOWN = 3
-"""How many objects are named."""
+"""The number of objects that are named at each end of the range."""
 
 
 @dataclass(frozen=True)
@@ -71,11 +71,11 @@ def probability_of_any(
     when: Sequence[TypeNode],
     among: Iterable[Object] | None = None,
 ) -> Range:
-    """p(T || S, …): how probable it is that any one object of all S is of T.
+    """p(T || S, …): how probable it is that any one object of every S is of T.
 
-    The objects are those that are known and may be of the conditions, or those named.
-    It is certain where what is of S is of T by subtyping, refuted where it is not of T
-    by subtyping, and unknown where no object is known.
+    The objects are the known ones that may be of every S, or those in `among`. The
+    answer is certain where S is a subtype of T, refuted where it is a subtype of ~T,
+    and unknown where there is no such object.
     """
     S = meet(*when)
     if subtype(S, T, facts.theory).yes:
@@ -101,8 +101,8 @@ def probability_of_some(
 ) -> Degree:
     """p(T), or p(T | S): how probable it is that something is of T.
 
-    Of the known objects, if T is closed; if it is open, there may be others. If objects
-    are named, one of them is meant. Raises `Refused` where nothing can be of S.
+    If T is closed, this is one of the known objects; if T is open, there may be others.
+    With `among` it is one of these objects. Raises `Refused` where nothing can be of S.
     """
     if when is not None and subtype(when, T, facts.theory).yes:
         return CERTAIN
@@ -122,7 +122,7 @@ def probability_of_some(
 def _some_event(
     facts: Assignment, T: TypeNode, among: Sequence[Object] | None
 ) -> tuple[list[Why], Event]:
-    """That something is of T: one of the known objects, or another one."""
+    """The event that something is of T, with a derivation for each object."""
     objects = candidates(facts, T) if among is None else iter(among)
     whys = [derivation(facts, sit, T) for sit in islice(objects, TRIED)]
     events = [why.event() for why in whys if why.p != REFUTED]

@@ -31,20 +31,20 @@ if TYPE_CHECKING:
 __all__ = ["How", "Judgement", "Why", "mark", "combine_events"]
 
 How: TypeAlias = Literal["all", "any", "none"]
-"""What a claim needs of its grounds: that all of them hold, any or none."""
+"""What a claim needs of its grounds: that all of them hold, or any, or none."""
 
 SHOWN = 3
-"""How many objects that would have done are named."""
+"""The number of types or objects that a remedy names."""
 
 
 @dataclass(frozen=True, eq=False)
 class Why(Drawn):
-    """A step of a derivation: what is claimed, how probable, by which rule, from what.
+    """A step of a derivation: the claim, its probability, the rule and the grounds.
 
-    `where` is the path of the field this step is about, from the one above; `how` is
-    what it needs of its parts. `facts` is what a claim that fails was asked of, and
-    `reckoned` says how its degree comes of theirs. `alone` is the degree of a judgement
-    before others that it depends on were taken into account.
+    `where` is the label of the field that the step is about, and `how` what the claim
+    needs of its `parts`. A claim that fails has the `facts` that it failed by.
+    `reckoned` says how the degree follows from those of the parts, and `alone` is the
+    degree of a judgement before others that it depends on were taken into account.
     """
 
     sit: Object
@@ -59,7 +59,7 @@ class Why(Drawn):
     alone: Degree | None = field(default=None, repr=False)
 
     def event(self) -> Event:
-        """The claim as an event over the uncertain judgements that it rests on."""
+        """The claim as an event made of the uncertain judgements that it rests on."""
         if self.p == CERTAIN:
             return All(())
         if self.p == REFUTED:
@@ -69,7 +69,7 @@ class Why(Drawn):
         return combine_events(self.how, self.parts)
 
     def uncertain(self) -> Iterator[Why]:
-        """The uncertain judgements it rests on, in order, as often as they occur."""
+        """The uncertain judgements that it rests on, in order, with repetitions."""
         waiting = [self]
         while waiting:
             step = waiting.pop()
@@ -81,12 +81,12 @@ class Why(Drawn):
 
     @property
     def because(self) -> str:
-        """The rule, the arithmetic and, where it fails, what would have done."""
+        """The rule, the arithmetic and, where the claim fails, a remedy."""
         reckoning = self.reckoned() if self.reckoned else ""
         return "; ".join(filter(None, (self.rule, reckoning, self.remedy())))
 
     def failure(self) -> Why | None:
-        """The step at the bottom that fails first, or None where all is certain.
+        """The first failing step that rests on no other; None where all is certain.
 
         What is refuted fails before what is only uncertain.
         """
@@ -96,14 +96,14 @@ class Why(Drawn):
         return failing.failure() if failing else self
 
     def path(self) -> str:
-        """The path of the field that fails first, or the empty string."""
+        """The path of the first field that fails, or the empty string."""
         failing = self._first_failing_part()
         if failing is None:
             return ""
         return ".".join(filter(None, (failing.where, failing.path())))
 
     def remedy(self) -> str:
-        """Of a claim that fails: what the object is of, and what would have done.
+        """For a claim that fails: what the object is of, and which objects would do.
 
         >>> from ttr.judging.models import Model
         >>> from ttr.types.syntax import Ind, Pred
@@ -140,7 +140,7 @@ class Why(Drawn):
 
 
 def combine_events(how: How, parts: Sequence[Why]) -> Event:
-    """What a claim needs of its grounds, as one event."""
+    """The event that all of the parts hold, or any, or none."""
     events = tuple([part.event() for part in parts])
     match how:
         case "all":
@@ -181,9 +181,9 @@ def mark(p: Degree) -> str:
 class Judgement(Drawn):
     """s : T with a probability: a situation, a type, an interval and the reason.
 
-    Two judgements are equal when situation, type and probability are the same. `model`
-    is the model that has what was judged on the way. The reason may be derived when it
-    is first asked for.
+    Two judgements are equal if situation, type and probability are. `model` is the
+    model with all that was judged on the way. The reason may be derived only when it is
+    first asked for.
     """
 
     sit: Object
@@ -208,7 +208,7 @@ class Judgement(Drawn):
         )
 
     def at_least(self, q: float) -> bool:
-        """Whether the probability is surely q or more.
+        """Is the probability certainly q or more?
 
         >>> from ttr.judging.models import Model
         >>> from ttr.types.syntax import Ind

@@ -1,4 +1,4 @@
-"""Filling the fields of a record that witness functions can see."""
+"""Perception: filling the missing fields of a record by witness functions."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ __all__ = ["fill_fields"]
 def fill_fields(
     facts: Assignment, sit: Record, T: TypeNode
 ) -> tuple[Record, Assignment]:
-    """The record with what it lacks of T and can be perceived, and what was seen.
+    """The record with the fields of T that it lacked and could perceive; the new facts.
 
-    A missing field whose ptype has a witness function gets a fresh situation, of the
-    ptype as far as the function says. T has no paths that escape it.
+    A missing field whose ptype has a witness function gets a new situation, which is of
+    the ptype to the degree that the function gives. No path leads out of T.
     """
     spend()
     match T:
@@ -50,7 +50,7 @@ def _fill_record(
 def _perceive_field(
     facts: Assignment, value: Object | None, T: TypeNode
 ) -> tuple[Object | None, Assignment]:
-    """The value of a field after looking, or None where there is nothing to see."""
+    """The value of a field after perception; None where nothing can be perceived."""
     if isinstance(value, Record):
         return fill_fields(facts, value, T)
     if value is not None:
@@ -63,7 +63,7 @@ def _perceive_field(
 
 
 def _perceptual(facts: Assignment, T: TypeNode) -> tuple[PType, ...]:
-    """The ptypes that T is the meet or join of, if all can be perceived; else none."""
+    """The ptypes that T is the meet or join of, if all have witness functions."""
     parts = T.parts if isinstance(T, Meet | Join) else (T,)
     ptypes = tuple(part for part in parts if isinstance(part, PType))
     visible = all(ptype.pred in facts.functions for ptype in ptypes)

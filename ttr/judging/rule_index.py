@@ -1,7 +1,7 @@
-"""What a condition demands of a state that a look at it can deny: predicates, by path.
+"""An index of conditions by the predicates they demand at some path of a state.
 
-A rule may want the latest move to be a question. Where it is a greeting, which rules
-want something else is plain from the predicate of the move, and need not be judged.
+A rule may demand that the latest move is a question. Where the move is a greeting, its
+predicate alone shows that the rule does not apply, and nothing has to be judged.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ Labels: TypeAlias = tuple[str, ...]
 """The labels of a path, from the state inwards."""
 
 Demands: TypeAlias = Mapping[Labels, frozenset[Pred]]
-"""At each of these paths has to be a situation of one of these predicates."""
+"""For each path, the predicates of which the situation there has to have one."""
 
 
 def demands_of(T: TypeNode) -> Demands:
-    """What whatever is of a type has at some paths.
+    """The predicates that every object of a type has at some of its paths.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
@@ -60,7 +60,7 @@ def demands_of(T: TypeNode) -> Demands:
 
 
 def any_of(demands: Iterable[Demands]) -> Demands:
-    """What all of several demand, as far as one of the predicates is enough for each.
+    """What an object has at some paths if it meets any of several demands.
 
     >>> P, Q = Pred("p"), Pred("q")
     >>> any_of([{("x",): {P}, ("y",): {P}}, {("x",): {Q}}]) == {("x",): {P, Q}}
@@ -75,9 +75,10 @@ def any_of(demands: Iterable[Demands]) -> Demands:
 
 
 class Sieve:
-    """Finds those of several demands that a state may meet, by one path.
+    """Finds the demands that a state may meet by looking at one of its paths.
 
-    It is the path that most of them have. Law: a demand that is left out is not met.
+    That is the path that most demands mention. Law: a demand that is left out is not
+    met.
     """
 
     def __init__(self, several: Iterable[Demands]) -> None:
@@ -93,7 +94,7 @@ class Sieve:
         return len(self._wanted)
 
     def left(self, sit: Object, facts: Assignment) -> Sequence[int]:
-        """The numbers of those that something may meet, in order."""
+        """The numbers of the demands that sit may meet, in order."""
         possible = self._possible(sit, facts) if self._every else _NONE
         left = self._left.get(possible)
         if left is None:
@@ -105,7 +106,7 @@ class Sieve:
         return left
 
     def _possible(self, sit: Object, facts: Assignment) -> frozenset[Pred]:
-        """Those that may be true of what is at the path (`Assignment.can_be`)."""
+        """The predicates that what is at the path may have (`Assignment.can_be`)."""
         there = sit
         for label in self._path:
             if not isinstance(there, Record) or label not in there:
@@ -115,7 +116,7 @@ class Sieve:
         return told | self._open_predicates(facts)
 
     def _open_predicates(self, facts: Assignment) -> frozenset[Pred]:
-        """Those that may be true of anything, be it told or not."""
+        """The predicates that may be true of objects of which no fact says so."""
         by = facts.functions, facts.opened, facts.theory.axiom_heads
         known, found = self._open
         if not known or not all(map(is_, known, by)):

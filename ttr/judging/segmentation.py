@@ -1,4 +1,4 @@
-"""Judging how a string of events can be divided into pieces of certain types."""
+"""Segmentation: how a string of events can be divided into pieces of given types."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ from ttr.types.syntax import (
 __all__ = ["Segmentation", "events_in_words", "describe_stop"]
 
 Derives = Callable[[Object, TypeNode], Why]
-"""Why an object is of a type, or not."""
+"""Derives whether an object is of a type."""
 
 
 @dataclass(frozen=True, eq=False)
 class LazyGrounds(Sequence[Why]):
-    """Why each event of a string is of its type, worked out when it is asked for."""
+    """The derivations for the events of a string, made when they are asked for."""
 
     derives: Derives
     events: Sequence[Object]
@@ -62,8 +62,8 @@ class LazyGrounds(Sequence[Why]):
 class Segmentation:
     """Judges the pieces of a string; `around` are the scopes around it.
 
-    Where witness functions may be asked, what is derived of an event is kept, so that
-    they are asked once. Otherwise a derivation is made only where it is needed.
+    Where there are witness functions, derivations are kept, so that each function is
+    asked once. Otherwise a derivation is made only where the facts do not decide.
     """
 
     def __init__(
@@ -98,9 +98,9 @@ class Segmentation:
         return all_ways(length, found, self._may_be, self._may_be_whole)
 
     def chance(self, found: Automaton) -> Degree:
-        """How probable it is that there is a way, exactly or within bounds.
+        """The probability that there is a way to divide the string, or its bounds.
 
-        For an automaton that takes wholes only that is known which holds of anything.
+        It is unknown for an automaton that asks for pieces as wholes.
         """
         if any(found.wholes.values()):
             return UNKNOWN
@@ -110,7 +110,7 @@ class Segmentation:
         return following.may_end
 
     def grounds(self, way: Iterable[Piece]) -> tuple[Why, ...]:
-        """The grounds on which the pieces of a way are of their types."""
+        """The derivations for the pieces of one way to divide the string."""
         return tuple(map(self._ground, way))
 
     def _ground(self, piece: Piece) -> Why:
@@ -138,12 +138,12 @@ class Segmentation:
         return self._degree(self._events[number], T) != REFUTED
 
     def _degree(self, event: Object, T: TypeNode) -> Degree:
-        """How probably an event is of a type, if need be by a derivation."""
+        """The degree to which an event is of a type, by a derivation where needed."""
         plain = None if self._facts.functions else self._decide(event, T)
         return self._why(event, T).p if plain is None else plain
 
     def _decide(self, event: Object, T: TypeNode) -> Degree | None:
-        """Whether an event is of a type, where the facts say yes or no; else None."""
+        """Certain or refuted where the facts alone decide; else None."""
         spend()
         match T:
             case Join(parts):
@@ -163,7 +163,7 @@ class Segmentation:
         return p if p in (CERTAIN, REFUTED) else None
 
     def _atom(self, T: TypeNode) -> Atom | None:
-        """The atom that a type comes to, where it is plain what that is."""
+        """The atom that a type reduces to, if to one without applications."""
         if T not in self._atoms:
             atom = self._atoms[T] = self._reduce_to_atom(T)
             if atom is not None:
@@ -204,7 +204,7 @@ def _all(degrees: list[Degree | None]) -> Degree | None:
 
 
 def describe_stop(facts: Assignment, sit: EventString, stop: Stop) -> str:
-    """Where a string cannot be divided further, what is there and what could be."""
+    """Say where the division of a string stops, on what, and what was expected."""
     done = stop.furthest
     wanted = " or ".join(map(str, stop.expected)) or "no more events"
     if done == len(sit):

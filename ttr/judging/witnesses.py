@@ -1,4 +1,4 @@
-"""The known witnesses of a type: who, by what was told, is of it, or may be."""
+"""The known witnesses of a type: the objects that by the facts are of it, or may be."""
 
 from __future__ import annotations
 
@@ -36,21 +36,21 @@ __all__ = ["can_be_listed", "candidates", "witnesses"]
 
 
 def witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:
-    """The known objects that certainly are of T, each once, in the order told.
+    """The known objects that are certainly of T, each once, in the order of the facts.
 
-    T has no paths that escape it. Raises `Unsupported` where there may be others
-    without end: lists, sets, functions, types, and what something is not of.
+    No path leads out of T. Raises `Unsupported` where there may be infinitely many:
+    for types of lists, sets, functions and types, and for negations.
     """
     yield from _Listing(facts, 1.0).of(T)
 
 
 def candidates(facts: Assignment, T: TypeNode) -> Iterator[Object]:
-    """The known objects that were told to be of T, or perhaps to be, as `witnesses`."""
+    """The known objects that are of T with a degree above 0, as by `witnesses`."""
     yield from _Listing(facts, 0.0).of(T)
 
 
 def can_be_listed(T: TypeNode) -> bool:
-    """Whether what is known of T has an end, as far as T alone tells.
+    """Can the known objects of T be listed, as far as the form of T tells?
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, ListOf
@@ -75,7 +75,7 @@ def can_be_listed(T: TypeNode) -> bool:
 
 @dataclass(frozen=True)
 class _Listing:
-    """Lists what is of a type with at least some degree, more than 0."""
+    """Lists what is of a type with a degree above 0 that is at least `least`."""
 
     facts: Assignment
     least: float
@@ -111,7 +111,7 @@ class _Listing:
                 )
 
     def _of_application(self, T: Application) -> Iterator[Object]:
-        """What is of the type that a function gives, if it gives one."""
+        """The objects of the type that a function gives, if it gives one."""
         try:
             value = reduced(self.facts, T)
         except Refused:
@@ -126,7 +126,7 @@ class _Listing:
         return p.hi > 0.0 and p.lo >= self.least
 
     def _fillings(self, T: RecordType) -> Iterator[dict[str, Object]]:
-        """The ways to fill the fields, one after the other; without recursion."""
+        """The ways to fill the fields, one after the other, without recursion."""
         labels = T.labels
         waiting: list[Iterator[dict[str, Object]]] = [iter(({},))]
         while waiting:
@@ -141,7 +141,7 @@ class _Listing:
     def _extensions(
         self, T: RecordType, label: str, fields: dict[str, Object]
     ) -> Iterator[dict[str, Object]]:
-        """The fields with each witness of the next one, given those before it."""
+        """The fields extended by each witness of the next field."""
         spend(4)
         try:
             field = grounded(T[label], (fields,))
