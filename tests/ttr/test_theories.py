@@ -135,7 +135,7 @@ def test_a_quoted_name_in_an_axiom_is_an_object() -> None:
         ("Dog = Ind", (4, 5), "expected := or <:, found =", "written Name := T"),
         ("fido : Ind", (4, 6), "expected := or <:, found :", "write given a : T"),
         ("rule greet", (4, 11), "expected (, found the end of", "rule name(s : S"),
-        ("check dog('a')", (4, 7), "this is nothing that can be checked", "a : T"),
+        ("check dog('a')", (4, 7), "this cannot be checked", "a : T"),
         ("check P(Ind) = [0.5]", (4, 16), "a number in [0, 1]", ""),
         (
             "check P('a' : Ind /\\ 'b' : Ind) = 1",

@@ -1,4 +1,4 @@
-"""Putting the names of a theory for what they stand for, so that types stay short."""
+"""Abbreviates types by the names that a theory defines for them."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ __all__ = ["folding"]
 
 
 def folding(theory: Signature | None, unfold: int | None) -> Callable[[Object], Object]:
-    """A function that puts the names of the theory for what is defined in it.
+    """A function that replaces what the theory defines by its name.
 
-    `unfold` is how many definitions are opened, one inside another, before a name
-    stands; None opens all. Raises `IllFormed` for what is no such number, and where
-    there is no theory to take names from.
+    `unfold` is the number of definitions, one inside another, that are shown in full
+    before a name is put; None shows all of them in full. Raises `IllFormed` if it is
+    neither, and if there is no theory to take names from.
 
     >>> from ttr.theories.theory import Theory
     >>> kennel = Theory.parse('''
@@ -63,10 +63,10 @@ def folding(theory: Signature | None, unfold: int | None) -> Callable[[Object], 
 
 
 def _names(definitions: Mapping[str, Object]) -> dict[object, str]:
-    """The names by what they stand for; where there are several, the first defined.
+    """The name of each definition; the first, if there are several.
 
-    What has a path that leads out of it depends on where it stands, so that no name
-    stands for it.
+    A value with a path that leads out of it has none: what it means depends on where it
+    stands.
     """
     names: dict[object, str] = {}
     for name, value in definitions.items():
@@ -76,7 +76,7 @@ def _names(definitions: Mapping[str, Object]) -> dict[object, str]:
 
 
 def _is_long(value: Object) -> bool:
-    """Whether a name can be shorter: a single word keeps its own."""
+    """Is the value longer than a name?"""
     match value:
         case Basic() | Universe() | Path() | RecordType(()) | ():
             return False

@@ -1,4 +1,4 @@
-"""A value laid out beside an earlier one, with the fields that have changed."""
+"""Marks the fields in which a value differs from an earlier one."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ __all__ = ["compared"]
 
 
 def compared(before: Object, after: Object) -> Layout:
-    """The layout of a value, in which fields are marked that were not so before.
+    """The layout of a value, with the fields marked that have changed.
 
-    Of records inside records, the innermost fields that have changed are marked.
+    In nested records, the innermost fields that have changed are marked.
 
     >>> from ttr.types.syntax import record
     >>> layout = compared(record(x="a", y="b"), record(x="a", y="c"))

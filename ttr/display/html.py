@@ -1,22 +1,22 @@
-"""Layouts as HTML: nested tables with their style, without script or anything fetched.
+"""Draws layouts as HTML: nested tables with their own style, and no script.
 
-Colours are those of the page. Brackets are drawn as borders; beside them stands the
-notation, unseen, so that what is copied or read aloud is notation too.
+Colours are those of the page. Brackets are drawn as borders; the notation is there as
+well, invisible, so that it is what gets copied or read aloud.
 """
 
 from __future__ import annotations
 
 from ttr.display.layout import (
+    Bracketed,
     Chain,
     Layout,
     Line,
-    Listed,
     Matrix,
-    Raised,
-    Restricted,
     Row,
     Sign,
     Step,
+    Subscript,
+    Superscript,
     Word,
 )
 from ttr.escapes import html_text
@@ -27,21 +27,21 @@ __all__ = ["STYLE", "layout_as_html", "derivation_as_html", "page", "part_of_pag
 
 def layout_as_html(layout: Layout) -> str:
     """The layout with its style, to be put anywhere in a page."""
-    return _styled(_markup(layout))
+    return _with_style(_markup(layout))
 
 
 def derivation_as_html(step: Step) -> str:
-    """The derivation as steps that open and close, open where it fails or is likely."""
-    return _styled(f'<ul class="ttr-why"><li>{_derivation(step)}</li></ul>')
+    """The derivation as steps that fold; those that fail or are likely are open."""
+    return _with_style(f'<ul class="ttr-why"><li>{_derivation(step)}</li></ul>')
 
 
 def part_of_page(layout: Layout) -> str:
-    """The layout without its style, for a page that has the style once."""
+    """The layout without its style, for a page that has the style already."""
     return f'<div class="ttr">{_markup(layout)}</div>'
 
 
 def page(title: str, body: str, style: str = "") -> str:
-    """A page of its own around a piece of HTML."""
+    """A whole page around a piece of HTML."""
     styled = f"<style>{style}</style>\n" if style else ""
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
@@ -96,7 +96,7 @@ STYLE = """
 """
 
 
-def _styled(body: str) -> str:
+def _with_style(body: str) -> str:
     return f'<div class="ttr"><style>{STYLE}</style>{body}</div>'
 
 
@@ -110,16 +110,16 @@ def _markup(layout: Layout) -> str:
             return f'<span class="ttr-{role}">{html_text(text)}</span>'
         case Sign(text):
             return _sign(text)
-        case Raised(base, exponent):
+        case Superscript(base, exponent):
             return f"{_markup(base)}{_unseen('^')}<sup>{html_text(exponent.text)}</sup>"
-        case Restricted(base, value):
+        case Subscript(base, value):
             return f"{_markup(base)}{_unseen('@')}<sub>{_markup(value)}</sub>"
         case Line(parts):
             return "".join(map(_markup, parts))
         case Chain(sign, parts):
             return _sign(sign.text).join(map(_markup, parts))
-        case Listed():
-            return _listed(layout)
+        case Bracketed():
+            return _list(layout)
         case Matrix():
             return _matrix(layout)
 
@@ -132,7 +132,7 @@ def _unseen(text: str) -> str:
     return f'<span class="ttr-unseen">{html_text(text)}</span>'
 
 
-def _listed(listed: Listed) -> str:
+def _list(listed: Bracketed) -> str:
     inside = html_text(listed.between.text).join(map(_markup, listed.parts))
     if not listed.tall:
         return f"{html_text(listed.opening)}{inside}{html_text(listed.closing)}"
@@ -147,7 +147,7 @@ def _listed(listed: Listed) -> str:
 
 
 _DRAWN = {"(": "ttr-round", "[": "ttr-square"}
-"""Brackets that grow with what they hold; others are set in larger letters."""
+"""Brackets that grow with what they hold; others get a larger font."""
 
 
 def _matrix(matrix: Matrix) -> str:
@@ -179,16 +179,17 @@ def _name(row: Row) -> str:
 def _derivation(step: Step) -> str:
     claim = _claim(step)
     if not step.parts:
-        return f'<div class="ttr-leaf{_failing(step)}">{claim}</div>'
+        return f'<div class="ttr-leaf{_class_of_failure(step)}">{claim}</div>'
     parts = "".join([f"<li>{_derivation(part)}</li>" for part in step.parts])
+    kind = _class_of_failure(step).strip()
     opened = ' open=""' if step.fails or step.mark not in "✓✗" else ""
     return (
-        f'<details{opened}><summary class="{_failing(step).strip()}">{claim}</summary>'
+        f'<details{opened}><summary class="{kind}">{claim}</summary>'
         f"<ul>{parts}</ul></details>"
     )
 
 
-def _failing(step: Step) -> str:
+def _class_of_failure(step: Step) -> str:
     return " ttr-fails" if step.fails else ""
 
 

@@ -1,9 +1,9 @@
-r"""Layouts as LaTeX: amsmath is all it needs, and MathJax 2, 3 and KaTeX read it too.
+r"""Draws layouts as LaTeX that needs only amsmath, for MathJax 2, 3 and KaTeX, too.
 
-These four differ in what they take inside \text, so names are set letter by letter as
-mathematics, where an escaped underscore is the same for all. What MathJax and KaTeX
-define as macros by other macros, such as \quad or \boxed, is not used: in long formulas
-they count it as endless expansion.
+These four disagree about what may stand in \text, so names are set as mathematics,
+letter by letter, where they agree about an escaped underscore. Macros that MathJax and
+KaTeX define by other macros, such as \quad or \boxed, are not used: in long formulas
+they are taken for an endless expansion.
 """
 
 from __future__ import annotations
@@ -12,17 +12,17 @@ import re
 from collections.abc import Iterable, Iterator
 
 from ttr.display.layout import (
+    Bracketed,
     Chain,
     Layout,
     Line,
-    Listed,
     Matrix,
-    Raised,
-    Restricted,
     Role,
     Row,
     Sign,
     Step,
+    Subscript,
+    Superscript,
     Word,
     fill_lines,
 )
@@ -32,63 +32,63 @@ from ttr.safety.budgets import spend
 __all__ = ["latex_text", "layout_as_latex", "derivation_as_latex"]
 
 _ROOM = 90
-"""So many letters go beside one another before a meet or a list is broken."""
+"""A meet or a list that is wider than this is broken into lines."""
 
 
 def layout_as_latex(layout: Layout) -> str:
     """The layout as mathematics, without the dollars around it."""
-    return _guarded(_typeset(layout))
+    return _guard_fonts(_latex(layout))
 
 
 _SHORT = 5_000
-"""So many letters MathJax 2 takes as they are."""
+"""A formula of at most this length needs no guard for MathJax 2."""
 
 
-def _guarded(text: str) -> str:
-    """The text with its letters as arguments where it is long.
+def _guard_fonts(text: str) -> str:
+    """The formula with each font command inside an argument, if it is long.
 
-    To MathJax 2 the fonts are macros, which it expands only where at most 5,120 letters
-    follow; inside an argument none do.
+    To MathJax 2 font commands are macros, and it expands a macro only if at most 5,120
+    characters follow. Inside an argument none do.
     """
     if len(text) <= _SHORT:
         return text
     return re.sub(r"\\(?:mathrm|mathit|textit)\{[^{}]*\}", r"\\mathord{\g<0>}", text)
 
 
-def _typeset(layout: Layout) -> str:
+def _latex(layout: Layout) -> str:
     spend()
     match layout:
         case Word(text, role):
             return latex_text(text, role)
         case Sign(text):
             return _sign(text)
-        case Raised(base, exponent):
-            return f"{_typeset(base)}^{{{_typeset(exponent)}}}"
-        case Restricted(base, value):
-            return f"{{{_typeset(base)}}}_{{{_typeset(value)}}}"
+        case Superscript(base, exponent):
+            return f"{_latex(base)}^{{{_latex(exponent)}}}"
+        case Subscript(base, value):
+            return f"{{{_latex(base)}}}_{{{_latex(value)}}}"
         case Line(parts):
-            return "".join(map(_typeset, parts))
+            return "".join(map(_latex, parts))
         case Chain():
             return _chain(layout)
-        case Listed():
-            return _listed(layout)
+        case Bracketed():
+            return _list(layout)
         case Matrix():
             return _matrix(layout)
 
 
 def derivation_as_latex(step: Step) -> str:
-    r"""The derivation as an array: √ and × for what holds and fails, then the reason.
+    r"""The derivation as an array: a mark, √ or ×, then the claim, then the reason.
 
-    Grounds stand below what they are grounds for, further in; the step that fails first
-    is underlined.
+    What a step rests on stands below it, indented; the first step that fails is
+    underlined.
     """
-    return _guarded(_array("ll", _steps(step, 0)))
+    return _guard_fonts(_array("ll", _steps(step, 0)))
 
 
 def _steps(step: Step, depth: int) -> Iterator[str]:
     mark = _MARKS.get(step.mark) or latex_text(step.mark, "text")
     where = f"{latex_text(step.where, 'label')}{{:}}\\text{{ }}" if step.where else ""
-    claim = where + _spaced(step.claim)
+    claim = where + _in_row(step.claim)
     if step.fails and not any(part.fails for part in step.parts):
         claim = f"\\underline{{{claim}}}"
     indent = f"\\kern{depth}em " if depth else ""
@@ -104,36 +104,36 @@ _MARKS = {"✓": "\\surd", "✗": "\\times"}
 
 
 def _array(format_of_columns: str, rows: Iterable[str]) -> str:
-    """Rows with a little space between; so LaTeX looks for none in a list there."""
+    """Rows with a little space between; without it, a [ below would be an option."""
     lines = " \\\\[2pt]\n".join(rows)
     return f"\\begin{{array}}{{{format_of_columns}}}\n{lines}\n\\end{{array}}"
 
 
 def _matrix(matrix: Matrix) -> str:
     sign = matrix.sign.text.strip()
-    rows = [f"{_name(row)} & {sign} & {_spaced(row.has)}" for row in matrix.rows]
+    rows = [f"{_name(row)} & {sign} & {_in_row(row.has)}" for row in matrix.rows]
     return _enclosed("[", _array("lcl", rows), "]")
 
 
 def _name(row: Row) -> str:
     """What stands before the sign of the matrix."""
     if row.manifest is None:
-        return _typeset(row.label)
-    return f"{_typeset(row.label)} = {_spaced(row.manifest)}"
+        return _latex(row.label)
+    return f"{_latex(row.label)} = {_in_row(row.manifest)}"
 
 
-def _spaced(layout: Layout) -> str:
-    """What stands in a row; a tall one would touch the next, but for unseen indices."""
+def _in_row(layout: Layout) -> str:
+    """A layout in a row; invisible indices keep a tall one from touching the next."""
     if not layout.tall:
-        return _typeset(layout)
-    return f"{{{_typeset(layout)}}}^{{\\vphantom{{(}}}}_{{\\vphantom{{(}}}}"
+        return _latex(layout)
+    return f"{{{_latex(layout)}}}^{{\\vphantom{{(}}}}_{{\\vphantom{{(}}}}"
 
 
 def _chain(chain: Chain) -> str:
     sign = _sign(chain.sign.text)
     if chain.width <= _ROOM:
-        return sign.join(map(_typeset, chain.parts))
-    first, *others = map(_spaced, chain.parts)
+        return sign.join(map(_latex, chain.parts))
+    first, *others = map(_in_row, chain.parts)
     if not chain.sign.text.strip():
         return _array("l", [first, *[f"\\kern1em {part}" for part in others]])
     lead = f"{{}}{sign}{{}}"
@@ -142,10 +142,10 @@ def _chain(chain: Chain) -> str:
     )
 
 
-def _listed(listed: Listed) -> str:
+def _list(listed: Bracketed) -> str:
     between = _sign(listed.between.text)
     lines = [
-        between.join(map(_typeset, line))
+        between.join(map(_latex, line))
         for line in fill_lines(listed.parts, listed.between, _ROOM)
     ]
     if len(lines) > 1:
@@ -198,11 +198,11 @@ def _sign(text: str) -> str:
 
 
 def latex_text(text: str, role: Role | None = None) -> str:
-    r"""A text from outside as LaTeX, in mathematics: it is set, and does nothing else.
+    r"""A text from outside as LaTeX, in mathematics; none of it acts as a command.
 
-    A name is set in the letters of its role, types slanted and all others upright; a
-    remark, without a role, as text, with what LaTeX reads otherwise as signs. What
-    cannot be seen is written as in a terminal.
+    A name is set in the font of its role: types slanted, all others upright. A remark,
+    which has no role, is set as text, with signs for what is special in LaTeX. What
+    cannot be seen is escaped as in a terminal.
 
     >>> print(latex_text(r"\input{a}", "label"))
     \backslash \mathrm{input}\{\mathrm{a}\}
@@ -273,9 +273,9 @@ _MATHS = {
     "¬": "\\neg ",
     "⊑": "\\sqsubseteq ",
 }
-"""The signs of arithmetic and logic, which plain LaTeX does not read in a text."""
+"""Signs of arithmetic and logic that plain LaTeX does not take in a text."""
 
 _SPECIAL = "_%&#${}~^\\`<>"
-"""What LaTeX reads otherwise in a text."""
+"""Characters that are special in LaTeX."""
 
 _PIECE = re.compile(f"[^{re.escape(_SPECIAL)}{''.join(_MATHS)}]+|.", re.DOTALL)

@@ -1,7 +1,7 @@
-"""How values are laid out, whatever they are drawn with: words, rows and matrices.
+"""How values are laid out, however they are drawn: as words, rows and matrices.
 
-`laid_out` turns a type or object into a few kinds of layout; text, LaTeX and HTML each
-draw these. Read in one line, a layout has the words and signs of the notation.
+`laid_out` turns a type or an object into a few kinds of layout, which are then drawn as
+text, LaTeX or HTML. Read from left to right, a layout is the value in notation.
 """
 
 from __future__ import annotations
@@ -55,10 +55,10 @@ __all__ = [
     "Chain",
     "Layout",
     "Line",
-    "Listed",
+    "Bracketed",
     "Matrix",
-    "Raised",
-    "Restricted",
+    "Superscript",
+    "Subscript",
     "Role",
     "Row",
     "Sign",
@@ -69,12 +69,12 @@ __all__ = [
 ]
 
 Role = Literal["type", "predicate", "label", "object", "variable", "text"]
-"""What a word names, so that a form can set it in the usual letters."""
+"""What a word names, which decides the font."""
 
 
 # --- kinds of layout -----------------------------------------------------------------
 #
-# `width` is how many columns a layout takes where it need not be broken, and `tall`
+# `width` is the number of columns that a layout takes if it is not broken, and `tall`
 # says whether it takes more than one line even then.
 
 
@@ -109,7 +109,7 @@ class Sign:
 
 
 @dataclass(frozen=True)
-class Raised:
+class Superscript:
     """A base with a number above: Type¹."""
 
     base: Word
@@ -118,12 +118,12 @@ class Raised:
 
     @property
     def width(self) -> int:
-        """The columns it takes, with a sign between."""
+        """The columns it takes, with a sign between the parts."""
         return self.base.width + 1 + self.exponent.width
 
 
 @dataclass(frozen=True)
-class Restricted:
+class Subscript:
     """A base with an object below: the singleton type T@a."""
 
     base: Layout
@@ -131,12 +131,12 @@ class Restricted:
 
     @cached_property
     def width(self) -> int:
-        """The columns it takes, with a sign between."""
+        """The columns it takes, with a sign between the parts."""
         return self.base.width + 1 + self.value.width
 
     @cached_property
     def tall(self) -> bool:
-        """Whether a part is."""
+        """Is one of its parts tall?"""
         return self.base.tall or self.value.tall
 
 
@@ -153,13 +153,13 @@ class Line:
 
     @cached_property
     def tall(self) -> bool:
-        """Whether a part is."""
+        """Is one of its parts tall?"""
         return any(part.tall for part in self.parts)
 
 
 @dataclass(frozen=True)
 class Chain:
-    """Parts with a sign between; where they are too wide, one below the other."""
+    """Parts with a sign between; if they are too wide, one below the other."""
 
     sign: Sign
     parts: tuple[Layout, ...]
@@ -172,13 +172,13 @@ class Chain:
 
     @cached_property
     def tall(self) -> bool:
-        """Whether a part is."""
+        """Is one of its parts tall?"""
         return any(part.tall for part in self.parts)
 
 
 @dataclass(frozen=True)
-class Listed:
-    """Parts in brackets; where they are too wide, on several lines."""
+class Bracketed:
+    """Parts in brackets; if they are too wide, on several lines."""
 
     opening: str
     parts: tuple[Layout, ...]
@@ -194,15 +194,15 @@ class Listed:
 
     @cached_property
     def tall(self) -> bool:
-        """Whether a part is."""
+        """Is one of its parts tall?"""
         return any(part.tall for part in self.parts)
 
 
 @dataclass(frozen=True)
 class Row:
-    """A field: a label, for a manifest field its object, and what the label has.
+    """A field: its label, the object of a manifest field, and its type or value.
 
-    One that has `changed` stands out where there are colours.
+    If it has `changed`, it is highlighted.
     """
 
     label: Word
@@ -217,7 +217,7 @@ class Row:
 
     @cached_property
     def tall(self) -> bool:
-        """Whether a part is."""
+        """Is one of its parts tall?"""
         return self.has.tall or bool(self.manifest and self.manifest.tall)
 
 
@@ -246,18 +246,20 @@ class Matrix:
 
     @cached_property
     def tall(self) -> bool:
-        """Whether it has several fields, or a field that is."""
+        """Does it have several fields, or a tall one?"""
         return len(self.rows) > 1 or self.rows[0].tall
 
 
-Layout: TypeAlias = Word | Sign | Raised | Restricted | Line | Chain | Listed | Matrix
+Layout: TypeAlias = (
+    Word | Sign | Superscript | Subscript | Line | Chain | Bracketed | Matrix
+)
 
 
 @dataclass(frozen=True)
 class Step:
-    """A step of a derivation: its mark, what is claimed, because of what, from what.
+    """A step of a derivation: its mark, its claim, the reason and the steps below it.
 
-    `fails` holds for the step at the bottom that fails first, and for those above it.
+    `fails` is true of the first step at the bottom that fails, and of those above it.
     """
 
     mark: str
@@ -275,7 +277,7 @@ class Step:
 def fill_lines(
     parts: Sequence[Layout], between: Sign, room: int
 ) -> Iterator[tuple[Layout, ...]]:
-    """The parts in lines of at most so many columns, or of one part."""
+    """The parts in lines, of at most `room` columns or of a single part."""
     line: list[Layout] = []
     used = 0
     for part in parts:
@@ -296,13 +298,13 @@ _COLON = Sign(" : ")
 
 
 def laid_out(value: Object, scope: Scope = ()) -> Layout:
-    """The layout of a type or object, with names as the notation chooses them."""
-    spend(4)  # what is laid out is kept, and typeset after that
+    """The layout of a type or an object; its variables are named as in print."""
+    spend(4)  # the layout is kept, and drawn later
     match value:
         case Basic(name) | Universe(name, 0):
             return Word(name, "type")
         case Universe(name, level):
-            return Raised(Word(name, "type"), Word(str(level), "text"))
+            return Superscript(Word(name, "type"), Word(str(level), "text"))
         case Pred(name):
             return Word(name, "predicate")
         case PType(pred, args):
@@ -314,7 +316,7 @@ def laid_out(value: Object, scope: Scope = ()) -> Layout:
             rows = tuple([_row(k, T, inner) for k, T in fields])
             return Matrix("[", _COLON, rows, "]")
         case Singleton(base, obj):
-            return Restricted(_tight(base, scope), _tight_object(obj, scope))
+            return Subscript(_tight(base, scope), _tight_object(obj, scope))
         case Meet(parts):
             return Chain(Sign(" ∧ "), _operands(parts, scope))
         case Join(parts):
@@ -349,11 +351,11 @@ def _object(value: Object, scope: Scope) -> Layout:
             rows = [Row(k, None, v) for k, v in zip(labels, values, strict=True)]
             return Matrix("{", Sign(" = "), tuple(rows), "}")
         case FiniteSet(items) if items:
-            return Listed("{", _objects(items, scope), "}", _COMMA)
+            return Bracketed("{", _objects(items, scope), "}", _COMMA)
         case EventString(items):
             return _string(items, scope)
     if type(value) is tuple:
-        return Listed("[", _objects(value, scope), "]", _COMMA)
+        return Bracketed("[", _objects(value, scope), "]", _COMMA)
     return Word(notation(value, scope), _role(value))
 
 
@@ -380,27 +382,27 @@ def _objects(values: Iterable[Object], scope: Scope) -> tuple[Layout, ...]:
 
 
 def _call(applied: Layout, args: tuple[Layout, ...]) -> Line:
-    return Line((applied, Listed("(", args, ")", _COMMA)))
+    return Line((applied, Bracketed("(", args, ")", _COMMA)))
 
 
-def _string(items: Sequence[Object], scope: Scope) -> Listed:
-    """<a b>, with commas where an event could be read as an argument of the last."""
+def _string(items: Sequence[Object], scope: Scope) -> Bracketed:
+    """<a b>; with commas if an event could be read as an argument of the one before."""
     events = [as_object(item, scope) for item in items]
     between = _COMMA if any(map(begins_with_bracket, events)) else Sign(" ")
-    return Listed("<", tuple([_tight(it, scope) for it in events]), ">", between)
+    return Bracketed("<", tuple([_tight(it, scope) for it in events]), ">", between)
 
 
 # --- brackets, functions and their variables -----------------------------------------
 
 
-def _bracketed(layout: Layout) -> Layout:
-    return Listed("(", (layout,), ")", _COMMA)
+def _in_brackets(layout: Layout) -> Layout:
+    return Bracketed("(", (layout,), ")", _COMMA)
 
 
 def _operand(value: Object, scope: Scope) -> Layout:
-    """A part of a meet, join or negation: in brackets unless it binds closer."""
+    """A part of a meet, join or negation: in brackets unless it binds more tightly."""
     layout = laid_out(value, scope)
-    return _bracketed(layout) if is_loose(value) else layout
+    return _in_brackets(layout) if is_loose(value) else layout
 
 
 def _operands(values: Iterable[Object], scope: Scope) -> tuple[Layout, ...]:
@@ -408,9 +410,9 @@ def _operands(values: Iterable[Object], scope: Scope) -> tuple[Layout, ...]:
 
 
 def _tight(value: Object, scope: Scope) -> Layout:
-    """A part beside @, + or an arrow: in brackets unless it holds together."""
+    """A part beside @, + or an arrow: in brackets unless it binds tightly enough."""
     layout = laid_out(value, scope)
-    return _bracketed(layout) if is_loose_beside(value) else layout
+    return _in_brackets(layout) if is_loose_beside(value) else layout
 
 
 def _tight_object(value: Object, scope: Scope) -> Layout:
@@ -429,16 +431,16 @@ def _function_type(value: FunType, scope: Scope) -> Layout:
     if binds(value.result):
         name = variable(value, scope)
         of = laid_out(value.domain, scope)
-        domain = _bracketed(Line((Word(name, "variable"), _COLON, of)))
+        domain = _in_brackets(Line((Word(name, "variable"), _COLON, of)))
     else:
         name, domain = "", _tight(value.domain, scope)
     result = _operand(value.result, (name, *scope))
-    return _bracketed(Chain(Sign(" → "), (domain, result)))
+    return _in_brackets(Chain(Sign(" → "), (domain, result)))
 
 
 def _head(function: Object, scope: Scope) -> Layout:
-    """What is applied: as it is printed, in brackets unless it holds together."""
+    """The function that is applied, in brackets unless it binds tightly enough."""
     if isinstance(function, Path | str):
         return Word(head(function, scope), _role(function))
     layout = laid_out(function, scope)
-    return layout if holds_as_head(function) else _bracketed(layout)
+    return layout if holds_as_head(function) else _in_brackets(layout)

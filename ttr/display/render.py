@@ -1,4 +1,4 @@
-"""Values as they are drawn in papers: in a terminal, with LaTeX, on a web page."""
+"""Draws values as in papers: in a terminal, in LaTeX, on a web page."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ def box(
     theory: Signature | None = None,
     width: int = 80,
 ) -> str:
-    """The value as text on several lines, in `width` columns where it can be done.
+    """The value as text on several lines, in `width` columns if that is possible.
 
-    Takes a type, an object, a judgement or its `why`. With `unfold=0` the names of the
-    theory stand for what they are defined as, with `unfold=1` one level of definitions
-    is opened, and so on. Raises `IllFormed` for a wrong number and for what is none of
-    these, as a theory; `Unsupported` for what nests too deep.
+    The value is a type, an object, a judgement or its `why`. With `unfold=0`, the names
+    of the theory stand for their definitions; with `unfold=1`, one level of definitions
+    is shown in full, and so on. Raises `IllFormed` for a wrong number and for any other
+    value, such as a theory, and `Unsupported` for a value that nests too deep.
 
     >>> from ttr import Ind, Pred, rectype, this
     >>> print(box(rectype(x=Ind, c=Pred("dog", Ind)(this.x))))
@@ -46,10 +46,10 @@ def box(
     """
     if type(width) is not int or width < 1:
         raise IllFormed(f"a width is a number of columns, 1 or more, found {width!r}")
-    shown = _showing(theory, unfold)
+    to_layout = _layout_function(theory, unfold)
     if isinstance(value, Why):
-        return derivation_as_text(_step(value, shown), width)
-    return layout_as_text(_shown(value, shown), width)
+        return derivation_as_text(_step(value, to_layout), width)
+    return layout_as_text(_layout(value, to_layout), width)
 
 
 @within_budget
@@ -58,58 +58,58 @@ def latex(
 ) -> str:
     r"""The value as LaTeX for mathematics, without the dollars around it.
 
-    It needs amsmath, and neither other packages nor macros of its own; MathJax 2 and 3
-    and KaTeX read it too. For values, `unfold` and errors see `box`.
+    It needs amsmath, but no other packages and no macros; MathJax 2, MathJax 3 and
+    KaTeX take it as well. For values, `unfold` and errors see `box`.
 
     >>> from ttr import Ind, Pred
     >>> print(latex(Pred("dog", Ind)("fido")))
     \mathrm{dog}(\mathrm{fido})
     """
-    shown = _showing(theory, unfold)
+    to_layout = _layout_function(theory, unfold)
     if isinstance(value, Why):
-        return derivation_as_latex(_step(value, shown))
-    return layout_as_latex(_shown(value, shown))
+        return derivation_as_latex(_step(value, to_layout))
+    return layout_as_latex(_layout(value, to_layout))
 
 
 @within_budget
 def html(
     value: object, *, unfold: int | None = None, theory: Signature | None = None
 ) -> str:
-    """The value as a piece of a web page: tables, with their style and no script.
+    """The value as a part of a web page: tables with their style, and no script.
 
-    It takes the colours of the page. Copied as text, it is notation. For values,
-    `unfold` and errors see `box`.
+    Its colours are those of the page. When it is copied, the notation is copied. For
+    values, `unfold` and errors see `box`.
     """
-    shown = _showing(theory, unfold)
+    to_layout = _layout_function(theory, unfold)
     if isinstance(value, Why):
-        return derivation_as_html(_step(value, shown))
-    return layout_as_html(_shown(value, shown))
+        return derivation_as_html(_step(value, to_layout))
+    return layout_as_html(_layout(value, to_layout))
 
 
-_Shown = Callable[[Object], Layout]
+_ToLayout = Callable[[Object], Layout]
 
 
-def _showing(theory: Signature | None, unfold: int | None) -> _Shown:
+def _layout_function(theory: Signature | None, unfold: int | None) -> _ToLayout:
     fold = folding(theory, unfold)
     return lambda value: laid_out(fold(value))
 
 
-def _shown(value: object, shown: _Shown) -> Layout:
+def _layout(value: object, to_layout: _ToLayout) -> Layout:
     if not isinstance(value, Judgement):
-        return shown(_drawable(value))
+        return to_layout(_drawable(value))
     degree = (Word("p", "variable"), Sign(" = "), Word(str(value.p), "text"))
-    claim = _claim(value, shown)
+    claim = _claim(value, to_layout)
     return Line((*claim.parts, Sign("   "), *degree))
 
 
 _OF_PYTHON = (NoneType, type, FunctionType, BuiltinFunctionType, ModuleType)
-"""What is a slip where an object is to be drawn."""
+"""Kinds of Python objects that nobody means to draw."""
 
 
 def _drawable(value: object) -> Object:
-    """The value as an object; raises `IllFormed` for theories, models, answers, …
+    """The value as an object; raises `IllFormed` for a theory, a model, an answer, …
 
-    What stands for a record, as a meaning does, is drawn as that record.
+    A value that has a `record`, such as a meaning, is drawn as this record.
     """
     kept = isinstance(value, Node | Record)
     behind = None if kept else getattr(value, "record", None)
@@ -124,35 +124,35 @@ def _drawable(value: object) -> Object:
     return found
 
 
-def _claim(value: Judgement | Why, shown: _Shown) -> Line:
-    return Line((shown(value.sit), Sign(" : "), shown(value.type)))
+def _claim(value: Judgement | Why, to_layout: _ToLayout) -> Line:
+    return Line((to_layout(value.sit), Sign(" : "), to_layout(value.type)))
 
 
 # --- derivations ---------------------------------------------------------------------
 
 
-def _step(why: Why, shown: _Shown) -> Step:
-    """A derivation; what is likely does not fail, so nothing is pointed at then."""
-    return _follow(why, shown, why.failure() if why.p.lo == 0.0 else None)
+def _step(why: Why, to_layout: _ToLayout) -> Step:
+    """A derivation; it points at what fails only if the claim certainly fails."""
+    return _follow(why, to_layout, why.failure() if why.p.lo == 0.0 else None)
 
 
-def _follow(why: Why, shown: _Shown, failing: Why | None) -> Step:
-    """The step with those below it; `failing` is the one that fails, if it is here."""
-    guilty = _guilty(why, failing)
-    parts = [_follow(p, shown, failing if p is guilty else None) for p in why.parts]
+def _follow(why: Why, to_layout: _ToLayout, failing: Why | None) -> Step:
+    """The step and those below it; `failing` is the one of them that fails, if any."""
+    branch = _part_with(why, failing)
+    parts = [_follow(p, to_layout, failing if p is branch else None) for p in why.parts]
     because = why.because
     return Step(
         mark(why.p),
         why.where,
-        _claim(why, shown),
+        _claim(why, to_layout),
         because,
         tuple(parts),
         fails=failing is not None,
     )
 
 
-def _guilty(why: Why, failing: Why | None) -> Why | None:
-    """The part with the step that fails, if there is one."""
+def _part_with(why: Why, failing: Why | None) -> Why | None:
+    """The part that contains the failing step, if there is one."""
     if failing is None or why is failing:
         return None
     return next(part for part in why.parts if part.failure() is failing)

@@ -1,4 +1,4 @@
-"""Layouts as text on several lines, with brackets as tall as what they hold."""
+"""Draws layouts as text on several lines, with brackets as tall as what they hold."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from ttr.display.layout import (
+    Bracketed,
     Chain,
     Layout,
     Line,
-    Listed,
     Matrix,
-    Raised,
-    Restricted,
     Row,
     Sign,
     Step,
+    Subscript,
+    Superscript,
     Word,
     fill_lines,
 )
@@ -25,12 +25,12 @@ from ttr.safety.budgets import spend
 __all__ = ["layout_as_text", "derivation_as_text"]
 
 _LEAST = 24
-"""Deep inside, where there is hardly any room left, this many columns are taken."""
+"""Every part gets at least this many columns, however deep inside it stands."""
 
 
 @dataclass(frozen=True)
 class Block:
-    """Lines of one width, of which `base` is the one that words beside it stand on."""
+    """Lines of the same width; words beside the block stand on its line `base`."""
 
     lines: tuple[str, ...]
     width: int
@@ -43,17 +43,17 @@ class Block:
 
     @property
     def below(self) -> int:
-        """How many lines there are below the base."""
+        """The number of lines below the base."""
         return len(self.lines) - 1 - self.base
 
 
 def layout_as_text(layout: Layout, room: int) -> str:
-    """The layout as text, in so many columns where it can be done."""
+    """The layout as text, in `room` columns if that is possible."""
     return _text(_draw(layout, room))
 
 
 def derivation_as_text(step: Step, room: int) -> str:
-    """The derivation as an indented tree, what is claimed before its grounds."""
+    """The derivation as an indented tree, each claim above what it rests on."""
     return "\n".join([_text(block) for block in _steps(step, "", room)])
 
 
@@ -74,19 +74,19 @@ def _text(block: Block) -> str:
 
 
 def _beside(blocks: Iterable[Block]) -> Block:
-    """The blocks from left to right, on one base."""
+    """The blocks from left to right, on one base line."""
     row = list(blocks)
     if len(row) == 1:
         return row[0]
     above = max([block.base for block in row])
     below = max([block.below for block in row])
-    columns_of_lines = [_raised_to(block, above, below) for block in row]
+    columns_of_lines = [_padded_lines(block, above, below) for block in row]
     lines = tuple(["".join(line) for line in zip(*columns_of_lines, strict=True)])
     return Block(lines, sum(block.width for block in row), above)
 
 
-def _raised_to(block: Block, above: int, below: int) -> Sequence[str]:
-    """The lines of the block with that many lines above and below its base."""
+def _padded_lines(block: Block, above: int, below: int) -> Sequence[str]:
+    """The lines of the block, with this many lines above and below its base."""
     if block.base == above and block.below == below:
         return block.lines
     empty = " " * block.width
@@ -95,7 +95,7 @@ def _raised_to(block: Block, above: int, below: int) -> Sequence[str]:
 
 
 def _below(blocks: Iterable[Block]) -> Block:
-    """The blocks from top to bottom, with the line in the middle as their base."""
+    """The blocks from top to bottom; the middle line is their base."""
     stack = list(blocks)
     width = max([block.width for block in stack])
     lines = [
@@ -144,22 +144,22 @@ def _draw(layout: Layout, room: int) -> Block:
     match layout:
         case Word(text, _) | Sign(text):
             return Block.of(text)
-        case Raised(base, exponent):
+        case Superscript(base, exponent):
             return Block.of(f"{base.text}^{exponent.text}")
-        case Restricted(base, value):
+        case Subscript(base, value):
             return _in_line((base, Sign("@"), value), room)
         case Line(parts):
             return _in_line(parts, room)
         case Chain():
             return _chain(layout, room)
-        case Listed():
-            return _listed(layout, room)
+        case Bracketed():
+            return _list(layout, room)
         case Matrix():
             return _matrix(layout, room)
 
 
 def _in_line(parts: Sequence[Layout], room: int) -> Block:
-    """The parts side by side, each with the room that those after it leave."""
+    """The parts side by side, each in the room that those after it leave."""
     after = sum(part.width for part in parts)
     blocks = []
     for part in parts:
@@ -174,7 +174,7 @@ def _chain(chain: Chain, room: int) -> Block:
     sign = chain.sign.text
     if chain.width <= room:
         blocks = [_draw(part, room) for part in chain.parts]
-        return _beside(_with(Block.of(sign), blocks))
+        return _beside(_interleave(Block.of(sign), blocks))
     lead = Block.of(sign.strip().ljust(2))
     rest = max(_LEAST, room - lead.width)
     first, *others = [_draw(part, rest) for part in chain.parts]
@@ -183,15 +183,15 @@ def _chain(chain: Chain, room: int) -> Block:
     return _below([first, *[_beside([lead, block]) for block in others]])
 
 
-def _with(between: Block, blocks: Iterable[Block]) -> Iterator[Block]:
-    """The blocks, with one between every two."""
+def _interleave(between: Block, blocks: Iterable[Block]) -> Iterator[Block]:
+    """The blocks, with a block between every two."""
     for number, block in enumerate(blocks):
         if number:
             yield between
         yield block
 
 
-def _listed(listed: Listed, room: int) -> Block:
+def _list(listed: Bracketed, room: int) -> Block:
     if not listed.parts:
         return Block.of(_flat(listed.opening) + _flat(listed.closing))
     rest = max(_LEAST, room - 2)
@@ -200,7 +200,7 @@ def _listed(listed: Listed, room: int) -> Block:
     at_end = Block.of(listed.between.text.rstrip())
     rows = []
     for number, line in enumerate(lines):
-        blocks = [*_with(between, [_draw(part, rest) for part in line])]
+        blocks = [*_interleave(between, [_draw(part, rest) for part in line])]
         if number < len(lines) - 1:
             blocks.append(at_end)
         rows.append(_beside(blocks))

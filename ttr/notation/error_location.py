@@ -1,4 +1,4 @@
-"""Which part of a text makes the type that it stands for ill-formed."""
+"""Find the part of a text that makes its type ill-formed, to underline it."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from ttr.types.syntax import Object, Path, RecordType, TypeNode
 __all__ = ["locate_error", "locate_misfit", "is_ill_formed"]
 
 IsWrong: TypeAlias = Callable[[Object], bool]
-"""Whether what stands around a place is ill-formed with this value there."""
+"""Is what surrounds a place ill-formed with this value in that place?"""
 
 
 def locate_misfit(
     term: Fields, types: Mapping[str, TypeNode], theory: Signature
 ) -> Part:
-    """The first part of a record type whose paths lead nowhere, or to a misfit.
+    """The first field with a path that leads nowhere, or to a value of a wrong type.
 
-    `types` are the types of its fields.
+    `types` are the types of the fields.
     """
     around = RecordType(tuple(types.items()))
 
@@ -38,7 +38,7 @@ def locate_misfit(
 
 
 def locate_error(term: Term, value: Object, is_wrong: IsWrong) -> Part:
-    """The smallest part of a term, for this value, that is wrong in its place."""
+    """The smallest part that is wrong of a term that stands for this value."""
     if not isinstance(term, Fields) or not isinstance(value, RecordType):
         return term
     for part in term.fields:
@@ -50,21 +50,22 @@ def locate_error(term: Term, value: Object, is_wrong: IsWrong) -> Part:
 
 
 def _locate_in_field(part: Field, field: TypeNode, is_wrong: IsWrong) -> Part | None:
-    """What is wrong in a field, if anything is."""
+    """The part that is wrong in a field; None if nothing is."""
     if not is_wrong(field):
         return None
     return part if part.value else locate_error(part.type, field, is_wrong)
 
 
 def _wrong_alone(label: str, is_wrong: IsWrong) -> IsWrong:
-    """Whether it is wrong where it is the only field of a record type."""
+    """Is a field wrong if it is the only one of a record type?"""
     return lambda field: is_wrong(RecordType(((label, field),)))
 
 
 def _is_misfit(field: Object, around: RecordType, theory: Signature) -> bool:
-    """Whether a path in a field leads nowhere in the record type, or to a misfit.
+    """Does a path in a field lead nowhere in the record type, or to a wrong type?
 
-    A record type is a scope like that of a function from its records.
+    To find out, the field is made the body of a function from the record type, which is
+    a scope of the same kind.
     """
 
     def at(path: Path) -> Path:
@@ -74,7 +75,7 @@ def _is_misfit(field: Object, around: RecordType, theory: Signature) -> bool:
 
 
 def is_ill_formed(build: Callable[[], Object]) -> bool:
-    """Whether what would be built is ill-formed."""
+    """Does `build` raise `IllFormed`?"""
     try:
         build()
     except IllFormed:

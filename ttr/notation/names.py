@@ -1,8 +1,8 @@
-"""The names that a text may use: what they are declared or defined as."""
+"""The names that a text may use, and what each is declared or defined as."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
+from collections.abc import Collection, Mapping, Set
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
@@ -15,11 +15,18 @@ if TYPE_CHECKING:
     from ttr.updates.algorithms import Algorithm
     from ttr.updates.rules import Rule
 
-__all__ = ["Names", "Vocabulary", "is_declared", "meaning_of", "vocabulary_of"]
+__all__ = [
+    "Names",
+    "Vocabulary",
+    "all_names",
+    "is_declared",
+    "meaning_of",
+    "vocabulary_of",
+]
 
 
 class Names(Protocol):
-    """What a reader asks of a theory, finished or not."""
+    """What a reader needs of a theory, whether or not all of it has been read."""
 
     @property
     def basics(self) -> Mapping[str, Basic]: ...  # noqa: D102
@@ -44,22 +51,31 @@ class Names(Protocol):
 
     @property
     def names(self) -> frozenset[str]:
-        """Every name, listed: to ask for one of them there is `is_declared`."""
+        """All declared names; `is_declared` is the quick way to look for one."""
 
     @property
     def signature(self) -> Signature:
-        """What subtyping needs, with the axioms."""
+        """The axioms, which subtyping needs."""
 
 
 def is_declared(theory: Names, name: str) -> bool:
-    """Whether a name is among those of a theory, without listing them all."""
+    """Is this name declared in the theory?"""
+    return any(name in kind for kind in _kinds(theory))
+
+
+def all_names(theory: Names) -> frozenset[str]:
+    """Every name that is declared in the theory."""
+    return frozenset().union(*_kinds(theory))
+
+
+def _kinds(theory: Names) -> tuple[Collection[str], ...]:
+    """The names of each kind."""
     terms = (theory.objects, theory.definitions, theory.basics, theory.predicates)
-    played = (theory.rules, theory.strategies, theory.openings)
-    return any(name in kind for kind in (*terms, *played))
+    return (*terms, theory.rules, theory.strategies, theory.openings)
 
 
 def meaning_of(theory: Names, name: str) -> Object | None:
-    """What a name is defined or declared as, if it is no object."""
+    """The definition, basic type or predicate of this name; None if there is none."""
     for kind in (theory.definitions, theory.basics, theory.predicates):
         if name in kind:
             return kind[name]
@@ -68,7 +84,7 @@ def meaning_of(theory: Names, name: str) -> Object | None:
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """Names of basic types, predicates and objects, and nothing defined by them."""
+    """The names of basic types, predicates and objects, with no definitions."""
 
     basics: Mapping[str, Basic]
     predicates: Mapping[str, Pred]
@@ -82,11 +98,11 @@ class Vocabulary:
     @property
     def names(self) -> frozenset[str]:
         """All the names."""
-        return frozenset().union(self.basics, self.predicates, self.objects)
+        return all_names(self)
 
 
 def vocabulary_of(*values: object) -> Vocabulary:
-    """The names of everything that occurs in some values.
+    """The names of the basic types, predicates and objects that occur in the values.
 
     Raises `IllFormed` where two predicates of one name occur.
 
@@ -102,13 +118,13 @@ def vocabulary_of(*values: object) -> Vocabulary:
             case Basic(name):
                 basics[name] = value
             case Pred(name, _):
-                _same_predicate(predicates.setdefault(name, value), value)
+                _check_same(predicates.setdefault(name, value), value)
             case str():
                 objects.add(value)
     return Vocabulary(basics, predicates, objects)
 
 
-def _same_predicate(known: Pred, found: Pred) -> None:
+def _check_same(known: Pred, found: Pred) -> None:
     if known is not found:
         raise IllFormed(
             f"two predicates are called {known.name}: {known!r} and {found!r}"

@@ -1,6 +1,7 @@
-r"""From a text to its syntax tree: statements, by a method for each form of them.
+r"""Parses a text that is a term or a statement of a theory into a syntax tree.
 
-The docstring of a method states the form, as those of `TermParser` do.
+There is one method for each form of statement, with the form as its docstring, written
+as in `term_parser`.
 
 >>> parse_term(Source("A | ~B")).parts[1]
 Denial(start=4, end=6, body=Name(start=5, end=6, labels=('B',), up=None))
@@ -41,22 +42,22 @@ _SUBTYPE = re.compile("<=|⊑")
 _GIVEN = re.compile(r"\|\|")
 
 _NAMED = re.compile(rf"\s+[{LETTER_OR_DIGIT}]")
-"""What follows the words that begin a statement only before a name."""
+"""What has to follow the words in `_BEFORE_NAMES`."""
 
 _Chance = trees.Probability | trees.Expectation
 
 
 class _Parser(TermParser):
-    """Parses a text that is one term or one statement."""
+    """Parses the statements in a text."""
 
     def whole_term(self) -> Term:
-        """The term that the text is."""
+        """The text as one term."""
         found = self._term()
         self._expect_end()
         return found
 
     def whole_statement(self) -> Statement:
-        """The statement that the text is."""
+        """The text as one statement."""
         found = self._statement()
         self._expect_end()
         return found
@@ -64,7 +65,7 @@ class _Parser(TermParser):
     # --- statements ---
 
     def _statement(self) -> Statement:
-        """x := T, or S <: T, or one that begins with a word of its own."""
+        """x := T, or T <: T, or a statement that begins with a keyword."""
         start = self._at
         word = PATH.match(self._text, start)
         if word and self._is_keyword(word):
@@ -119,7 +120,7 @@ class _Parser(TermParser):
         return self._node(trees.Word, start, self._quoted())
 
     def _given(self, start: int) -> Statement:
-        """given T : T ‹degree›, or given a probability."""
+        """given T : T ‹degree›, or given probability."""
         sit = self._term_or_probability()
         if not isinstance(sit, Term):
             return self._node(trees.GivenChance, start, sit)
@@ -128,7 +129,7 @@ class _Parser(TermParser):
         return self._node(trees.GivenFact, start, sit, kind, self._degree())
 
     def _check(self, start: int) -> Statement:
-        """check ‹not, unknown or error› query."""
+        """check ‹not› query; the word may also be unknown or error."""
         expected = "yes"
         for word in ("not", "unknown", "error"):
             if self._accept_word(word):
@@ -137,7 +138,7 @@ class _Parser(TermParser):
         return self._node(trees.Question, start, expected, self._query())
 
     def _query(self) -> trees.Query:
-        """T : T, T <= T, T = T, a probability, or a term that is a claim."""
+        """T : T, T <= T, T = T, T, or a probability."""
         start = self._at
         left = self._term_or_probability()
         if not isinstance(left, Term):
@@ -236,7 +237,7 @@ class _Parser(TermParser):
         return self._node(trees.Degree, start, "in", self._term("an interval [lo, hi]"))
 
     def _term_or_probability(self) -> Term | _Chance:
-        """A term, or a probability, such as P(a : T), with its degree."""
+        """A term, or a probability such as P(a : T) = p."""
         start = self._at
         if FUNCTION.match(self._text, start) or not SIMPLE.match(self._text, start):
             return self._term()
@@ -252,7 +253,7 @@ class _Parser(TermParser):
         return self._rest_of_term(start, self._restriction(start, head))
 
     def _probability(self, start: int, head: Term, first: Term) -> _Chance | None:
-        """P(T : T ‹| T : T, …›) or P(T || T, …), ‹degree›, from behind the first T."""
+        """The rest of P(T : T ‹| T : T, …›) or P(T || T, …), then ‹degree›."""
         if self._accept_match(_GIVEN):
             when = self._comma_separated(lambda: self._term("a type"))
             self._expect(")")
@@ -303,7 +304,7 @@ _STATEMENTS: dict[str, Callable[[_Parser, int], Statement]] = {
     "rule": _Parser._rule,
     "strategy": _Parser._strategy,
 }
-"""The words that begin a statement, and what reads the rest of it."""
+"""The keywords, and the method that parses what follows each of them."""
 
 _BEFORE_NAMES = ("game", "rule", "strategy")
-"""These begin a statement only before a name, so that others may be called so."""
+"""Keywords only before a name: other things may be called `game`, too."""

@@ -1,8 +1,9 @@
-r"""Reading notation: what each name in a text means, and the type or object it builds.
+r"""From syntax trees to types and objects: what each name in a text means.
 
-In argument position a bare name is the innermost variable or label of that name around
-it, else an object; a dot or carets start a path explicitly. In type position a name is
-a type. Before a bracket it is a variable, else a predicate, else any function.
+As an argument, a name is the innermost variable or label of that name around it, or
+else an object; a dot or carets make it a path in any case. Where a type is needed, a
+name is a type. Before a bracket it is a variable, or else a predicate, or else anything
+that is a function.
 
 >>> from ttr.types.syntax import Ind, Pred
 >>> dog = Pred("dog", Ind)
@@ -101,19 +102,19 @@ _TYPE_CONSTRUCTORS: Mapping[str, Callable[[TypeNode], TypeNode]] = {
     "plus": Plus,
     "star": star,
 }
-"""Words before a type in brackets."""
+"""Words that make a type of a type in brackets."""
 
 _TYPE_OPERATIONS: Mapping[str, Callable[[TypeNode, TypeNode, Signature], TypeNode]] = {
     "merge": merge,
     "amerge": amerge,
 }
-"""Words before two types in brackets."""
+"""Words that make a type of two types in brackets."""
 
 _NOT_RESERVED = frozenset(("star", *_TYPE_OPERATIONS))
-"""Words that are not reserved: what a theory calls so is meant instead."""
+"""Words that a theory may declare: then they mean what it says."""
 
 _LIST_OPERATIONS: Mapping[str, Callable[[Object], Object]] = {"fst": fst, "rst": rst}
-"""Words before an object in brackets."""
+"""Words that make an object of a list in brackets."""
 
 _BUILT_IN = ("str", *_TYPE_CONSTRUCTORS, *_TYPE_OPERATIONS, *_LIST_OPERATIONS)
 
@@ -125,9 +126,9 @@ _LEVEL = re.compile(r"(Type|RecType)[_^]([0-9]{1,3})")
 def parse(text: str, using: Iterable[object] = ()) -> Object:
     """The type or object that a text stands for.
 
-    `using` are the basic types, predicates and object names that it may mention, or
-    types and objects built of them. Raises `NotationError` for what is no notation and
-    `IllFormed` for a type that cannot be.
+    `using` lists the basic types, predicates and object names that it may mention, or
+    types and objects in which they occur. Raises `NotationError` if the text is no
+    notation, and `IllFormed` if the type is ill-formed.
 
     >>> from ttr.types.syntax import Ind
     >>> parse("list(Ind)", using=[Ind]) is ListOf(Ind)
@@ -137,7 +138,7 @@ def parse(text: str, using: Iterable[object] = ()) -> Object:
 
 
 def _as_tuple(using: Iterable[object]) -> tuple[object, ...]:
-    """What a text may mention; a single type or name is no list of them."""
+    """What a text may mention, as a tuple; a single type or name is no list."""
     with suppress(TypeError):
         if not isinstance(using, str | TypeNode):
             return tuple(using)
@@ -149,7 +150,7 @@ def _as_tuple(using: Iterable[object]) -> tuple[object, ...]:
 
 @within_budget
 def read_term(text: str, theory: Names, source: str = "<text>") -> Object:
-    """The type or object that a text stands for in a theory; else `NotationError`."""
+    """The type or object that a text stands for in a theory; raises `NotationError`."""
     place = Source.of(text, source)
     try:
         return Reader(theory, place).object(parse_term(place), ())
@@ -160,10 +161,10 @@ def read_term(text: str, theory: Names, source: str = "<text>") -> Object:
 
 @dataclass(frozen=True)
 class Reader:
-    """Reads terms of one text in one theory.
+    """Reads the terms of one text in one theory.
 
-    `later` says in which line a name is declared that the theory does not have yet,
-    `way_out` what to do about a name that means nothing.
+    `later` has the line of each declaration that is still to come, `way_out` the hint
+    for a name that means nothing.
     """
 
     theory: Names
@@ -216,7 +217,7 @@ class Reader:
         return EventString(*self._objects(term.items, scope))
 
     def _is_unknown(self, name: str, scope: Scope) -> bool:
-        """Whether a name means nothing, and is not like one that does."""
+        """Is a name undeclared, and unlike every declared one?"""
         if is_declared(self.theory, name) or _is_bound(name, scope):
             return False
         if self._value_of(name) is not None:
@@ -265,7 +266,7 @@ class Reader:
             raise error.at(self.source.span(name)) from None
 
     def _path(self, name: Name, carets: int, scope: Scope) -> Path:
-        """A path that starts so many record types out; binders have no caret."""
+        """A path from `carets` record types further out; functions do not count."""
         records = [up for up, names in enumerate(scope) if not isinstance(names, str)]
         if carets < len(records):
             return Path(records[carets], name.labels)
@@ -303,7 +304,7 @@ class Reader:
         )
 
     def _is_built_in(self, name: str, scope: Scope) -> bool:
-        """Whether a name before a bracket is a word of the notation there."""
+        """Is a name before a bracket one of the words of the notation, such as list?"""
         if name not in _NOT_RESERVED:
             return name in _BUILT_IN
         declared = name in self.theory.objects or self._value_of(name) is not None
@@ -312,7 +313,7 @@ class Reader:
     def _function_named(
         self, term: Call, head: Name, name: str, scope: Scope
     ) -> Object:
-        """What a bare name before a bracket means; a variable hides a predicate."""
+        """What a name before a bracket means; a variable hides a predicate."""
         for up, names in enumerate(scope):
             if name == names:
                 return Path(up, (BOUND,))
@@ -338,7 +339,7 @@ class Reader:
         )
 
     def _merge_of(self, term: Call, word: str, scope: Scope) -> TypeNode:
-        """Two types as the one that they are together."""
+        """merge(S, T) or amerge(S, T)."""
         if len(term.args) != 2:
             self.refuse(term, f"{word} takes two types, but has {len(term.args)}")
         S, T = [self.type(arg, scope) for arg in term.args]
@@ -350,7 +351,7 @@ class Reader:
     # --- where a type must stand ---
 
     def type(self, term: Term, scope: Scope) -> TypeNode:
-        """The term as a type; raises `NotationError` where it is none."""
+        """The term as a type; raises `NotationError` if it is none."""
         match term:
             case Name():
                 return self._named_type(term, scope)
@@ -406,7 +407,7 @@ class Reader:
         return self._bind(build, term.result, result)
 
     def _bind(self, build: Callable[[Any], _B], term: Term, inside: Object) -> _B:
-        """The function or function type with this inside; its misfit is underlined."""
+        """The function or function type with this body; an error says where it is."""
         try:
             return build(inside)
         except IllFormed as error:
@@ -433,7 +434,7 @@ class Reader:
     # --- where a degree must stand ---
 
     def degree(self, tree: Degree) -> Interval:
-        """The probability or interval; raises `TTRError` where it is none."""
+        """The probability or interval; raises `TTRError` if it is none."""
         value = self.object(tree.value, ())
         try:
             lo, hi = degree(value)
@@ -444,7 +445,7 @@ class Reader:
     def claimed_probability(
         self, tree: Probability | Expectation
     ) -> tuple[str, Interval]:
-        """The probability that a text claims, after = or in; refuses one without."""
+        """The sign, = or in, and the probability after it; raises `NotationError`."""
         if tree.degree is None:
             self.refuse(
                 tree,
@@ -456,7 +457,7 @@ class Reader:
     # --- names ---
 
     def _value_of(self, name: str) -> Object | None:
-        """What a name is declared as, but for objects: a type, a definition, …"""
+        """What a name stands for if it is no object: a type, a definition, …"""
         if name in LOGICAL:
             return LOGICAL[name]
         found = meaning_of(self.theory, name)
@@ -468,7 +469,7 @@ class Reader:
     def _refuse_unknown(
         self, part: Part, name: str, scope: Scope, way_out: str
     ) -> NoReturn:
-        """Refuses a name; the way out is told where none like it is known."""
+        """Refuse an unknown name; the hint is a similar name, or else the way out."""
         self._refuse_played(part, name)
         if name in self.later:
             self.refuse_too_early(part, name)
@@ -480,7 +481,7 @@ class Reader:
         )
 
     def _refuse_played(self, part: Part, name: str) -> None:
-        """Refuses a rule, strategy or game where a type or an object should be."""
+        """Refuse the name of a rule, strategy or game: it is no type or object."""
         theory = self.theory
         kinds = {
             "rule": theory.rules,
@@ -493,7 +494,7 @@ class Reader:
                 self.refuse(part, told)
 
     def refuse_too_early(self, part: Part, name: str) -> NoReturn:
-        """Refuses a name that is declared further down."""
+        """Refuse a name that is declared further down."""
         self.refuse(
             part,
             f"{name} is used before its definition in line {self.later[name]}",
@@ -538,10 +539,10 @@ class Reader:
                 kind = f"the object {written}"
         self.refuse(term, f"expected a type, found {kind}")
 
-    # --- refusing ---
+    # --- errors ---
 
     def check_distinct(self, labels: list[Word]) -> None:
-        """Refuses what is no label, and a label that is there twice."""
+        """Refuse what is no label, and a label that occurs twice."""
         seen: set[str] = set()
         for label in labels:
             span = self.source.span(label)
@@ -559,16 +560,16 @@ class Reader:
         return word.text
 
     def text_of(self, part: Part) -> str:
-        """The part as it stands in the text, to be shown in an error."""
+        """The text of a part, to be shown in an error."""
         return excerpt(self.source.text[part.start : part.end])
 
     def refuse(self, part: Part, message: str, hint: str = "") -> NoReturn:
-        """Raises a `NotationError` at a part of the text."""
+        """Raise a `NotationError` at a part of the text."""
         raise NotationError(message, span=self.source.span(part), hint=hint)
 
 
 def _names_of_terms(theory: Names) -> Iterator[str]:
-    """The names that may stand for a type, an object or a predicate."""
+    """The names of types, objects and predicates."""
     yield from theory.objects
     yield from theory.definitions
     yield from theory.basics
@@ -576,7 +577,7 @@ def _names_of_terms(theory: Names) -> Iterator[str]:
 
 
 def _bound_names(scope: Scope) -> Iterator[str]:
-    """The labels and variables that are in scope."""
+    """The labels and variables in scope."""
     for names in scope:
         yield from (names,) if isinstance(names, str) else names
 

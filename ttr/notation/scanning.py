@@ -1,6 +1,6 @@
-"""Texts before the grammar reads them: how deep they nest, where statements stand.
+"""Searches in a text before it is parsed: how deep it nests, where statements stand.
 
-What is looked for here is found in one pass, in time linear in the length of the text.
+Each takes one pass, in time linear in the length of the text.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ DEPTH = 100
 """How deep brackets, functions, arrows and negations may nest."""
 
 LETTER_OR_DIGIT = r"^\s\x00-/:-@\[-^`{-\x7f∧∨¬→⊑"
-"""What a name in the notation is made of, as the inside of [ ] in an expression.
+"""The characters of names, as the inside of [ ] in a regular expression.
 
-It is anything but spaces, the signs of ASCII and those of the notation."""
+These are all but spaces, the signs of ASCII and those of the notation."""
 
 LETTER = rf"{LETTER_OR_DIGIT}0-9"
-"""What a name in the notation begins with."""
+"""The characters with which a name may begin."""
 
 _QUOTED = r"""(?P<quoted> "[^"\\\n]*(?:\\.[^"\\\n]*)*"?
                      | '[^'\\\n]*(?:\\.[^'\\\n]*)*'? | \#[^\n]* )"""
@@ -42,11 +42,11 @@ _WORDS = re.compile(
 )
 
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f]")
-"""What is never meant in a text: control characters but for tabs and line ends."""
+"""Control characters other than tabs and line ends."""
 
 
 def vetted(source: Source) -> None:
-    """Refuses control characters."""
+    """Refuse a text with control characters."""
     stray = _CONTROL.search(source.text)
     if stray:
         _refuse_control(source, stray)
@@ -56,7 +56,7 @@ _IN_PYTHON = r"in a plain string Python reads \ as the start of an escape: write
 
 
 def _refuse_control(source: Source, stray: re.Match[str]) -> NoReturn:
-    # Where a terminal acts on the character, what is underlined would be shifted.
+    # A terminal that acts on the character would shift the underlining.
     shown = _CONTROL.sub(" ", source.text)
     raise NotationError(
         f"the control character {stray[0]!r} is no notation",
@@ -79,10 +79,11 @@ _NESTING = re.compile(
 
 
 def find_excess_depth(text: str) -> tuple[int, int] | None:
-    """Where a text first nests deeper than `DEPTH`, by brackets or without them.
+    """The place where a text first nests deeper than `DEPTH`; None if it does not.
 
-    `start` is the depth of what the innermost bracket holds, `part` that of what stands
-    behind its functions and arrows, `depth` that behind negations and arguments too.
+    Functions, arrows, negations and arguments nest like brackets. `start` is the depth
+    just inside the innermost bracket, `part` the depth behind the functions and arrows
+    in it, and `depth` that behind negations and arguments as well.
     """
     around: list[tuple[int, int, int]] = []
     start = part = depth = 0
@@ -128,8 +129,8 @@ _BINDING = re.compile(
 def with_backslashes(text: str) -> str:
     r"""The text with \ for every λ that begins a function.
 
-    A name may begin with λ as well: λx: begins a function if its dot follows, between
-    the same brackets.
+    A name may begin with λ, too. So λx: begins a function only if the dot of a function
+    follows within the same brackets.
 
     >>> print(with_backslashes("[λx : A, f = λx:A. x : (A -> A)]"))
     [λx : A, f = \x:A. x : (A -> A)]
@@ -163,10 +164,10 @@ _STARTS = re.compile(
 
 
 def blocks(text: str) -> Iterator[tuple[int, int]]:
-    """Where the statements of a theory stand: [start, end) of each.
+    """The statements of a theory: [start, end) of each.
 
-    A statement goes on over lines that are indented further than the first statement,
-    and inside brackets. A line that looks like a statement starts one all the same, so
+    A statement continues on lines that are indented further than the first statement,
+    and inside brackets. But a line that looks like a statement always starts one, so
     that a forgotten bracket spoils one statement and not the rest of the text.
 
     >>> list(blocks("basic A\\nX :=\\n  [x : A]\\n"))
@@ -195,7 +196,7 @@ def blocks(text: str) -> Iterator[tuple[int, int]]:
 
 
 def _bracket(found: re.Match[str]) -> str:
-    """Brackets as they are; a quoted name as a dot; a comment as nothing."""
+    """Keep a bracket, put a dot for a quoted name and nothing for a comment."""
     if found.lastgroup != "quoted":
         return found[0]
     return "" if found[0].startswith("#") else "."

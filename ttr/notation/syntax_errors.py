@@ -1,4 +1,4 @@
-"""What to say of a text that the grammar does not take, in a semanticist's words."""
+"""What to say about a text that does not parse, in a semanticist's words."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from ttr.notation.syntax_trees import Source
 __all__ = ["KEYWORDS", "syntax_error", "excerpt"]
 
 NEAR = 200
-"""How much of the text before a failure is looked at for what was meant."""
+"""The number of characters before an error that are searched for what was meant."""
 
 LONGEST = 60
-"""How many characters of a text an error repeats."""
+"""The number of characters of a text that an error message repeats."""
 
 KEYWORDS = (
     "basic",
@@ -34,9 +34,9 @@ KEYWORDS = (
 def syntax_error(
     wanted: Sequence[str], source: Source, start: int, length: int, at: int
 ) -> NotationError:
-    """What is wrong at a place in a text: what was expected and found, and a way out.
+    """The error at a place in a text: what was expected, what was found, and a hint.
 
-    The text begins at `start` in the source, the place is counted from there.
+    The text begins at `start` in the source, and `at` is counted from there.
     """
     text = source.text[start : start + length].rstrip()
     at = min(at, len(text))
@@ -59,13 +59,13 @@ _FOUND = re.compile(r"\w+|->|[:<>=/\\|]{2}|[\"'][^\n]*|\S", re.DOTALL)
 
 
 def _found(after: str) -> str:
-    """The word or sign where reading ended; at most forty letters."""
+    """The word or sign at the error; at most forty characters."""
     found = _FOUND.match(after)
     return found[0][:40] if found else ""
 
 
 def excerpt(text: str) -> str:
-    """The text on one line, cut where it is long; what cannot be seen as escapes.
+    """The text on one line, cut if it is long, with escapes for what cannot be seen.
 
     >>> print(excerpt("[a,\\n b]"), excerpt("\\u202edog"))
     [a, b] '\\u202edog'
@@ -81,7 +81,7 @@ def _either(words: Sequence[str]) -> str:
     return f"{', '.join(words[:-1])} or {words[-1]}"
 
 
-# --- what is written another way -----------------------------------------------------
+# --- hints -----------------------------------------------------
 
 _DOTTED = r"a function is written \x:T. body, with a space after the dot"
 
@@ -133,7 +133,7 @@ _HINTS = (
     (r"", r"[\"']", "the quote does not close on this line"),
     (r"@\s*[^\s@]+\s*$", r"@", "write brackets: (T@a)@b"),
 )
-"""What may have been meant: before, after, the way to write it."""
+"""Patterns of the text before and after the error, and what was probably meant."""
 
 
 def _hint(before: str, after: str) -> str:
@@ -148,11 +148,11 @@ _WORDS = (
     (r"(?s)^game\b.*,\s*$", ("acts", "hears")),
     (r"\bacts\s*$", ("on",)),
 )
-"""What words stand behind what."""
+"""The words that may follow a text."""
 
 
 def _misspelt(before: str, after: str) -> str:
-    """The word that may have been meant by the one before, or by the one found."""
+    """A keyword like the word before the error, or like the one found there."""
     first = re.match(r"(\w+)\s+$", before)
     if first:
         return suggestion(first[1], KEYWORDS)

@@ -1,7 +1,6 @@
-"""What was written, before anything is known of the names in it.
+"""Syntax trees: what was written, before anything is known about the names in it.
 
-Each part carries its place in the text, so that whatever is found wrong with it later
-can be underlined.
+Each part knows its place in the text, so that an error found later can be underlined.
 """
 
 from __future__ import annotations
@@ -62,7 +61,7 @@ __all__ = [
 
 
 UNNAMED = "<text>"
-"""What a text is called that is given as a string in Python."""
+"""The source of a text that is given as a string in Python."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +73,7 @@ class Source:
 
     @classmethod
     def of(cls, text: object, name: str) -> Source:
-        """The text with plain line ends; raises `NotationError` if it is none."""
+        """The text with plain line ends; raises `NotationError` if it is no string."""
         if not isinstance(text, str):
             found = type(text).__name__
             raise NotationError(f"expected a text to read, found {found}")
@@ -82,15 +81,15 @@ class Source:
 
     @cached_property
     def _starts(self) -> list[int]:
-        """Where the lines start."""
+        """The places where lines start."""
         return [0, *(found.end() for found in re.finditer("\n", self.text))]
 
     def line(self, at: int) -> int:
-        """The number of the line, from 1, in which a place is."""
+        """The number of the line of a place, from 1."""
         return bisect_right(self._starts, at)
 
     def span(self, part: Part) -> Span:
-        """The place of a part, to be shown; the lines are counted once for all."""
+        """The place of a part, to be shown in an error."""
         line = self.line(part.start)
         start, *end = self._starts[line - 1 : line + 1]
         text = self.text[start : end[0] - 1 if end else None]

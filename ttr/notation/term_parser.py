@@ -1,9 +1,9 @@
-r"""Terms: types and objects as syntax trees, by a method for each rule of the grammar.
+r"""Parses types and objects, with one method for each rule of the grammar.
 
-The docstring of a method states the rule: `T` is a term (whether it is a type or an
-object is for the reader to decide), `x` a name, what stands in ‹ › may be left out, and
-`…` says that there may be more, with a comma between. No method goes back, so that a
-text is parsed in time linear in its length.
+Types and objects share one syntax, that of terms: only the place of a term says which
+is meant, so that the reader decides. The docstring of a method states its rule: `T` is
+a term and `x` a name, parts in ‹ › may be left out, and `…` stands for more of the same
+with commas between. No method goes back in the text, so that parsing takes linear time.
 """
 
 from __future__ import annotations
@@ -22,18 +22,18 @@ ANY = "a type or an object"
 """What is expected where any term may stand."""
 
 SIMPLE = re.compile(rf"""[\[{{<"']|-?[0-9]|(?:\^*\.)?[{LETTER}]""")
-"""How a term begins that is neither in brackets nor has a sign before it."""
+"""The start of a simple term (see `_simple_term`)."""
 
 FUNCTION = re.compile(rf"\\|fun(?=\s+{NAME.pattern}\s*:(?!=))")
-r"""`fun` where it begins a function: a label, an object or a type may be called so.
+r"""The start of a function. Labels, objects and types may be called `fun`, too.
 
-A λ that begins a function has become a \ before (`with_backslashes`)."""
+Every λ that begins a function has been replaced by \ (`with_backslashes`)."""
 
 _LEVEL = re.compile(r"(?:Type|RecType)\^[0-9]{1,3}(?![0-9])")
-"""Type_1 reads as well, but is a name like others: it may be a label."""
+"""Type_1 means the same, but is a name like others, and may be a label."""
 
 _DOT = re.compile(rf"\.(?![{LETTER}])")
-"""A path is one word, so the dot of a function is one that no name follows."""
+"""The dot of a function: no name follows it, unlike the dot in a path."""
 
 _ARROW = re.compile("->|→")
 
@@ -46,7 +46,7 @@ _OPERATORS: dict[str, tuple[int, str, Callable[..., Term]]] = {
     "meet": (1, "a type", trees.Conjunction),
     "sum": (2, "a list or a string of events", trees.Concatenation),
 }
-"""How tightly each operator binds, what stands behind it, and what it makes."""
+"""How tightly an operator binds, what is expected after it, and its syntax tree."""
 
 
 class TermParser(Tokens):
@@ -76,7 +76,7 @@ class TermParser(Tokens):
         return self._rest_of_term(start, self._operand(expected))
 
     def _rest_of_term(self, start: int, first: Term) -> Term:
-        """The term whose first operand began at `start`."""
+        """The term that begins, at `start`, with this operand."""
         found = self._infix(start, first, 0)
         if not self._accept_match(_ARROW):
             return found
@@ -84,7 +84,7 @@ class TermParser(Tokens):
         return self._node(trees.Arrow, start, None, found, result)
 
     def _infix(self, start: int, first: Term, least: int) -> Term:
-        r"""T \/ …, T /\ … or T + …, of operators that bind at least so tightly."""
+        r"""T \/ T …, T /\ T … or T + T …, if the operator binds at least so tightly."""
         found = first
         while (kind := self._operator()) and _OPERATORS[kind][0] >= least:
             level, expected, made = _OPERATORS[kind]
@@ -114,7 +114,7 @@ class TermParser(Tokens):
         return self._node(trees.Restriction, start, base, value)
 
     def _application(self, expected: str, *, in_brackets: bool = True) -> Term:
-        """A term that is simple or in brackets, with arguments: T(‹T, …›)…."""
+        """(T) or a simple term, with or without arguments: T(‹T, …›) …."""
         start = self._at
         if in_brackets and self._accept("("):
             found = self._term()
@@ -131,7 +131,7 @@ class TermParser(Tokens):
         return found
 
     def _terms_up_to(self, closing: str, expected: str) -> tuple[Term, ...]:
-        """‹T, …›, behind which the closing bracket has to stand."""
+        """‹T, …› before a closing bracket."""
         if self._text.startswith(closing, self._at):
             return ()
         found = [self._term(expected)]
@@ -140,7 +140,7 @@ class TermParser(Tokens):
         return tuple(found)
 
     def _simple_term(self, expected: str) -> Term:
-        """A name, path, number or quoted name, or what is in brackets of its own."""
+        """A name, path, number or quoted name, or something in [ ], { } or < >."""
         start, text = self._at, self._text
         if self._accept("["):
             is_fields = self._has_name_before(":", "=")
@@ -168,7 +168,7 @@ class TermParser(Tokens):
         self._fail(expected)
 
     def _name(self, start: int, path: str) -> trees.Name:
-        """x.y, or .x.y with a caret in front for each record type to go out of."""
+        """x.y, or .x.y, with a caret in front for each record type to leave."""
         dotted = path.lstrip("^")
         up = len(path) - len(dotted) if dotted.startswith(".") else None
         labels = tuple(dotted.lstrip(".").split("."))
@@ -240,7 +240,7 @@ class TermParser(Tokens):
         return [self._rest_of_term(start, self._restriction(start, found[0]))]
 
     def _begins_product(self) -> bool:
-        """Does (x : begin here?"""
+        """Is (x : next?"""
         if not self._text.startswith("(", self._at):
             return False
         return self._has_name_before(":", at=self._skip_space(self._at + 1))

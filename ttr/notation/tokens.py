@@ -1,6 +1,6 @@
-"""A text as words and signs, which are taken one by one from left to right.
+"""The words and signs of a text, taken one by one from left to right.
 
-The alternatives tried at a place are remembered, so that an error can list them.
+Whatever could have stood at a place is noted, so that an error can list it.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from ttr.notation.syntax_trees import Literal, Part, Source, Word
 __all__ = ["NAME", "NUMBER", "PATH", "QUOTED", "Tokens"]
 
 NAME = re.compile(rf"[{LETTER}][{LETTER_OR_DIGIT}]*")
-"""Wider than a Python identifier, so that what is none is named whole in the error."""
+"""Wider than a Python identifier, so that an error can show the whole wrong name."""
 
 PATH = re.compile(rf"(?:\^*\.)?{NAME.pattern}(?:\.{NAME.pattern})*")
-"""A name, or a path, which has no spaces in it."""
+"""A name or a path; there are no spaces in a path."""
 
 NUMBER = re.compile(r"-?[0-9]+(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?")
 
@@ -45,8 +45,8 @@ _P = TypeVar("_P", bound=Part)
 class Tokens:
     """The words and signs of text[start:end] in a source.
 
-    `_at` is where the next of them begins, `_end` where the last one ended. `_expected`
-    says what may stand at a place.
+    `_at` is where the next one begins, `_end` where the last one ended. `_expected`
+    lists what may stand at a place.
     """
 
     def __init__(self, source: Source, start: int, end: int) -> None:
@@ -72,7 +72,7 @@ class Tokens:
     # --- what is next ---
 
     def _has_name_before(self, *signs: str, at: int | None = None) -> bool:
-        """Does a name stand here, and one of these signs behind it?"""
+        """Is a name next, with one of these signs after it?"""
         name = NAME.match(self._text, self._at if at is None else at)
         if name is None:
             return False
@@ -82,7 +82,7 @@ class Tokens:
         return self._text.startswith(signs, behind)
 
     def _accept(self, sign: str, expected: str = "") -> bool:
-        """Is this sign next? If so, goes on behind it."""
+        """Is this sign next? If so, take it."""
         if expected:
             self._note_expected(expected)
         if not self._text.startswith(sign, self._at):
@@ -91,14 +91,14 @@ class Tokens:
         return True
 
     def _accept_match(self, signs: re.Pattern[str]) -> bool:
-        """Is one of these signs next? If so, goes on behind it."""
+        """Is one of these signs next? If so, take it."""
         found = signs.match(self._text, self._at)
         if found:
             self._advance(found.end())
         return found is not None
 
     def _accept_word(self, word: str, expected: str = "") -> bool:
-        """Is this word next? If so, goes on behind it."""
+        """Is this word next? If so, take it."""
         if expected:
             self._note_expected(expected)
         found = PATH.match(self._text, self._at)
@@ -120,7 +120,7 @@ class Tokens:
             self._fail("the end")
 
     def _advance(self, end: int) -> None:
-        """Goes on behind what ends there, and behind spaces and comments."""
+        """Go on after the word or sign that ends there, spaces and comments."""
         self._end, self._at = end, self._skip_space(end)
 
     def _skip_space(self, at: int) -> int:
@@ -129,13 +129,13 @@ class Tokens:
         return space.end()
 
     def _node(self, kind: Callable[..., _P], start: int, *rest: object) -> _P:
-        """The part that goes from `start` to where the last word or sign ended."""
+        """The part of the text from `start` to the end of the last word or sign."""
         return kind(self._offset + start, self._offset + self._end, *rest)
 
     # --- names, numbers and quoted names ---
 
     def _names(self) -> tuple[Word, ...]:
-        """x, …."""
+        """One or more names."""
         return self._comma_separated(lambda: self._word("a name"))
 
     def _comma_separated(self, one: Callable[[], _T]) -> tuple[_T, ...]:
@@ -146,7 +146,7 @@ class Tokens:
         return tuple(found)
 
     def _word(self, expected: str) -> Word:
-        """x; raises `NotationError` if it is no identifier."""
+        """A name; raises `NotationError` if it is no identifier."""
         start = self._at
         name = NAME.match(self._text, start)
         if name is None:
@@ -167,7 +167,7 @@ class Tokens:
         )
 
     def _quoted(self) -> str:
-        """What stands in quotes; raises `NotationError` for an unknown escape."""
+        """The text in quotes; raises `NotationError` for an unknown escape."""
         start = self._at
         found = QUOTED.match(self._text, start)
         if found is None:
@@ -191,14 +191,14 @@ class Tokens:
                 span=self._source.span(self._node(Word, start, text)),
             ) from None
 
-    # --- refusing ---
+    # --- errors ---
 
     def _note_expected(self, what: str, at: int | None = None) -> None:
-        """Remembers what may stand at a place, which is here if none is given."""
+        """Note what may stand at a place: here, if none is given."""
         self._expected.setdefault(self._at if at is None else at, []).append(what)
 
     def _fail(self, expected: str) -> NoReturn:
-        """Says that this is expected here, or what else may stand here."""
+        """Raise the error that this was expected here, or what else may stand here."""
         words = dict.fromkeys((*self._expected.get(self._at, ()), expected))
         raise syntax_error(
             list(words), self._source, self._offset, self._length, self._at
@@ -210,7 +210,7 @@ _DOUBLED = {"\\'": "'", '"': '\\"'}
 
 
 def _unquoted(text: str) -> str:
-    """What stands in quotes; raises `ValueError` for an unknown escape."""
+    """The text in quotes; raises `ValueError` for an unknown escape."""
     body = text[1:-1]
     if text.startswith("'"):
         body = _SINGLE.sub(lambda found: _DOUBLED.get(found[0], found[0]), body)
@@ -218,7 +218,7 @@ def _unquoted(text: str) -> str:
 
 
 def _number(text: str) -> int | float:
-    """The number; raises `ValueError` where it is too large for a Python number."""
+    """The number; raises `ValueError` if it is too large for Python."""
     if not set(text) & set(".eE"):
         return int(text)
     value = float(text)

@@ -1,4 +1,4 @@
-"""What a `check` statement asks, as a query with its types and objects."""
+"""Reads `check` statements: what is asked, as a query."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ _MERGES = ("merge", "amerge")
 
 @dataclass(frozen=True)
 class Asking:
-    """Reads questions in the reader's theory."""
+    """Reads the questions of `check` statements."""
 
     reader: Reader
 
     def check(self, tree: trees.Question) -> Check:
-        """The check that a statement states; raises `NotationError` if it is none."""
+        """The check that a statement makes; raises `NotationError` if it makes none."""
         source = self.reader.source
         text = " ".join(source.text[tree.start : tree.end].split())
         return Check(
@@ -47,7 +47,7 @@ class Asking:
         )
 
     def _query_or_error(self, tree: trees.Query) -> Query | TTRError:
-        """What is asked; a type that cannot be built is an answer, not a mistake."""
+        """The query, or the error if a type is ill-formed: a check may ask for one."""
         try:
             return self._read_query(tree)
         except (IllFormed, Unresolved) as error:
@@ -77,7 +77,7 @@ class Asking:
                 return IsWellFormed(self._type_or_error(T))
         self.reader.refuse(
             tree,
-            "this is nothing that can be checked",
+            "this cannot be checked",
             "ask a : T, S <= T, S = T, f(a) = b, merge(S, T) = U, amerge(S, T) = U, "
             "create(T), wellformed(T), P(a : T) = p, P(a : T) in [lo, hi], "
             "P(a : T | b : S) = p, P(T || S) = p or P(T) = p",
@@ -102,7 +102,7 @@ class Asking:
         return IsSame(self._object(left), self._object(right))
 
     def step(self, term: Application, name: str) -> tuple[Rule, tuple[Object, ...]]:
-        """A rule that is written like a function, with its state and its event."""
+        """The rule in r(s, e), with its state and its event."""
         rule = self.reader.theory.rules[name]
         if len(term.args) != len(rule.names):
             wanted = "the state and the event" if rule.on else "the state alone"

@@ -1,4 +1,4 @@
-"""What a theory claims of itself, `check …`, and whether it holds."""
+"""Answers the checks of a theory, and says which of them fail."""
 
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ if TYPE_CHECKING:
 __all__ = ["asked", "check"]
 
 TOLERANCE = 1e-9
-"""How far two probabilities may be apart and still count as the same number."""
+"""Two probabilities that differ by no more than this count as the same."""
 
 
 @dataclass(frozen=True)
 class _Answer:
-    """An answer yes, no, unknown or error, what was found, and why."""
+    """An answer (yes, no, unknown or error), what was found, and why."""
 
     verdict: str
     found: str
@@ -54,11 +54,11 @@ class _Answer:
 
 
 def check(theory: Theory) -> Report:
-    """Asks the theory's checks, of the model in which just its givens are judged.
+    """Answer the theory's checks, in the model in which its givens are judged.
 
-    Its rules are looked at as well, before anything runs: those of each game together,
-    and each of the others alone. Raises `Refused` where the givens contradict one
-    another, and `UpdateError` where the start of a game is not of its type.
+    Its rules are checked without running them: those of each game together, the others
+    one by one. Raises `Refused` if the givens contradict one another, and `UpdateError`
+    if the start of a game is not of its type.
 
     >>> theory = Theory.parse("basic A, B\\nA <: B\\ncheck A <= B\\ncheck not B <= A")
     >>> print(check(theory))
@@ -70,7 +70,7 @@ def check(theory: Theory) -> Report:
 
 
 def asked(theory: Theory) -> Report:
-    """Asks the theory's checks, and looks at no rule; raises as `check` does."""
+    """Answer the theory's checks, but do not check its rules; raises as `check`."""
     if not isinstance(theory, Theory):
         raise TTRError(f"check takes a theory, found {kind_of(theory)}")
     purse = purse_of_several(len(theory.givens) + len(theory.checks))
@@ -84,7 +84,7 @@ def asked(theory: Theory) -> Report:
 
 
 def _faults(theory: Theory, rules: list[Rule]) -> tuple[Fault, ...]:
-    """What is wrong with the rules and games that are declared here, not imported."""
+    """The faults of the rules and games that are declared here, not imported."""
     own = [k for k, one in theory.openings.items() if _is_own(one.span, theory)]
     games = [theory.games[name] for name in own]
     played = {id(one) for game in games for one in game.rules}
@@ -101,25 +101,26 @@ def _is_own(span: Span | None, theory: Theory) -> bool:
 def _answer(
     query: Query | TTRError, theory: Theory, model: Model, purse: SharedPurse
 ) -> _Answer:
-    if isinstance(query, TooLargeError):
-        return _Answer("unknown", "unknown", query.message)
     if isinstance(query, TTRError):
-        return _Answer("error", "error", query.message)
+        return _answer_of_error(query)
     try:
         with one_of_several(purse):
             return _evaluate(_reduce(query, model), theory, model)
-    except TooLargeError as error:
-        return _Answer("unknown", "unknown", error.message)
     except TTRError as error:
-        return _Answer("error", "error", error.message)
+        return _answer_of_error(error)
     except RecursionError:
         return _Answer("error", "error", "the types nest too deep to be compared here")
+
+
+def _answer_of_error(error: TTRError) -> _Answer:
+    verdict = "unknown" if isinstance(error, TooLargeError) else "error"
+    return _Answer(verdict, verdict, error.message)
 
 
 def _reduce(query: Query, model: Model) -> Query:
     """The query with every application in it worked out.
 
-    Raises `Refused` where an argument is not of the domain of the function.
+    Raises `Refused` if an argument is not in the domain of its function.
     """
     if isinstance(query, IsWellFormed | Updates):
         return query
@@ -189,7 +190,7 @@ def _merges(query: Merges, theory: Theory) -> _Answer:
 
 
 def _updates(query: Updates, model: Model) -> _Answer:
-    """Whether the rule gives the state; an error where it does not apply."""
+    """Does the rule give this state? Raises `TTRError` if it does not apply."""
     wanted = model.reduced(query.result)
     after = stepped(query.rule, [*map(model.reduced, query.args)], model).state
     if identity(after) == identity(wanted):
@@ -213,13 +214,13 @@ def _has_degree(query: HasDegree | Expects, p: Interval, why: str) -> _Answer:
 
 
 def _is_same(p: Interval, wanted: Interval) -> bool:
-    """Whether both ends are the same, but for rounding."""
+    """Are both ends the same, up to rounding?"""
     ends = zip(p, wanted, strict=True)
     return all(abs(end - other) <= TOLERANCE for end, other in ends)
 
 
 def _format_interval(p: Interval) -> str:
-    """p = 0.5 where the interval is a number, else p in [0.2, 0.4].
+    """p = 0.5 if the interval is a number, or else p in [0.2, 0.4].
 
     >>> _format_interval((0.5, 0.5)), _format_interval((0.0, 1.0))
     ('p = 0.5', 'p in [0, 1]')

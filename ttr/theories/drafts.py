@@ -1,10 +1,11 @@
-"""A theory while it is read: each statement adds to it, in time for that alone."""
+"""A theory while it is being read, to which each statement adds."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from ttr.notation.names import all_names
 from ttr.signature.signature import (
     Axiom,
     Exclusion,
@@ -26,11 +27,11 @@ __all__ = ["Draft"]
 
 @dataclass(eq=False)
 class Draft:
-    """What has been read of a theory: the fields are those of `Theory`, to be added to.
+    """The part of a theory read so far; its fields are those of `Theory`, but mutable.
 
-    `settled` are the names that statements rest on: a predicate among them has its
-    final arities. `gathered` are the kinds of rules of which a strategy or a game has
-    been made, with its name: no rule of them may follow.
+    `used` are the names that statements have mentioned: a predicate among them cannot
+    get another arity. `gathered` says which strategy or game has gathered all rules of
+    a kind: no rule of this kind may follow.
     """
 
     source: str = "<text>"
@@ -46,12 +47,12 @@ class Draft:
     rules: dict[str, Rule] = field(default_factory=dict)
     strategies: dict[str, Algorithm] = field(default_factory=dict)
     openings: dict[str, Opening] = field(default_factory=dict)
-    settled: set[str] = field(default_factory=set)
+    used: set[str] = field(default_factory=set)
     gathered: dict[str, str] = field(default_factory=dict)
 
     @classmethod
     def of(cls, theory: Theory) -> Draft:
-        """A draft that goes on from a theory."""
+        """A draft to which statements are added that follow a theory."""
         return cls(
             source=theory.source,
             basics=dict(theory.basics),
@@ -71,12 +72,9 @@ class Draft:
     @property
     def names(self) -> frozenset[str]:
         """Every name declared so far."""
-        played = (self.rules, self.strategies, self.openings)
-        return frozenset().union(
-            self.objects, self.definitions, self.basics, self.predicates, *played
-        )
+        return all_names(self)
 
     @property
     def signature(self) -> Signature:
-        """The axioms: nothing else says whether a type is well-formed."""
+        """The axioms, which are all that well-formedness depends on."""
         return Signature(tuple(self.axioms), exclusions=tuple(self.exclusions))

@@ -1,4 +1,4 @@
-"""Games as statements: `game g({x = a} : S, acts on next, hears A, B) := strategy`."""
+"""Reads games: `game g({x = a} : S, acts on next, hears A, B) := strategy`."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ __all__ = ["opened", "read_game"]
 
 
 def read_game(tree: GameStatement, reader: Reader) -> Opening:
-    """How a statement declares a game; raises `NotationError` or `IllFormed`."""
+    """The game that a statement declares; raises `NotationError` or `IllFormed`."""
     state = read_state_type(tree.type, reader)
     start = reader.object(tree.begin, ())
     if not isinstance(start, Record):
@@ -48,7 +48,7 @@ def read_game(tree: GameStatement, reader: Reader) -> Opening:
 
 
 def _agenda(term: Term, state: RecordType, reader: Reader) -> str:
-    """The path of a list of types in the state."""
+    """The path in the state at which there is the list of types to act on."""
     match term:
         case Name(_, _, labels, None):
             path = Path(0, labels)
@@ -82,10 +82,10 @@ def _may_be_list(T: TypeNode) -> bool:
 
 
 def opened(theory: Theory) -> Mapping[str, Game]:
-    """The games of a theory, played in the model of its givens.
+    """The games of a theory, in the model of its givens.
 
-    Raises `TTRError`, with its place, for givens that contradict one another and for a
-    start that is not of its type.
+    Raises `TTRError`, with its place, if the givens contradict one another or the start
+    of a game is not of its type.
     """
     if not theory.openings:
         return {}

@@ -1,7 +1,7 @@
 """Reading theories: from a text or a file, statement by statement, with its imports.
 
-A mistake spoils its own statement only: reading goes on, and what mentions a name that
-a spoilt statement should have declared is passed over, so each mistake is told once.
+Reading goes on after a mistake. Statements that mention a name which the spoilt one
+should have declared are passed over, so that each mistake is reported once.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ from ttr.types.interning import identity
 __all__ = ["Unreadable", "draft_of_file", "draft_of_text"]
 
 IMPORTS = 50
-"""How long a chain of files may be that import one another."""
+"""The longest chain of files that import one another."""
 
 MISTAKES = 100
-"""After how many mistakes a text is read no further."""
+"""After this many mistakes, the rest of a text is not read."""
 
 
 class Unreadable(TTRError):
-    """A file that is not there, or is no text."""
+    """The file does not exist, or is no text."""
 
 
 def draft_of_text(
@@ -44,8 +44,8 @@ def draft_of_text(
 ) -> Draft:
     """What a text declares of a theory; an import is relative to the working directory.
 
-    It imports what lies there or below, or else what there is consent to. Raises the
-    mistake in it, or `Mistakes` where there are several.
+    It may import from the working directory, or from where `consent` allows. Raises the
+    mistake in it, or `Mistakes` if there are several.
     """
     allowed = Consent.of([""]) if consent is None else consent
     return _draft_if_sound(
@@ -56,8 +56,8 @@ def draft_of_text(
 def draft_of_file(path: Path, consent: Consent = OWN_FOLDER) -> Draft:
     """What a file declares of a theory.
 
-    It, and what it imports, may import what lies in its folder or below; other folders
-    with the user's consent. Raises `Unreadable`, the mistake in it, or `Mistakes`.
+    It, and what it imports, may import from its folder, or from where the user's
+    consent allows. Raises `Unreadable`, the mistake in it, or `Mistakes`.
     """
     return _draft_if_sound(_Files(consent.adding(path.parent), {}).read_file(path, ()))
 
@@ -66,7 +66,7 @@ def draft_of_file(path: Path, consent: Consent = OWN_FOLDER) -> Draft:
 class _Reading:
     """What has been read of a theory, and the mistakes in it.
 
-    `spoilt` are the names that should have been declared.
+    `spoilt` are the names that statements with mistakes should have declared.
     """
 
     draft: Draft
@@ -84,30 +84,30 @@ def _draft_if_sound(reading: _Reading) -> Draft:
 
 @dataclass(frozen=True)
 class _Files:
-    """The files read so far, each once, however often it is imported."""
+    """Reads files, each of them once, however often it is imported."""
 
     consent: Consent
     known: dict[Path, _Reading]
     purse: SharedPurse = field(default_factory=purse_of_several)
 
     def read_import(self, path: Path, named: str, chain: tuple[Path, ...]) -> _Reading:
-        """What a file declares that another imports by this name.
+        """What a file declares that another one imports as `named`.
 
-        Nothing is read, and so nothing told, but theory files to which there is
-        consent: who writes an import could be shown the lines of any other file.
+        Only theory files are read, and only where consent allows: otherwise an import
+        could be used to show lines of any file in an error message.
         """
         check_called(path, ".ttr", named)
         self.consent.check(path, named)
         return self.read_file(path, chain)
 
     def read_file(self, path: Path, chain: tuple[Path, ...]) -> _Reading:
-        """What a file declares; `chain` are the files whose imports led to it."""
+        """What a file declares; `chain` lists the files whose imports led to it."""
         key, text = _path_and_text(path)
         if key in chain:
             names = " → ".join(step.name for step in (*chain[chain.index(key) :], key))
             raise NotationError(f"the imports go in a circle: {names}")
         if len(chain) >= IMPORTS:
-            raise NotationError(f"imports lead on over at most {IMPORTS} files")
+            raise NotationError(f"a chain of imports has at most {IMPORTS} files")
         if key not in self.known:
             source = Source(text, str(path))
             self.known[key] = self.read_source(source, path.parent, (*chain, key))
@@ -116,7 +116,7 @@ class _Files:
     def read_source(
         self, source: Source, folder: Path, chain: tuple[Path, ...]
     ) -> _Reading:
-        """What a text declares; `folder` is where its imports are."""
+        """What a text declares; its imports are relative to `folder`."""
         try:
             vetted(source)
         except NotationError as error:
@@ -140,7 +140,7 @@ class _Files:
 
 
 def _path_and_text(path: Path) -> tuple[Path, str]:
-    """A file's one true path and its text; raises `Unreadable`."""
+    """A file's path without links, and its text; raises `Unreadable`."""
     try:
         return path.resolve(), read_text(path, THEORY)
     except (OSError, UnicodeDecodeError) as error:
@@ -155,7 +155,7 @@ _DECLARES = re.compile(
 
 
 def _names_declared(text: str, start: int) -> list[str]:
-    """The names that the statement starting there seems to declare."""
+    """The names that the statement at `start` declares, as far as can be seen."""
     found = _DECLARES.match(text, start)
     if found is None:
         return []
@@ -165,7 +165,7 @@ def _names_declared(text: str, start: int) -> list[str]:
 
 
 def _names_in_list(text: str) -> Iterator[str]:
-    """The names in a list of them, but for those in brackets or behind a colon."""
+    """The names in a list, without those in brackets or after a colon."""
     depth = 0
     for sign in re.findall(r"\w+|[\[({\])}:#]", text):
         if sign in (":", "#"):
@@ -177,9 +177,9 @@ def _names_in_list(text: str) -> Iterator[str]:
 
 @dataclass(eq=False)
 class _File:
-    """One text that is being read: where it is, and the mistakes so far.
+    """One text that is being read, and the mistakes found so far.
 
-    `spoilt` are the names that should have been declared.
+    `spoilt` are the names that statements with mistakes should have declared.
     """
 
     declaring: Declaring
@@ -196,7 +196,7 @@ class _File:
 
     @property
     def is_refused(self) -> bool:
-        """Is there an import that is not allowed, without which nothing can be told?"""
+        """Was an import not allowed? Without it nothing more can be said."""
         return any(isinstance(one, NotAllowed) for one in self.mistakes)
 
     def read_statement(self, start: int, end: int) -> None:
@@ -224,13 +224,13 @@ class _File:
             self._spoil(start)
 
     def give_up(self, start: int, end: int) -> None:
-        """Says that reading goes no further than text[start:end]."""
+        """Report that reading stops at the statement text[start:end]."""
         span = self.source.span(Part(start, end))
         last = NotationError(f"reading stops after {MISTAKES} mistakes", span=span)
         self.mistakes.append(last)
 
     def _spoil(self, start: int) -> None:
-        """What the statement starting there should have declared is missing."""
+        """Remember that what the statement at `start` should declare is missing."""
         names = _names_declared(self.source.text, start)
         draft = self.declaring.draft
         self.spoilt.update(name for name in names if not is_declared(draft, name))
@@ -248,9 +248,9 @@ class _File:
 
 
 def _merge_import(mine: Draft, other: Draft, span: Span) -> None:
-    """Adds what another theory declares, but for its checks.
+    """Add what another theory declares, without its checks.
 
-    Raises `NotationError` where a name means something else in the other.
+    Raises `NotationError` if a name means something else there.
     """
     for name in sorted(mine.names & other.names):
         if _comparable_meaning(mine, name) != _comparable_meaning(other, name):
@@ -268,11 +268,11 @@ def _merge_import(mine: Draft, other: Draft, span: Span) -> None:
     mine.exclusions.update(other.exclusions)
     known = set(mine.givens)  # a fact imported twice is one fact
     mine.givens += [given for given in other.givens if given not in known]
-    mine.settled.update(other.predicates)
+    mine.used.update(other.predicates)
 
 
 def _comparable_meaning(theory: Names, name: str) -> object:
-    """What a name is declared as, in a form that can be compared."""
+    """What a name is declared as, as a value that can be compared."""
     for kind in (theory.rules, theory.strategies, theory.openings):
         if name in kind:
             return kind[name]

@@ -1,4 +1,4 @@
-"""What can be asked of a theory, `check Q`, as values."""
+"""The questions that a `check` statement may ask, as values."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class IsBelow:
 
 @dataclass(frozen=True)
 class IsSame:
-    """S = T: the same type, or the same object; f(a) is what the function gives."""
+    """S = T: they are the same type or object, with every f(a) worked out."""
 
     left: Object
     right: Object
@@ -62,16 +62,16 @@ class Merges:
 
 @dataclass(frozen=True)
 class Creates:
-    """create(T): a fresh witness of T can be made."""
+    """create(T): a new witness of T can be made."""
 
     type: TypeNode
 
 
 @dataclass(frozen=True)
 class IsWellFormed:
-    """wellformed(T): every path leads to a field that fits, and none in a circle.
+    """wellformed(T): every path leads to a field of the right type, none to a cycle.
 
-    Where T cannot even be built, `type` is the error that says why.
+    If T cannot be built at all, `type` is the error that says why.
     """
 
     type: TypeNode | TTRError
@@ -90,7 +90,7 @@ class HasDegree:
 
 @dataclass(frozen=True)
 class Expects:
-    """P(T || S, …) = [lo, hi], or within it: of any known object."""
+    """P(T || S, …) = [lo, hi], or within it: for any object of S, …."""
 
     type: TypeNode
     when: tuple[TypeNode, ...]
@@ -100,7 +100,7 @@ class Expects:
 
 @dataclass(frozen=True)
 class IsTrue:
-    """P(T) = [lo, hi]: so certainly something is of T."""
+    """P(T) = [lo, hi]: how probably there is something of T."""
 
     type: TypeNode
     interval: Interval
@@ -108,7 +108,7 @@ class IsTrue:
 
 @dataclass(frozen=True)
 class Updates:
-    """r(s, e) = a: the rule takes the state, with the event if it has one, to a."""
+    """r(s, e) = a: the rule takes state s, with event e if it has one, to state a."""
 
     rule: Rule
     args: tuple[Object, ...]
@@ -131,9 +131,9 @@ Query: TypeAlias = (
 
 @dataclass(frozen=True)
 class Check:
-    """A claim: the query's answer is the expected one, yes, no, unknown or error.
+    """The claim that a query has the expected answer: yes, no, unknown or error.
 
-    Where the query mentions a type that cannot be built, `query` is the error.
+    If the query mentions a type that cannot be built, `query` is the error.
     """
 
     expected: str

@@ -1,4 +1,4 @@
-"""What became of a theory's checks, and what is wrong with its rules."""
+"""Which checks of a theory failed, and what is wrong with its rules."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ttr.theories.queries import Check
 from ttr.updates.checks import Fault
 
-__all__ = ["Failure", "Report", "described"]
+__all__ = ["Failure", "Report", "format_fault"]
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class Failure:
     why: str
 
     def __str__(self) -> str:
-        """The failure as the command prints it.
+        """The failure as `ttr check` prints it.
 
         >>> from ttr.theories.checking import check
         >>> from ttr.theories.theory import Theory
@@ -33,20 +33,24 @@ class Failure:
         found:    no
         why:      A is not below B
         """
+        lines = [
+            f"failed: {self.check.text}",
+            str(self.check.span),
+            f"expected: {self.check.expected}",
+            f"found:    {self.found}",
+        ]
         why = self.why.strip().replace("\n", "\n          ")
-        return (
-            f"failed: {self.check.text}\n{self.check.span}\n"
-            f"expected: {self.check.expected}\nfound:    {self.found}"
-            + f"\nwhy:      {why}"
-            * bool(why)
-        )
+        if why:
+            lines.append(f"why:      {why}")
+        return "\n".join(lines)
 
 
 @dataclass(frozen=True)
 class Report:
-    """What became of a theory's checks: how many were asked, and those that failed.
+    """The outcome of checking a theory.
 
-    `faults` are what is wrong with its rules, of which there are so many.
+    `asked` is the number of checks, `failures` has those that failed; `rules` is the
+    number of rules, `faults` is what is wrong with them.
     """
 
     asked: int
@@ -56,25 +60,25 @@ class Report:
 
     @property
     def holds(self) -> bool:
-        """Whether no check failed and no rule is wrong; a warning says none is."""
+        """Did no check fail, and is no rule wrong? Warnings do not count."""
         return not self.failures and all(
             fault.severity == "warning" for fault in self.faults
         )
 
     @property
     def summary(self) -> str:
-        """How many checks hold, and how many rules are without fault, on one line."""
-        told = [_count_of(self.asked, "check holds", "checks hold")]
+        """The number of checks that hold or fail, and of faults, on one line."""
+        parts = [_count_of(self.asked, "check holds", "checks hold")]
         if self.failures:
-            told = [f"{len(self.failures)} of {self.asked} checks failed"]
+            parts = [f"{len(self.failures)} of {self.asked} checks failed"]
         if self.rules:
             rules = _count_of(self.rules, "rule", "rules")
-            told.append(f"{self._found} in {rules}")
-        return ", ".join(told)
+            parts.append(f"{self._found} in {rules}")
+        return ", ".join(parts)
 
     @property
     def _found(self) -> str:
-        """How many faults and warnings there are."""
+        """The number of faults and warnings."""
         warnings = sum(fault.severity == "warning" for fault in self.faults)
         wrong = len(self.faults) - warnings
         count = _count_of(wrong, "fault", "faults") if wrong else "no fault"
@@ -82,19 +86,19 @@ class Report:
         return count + more
 
     @property
-    def told(self) -> tuple[str, ...]:
-        """The checks that failed and the faults, each as the command prints it."""
-        return (*map(str, self.failures), *map(described, self.faults))
+    def messages(self) -> tuple[str, ...]:
+        """The checks that failed and the faults, each as `ttr check` prints it."""
+        return (*map(str, self.failures), *map(format_fault, self.faults))
 
     def __str__(self) -> str:
-        return "\n\n".join(self.told) or self.summary
+        return "\n\n".join(self.messages) or self.summary
 
 
 def _count_of(count: int, one: str, several: str) -> str:
     return f"{count} {one if count == 1 else several}"
 
 
-def described(fault: Fault) -> str:
-    """A fault as the command prints it, with its sort in front."""
+def format_fault(fault: Fault) -> str:
+    """A fault as `ttr check` prints it, with the word fault or warning before it."""
     head = "warning" if fault.severity == "warning" else "fault"
     return f"{head}: {fault}"

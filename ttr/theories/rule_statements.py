@@ -1,8 +1,8 @@
-"""Rules of update as statements: `rule name(s : S, e : E) where [x = s.y : T] := body`.
+"""Reads update rules: `rule name(s : S, e : E) where [x = s.y : T] := body`.
 
-The state and the event are variables, and so is what `where` binds: a path begins with
-the name of one of them. So far as the types of these say what a path leads to, a path
-that leads nowhere is refused where it is written.
+The state, the event and what `where` binds are variables: each path begins with the
+name of one of them. A path that leads nowhere by the types of the variables is refused
+where it is written.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ from ttr.updates.rules import Body, Rule
 __all__ = ["read_state_type", "read_rule"]
 
 _MODEL = "model"
-"""As which the effect of a rule gets its model, so that nothing else is called so."""
+"""The parameter by which rules in Python get the model, so no variable is called so."""
 
 _BIND = "bind it: where [{name} = … : T]"
 
@@ -56,7 +56,7 @@ def read_rule(tree: RuleStatement, reader: Reader) -> Rule:
 
 
 def read_state_type(term: Term, reader: Reader) -> RecordType:
-    """The term as a record type: one that is written so, or a meet of such ones."""
+    """The term as a record type, which may be written as a meet of record types."""
     found = _merge_meet(reader.type(term, ()), reader)
     if isinstance(found, RecordType):
         return found
@@ -68,7 +68,7 @@ def read_state_type(term: Term, reader: Reader) -> RecordType:
 
 
 def _merge_meet(value: Object, reader: Reader) -> Object:
-    """A meet of record types as the one record type that it is."""
+    """A meet of record types as one record type; any other value as it is."""
     match value:
         case Meet((first, *rest)):
             for part in rest:
@@ -86,17 +86,17 @@ class _RuleReader:
 
     @property
     def given(self) -> tuple[Parameter, ...]:
-        """The state and the event."""
+        """The parameters: the state and the event."""
         return self.tree.parameters
 
     @property
     def within(self) -> Reader:
-        """Reads what has variables, and says how there is one more."""
+        """Reads terms with variables; its hint says how to bind one more."""
         way_out = _BIND if len(self.given) > 1 else f"name the event so, or {_BIND}"
         return replace(self.reader, way_out=way_out)
 
     def rule(self) -> Rule:
-        """The rule, if all of it fits together."""
+        """The rule; raises `NotationError` or `IllFormed` if its parts do not fit."""
         tree = self.tree
         when, on, p = self._parameters()
         names = tuple(one.name.text for one in self.given)
@@ -148,7 +148,7 @@ class _RuleReader:
         )
 
     def _event_type(self, term: Term, state: Word) -> TypeNode:
-        """The type of the events, which is the same in all states."""
+        """The type of the events, which must not depend on the state."""
         found = self.reader.type(term, (frozenset((state.text,)),))
         for path in sorted(escaping(found), key=lambda one: one.labels):
             self.reader.refuse(
@@ -160,7 +160,7 @@ class _RuleReader:
         return found
 
     def _event_probability(self, event: Parameter) -> Probability:
-        """How probable the event must be of its type."""
+        """The probability with which an event must be of its type."""
         match event.degree:
             case None:
                 return CERTAIN
@@ -183,7 +183,7 @@ class _RuleReader:
     # --- what is bound ---
 
     def _where(self, around: RecordType) -> RecordType | None:
-        """The bindings, a record type with paths to state and event."""
+        """The bindings: a record type with paths to the state and the event."""
         term = self.tree.where
         if term is None:
             return None
@@ -199,7 +199,7 @@ class _RuleReader:
     # --- the effect ---
 
     def _body(self, around: RecordType) -> Object:
-        """What the rule gives: a record type, a record, or what comes to be one."""
+        """What the rule gives: a record type, a record, or a term that becomes one."""
         term = self.tree.value
         found = self.within.object(term, (frozenset(around),))
         found = _merge_meet(found, self.reader)
@@ -211,13 +211,13 @@ class _RuleReader:
                 "write what is new: [x = a : T] changes x and leaves the rest",
             )
         self._check_fits(term, found, around)
-        self._check_makes(term, found, around)
+        self._check_not_itself(term, found, around)
         return found
 
     # --- paths ---
 
     def _check_fits(self, term: Term, value: Object, around: RecordType) -> None:
-        """Refuses a path that leads nowhere in what is bound, or to a misfit."""
+        """Refuse a path that leads nowhere, or to a value of the wrong type."""
         signature = self.reader.theory.signature
         for path in sorted(escaping(value), key=lambda one: one.labels):
             try:
@@ -234,10 +234,10 @@ class _RuleReader:
             wrong = locate_error(term, value, is_wrong)
             raise error.at(self.reader.source.span(wrong)) from None
 
-    def _check_makes(self, term: Term, value: Object, around: RecordType) -> None:
-        """Refuses a field that is set by itself, as nothing can be made of that.
+    def _check_not_itself(self, term: Term, value: Object, around: RecordType) -> None:
+        """Refuse a field that is set to itself, as in [x = x : T].
 
-        So it is where a label hides what the rule calls by the same name.
+        Most often the label hides a variable of the rule with the same name.
         """
         for path in _self_references(value):
             label = path.labels[0]
@@ -249,7 +249,7 @@ class _RuleReader:
             )
 
     def _refuse_path(self, term: Term, path: Path, error: TTRError) -> NoReturn:
-        """Underlines the path where it is written, and says who tells what is there."""
+        """Refuse a path where it is written, and say where its type comes from."""
         variable = path.labels[0]
         if not error.hint and variable in [one.name.text for one in self.given]:
             hint = f"what {variable} has is said in the brackets: {variable} : [x : T]"
@@ -258,7 +258,7 @@ class _RuleReader:
 
 
 def _self_references(value: Object) -> Iterator[Path]:
-    """The paths from a field of a record type to this field."""
+    """The paths in a record type that lead from a field to this field itself."""
     if not isinstance(value, RecordType):
         return
     for label, field in value.fields:
@@ -270,13 +270,13 @@ def _self_references(value: Object) -> Iterator[Path]:
 
 
 def _locate_path(term: Term, path: Path) -> Part:
-    """Where a path is written in a term."""
+    """The place where a path is written in a term."""
     names = (part for part in inside(term) if isinstance(part, Name))
     return next((one for one in names if one.labels == path.labels), term)
 
 
 def _bindings_as_fields(where: RecordType) -> Iterator[tuple[str, TypeNode]]:
-    """The fields of bindings as fields beside the state and the event."""
+    """The bindings as fields of the record type that has the state and the event."""
 
     def at(path: Path) -> Path:
         return Path(0, path.labels)

@@ -1,4 +1,4 @@
-"""What each statement of a theory file adds to what was read before it."""
+"""Reads the statements of a theory, each of which adds to those before it."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ __all__ = ["Declaring", "mentioned"]
 class Declaring:
     """Reads the statements of one text into a draft.
 
-    `later` says in which line a name is declared that the draft does not have yet.
+    `later` has the line of each declaration that is still to come.
     """
 
     draft: Draft
@@ -46,11 +46,11 @@ class Declaring:
 
     @cached_property
     def reader(self) -> Reader:
-        """Reads terms with the names that the draft has by then."""
+        """Reads terms with the names that have been declared so far."""
         return Reader(self.draft, self.source, self.later)
 
     def declare(self, tree: Statement) -> None:
-        """Adds what a statement declares; raises `NotationError` or `IllFormed`.
+        """Add what a statement declares; raises `NotationError` or `IllFormed`.
 
         A statement with a mistake adds nothing.
         """
@@ -83,7 +83,7 @@ class Declaring:
                 self.draft.checks.append(Asking(self.reader).check(tree))
             case _:
                 raise AssertionError(tree)
-        self.draft.settled |= mentioned(tree)
+        self.draft.used |= mentioned(tree)
 
     def _basic(self, names: tuple[Word, ...]) -> None:
         for word in names:
@@ -100,7 +100,7 @@ class Declaring:
             known = pred.arities if pred is not None else ()
             if arity in known:
                 continue
-            if name in self.draft.settled:
+            if name in self.draft.used:
                 self.reader.refuse(
                     one,
                     f"{name} gets another arity after it has been used",
@@ -143,7 +143,7 @@ class Declaring:
         self.draft.givens.append(Given(sit, kind, p, self.source.span(tree)))
 
     def _given_chance(self, tree: trees.GivenChance) -> None:
-        """p(a : T | b : S), of particular objects, or p(T || S), of whatever object."""
+        """P(a : T | b : S), of these objects, or P(T || S), of any object."""
         span, read = self.source.span(tree), self.reader
         match tree.chance:
             case trees.Probability(_, _, Name(_, _, ("P",)), sit, T, _, when):
@@ -172,7 +172,7 @@ class Declaring:
         self.draft.rules[tree.name.text] = read_rule(tree, self.reader)
 
     def _check_gathered(self, tree: trees.RuleStatement) -> None:
-        """Refuses a rule of a kind whose rules have been gathered without it."""
+        """Refuse a rule of a kind whose rules have been gathered before."""
         if tree.kind is None:
             return
         kind = tree.kind.text
@@ -195,7 +195,7 @@ class Declaring:
         self._gather(tree.name, tree.value)
 
     def _gather(self, name: Word, value: Term) -> None:
-        """Remembers which kinds of rules have been gathered, and in what."""
+        """Remember which kinds of rules have been gathered, and where."""
         for kind in sorted(gathered(value)):
             self.draft.gathered.setdefault(kind, name.text)
 
@@ -215,7 +215,7 @@ class Declaring:
         self.draft.axioms[Axiom(lower, upper)] = None
 
     def _schema(self, term: Term) -> Basic | PType:
-        """A side of an axiom: the bare names in it that are no types are variables."""
+        """A side of an axiom, in which the names that are no types are variables."""
         terms = term.args if isinstance(term, Application) else (term,)
         found_in = (part for one in terms for part in inside(one))
         names = {part for part in found_in if isinstance(part, Name)}
@@ -243,7 +243,7 @@ class Declaring:
         return any(name in kind for kind in kinds)
 
     def _check_free(self, word: Word, kind: str, mine: Collection[str]) -> None:
-        """Refuses a name that means something else already."""
+        """Refuse a name that is declared as something else, or that is reserved."""
         if word.text in RESERVED:
             self.reader.refuse(word, f"{word.text} is a word of the notation itself")
         if word.text not in mine and is_declared(self.draft, word.text):
@@ -264,7 +264,7 @@ class Declaring:
 
 
 def mentioned(tree: Statement) -> frozenset[str]:
-    """The names that a statement rests on, not those it declares."""
+    """The names that a statement mentions, but not those it declares."""
     match tree:
         case trees.OpenNames(_, _, words):
             return frozenset(word.text for word in words)

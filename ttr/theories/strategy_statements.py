@@ -1,7 +1,7 @@
-"""Strategies of update as statements: `strategy name := first(a, maybe(repeat(b, 9)))`.
+"""Reads update strategies: `strategy name := first(a, maybe(repeat(b, 9)))`.
 
-They are written like applications: a name alone is a rule or a strategy, one before a
-bracket says how what is in the bracket is combined.
+A strategy is written like an application: a name alone is a rule or a strategy, and a
+name before a bracket says how the parts in the bracket are combined.
 """
 
 from __future__ import annotations
@@ -41,10 +41,10 @@ _SEVERAL: Mapping[str, Callable[..., Algorithm]] = {
 """Words before rules and strategies in brackets."""
 
 COMBINING = (*_SEVERAL, "maybe", "repeat", "by_class")
-"""All the words that combine."""
+"""All words that combine rules and strategies."""
 
 PARTS = 10_000
-"""How many parts a strategy may have, each as often as it is named."""
+"""The largest number of parts of a strategy, each counted as often as it is named."""
 
 _MADE_OF = "a strategy is made of rules and strategies"
 
@@ -52,14 +52,14 @@ _MADE_OF = "a strategy is made of rules and strategies"
 def read_strategy(term: Term, reader: Reader) -> Algorithm:
     """The rule or strategy that a term stands for; raises `NotationError`."""
     found = _StrategyReader(reader).algorithm(term)
-    too_large = _too_large(found)
+    too_large = _why_too_large(found)
     if too_large:
         reader.refuse(term, too_large)
     return found
 
 
-def _too_large(algorithm: Algorithm) -> str:
-    """Why a strategy made of others is too large to be gone through, if it is."""
+def _why_too_large(algorithm: Algorithm) -> str:
+    """Why a strategy is too large; empty if it is not."""
     waiting, count = [(algorithm, 1)], 0
     while waiting:
         one, depth = waiting.pop()
@@ -77,7 +77,7 @@ def _too_large(algorithm: Algorithm) -> str:
 
 
 def gathered(part: Part) -> frozenset[str]:
-    """The kinds whose rules are gathered by `by_class` in a part of a text."""
+    """The kinds of rules that `by_class` gathers in a part of a text."""
     return frozenset(
         arg.labels[0]
         for term in inside(part)
@@ -93,22 +93,22 @@ def _is_by_class(head: Term) -> bool:
 
 @dataclass(frozen=True)
 class _StrategyReader:
-    """Reads strategies of the rules that the reader's theory has."""
+    """Reads strategies."""
 
     reader: Reader
 
     def algorithm(self, term: Term) -> Algorithm:
         match term:
             case Name(_, _, (name,), None):
-                return self._named(term, name)
+                return self._rule_or_strategy(term, name)
             case Application(_, _, Name(_, _, (word,), None), args):
-                return self._combined(term, word, args)
+                return self._combination_at(term, word, args)
         found = self.reader.text_of(term)
         self.reader.refuse(term, f"{_MADE_OF}, found {found}", _way_out())
 
     # --- names ---
 
-    def _named(self, term: Name, name: str) -> Algorithm:
+    def _rule_or_strategy(self, term: Name, name: str) -> Algorithm:
         theory = self.reader.theory
         for known in (theory.rules, theory.strategies):
             if name in known:
@@ -127,7 +127,7 @@ class _StrategyReader:
 
     # --- words before a bracket ---
 
-    def _combined(
+    def _combination_at(
         self, term: Application, word: str, args: tuple[Term, ...]
     ) -> Algorithm:
         try:
@@ -139,7 +139,7 @@ class _StrategyReader:
         self, term: Application, word: str, args: tuple[Term, ...]
     ) -> Algorithm:
         if word in _SEVERAL:
-            return self._several(term, word, args)
+            return self._combine_several(term, word, args)
         match word, args:
             case "maybe", (part,):
                 return maybe(self.algorithm(part))
@@ -148,14 +148,14 @@ class _StrategyReader:
             case "by_class", (_, *_):
                 return self._by_class(args)
             case (("maybe" | "repeat" | "by_class"), _):
-                self._wrong_count(term, word, len(args))
-        self._no_word(term, word)
+                self._refuse_count(term, word, len(args))
+        self._refuse_word(term, word)
 
-    def _several(
+    def _combine_several(
         self, term: Application, word: str, args: tuple[Term, ...]
     ) -> Algorithm:
         if not args:
-            self._wrong_count(term, word, 0)
+            self._refuse_count(term, word, 0)
         parts: list[Algorithm] = []
         for arg in args:
             part = self.algorithm(arg)
@@ -169,7 +169,7 @@ class _StrategyReader:
         return _SEVERAL[word](*parts)
 
     def _repeat(self, part: Term, bounds: list[Term]) -> Algorithm:
-        """repeat(a), with how often at most, with what gets smaller, or with both."""
+        """repeat(a), with a number of times, a path to what gets smaller, or both."""
         times: int | None = None
         measure: str | None = None
         for bound in bounds:
@@ -189,7 +189,7 @@ class _StrategyReader:
         return repeat(self.algorithm(part), times=times, measure=measure)
 
     def _by_class(self, args: tuple[Term, ...]) -> Algorithm:
-        """The rules of these kinds, as far as they have been declared."""
+        """The rules of these kinds that have been declared so far."""
         kinds: list[str] = []
         for arg in args:
             match arg:
@@ -217,9 +217,9 @@ class _StrategyReader:
             or f"a rule has its kind after its brackets: rule a(s : S) of {kind} := …",
         )
 
-    # --- refusing ---
+    # --- errors ---
 
-    def _wrong_count(self, term: Application, word: str, found: int) -> NoReturn:
+    def _refuse_count(self, term: Application, word: str, found: int) -> NoReturn:
         wanted = {
             "maybe": "one rule or strategy",
             "repeat": "a rule or strategy",
@@ -228,7 +228,7 @@ class _StrategyReader:
         has = f"has {found}" if found else "has none"
         self.reader.refuse(term, f"{word} takes {wanted}, but {has}")
 
-    def _no_word(self, term: Application, word: str) -> NoReturn:
+    def _refuse_word(self, term: Application, word: str) -> NoReturn:
         if word == "ask":
             self.reader.refuse(
                 term.head,

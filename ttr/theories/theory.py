@@ -10,7 +10,7 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Protocol, overload
 
 from ttr.errors import IllFormed, Mistakes, TTRError, suggestion
-from ttr.notation.names import vocabulary_of
+from ttr.notation.names import all_names, vocabulary_of
 from ttr.notation.reader import read_term
 from ttr.safety.consent import OWN_FOLDER, Consent
 from ttr.signature.signature import (
@@ -57,10 +57,10 @@ class _ReadTheory(Protocol):
 
 
 class _Parse:
-    """Reads a theory when asked of the class, a type or object when asked of a theory.
+    """Parse a theory on the class, a type or an object on a theory.
 
-    Both are what `parse` means there, `Theory.parse(file)` and `theory.parse(term)`;
-    a descriptor is how one name can be a class method and a method.
+    `Theory.parse(text)` and `theory.parse(term)` both have to be called `parse`; with a
+    descriptor, one name can be a class method and a method.
     """
 
     @overload
@@ -82,18 +82,17 @@ class _Parse:
 def _parse_theory(text: str, source: str = "<text>") -> Theory:
     """The theory that a text declares; raises `NotationError`, `IllFormed`, `Mistakes`.
 
-    An `import` in it is relative to the working directory, and of what lies there or
-    below.
+    An `import` in it is relative to the working directory, and may not lead out of it.
     """
     return theory_of_text(text, source)
 
 
 @dataclass(frozen=True, eq=False)
 class Theory(Signature):
-    """A signature with the names declared in it, and the checks that it states.
+    """A signature, with the names declared in it, its rules and the checks it states.
 
-    Its definitions, basic types and predicates are its items and its attributes; where
-    a name is also the name of one of the attributes below, the item is meant.
+    Its definitions, basic types and predicates are its items, and its attributes unless
+    an attribute below has the same name.
 
     >>> kennel = Theory.parse('''
     ...     basic Ind
@@ -123,7 +122,7 @@ class Theory(Signature):
 
     @classmethod
     def of(cls, *values: object) -> Theory:
-        """The theory that declares everything that occurs in the values, and no more.
+        """The smallest theory that declares everything that occurs in the values.
 
         Law: Theory.of(T).parse(str(T)) is T. Raises `IllFormed` where two predicates of
         one name occur: no text could tell them apart.
@@ -141,27 +140,24 @@ class Theory(Signature):
 
     @property
     def signature(self) -> Signature:
-        """The theory without its names and checks."""
+        """The theory without its names, rules and checks."""
         return Signature(
             self.axioms, self.opened, self.givens, self.definitions, self.exclusions
         )
 
     @cached_property
     def games(self) -> Mapping[str, Game]:
-        """The games, played in the model of the theory's givens.
+        """The games, in the model of the theory's givens.
 
-        Raises `TTRError` where the givens contradict one another, or where the start of
-        a game is not of its type.
+        Raises `TTRError` if the givens contradict one another, or the start of a game
+        is not of its type.
         """
         return opened(self)
 
     @property
     def names(self) -> frozenset[str]:
-        """Every name declared in the theory, objects and rules too."""
-        played = (self.rules, self.strategies, self.openings)
-        return self.objects.union(
-            self.definitions, self.basics, self.predicates, *played
-        )
+        """Every name declared in the theory, also of objects and rules."""
+        return all_names(self)
 
     def __getitem__(self, name: str) -> Object:
         if not isinstance(name, str):
@@ -172,7 +168,7 @@ class Theory(Signature):
         raise KeyError(self._missing(name))
 
     def __contains__(self, name: object) -> bool:
-        """Whether a definition, basic type or predicate has the name."""
+        """Is this the name of a definition, a basic type or a predicate?"""
         known = (self.definitions, self.basics, self.predicates)
         return any(name in declared for declared in known)
 
@@ -207,10 +203,10 @@ class Theory(Signature):
 def load(
     path: str | os.PathLike[str], *, allow: Iterable[str | os.PathLike[str]] = ()
 ) -> Theory:
-    """The theory in a file; raises `TTRError` where it cannot be read.
+    """The theory in a file; raises `TTRError` if it cannot be read.
 
-    An `import` in it is relative to the file, and of what lies in the file's folder or
-    below; `allow` names other folders from which may be imported, too.
+    An `import` in it is relative to the file, and may not lead out of the file's folder
+    but into the folders that `allow` names.
     """
     if not isinstance(path, str | os.PathLike):
         raise TTRError(f"load takes the path of a file, found {kind_of(path)}")
@@ -222,8 +218,8 @@ def theory_of_text(
 ) -> Theory:
     """The theory that a text declares; an import is relative to the working directory.
 
-    It imports what lies there or below, or else what there is consent to. Raises the
-    mistake in it, or `Mistakes` where there are several.
+    It may import from the working directory, or from where `consent` allows. Raises the
+    mistake in it, or `Mistakes` if there are several.
     """
     return theory_of_draft(draft_of_text(text, source, consent))
 
@@ -231,14 +227,14 @@ def theory_of_text(
 def theory_of_file(path: FilePath, consent: Consent = OWN_FOLDER) -> Theory:
     """The theory in a file; raises `Unreadable`, the mistake in it, or `Mistakes`.
 
-    It, and what it imports, may import what lies in its folder or below; other folders
-    with the user's consent.
+    It, and what it imports, may import from its folder, or from where the user's
+    consent allows.
     """
     return theory_of_draft(draft_of_file(path, consent))
 
 
 def theory_of_draft(draft: Draft) -> Theory:
-    """The theory that has been read; the draft may go on without changing it."""
+    """The theory read so far; what is added to the draft later does not change it."""
     return Theory(
         axioms=tuple(draft.axioms),
         exclusions=tuple(draft.exclusions),

@@ -106,7 +106,7 @@ def _tell(outcome: _Outcome) -> None:
         told = [f"error: {mistake}" for mistake in outcome.mistakes]
         summary = f"{count} mistake{'s' * (count != 1)}, nothing checked"
     else:
-        told, summary = list(outcome.report.told), outcome.report.summary
+        told, summary = list(outcome.report.messages), outcome.report.summary
     say("\n\n".join([*told, f"{outcome.file}: {summary}"]))
 
 

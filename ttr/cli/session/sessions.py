@@ -135,7 +135,7 @@ def _after(
 ) -> Theory:
     """The theory of the entries with a statement more."""
     draft = Draft.of(theory)
-    draft.settled.update(*(one.rests_on for one in entries))
+    draft.used.update(*(one.rests_on for one in entries))
     Declaring(draft, source).declare(tree)
     return theory_of_draft(draft)
 
