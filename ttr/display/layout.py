@@ -1,6 +1,6 @@
 """How values are laid out, however they are drawn: as words, rows and matrices.
 
-`laid_out` turns a type or an object into a few kinds of layout, which are then drawn as
+`laid_out` turns a type or an object into a few kinds of layout, which are drawn as
 text, LaTeX or HTML. Read from left to right, a layout is the value in notation.
 """
 
