@@ -15,7 +15,8 @@ import pytest
 from ttr import NotationError
 from ttr.notation import syntax_trees
 from ttr.notation.parser import parse_statement, parse_term
-from ttr.notation.syntax_trees import Part, Source, inside
+from ttr.notation.syntax_errors import KEYWORDS
+from ttr.notation.syntax_trees import Part, Source, Statement, inside
 
 RECORDED = [
     json.loads(line)
@@ -63,9 +64,14 @@ def test_every_kind_of_part_is_recorded() -> None:
     seen = {type(part) for tree in trees for part in inside(tree)}
     kinds = {x for x in vars(syntax_trees).values() if isinstance(x, type)}
     parts = {kind for kind in kinds if issubclass(kind, Part)}
-    assert parts - seen == {Part, *_bases()}
+    made_of_others = {Part, syntax_trees.Term, Statement, syntax_trees.Query}
+    assert parts - seen == made_of_others
 
 
-def _bases() -> set[type]:
-    """The kinds that only others are made of."""
-    return {syntax_trees.Term, syntax_trees.Statement, syntax_trees.Query}
+def test_every_keyword_begins_a_statement() -> None:
+    rests = {"game": " g", "rule": " r", "strategy": " s"}
+    for word in KEYWORDS:
+        with pytest.raises(NotationError) as caught:
+            parsed("statement", word + rests.get(word, ""))
+        assert ":=, " not in caught.value.message
+        assert " or <:" not in caught.value.message

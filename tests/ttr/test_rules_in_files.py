@@ -376,7 +376,7 @@ MISTAKES = {
     # names that are taken
     "rule turn(s : State) := State": (6, "turn is already a rule", ""),
     "rule Ind(s : State) := State": (6, "Ind is already a basic type", ""),
-    "rule list(s : State) := State": (6, "list is a word of the notation itself", ""),
+    "rule list(s : State) := State": (6, "list is a reserved word", ""),
     "strategy turn := both": (10, "turn is already a rule", ""),
     "game both(Start : State) := both": (6, "both is already a strategy", ""),
     "turn := Ind": (1, "turn is already a rule", ""),
@@ -415,8 +415,8 @@ MISTAKES = {
     "rule r(s : State, s : Move) := State": (19, "the label s is there twice", ""),
     "rule r(model : State) := State": (
         8,
-        "model means something else in rules",
-        "call it another way, as m",
+        "model has a meaning of its own in rules",
+        "choose another name, such as m",
     ),
     # bindings
     "rule r(s : State) where [s = a : Ind] := State": (
@@ -426,8 +426,8 @@ MISTAKES = {
     ),
     "rule r(s : State) where [model = a : Ind] := State": (
         26,
-        "model means something else in rules",
-        "call it another way, as m",
+        "model has a meaning of its own in rules",
+        "choose another name, such as m",
     ),
     "rule r(s : State, e : p(s.spkr)) := State": (
         25,
@@ -467,12 +467,12 @@ MISTAKES = {
     ),
     "rule r(s : State, spkr : Ind) := [spkr = spkr : Ind]": (
         42,
-        "the field spkr is set by itself: spkr is a label here",
-        "spkr of the rule cannot be seen here: call it another way",
+        "the field spkr is set to itself: here spkr is the label",
+        "it hides spkr of the rule: choose another name for that",
     ),
     "rule r(s : State) := [spkr = spkr : Ind]": (
         30,
-        "the field spkr is set by itself: spkr is a label here",
+        "the field spkr is set to itself: here spkr is the label",
         "say what it is set to",
     ),
     "rule r(s : State) := [spkr = e.act : Ind]": (
@@ -544,7 +544,7 @@ MISTAKES = {
     ),
     "strategy n := first(turn, drop, turn)": (
         33,
-        "turn is in this first twice, and never comes to its second place",
+        "turn is in this first twice: its second place is never reached",
         "",
     ),
     "strategy n := maybe(turn, drop)": (
@@ -738,7 +738,7 @@ def test_rules_that_are_different_are_not_one(tmp_path: Path) -> None:
         text = f"basic T\nrule r(s : [x : T, y : T]) := {body}"
         (tmp_path / f"{name}.ttr").write_text(text)
     (tmp_path / "c.ttr").write_text('import "a.ttr"\nimport "b.ttr"')
-    with pytest.raises(NotationError, match="r is declared in another way in the imp"):
+    with pytest.raises(NotationError, match="the import declares r in another way"):
         load(tmp_path / "c.ttr")
 
 

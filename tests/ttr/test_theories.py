@@ -121,8 +121,8 @@ def test_a_quoted_name_in_an_axiom_is_an_object() -> None:
         ("Ind := Image", (4, 1), "Ind is already a basic type", ""),
         ("X := Ind\nX := Ind", (5, 1), "X is already defined", ""),
         ("basic dog", (4, 7), "dog is already a predicate", ""),
-        ("pred list(Ind)", (4, 6), "list is a word of the notation", ""),
-        ("object Type : Ind", (4, 8), "Type is a word of the notation", ""),
+        ("pred list(Ind)", (4, 6), "list is a reserved word", ""),
+        ("object Type : Ind", (4, 8), "Type is a reserved word", ""),
         ("object dog : Ind", (4, 8), "dog is already a predicate", ""),
         ("X := dog('a')\npred dog(Image)", (5, 6), "dog gets another arity after", ""),
         ("open dgo", (4, 6), "there is no basic type or predicate dgo", "dog"),
@@ -260,8 +260,8 @@ def test_a_mistake_in_an_import_has_its_place_there(tmp_path: Path) -> None:
 def test_an_import_must_agree_with_what_is_there(tmp_path: Path) -> None:
     (tmp_path / "b.ttr").write_text("basic A, B\npred p(A)")
     for text, said in (
-        ("basic A, B\npred p(B)", "p is declared in another way in the import"),
-        ("basic A, p", "p is declared in another way in the import"),
+        ("basic A, B\npred p(B)", "the import declares p in another way"),
+        ("basic A, p", "the import declares p in another way"),
     ):
         (tmp_path / "a.ttr").write_text(f'{text}\nimport "b.ttr"')
         with pytest.raises(NotationError, match=said):

@@ -29,7 +29,7 @@ _LEAST = 24
 
 
 @dataclass(frozen=True)
-class Block:
+class _Block:
     """Lines of the same width; words beside the block stand on its line `base`."""
 
     lines: tuple[str, ...]
@@ -37,7 +37,7 @@ class Block:
     base: int
 
     @classmethod
-    def of(cls, text: str) -> Block:
+    def of(cls, text: str) -> _Block:
         """A text of one line."""
         return cls((text,), columns(text), 0)
 
@@ -57,23 +57,23 @@ def derivation_as_text(step: Step, room: int) -> str:
     return "\n".join([_text(block) for block in _steps(step, "", room)])
 
 
-def _steps(step: Step, indent: str, room: int) -> Iterator[Block]:
+def _steps(step: Step, indent: str, room: int) -> Iterator[_Block]:
     where = f"{step.where}: " if step.where else ""
-    start = Block.of(f"{indent}{step.mark} {where}")
+    start = _Block.of(f"{indent}{step.mark} {where}")
     claim = _draw(step.claim, max(_LEAST, room - start.width))
-    yield _beside([start, claim, Block.of(f"   ({step.because})")])
+    yield _beside([start, claim, _Block.of(f"   ({step.because})")])
     for part in step.parts:
         yield from _steps(part, indent + "  ", room)
 
 
-def _text(block: Block) -> str:
+def _text(block: _Block) -> str:
     return "\n".join([line.rstrip() for line in block.lines])
 
 
 # --- blocks --------------------------------------------------------------------------
 
 
-def _beside(blocks: Iterable[Block]) -> Block:
+def _beside(blocks: Iterable[_Block]) -> _Block:
     """The blocks from left to right, on one base line."""
     row = list(blocks)
     if len(row) == 1:
@@ -82,10 +82,10 @@ def _beside(blocks: Iterable[Block]) -> Block:
     below = max([block.below for block in row])
     columns_of_lines = [_padded_lines(block, above, below) for block in row]
     lines = tuple(["".join(line) for line in zip(*columns_of_lines, strict=True)])
-    return Block(lines, sum(block.width for block in row), above)
+    return _Block(lines, sum(block.width for block in row), above)
 
 
-def _padded_lines(block: Block, above: int, below: int) -> Sequence[str]:
+def _padded_lines(block: _Block, above: int, below: int) -> Sequence[str]:
     """The lines of the block, with this many lines above and below its base."""
     if block.base == above and block.below == below:
         return block.lines
@@ -94,14 +94,14 @@ def _padded_lines(block: Block, above: int, below: int) -> Sequence[str]:
     return [empty] * over + list(block.lines) + [empty] * under
 
 
-def _below(blocks: Iterable[Block]) -> Block:
+def _below(blocks: Iterable[_Block]) -> _Block:
     """The blocks from top to bottom; the middle line is their base."""
     stack = list(blocks)
     width = max([block.width for block in stack])
     lines = [
         line + " " * (width - block.width) for block in stack for line in block.lines
     ]
-    return Block(tuple(lines), width, (len(lines) - 1) // 2)
+    return _Block(tuple(lines), width, (len(lines) - 1) // 2)
 
 
 _TALL = {
@@ -121,31 +121,31 @@ def _flat(bracket: str) -> str:
     return {"<": "⟨", ">": "⟩"}.get(bracket, bracket)
 
 
-def _enclosed(opening: str, block: Block, closing: str) -> Block:
+def _enclosed(opening: str, block: _Block, closing: str) -> _Block:
     return _beside([_bracket(opening, block), block, _bracket(closing, block)])
 
 
-def _bracket(sign: str, block: Block) -> Block:
+def _bracket(sign: str, block: _Block) -> _Block:
     height = len(block.lines)
     if height == 1:
-        return Block.of(_flat(sign))
+        return _Block.of(_flat(sign))
     top, between, middle, bottom = _TALL[sign]
     lines = [top] + [between] * (height - 2) + [bottom]
     if middle != between and (0 < block.base < height - 1 or between == " "):
         lines[block.base] = middle
-    return Block(tuple(lines), 1, block.base)
+    return _Block(tuple(lines), 1, block.base)
 
 
 # --- layouts -------------------------------------------------------------------------
 
 
-def _draw(layout: Layout, room: int) -> Block:
+def _draw(layout: Layout, room: int) -> _Block:
     spend()
     match layout:
         case Word(text, _) | Sign(text):
-            return Block.of(text)
+            return _Block.of(text)
         case Superscript(base, exponent):
-            return Block.of(f"{base.text}^{exponent.text}")
+            return _Block.of(f"{base.text}^{exponent.text}")
         case Subscript(base, value):
             return _in_line((base, Sign("@"), value), room)
         case Line(parts):
@@ -158,7 +158,7 @@ def _draw(layout: Layout, room: int) -> Block:
             return _matrix(layout, room)
 
 
-def _in_line(parts: Sequence[Layout], room: int) -> Block:
+def _in_line(parts: Sequence[Layout], room: int) -> _Block:
     """The parts side by side, each in the room that those after it leave."""
     after = sum(part.width for part in parts)
     blocks = []
@@ -170,20 +170,20 @@ def _in_line(parts: Sequence[Layout], room: int) -> Block:
     return _beside(blocks)
 
 
-def _chain(chain: Chain, room: int) -> Block:
+def _chain(chain: Chain, room: int) -> _Block:
     sign = chain.sign.text
     if chain.width <= room:
         blocks = [_draw(part, room) for part in chain.parts]
-        return _beside(_interleave(Block.of(sign), blocks))
-    lead = Block.of(sign.strip().ljust(2))
+        return _beside(_interleave(_Block.of(sign), blocks))
+    lead = _Block.of(sign.strip().ljust(2))
     rest = max(_LEAST, room - lead.width)
     first, *others = [_draw(part, rest) for part in chain.parts]
     if sign.strip():
-        first = _beside([Block.of(" " * lead.width), first])
+        first = _beside([_Block.of(" " * lead.width), first])
     return _below([first, *[_beside([lead, block]) for block in others]])
 
 
-def _interleave(between: Block, blocks: Iterable[Block]) -> Iterator[Block]:
+def _interleave(between: _Block, blocks: Iterable[_Block]) -> Iterator[_Block]:
     """The blocks, with a block between every two."""
     for number, block in enumerate(blocks):
         if number:
@@ -191,13 +191,13 @@ def _interleave(between: Block, blocks: Iterable[Block]) -> Iterator[Block]:
         yield block
 
 
-def _list(listed: Bracketed, room: int) -> Block:
+def _list(listed: Bracketed, room: int) -> _Block:
     if not listed.parts:
-        return Block.of(_flat(listed.opening) + _flat(listed.closing))
+        return _Block.of(_flat(listed.opening) + _flat(listed.closing))
     rest = max(_LEAST, room - 2)
     lines = list(fill_lines(listed.parts, listed.between, rest))
-    between = Block.of(listed.between.text)
-    at_end = Block.of(listed.between.text.rstrip())
+    between = _Block.of(listed.between.text)
+    at_end = _Block.of(listed.between.text.rstrip())
     rows = []
     for number, line in enumerate(lines):
         blocks = [*_interleave(between, [_draw(part, rest) for part in line])]
@@ -207,7 +207,7 @@ def _list(listed: Bracketed, room: int) -> Block:
     return _enclosed(listed.opening, _below(rows), listed.closing)
 
 
-def _matrix(matrix: Matrix, room: int) -> Block:
+def _matrix(matrix: Matrix, room: int) -> _Block:
     """The fields one below the other, with their signs in one column."""
     rest = max(_LEAST, room - 2)
     fits = matrix.width <= room
@@ -216,16 +216,16 @@ def _matrix(matrix: Matrix, room: int) -> Block:
     rest = max(_LEAST, rest - width - matrix.sign.width)
     rows = []
     for name, row in zip(names, matrix.rows, strict=True):
-        sign = Block.of(" " * (width - name.width) + matrix.sign.text)
+        sign = _Block.of(" " * (width - name.width) + matrix.sign.text)
         rows.append(_beside([name, sign, _draw(row.has, rest)]))
     return _enclosed("[", _below(rows), "]")
 
 
-def _name(row: Row, room: int) -> Block:
+def _name(row: Row, room: int) -> _Block:
     """What stands before the sign of the matrix."""
-    label = Block.of(row.label.text)
+    label = _Block.of(row.label.text)
     if row.manifest is None:
         return label
-    sign = Block.of(" = ")
+    sign = _Block.of(" = ")
     value = _draw(row.manifest, max(_LEAST, room - label.width - sign.width))
     return _beside([label, sign, value])

@@ -14,7 +14,7 @@ from ttr.types.syntax import Object, Path, RecordType, TypeNode
 
 __all__ = ["locate_error", "locate_misfit", "is_ill_formed"]
 
-IsWrong: TypeAlias = Callable[[Object], bool]
+_IsWrong: TypeAlias = Callable[[Object], bool]
 """Is what surrounds a place ill-formed with this value in that place?"""
 
 
@@ -37,7 +37,7 @@ def locate_misfit(
     return term
 
 
-def locate_error(term: Term, value: Object, is_wrong: IsWrong) -> Part:
+def locate_error(term: Term, value: Object, is_wrong: _IsWrong) -> Part:
     """The smallest part that is wrong of a term that stands for this value."""
     if not isinstance(term, Fields) or not isinstance(value, RecordType):
         return term
@@ -49,14 +49,14 @@ def locate_error(term: Term, value: Object, is_wrong: IsWrong) -> Part:
     return term
 
 
-def _locate_in_field(part: Field, field: TypeNode, is_wrong: IsWrong) -> Part | None:
+def _locate_in_field(part: Field, field: TypeNode, is_wrong: _IsWrong) -> Part | None:
     """The part that is wrong in a field; None if nothing is."""
     if not is_wrong(field):
         return None
     return part if part.value else locate_error(part.type, field, is_wrong)
 
 
-def _wrong_alone(label: str, is_wrong: IsWrong) -> IsWrong:
+def _wrong_alone(label: str, is_wrong: _IsWrong) -> _IsWrong:
     """Is a field wrong if it is the only one of a record type?"""
     return lambda field: is_wrong(RecordType(((label, field),)))
 

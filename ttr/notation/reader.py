@@ -272,11 +272,11 @@ class Reader:
             return Path(records[carets], name.labels)
         if not records:
             self.refuse(name, "a path stands in a record type, but there is none")
-        around = f"{len(records)} record type{'s' * (len(records) != 1)}"
+        around = f"is {len(records)}" if len(records) == 1 else f"are {len(records)}"
         self.refuse(
             name,
-            f"the path goes out of {carets}, but stands in {around}",
-            "each ^ goes out of one record type",
+            "the path goes out of every record type around it",
+            f"each ^ goes out of one record type, and there {around} around it",
         )
 
     # --- what stands before a bracket ---

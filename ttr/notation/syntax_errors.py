@@ -10,10 +10,10 @@ from ttr.notation.syntax_trees import Source
 
 __all__ = ["KEYWORDS", "syntax_error", "excerpt"]
 
-NEAR = 200
+_NEAR = 200
 """The number of characters before an error that are searched for what was meant."""
 
-LONGEST = 60
+_LONGEST = 60
 """The number of characters of a text that an error message repeats."""
 
 KEYWORDS = (
@@ -47,7 +47,7 @@ def syntax_error(
     return NotationError(
         f"expected {_either(wanted)}, found {found}",
         span=span,
-        hint=_hint(before[-NEAR:], after),
+        hint=_hint(before[-_NEAR:], after),
     )
 
 
@@ -70,7 +70,7 @@ def excerpt(text: str) -> str:
     >>> print(excerpt("[a,\\n b]"), excerpt("\\u202edog"))
     [a, b] '\\u202edog'
     """
-    text = text if len(text) <= LONGEST else f"{text[:LONGEST]}…"
+    text = text if len(text) <= _LONGEST else f"{text[:_LONGEST]}…"
     text = " ".join(text.split())
     return text if text.isprintable() else repr(text)
 

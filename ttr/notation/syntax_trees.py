@@ -31,6 +31,7 @@ __all__ = [
     "Disjunction",
     "Elements",
     "Events",
+    "Expectation",
     "Field",
     "Fields",
     "GameStatement",
@@ -55,6 +56,7 @@ __all__ = [
     "Statement",
     "StrategyStatement",
     "Term",
+    "UNNAMED",
     "Word",
     "inside",
 ]

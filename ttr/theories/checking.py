@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 __all__ = ["asked", "check"]
 
-TOLERANCE = 1e-9
+_TOLERANCE = 1e-9
 """Two probabilities that differ by no more than this count as the same."""
 
 
@@ -209,14 +209,14 @@ def _has_degree(query: HasDegree | Expects, p: Interval, why: str) -> _Answer:
     if query.relation == "=":
         holds = _is_same(p, query.interval)
     else:
-        holds = least - TOLERANCE <= p[0] and p[1] <= most + TOLERANCE
+        holds = least - _TOLERANCE <= p[0] and p[1] <= most + _TOLERANCE
     return _Answer("yes" if holds else "no", _format_interval(p), why)
 
 
 def _is_same(p: Interval, wanted: Interval) -> bool:
     """Are both ends the same, up to rounding?"""
     ends = zip(p, wanted, strict=True)
-    return all(abs(end - other) <= TOLERANCE for end, other in ends)
+    return all(abs(end - other) <= _TOLERANCE for end, other in ends)
 
 
 def _format_interval(p: Interval) -> str:

@@ -28,10 +28,10 @@ from ttr.types.interning import identity
 
 __all__ = ["Unreadable", "draft_of_file", "draft_of_text"]
 
-IMPORTS = 50
+_IMPORTS = 50
 """The longest chain of files that import one another."""
 
-MISTAKES = 100
+_MISTAKES = 100
 """After this many mistakes, the rest of a text is not read."""
 
 
@@ -106,8 +106,8 @@ class _Files:
         if key in chain:
             names = " → ".join(step.name for step in (*chain[chain.index(key) :], key))
             raise NotationError(f"the imports go in a circle: {names}")
-        if len(chain) >= IMPORTS:
-            raise NotationError(f"a chain of imports has at most {IMPORTS} files")
+        if len(chain) >= _IMPORTS:
+            raise NotationError(f"a chain of imports has at most {_IMPORTS} files")
         if key not in self.known:
             source = Source(text, str(path))
             self.known[key] = self.read_source(source, path.parent, (*chain, key))
@@ -130,7 +130,7 @@ class _Files:
         draft = Draft(source.name)
         file = _File(Declaring(draft, source, later), folder, chain, self)
         for start, end in places:
-            if len(file.mistakes) >= MISTAKES:
+            if len(file.mistakes) >= _MISTAKES:
                 file.give_up(start, end)
                 break
             file.read_statement(start, end)
@@ -226,7 +226,7 @@ class _File:
     def give_up(self, start: int, end: int) -> None:
         """Report that reading stops at the statement text[start:end]."""
         span = self.source.span(Part(start, end))
-        last = NotationError(f"reading stops after {MISTAKES} mistakes", span=span)
+        last = NotationError(f"reading stops after {_MISTAKES} mistakes", span=span)
         self.mistakes.append(last)
 
     def _spoil(self, start: int) -> None:
@@ -254,7 +254,7 @@ def _merge_import(mine: Draft, other: Draft, span: Span) -> None:
     """
     for name in sorted(mine.names & other.names):
         if _comparable_meaning(mine, name) != _comparable_meaning(other, name):
-            message = f"{name} is declared in another way in the import"
+            message = f"the import declares {name} in another way"
             raise NotationError(message, span=span)
     mine.basics.update(other.basics)
     mine.predicates.update(other.predicates)

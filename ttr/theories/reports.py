@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ttr.theories.queries import Check
 from ttr.updates.checks import Fault
 
-__all__ = ["Failure", "Report", "format_fault"]
+__all__ = ["Failure", "Report"]
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ class Report:
     @property
     def messages(self) -> tuple[str, ...]:
         """The checks that failed and the faults, each as `ttr check` prints it."""
-        return (*map(str, self.failures), *map(format_fault, self.faults))
+        return (*map(str, self.failures), *map(_format_fault, self.faults))
 
     def __str__(self) -> str:
         return "\n\n".join(self.messages) or self.summary
@@ -98,7 +98,7 @@ def _count_of(count: int, one: str, several: str) -> str:
     return f"{count} {one if count == 1 else several}"
 
 
-def format_fault(fault: Fault) -> str:
+def _format_fault(fault: Fault) -> str:
     """A fault as `ttr check` prints it, with the word fault or warning before it."""
     head = "warning" if fault.severity == "warning" else "fault"
     return f"{head}: {fault}"

@@ -176,8 +176,8 @@ class _RuleReader:
         if word.text == _MODEL:
             self.reader.refuse(
                 word,
-                f"{_MODEL} means something else in rules",
-                "call it another way, as m",
+                f"{_MODEL} has a meaning of its own in rules",
+                "choose another name, such as m",
             )
 
     # --- what is bound ---
@@ -241,10 +241,10 @@ class _RuleReader:
         """
         for path in _self_references(value):
             label = path.labels[0]
-            hidden = f"{label} of the rule cannot be seen here: call it another way"
+            hidden = f"it hides {label} of the rule: choose another name for that"
             self.reader.refuse(
                 _locate_path(term, path),
-                f"the field {label} is set by itself: {label} is a label here",
+                f"the field {label} is set to itself: here {label} is the label",
                 hidden if label in around else "say what it is set to",
             )
 

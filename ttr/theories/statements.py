@@ -116,7 +116,7 @@ class Declaring:
         known = [*self.draft.basics, *self.draft.predicates]
         self.reader.refuse(
             word,
-            f"there is no basic type or predicate {word.text} to be open",
+            f"there is no basic type or predicate {word.text}",
             suggestion(word.text, known),
         )
 
@@ -245,7 +245,7 @@ class Declaring:
     def _check_free(self, word: Word, kind: str, mine: Collection[str]) -> None:
         """Refuse a name that is declared as something else, or that is reserved."""
         if word.text in RESERVED:
-            self.reader.refuse(word, f"{word.text} is a word of the notation itself")
+            self.reader.refuse(word, f"{word.text} is a reserved word")
         if word.text not in mine and is_declared(self.draft, word.text):
             self.reader.refuse(
                 word, f"{word.text} is already {self._kind_of_name(word.text)}"

@@ -31,7 +31,7 @@ from ttr.updates.algorithms import (
     seq,
 )
 
-__all__ = ["COMBINING", "read_strategy", "gathered"]
+__all__ = ["gathered", "read_strategy"]
 
 _SEVERAL: Mapping[str, Callable[..., Algorithm]] = {
     "first": first,
@@ -40,10 +40,10 @@ _SEVERAL: Mapping[str, Callable[..., Algorithm]] = {
 }
 """Words before rules and strategies in brackets."""
 
-COMBINING = (*_SEVERAL, "maybe", "repeat", "by_class")
+_COMBINING = (*_SEVERAL, "maybe", "repeat", "by_class")
 """All words that combine rules and strategies."""
 
-PARTS = 10_000
+_PARTS = 10_000
 """The largest number of parts of a strategy, each counted as often as it is named."""
 
 _MADE_OF = "a strategy is made of rules and strategies"
@@ -66,8 +66,8 @@ def _why_too_large(algorithm: Algorithm) -> str:
         count += 1
         if depth > DEPTH:
             return f"strategies nest at most {DEPTH} deep, with those that they name"
-        if count > PARTS:
-            return f"a strategy has at most {PARTS:,} parts, with those that it names"
+        if count > _PARTS:
+            return f"a strategy has at most {_PARTS:,} parts, with those that it names"
         match one:
             case Maybe(part) | Repeat(part):
                 waiting.append((part, depth + 1))
@@ -162,8 +162,8 @@ class _StrategyReader:
             if word == "first" and any(part is one for one in parts):
                 self.reader.refuse(
                     arg,
-                    f"{self.reader.text_of(arg)} is in this {word} twice, and never "
-                    "comes to its second place",
+                    f"{self.reader.text_of(arg)} is in this {word} twice: its second "
+                    "place is never reached",
                 )
             parts.append(part)
         return _SEVERAL[word](*parts)
@@ -243,9 +243,9 @@ class _StrategyReader:
         self.reader.refuse(
             term.head,
             f"no way to combine rules is called {excerpt(word)}",
-            suggestion(word, COMBINING) or _way_out(),
+            suggestion(word, _COMBINING) or _way_out(),
         )
 
 
 def _way_out() -> str:
-    return f"rules are combined by {', '.join(COMBINING[:-1])} and {COMBINING[-1]}"
+    return f"rules are combined by {', '.join(_COMBINING[:-1])} and {_COMBINING[-1]}"
