@@ -76,9 +76,13 @@ _ERRORS = _errors(
 
 FORMER_NAMES: Mapping[str, Mapping[str, str]] = {
     "ttr": _ERRORS,
-    "ttr.dialogues.logs": _errors(" UnreadableLog"),
+    "ttr.dialogues.logs": {
+        "continued": "continue_log",
+        **_errors(" UnreadableLog"),
+    },
     "ttr.dialogues.stories": {
         "Moment": "ttr.dialogues.dialogue:Trial",
+        "failing": "failure_reason",
         "moment": "ttr.dialogues.dialogue:Trial.of",
         "worded": "wording",
         "written": "format_story",

@@ -57,7 +57,7 @@ def terminal_text(text: str) -> str:
     """
     if text.isascii() and not _ASCII_CONTROLS.search(text):
         return text
-    return _visible(text.translate(_PLAIN_BLANKS), "\n")
+    return _make_visible(text.translate(_PLAIN_BLANKS), "\n")
 
 
 def terminal_line(text: str) -> str:
@@ -79,7 +79,7 @@ def terminal_word(word: str) -> str:
     >>> print(terminal_word("cup\x07"), terminal_word(r"cup\x07"))
     cup\x07 cup\\x07
     """
-    return _visible(word.replace("\\", r"\\"), "")
+    return _make_visible(word.replace("\\", r"\\"), "")
 
 
 def html_text(text: str) -> str:
@@ -91,7 +91,7 @@ def html_text(text: str) -> str:
     >>> print(html_text('<b onclick="x">Tom & Jerry\x1b</b>'))
     &lt;b onclick=&quot;x&quot;&gt;Tom &amp; Jerry\x1b&lt;/b&gt;
     """
-    return escape(_visible(text, "\n\t", blanks=True), quote=True)
+    return escape(_make_visible(text, "\n\t", blanks=True), quote=True)
 
 
 def html_address(path: str) -> str:
@@ -105,7 +105,9 @@ def html_address(path: str) -> str:
     """
     path = re.sub("^//+", "/", path)
     # What stands for bytes that are no UTF-8 becomes these bytes again.
-    path = re.sub("[\ud800-\udc7f\udd00-\udfff]", lambda it: _written(it[0]), path)
+    path = re.sub(
+        "[\ud800-\udc7f\udd00-\udfff]", lambda it: _escape_sequence(it[0]), path
+    )
     return quote(path.encode("utf-8", "surrogateescape"), safe="/")
 
 
@@ -130,7 +132,7 @@ def csv_line(cells: Iterable[Any]) -> str:
 def _cell(cell: Any) -> Any:
     if not isinstance(cell, str):
         return cell
-    word = _SURROGATES.sub(lambda found: _written(found[0]), cell)
+    word = _SURROGATES.sub(lambda found: _escape_sequence(found[0]), cell)
     if _COMPUTED.match(word) and not _NUMBER.fullmatch(word):
         return f"'{word}"
     return word
@@ -147,7 +149,7 @@ def json_text(value: Any, **settings: Any) -> str:
     text = json.dumps(value, ensure_ascii=False, **settings)
     if text.isascii() and "\x7f" not in text:
         return text
-    return _visible(text, "\n\t", written=_written_in_json)
+    return _make_visible(text, "\n\t", written=_json_escape)
 
 
 # --- what cannot be seen -------------------------------------------------------------
@@ -171,11 +173,13 @@ _ODD = re.compile(
 )
 
 
-def _visible(text: str, kept: str, *, blanks: bool = False, written: Any = None) -> str:
+def _make_visible(
+    text: str, kept: str, *, blanks: bool = False, written: Any = None
+) -> str:
     """The text with what cannot be seen written out, except for the kept signs."""
     if text.isprintable() and not _ODD.search(text):
         return text
-    write = written or _written
+    write = written or _escape_sequence
     flags = {at for found in _FLAGS.finditer(text) for at in range(*found.span())}
     return "".join(
         c
@@ -193,10 +197,10 @@ def _is_seen(c: str) -> bool:
     return c.isprintable() and not _ODD.match(c)
 
 
-def _written(c: str) -> str:
+def _escape_sequence(c: str) -> str:
     """A character as Python writes it.
 
-    >>> print(_written("\\n"), _written("\\x9b"), _written("\\ue000"))
+    >>> print(*map(_escape_sequence, "\\n\\x9b\\ue000"))
     \\n \\x9b \\ue000
     """
     code = ord(c)
@@ -207,7 +211,7 @@ def _written(c: str) -> str:
     return f"\\u{code:04x}" if code <= 0xFFFF else f"\\U{code:08x}"
 
 
-def _written_in_json(c: str) -> str:
+def _json_escape(c: str) -> str:
     return json.dumps(c)[1:-1]
 
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from ttr import Model, rectype, replace
 from ttr.dialogues.dialogue import Trial
-from ttr.dialogues.logs import Log, LogFile, continued, read_logs, replay, story_of
+from ttr.dialogues.logs import Log, LogFile, continue_log, read_logs, replay, story_of
 from ttr.dialogues.stories import Setting, play, read_stories, setting
 from ttr.types.syntax import Ind, ListOf, Rec, Record
 from ttr.updates import Game, Turn, nbest, rule
@@ -117,7 +117,7 @@ def test_a_log_that_is_cut_and_gone_on_with_equals_the_whole(
             whole[: data.draw(st.integers(whole.index(b"\n") + 1, len(whole)))]
         )
         (cut,) = read_logs(path)
-        file, run = continued(cut, setting)
+        file, run = continue_log(cut, setting)
         with file:
             for event in events[len(cut.entries) :]:
                 turn = setting.game.take(run, event)

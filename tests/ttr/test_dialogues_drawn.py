@@ -22,7 +22,7 @@ from ttr import (
     replace,
     this,
 )
-from ttr.dialogues.snapshots import changed_since, copied, snapshot
+from ttr.dialogues.snapshots import copy_of, first_change, snapshot
 from ttr.testing import strategies as tst
 from ttr.updates import Game, NBest, first, rule
 
@@ -264,27 +264,27 @@ def test_snapshots_see_what_was_changed_where_it_stood():
     notes = Notes()
     state = record(a=record(b=[1]), notes=[notes])
     before = snapshot(state)
-    assert changed_since(before, state) == ""
+    assert first_change(before, state) == ""
     state.a._fields["b"] = (2,)
-    assert changed_since(before, state) == "a.b"
+    assert first_change(before, state) == "a.b"
     state.a._fields["b"] = (1,)
-    assert changed_since(before, state) == ""
+    assert first_change(before, state) == ""
     notes.lines.append("new")
-    assert changed_since(before, state) == "notes"
+    assert first_change(before, state) == "notes"
     notes.lines.clear()
     state.a._fields["new"] = 1
-    assert changed_since(before, state) == "a.new"
+    assert first_change(before, state) == "a.new"
 
 
 def test_snapshots_see_what_is_in_arrays():
     state = record(pixels=array("b", [1, 2]))
     before = snapshot(state)
     state.pixels[0] = 3
-    assert changed_since(before, state) == "pixels"
+    assert first_change(before, state) == "pixels"
 
 
 def test_a_copy_has_records_of_its_own():
     state = record(a=record(b="x"))
-    copy = copied(state)
+    copy = copy_of(state)
     copy.a._fields["b"] = "y"
     assert state.a.b == "x"

@@ -23,7 +23,7 @@ from ttr.dialogues.logs import (
     Log,
     LogError,
     LogFile,
-    continued,
+    continue_log,
     read_logs,
     replay,
     run_after,
@@ -251,7 +251,7 @@ def test_a_log_that_was_cut_and_is_gone_on_with_equals_the_whole(
     path = tmp_path / "visit.jsonl"
     path.write_bytes(b"".join(lines[: turns + 1]) + rest)
     (cut,) = read_logs(path)
-    file, run = continued(cut, door)
+    file, run = continue_log(cut, door)
     with file:
         for turn in visit(door)[turns:]:
             taken = door.game.take(run, turn.event)
@@ -294,7 +294,7 @@ def test_a_writer_that_is_killed_leaves_whole_turns(
     (log,) = read_logs(path)
     assert len(log.entries) >= 7
     assert replay(log, door).divergence is None
-    file, run = continued(log, door)
+    file, run = continue_log(log, door)
     file.close()
     assert str(run.state) == log.entries[-1].state
     assert path.read_bytes().endswith(b"\n")

@@ -15,7 +15,7 @@ from itertools import chain
 from typing import Any, Self
 
 from ttr.dialogues.settings import Setting
-from ttr.dialogues.snapshots import changed_since, copied, snapshot
+from ttr.dialogues.snapshots import copy_of, first_change, snapshot
 from ttr.dialogues.wording import line_of_event, wording
 from ttr.errors import NotHeard, TTRError, UpdateError
 from ttr.judging.models import Model
@@ -147,7 +147,7 @@ class Dialogue:
         """
         if self.trials:
             return self.trials[-1].after
-        return self.start._replace(state=copied(self.start.state))
+        return self.start._replace(state=copy_of(self.start.state))
 
     def then(self, given: object) -> Dialogue:
         """The dialogue after one thing more has been given to the game."""
@@ -199,7 +199,7 @@ def give(game: Game, before: Run, given: object) -> Trial:
     before = before._replace(trace=())
     seen = snapshot(before.state)
     turn, fault = _attempt(game, before, given)
-    return Trial(given, before, turn, fault, changed_since(seen, before.state))
+    return Trial(given, before, turn, fault, first_change(seen, before.state))
 
 
 def _attempt(

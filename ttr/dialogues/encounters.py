@@ -116,40 +116,40 @@ class Encounter:
         """
         current = self
         for index in range(len(self.participants)):
-            ready = current._tacitly()
+            ready = current._after_tacit_rules()
             act = ready.participants[index].licensed(ready.boards[index])
-            current = ready if act is None else ready._done(index, act)
+            current = ready if act is None else ready._after_act(index, act)
         return current
 
     def in_step(self) -> Encounter:
         """A round in which all who are licensed act at once, and then all see it."""
-        ready = self._tacitly()
+        ready = self._after_tacit_rules()
         pairs = zip(ready.participants, ready.boards, strict=True)
         acts = [one.licensed(board) for one, board in pairs]
         current = ready
         for index, act in enumerate(acts):
-            current = current if act is None else current._done(index, act)
+            current = current if act is None else current._after_act(index, act)
         return current
 
     @cached_property
     def is_idle(self) -> bool:
         """Whether nobody is licensed to anything, even after the tacit rules."""
-        ready = self._tacitly()
+        ready = self._after_tacit_rules()
         pairs = zip(ready.participants, ready.boards, strict=True)
         return all(one.licensed(board) is None for one, board in pairs)
 
-    def _tacitly(self) -> Encounter:
+    def _after_tacit_rules(self) -> Encounter:
         """After the tacit rules of all whose agenda is empty."""
         boards = [
-            board if one.game.planned(board.state) else _played(one, board, ())
+            board if one.game.planned(board.state) else _continue_board(one, board, ())
             for one, board in zip(self.participants, self.boards, strict=True)
         ]
-        return self._with(boards, None, None)
+        return self._with_boards(boards, None, None)
 
-    def _done(self, index: int, act: Create) -> Encounter:
+    def _after_act(self, index: int, act: Create) -> Encounter:
         """After a participant has created something, and everyone has seen it."""
         by = self.participants[index]
-        made = performed(act, _fresh(self.boards, index))
+        made = performed(act, _with_fresh_names(self.boards, index))
         event, T = made.answer.sit, act.type
         boards = []
         for number, (one, board) in enumerate(
@@ -157,11 +157,11 @@ class Encounter:
         ):
             model = made.model
             if number != index:
-                model = _witnessing(one, board.model, event, T, by)
-            boards.append(_played(one, board._replace(model=model), (event,)))
-        return self._with(boards, by.name, made.answer)
+                model = _model_of_witness(one, board.model, event, T, by)
+            boards.append(_continue_board(one, board._replace(model=model), (event,)))
+        return self._with_boards(boards, by.name, made.answer)
 
-    def _with(
+    def _with_boards(
         self, boards: Sequence[Run], by: str | None, event: Judgement | None
     ) -> Encounter:
         """The encounter with these boards, whose traces are those of one step."""
@@ -222,7 +222,7 @@ def meeting(*participants: Participant) -> Encounter:
     return Encounter(participants, tuple(one.game.begin() for one in participants))
 
 
-def _witnessing(
+def _model_of_witness(
     one: Participant, model: Model, event: Object, T: TypeNode, by: Participant
 ) -> Model:
     """The model of one who has seen another do something."""
@@ -235,7 +235,7 @@ def _witnessing(
         ) from error
 
 
-def _played(one: Participant, board: Run, events: Sequence[object]) -> Run:
+def _continue_board(one: Participant, board: Run, events: Sequence[object]) -> Run:
     game = one.game
     return run(
         game.algorithm,
@@ -246,7 +246,7 @@ def _played(one: Participant, board: Run, events: Sequence[object]) -> Run:
     )
 
 
-def _fresh(boards: Sequence[Run], index: int) -> Model:
+def _with_fresh_names(boards: Sequence[Run], index: int) -> Model:
     """The actor's model, in which names that any board knows are not given again."""
     most = max(board.model.facts.created for board in boards)
     mine = boards[index].model

@@ -52,11 +52,11 @@ class Setting:
     @classmethod
     def of(cls, game: Game, theory: Theory | None = None, reference: str = "") -> Self:
         """The setting of a game; without a theory, what occurs in it can be named."""
-        return cls(game, theory or game.theory or _mentioned(game), reference)
+        return cls(game, theory or game.theory or _mentioned_theory(game), reference)
 
     def reference_from(self, folder: Path) -> str:
         """What stands after `@ game` in another folder."""
-        file, rest = _parts(self.reference)
+        file, rest = _file_and_rest(self.reference)
         if not file or Path(file).is_absolute():
             return self.reference
         moved = os.path.relpath(self.folder / file, folder)
@@ -80,12 +80,12 @@ def setting(reference: str, folder: Path, consent: Consent | None = None) -> Set
     """
     if consent is not None:
         check_named(reference, folder, consent)
-    file, rest = _parts(reference)
+    file, rest = _file_and_rest(reference)
     if file.endswith(".ttr"):
         name = rest.strip().removeprefix(":")
         found = _of_theory(file, name, folder, consent or OWN_FOLDER)
     else:
-        found = _of_python(*_python(reference), folder, consent)
+        found = _of_python(*_module_and_name(reference), folder, consent)
     named = consent or OWN_FOLDER
     return replace(found, reference=reference, folder=folder, consent=named)
 
@@ -99,7 +99,7 @@ def check_named(reference: str, folder: Path, consent: Consent) -> None:
     if python:
         consent.check_python(python, folder)
     else:
-        file, _ = _parts(reference)
+        file, _ = _file_and_rest(reference)
         check_called(folder / file, ".ttr", file)
 
 
@@ -115,12 +115,12 @@ def python_in(reference: str) -> str:
     >>> python_in("games.py:door"), python_in("door.ttr door")
     ('games.py', '')
     """
-    if _parts(reference)[0].endswith(".ttr"):
+    if _file_and_rest(reference)[0].endswith(".ttr"):
         return ""
-    return _python(reference)[0]
+    return _module_and_name(reference)[0]
 
 
-def _python(reference: str) -> tuple[str, str]:
+def _module_and_name(reference: str) -> tuple[str, str]:
     """The Python file or module that a reference names, and the name of its game."""
     python, _, name = reference.rpartition(":")
     if not python or not name.strip():
@@ -128,14 +128,14 @@ def _python(reference: str) -> tuple[str, str]:
     return python.strip(), name.strip()
 
 
-def _parts(reference: str) -> tuple[str, str]:
+def _file_and_rest(reference: str) -> tuple[str, str]:
     """The file that a reference names, if it names one, and what follows it."""
     found = re.fullmatch(r"(.+?\.ttr|.+\.py(?=:))((?: +\S+)?|:.*)", reference)
     return (found[1], found[2]) if found else ("", reference)
 
 
 def _of_theory(file: str, name: str, folder: Path, consent: Consent) -> Setting:
-    _check_there(file, folder)
+    _check_exists(file, folder)
     try:
         theory = theory_of_file(folder / file, consent)
         games = theory.games
@@ -147,7 +147,7 @@ def _of_theory(file: str, name: str, folder: Path, consent: Consent) -> Setting:
     if not name and len(games) == 1:
         (name,) = games
     if name not in games:
-        raise StoryError(_no_game(file, name, tuple(games)))
+        raise StoryError(_no_game_message(file, name, tuple(games)))
     return Setting(games[name], theory)
 
 
@@ -155,13 +155,13 @@ def _of_python(path: str, name: str, folder: Path, consent: Consent | None) -> S
     module = _module(path, folder, consent)
     games = {key: one for key, one in vars(module).items() if isinstance(one, Game)}
     if name not in games:
-        raise StoryError(_no_game(path, name, tuple(games)))
+        raise StoryError(_no_game_message(path, name, tuple(games)))
     game = games[name]
-    theory = game.theory or _defined(module, _mentioned(game))
+    theory = game.theory or _with_definitions(module, _mentioned_theory(game))
     return Setting(game, theory)
 
 
-def _check_there(file: str, folder: Path) -> None:
+def _check_exists(file: str, folder: Path) -> None:
     path = folder / file
     if os.path.isfile(path):
         return
@@ -170,7 +170,7 @@ def _check_there(file: str, folder: Path) -> None:
     raise StoryError(f"there is no file {file}" + f": {near}" * bool(near))
 
 
-def _no_game(file: str, name: str, known: tuple[str, ...]) -> str:
+def _no_game_message(file: str, name: str, known: tuple[str, ...]) -> str:
     told = f"{file} has no game {name}" if name else f"name a game of {file}"
     if not known:
         return f"{told}: there is none in it"
@@ -183,16 +183,16 @@ def _no_game(file: str, name: str, known: tuple[str, ...]) -> str:
 def _module(path: str, folder: Path, consent: Consent | None) -> ModuleType:
     """The module of a file or a dotted name, run if it has not been."""
     if path.endswith(".py"):
-        _check_there(path, folder)
+        _check_exists(path, folder)
     try:
         return run_named(path, folder, "_played_", consent)
     except NotAllowed:
         raise
     except Exception as error:
-        raise StoryError(_not_run(path, error)) from error
+        raise StoryError(_failure_message(path, error)) from error
 
 
-def _not_run(path: str, error: Exception) -> str:
+def _failure_message(path: str, error: Exception) -> str:
     if isinstance(error, ModuleNotFoundError) and error.name in _with_parents(path):
         return f"there is no module {path}: name a game as {_WRITTEN}"
     fault = f"{type(error).__name__}: {error}".splitlines()[0]
@@ -204,14 +204,14 @@ def _with_parents(module: str) -> list[str]:
     return [".".join(module.split(".")[: n + 1]) for n in range(module.count(".") + 1)]
 
 
-def _mentioned(game: Game) -> Theory:
+def _mentioned_theory(game: Game) -> Theory:
     """The theory that declares what occurs in a game."""
     types = [T for rule in game.rules for T in (rule.when, rule.on, rule.gives)]
     planned = [T for T in types if T is not None]
     return Theory.of(game.type, game.start, *game.hears, *planned)
 
 
-def _defined(module: ModuleType, theory: Theory) -> Theory:
+def _with_definitions(module: ModuleType, theory: Theory) -> Theory:
     """The theory in which the types of a module have their names in it, too."""
     definitions = {
         name: T

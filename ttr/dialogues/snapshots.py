@@ -12,7 +12,7 @@ from typing import TypeAlias
 
 from ttr.types.syntax import EventString, FiniteSet, Object, Record, TypeNode
 
-__all__ = ["Snapshot", "changed_since", "copied", "snapshot"]
+__all__ = ["Snapshot", "first_change", "copy_of", "snapshot"]
 
 Snapshot: TypeAlias = "dict[str, Snapshot] | tuple[object, ...]"
 
@@ -33,10 +33,10 @@ def snapshot(value: Object) -> Snapshot:
             return (type(value), *map(snapshot, value.items))
         case str() | int() | float() | None | TypeNode():
             return (type(value), value)
-    return (type(value), id(value), *_inside(value))
+    return (type(value), id(value), *_contents(value))
 
 
-def _inside(value: object) -> Iterator[object]:
+def _contents(value: object) -> Iterator[object]:
     """What an object of another kind has in it: its bytes, or its own attributes.
 
     Of what is no plain collection there it is only known which object it is.
@@ -44,36 +44,36 @@ def _inside(value: object) -> Iterator[object]:
     with suppress(TypeError):
         yield memoryview(value).tobytes()  # type: ignore[arg-type]
     for name, one in getattr(value, "__dict__", {}).items():
-        yield name, _plain(one)
+        yield name, _plain_value(one)
 
 
-def _plain(value: object) -> object:
+def _plain_value(value: object) -> object:
     match value:
         case list() | tuple():
-            return (type(value), *map(_plain, value))
+            return (type(value), *map(_plain_value, value))
         case dict():
-            return tuple((_plain(k), _plain(v)) for k, v in value.items())
+            return tuple((_plain_value(k), _plain_value(v)) for k, v in value.items())
         case set() | frozenset():
-            return frozenset(map(_plain, value))
+            return frozenset(map(_plain_value, value))
         case str() | int() | float() | None:
             return value
     return id(value)
 
 
-def copied(value: Object) -> Object:
+def copy_of(value: Object) -> Object:
     """The same object with records of its own in it, so that nobody else's are changed.
 
     >>> from ttr.types.syntax import record
     >>> r = record(x=record(y="a"))
-    >>> copied(r) == r, copied(r).x is r.x
+    >>> copy_of(r) == r, copy_of(r).x is r.x
     (True, False)
     """
     if not isinstance(value, Record):
         return value
-    return Record({label: copied(inner) for label, inner in value._fields.items()})
+    return Record({label: copy_of(inner) for label, inner in value._fields.items()})
 
 
-def changed_since(before: Snapshot, value: Object) -> str:
+def first_change(before: Snapshot, value: Object) -> str:
     """The first path at which the object is no longer what it was, or an empty text."""
     return next(_changes(before, snapshot(value), ""), "")
 

@@ -47,38 +47,42 @@ def transcript(title: str, dialogues: Iterable[Dialogue]) -> str:
     parts = [f"<h1>{html_text(title)}</h1>"]
     if len(shown) > 1:
         parts.append(_contents(shown))
-    parts += [_dialogue(number, one) for number, one in enumerate(shown, start=1)]
+    parts += [_section(number, one) for number, one in enumerate(shown, start=1)]
     return page(title, f"<main>{''.join(parts)}</main>", STYLE + _STYLE)
 
 
 def _contents(dialogues: list[Dialogue]) -> str:
     items = [
-        f'<li><a href="#d{number}">{html_text(one.title)}</a>{_mark(one)}</li>'
+        f'<li><a href="#d{number}">{html_text(one.title)}</a>'
+        f"{_difference_mark(one)}</li>"
         for number, one in enumerate(dialogues, start=1)
     ]
     return f"<nav><ol>{''.join(items)}</ol></nav>"
 
 
-def _mark(one: Dialogue) -> str:
+def _difference_mark(one: Dialogue) -> str:
     return ' <span class="differs">differs</span>' if one.ending else ""
 
 
-def _dialogue(number: int, one: Dialogue) -> str:
+def _section(number: int, one: Dialogue) -> str:
     fold = folding(one.setting.theory, 0)
     before: Object = fold(one.start.state)
-    start = _turn(f"d{number}t0", "", "<p>the start</p>", before, before)
-    parts = [f'<h2 id="d{number}">{html_text(one.title)}{_mark(one)}</h2>', start]
+    start = _article(f"d{number}t0", "", "<p>the start</p>", before, before)
+    parts = [
+        f'<h2 id="d{number}">{html_text(one.title)}{_difference_mark(one)}</h2>',
+        start,
+    ]
     for turn, trial in enumerate(one.trials, start=1):
         after = fold(trial.after.state)
-        told = _talk(trial) + _rules(trial.steps, fold)
-        parts.append(_turn(f"d{number}t{turn}", str(turn), told, before, after))
+        told = _utterances(trial) + _rule_list(trial.steps, fold)
+        parts.append(_article(f"d{number}t{turn}", str(turn), told, before, after))
         before = after
     if one.ending:
         parts.append(f'<pre class="ending">{html_text(one.ending)}</pre>')
     return f"<section>{''.join(parts)}</section>"
 
 
-def _turn(name: str, number: str, told: str, before: Object, after: Object) -> str:
+def _article(name: str, number: str, told: str, before: Object, after: Object) -> str:
     link = f'<a class="number" href="#{name}">{number}</a>' if number else ""
     state = part_of_page(compared(before, after))
     return (
@@ -87,22 +91,22 @@ def _turn(name: str, number: str, told: str, before: Object, after: Object) -> s
     )
 
 
-def _talk(trial: Trial) -> str:
+def _utterances(trial: Trial) -> str:
     mark, _, words = trial.line.partition(" ")
-    lines = [_said("heard", mark, words or "(nothing)")]
-    lines += [_said("said", "S>", words) for words in trial.said]
+    lines = [_utterance("heard", mark, words or "(nothing)")]
+    lines += [_utterance("said", "S>", words) for words in trial.said]
     return "".join(lines)
 
 
-def _said(kind: str, mark: str, words: str) -> str:
+def _utterance(kind: str, mark: str, words: str) -> str:
     return (
         f'<p class="{kind}"><span class="mark">{html_text(mark)}</span> '
         f"{html_text(words)}</p>"
     )
 
 
-def _rules(trace: Iterable[Step], fold: Callable[[Object], Object]) -> str:
-    steps = [_rule(step, fold) for step in trace]
+def _rule_list(trace: Iterable[Step], fold: Callable[[Object], Object]) -> str:
+    steps = [_rule_item(step, fold) for step in trace]
     if not steps:
         return '<p class="none">no rule applied</p>'
     told = "1 rule" if len(steps) == 1 else f"{len(steps)} rules"
@@ -110,7 +114,7 @@ def _rules(trace: Iterable[Step], fold: Callable[[Object], Object]) -> str:
     return f"<details><summary>{told}</summary><ol>{inside}</ol></details>"
 
 
-def _rule(step: Step, fold: Callable[[Object], Object]) -> str:
+def _rule_item(step: Step, fold: Callable[[Object], Object]) -> str:
     lines = [f"{k} = {notation(fold(v))}" for k, v in step.bindings.items()]
     if step.event is not None and step.p.lo < 1.0:
         lines.insert(0, f"on {notation(step.event)}   p = {step.p}")

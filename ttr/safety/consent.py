@@ -28,10 +28,10 @@ def is_below(path: str | os.PathLike[str], folder: str | os.PathLike[str]) -> bo
     >>> is_below("games/door.ttr", "games"), is_below("games/../door.ttr", "games")
     (True, False)
     """
-    return _real(path).is_relative_to(_real(folder))
+    return _real_path(path).is_relative_to(_real_path(folder))
 
 
-def _real(path: str | os.PathLike[str]) -> Path:
+def _real_path(path: str | os.PathLike[str]) -> Path:
     try:
         return Path(os.path.realpath(path))
     except ValueError:  # no text with a zero in it is a path
@@ -44,7 +44,7 @@ def check_called(path: str | os.PathLike[str], suffix: str, named: str = "") -> 
     A mistake in a file is told with its lines. So no file is read as a theory or as a
     story that is not called one: it could be anything. `named` is how a file names it.
     """
-    real, told = _real(path), named or path
+    real, told = _real_path(path), named or path
     if Path(path).suffix != suffix:
         raise NotAllowed(f"{told} is not used: expected a file called NAME{suffix}")
     if real.suffix != suffix:
@@ -84,7 +84,7 @@ class Consent:
 
     def adding(self, *folders: str | os.PathLike[str]) -> Consent:
         """The same with some folders more."""
-        new = [it for it in map(_real, folders) if it not in self.folders]
+        new = [it for it in map(_real_path, folders) if it not in self.folders]
         return replace(self, folders=(*self.folders, *dict.fromkeys(new)))
 
     def naming(self, python: str, folder: Path) -> Consent:
@@ -101,7 +101,7 @@ class Consent:
         if not self.folders:
             raise NotAllowed(f"{named or path}: no other file may be used here")
         if not any(is_below(path, folder) for folder in self.folders):
-            folder = _folder(path)
+            folder = _folder_of_path(path)
             raise NotAllowed(
                 f"{named or path} lies in another folder: allow it with --allow "
                 f"{quote(folder)}, in Python with allow=[{folder!r}]"
@@ -133,9 +133,9 @@ class Consent:
         return None
 
 
-def _folder(path: str | os.PathLike[str]) -> str:
+def _folder_of_path(path: str | os.PathLike[str]) -> str:
     """The folder of a path, as the user would write it here."""
-    folder = _real(path).parent
+    folder = _real_path(path).parent
     near = os.path.relpath(folder)
     return near if near.count("..") < len(folder.parts) - 1 else str(folder)
 

@@ -61,12 +61,12 @@ def write_whole(path: Path, text: str) -> None:
         if target.exists() and not target.is_file():
             target.write_bytes(data)
         else:
-            _by_a_draft(target, data)
+            _write_by_draft(target, data)
     except OSError as error:
         raise TTRError(why_unwritten(path, error)) from None
 
 
-def _by_a_draft(target: Path, data: bytes) -> None:
+def _write_by_draft(target: Path, data: bytes) -> None:
     draft = target.with_name(f".{target.name}.{os.getpid()}.part")
     try:
         draft.write_bytes(data)

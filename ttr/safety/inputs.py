@@ -62,13 +62,13 @@ def read_bytes(path: str | os.PathLike[str], limit: Limit) -> bytes:
     ...     read_bytes(file, THEORY)
     b'basic Ind'
     """
-    opened, mode = _opened(path)
+    opened, mode = _open(path)
     with os.fdopen(opened, "rb", buffering=0) as file:
         if stat.S_ISFIFO(mode):
-            return _all_of(_through_pipe(opened), limit)
+            return _join_pieces(_pipe_pieces(opened), limit)
         limit.check(os.fstat(opened).st_size)
         # A file may grow, or say that it is empty, as those of the system do.
-        return _all_of(iter(lambda: file.read(_PIECE) or b"", b""), limit)
+        return _join_pieces(iter(lambda: file.read(_PIECE) or b"", b""), limit)
 
 
 def read_text(
@@ -84,7 +84,7 @@ def read_text(
 
 def open_file(path: str | os.PathLike[str]) -> BinaryIO:
     """A regular file, opened to be read piece by piece; raises `OSError`."""
-    opened, mode = _opened(path)
+    opened, mode = _open(path)
     if not stat.S_ISREG(mode):
         os.close(opened)
         raise _NoFile("it is a pipe, and must be a file")
@@ -132,7 +132,7 @@ def read_lines(stream: BinaryIO, limit: Limit = LINE) -> Iterator[bytes]:
         yield line
 
 
-def _opened(path: str | os.PathLike[str]) -> tuple[int, int]:
+def _open(path: str | os.PathLike[str]) -> tuple[int, int]:
     """A file descriptor and what it is of; a pipe is opened even if nobody writes."""
     flags = os.O_RDONLY
     for name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY"):
@@ -153,7 +153,7 @@ def _opened(path: str | os.PathLike[str]) -> tuple[int, int]:
     return opened, mode
 
 
-def _through_pipe(opened: int) -> Iterator[bytes]:
+def _pipe_pieces(opened: int) -> Iterator[bytes]:
     """What comes through a pipe, as long as it does not keep us waiting."""
     end = monotonic() + PIPE.allowed
     with DefaultSelector() as waiting:
@@ -178,7 +178,7 @@ def _through_pipe(opened: int) -> Iterator[bytes]:
             yield piece
 
 
-def _all_of(pieces: Iterator[bytes], limit: Limit) -> bytes:
+def _join_pieces(pieces: Iterator[bytes], limit: Limit) -> bytes:
     whole, most = io.BytesIO(), limit.allowed
     for piece in pieces:
         if whole.tell() + len(piece) > most:
@@ -201,14 +201,14 @@ def parse_json(
     Traceback (most recent call last):
     ValueError: lists and tables lie deeper in one another than 200
     """
-    return _parsed(lambda: json.loads(text, parse_constant=parse_constant))
+    return _parse(lambda: json.loads(text, parse_constant=parse_constant))
 
 
 def parse_toml(text: str) -> dict[str, Any]:
     """What is in a text of TOML; `ValueError` for whatever is wrong with it."""
     if _LONG_KEY.search(text):  # for which tomllib takes minutes
         raise _too_deep()
-    found: dict[str, Any] = _parsed(lambda: tomllib.loads(text))
+    found: dict[str, Any] = _parse(lambda: tomllib.loads(text))
     return found
 
 
@@ -217,7 +217,7 @@ _LONG_KEY = re.compile(rf"(?<![\w-])(?: {_PART} \. [ \t]*+ ){{{DEPTH}}}", re.VER
 """A key of too many parts, `a.b.c`."""
 
 
-def _parsed(parse: Callable[[], Any]) -> Any:
+def _parse(parse: Callable[[], Any]) -> Any:
     try:
         found = parse()
     except RecursionError:

@@ -50,13 +50,14 @@ def report_unforeseen(program: str, error: BaseException) -> int:
     with suppress(Exception):
         if os.environ.get(DEBUG):
             sys.stderr.write(terminal_text(trace))
-        line = terminal_line(_line(program, error, _kept(program, trace)))
+        file = _keep_trace(program, trace)
+        line = terminal_line(_report_line(program, error, file))
         sys.stderr.write(f"{program}: {line}\n")
         sys.stderr.flush()
     return UNFORESEEN
 
 
-def _line(program: str, error: BaseException, file: Path | None) -> str:
+def _report_line(program: str, error: BaseException, file: Path | None) -> str:
     kept = f", with the file {file}" if file else f" ({DEBUG}=1 shows where it arose)"
     if isinstance(error, MemoryError):
         return (
@@ -69,32 +70,32 @@ def _line(program: str, error: BaseException, file: Path | None) -> str:
             f"the developers of Kille{kept}"
         )
     return (
-        f"{_shown(error)}: that is a mistake in {program} itself; please report it to "
-        f"the developers of Kille{kept}"
+        f"{_error_in_short(error)}: that is a mistake in {program} itself; please "
+        f"report it to the developers of Kille{kept}"
     )
 
 
-def _shown(error: BaseException) -> str:
+def _error_in_short(error: BaseException) -> str:
     """The kind of the error and its words, on one line."""
     said = " ".join(str(error).split())
     said = said if len(said) <= _SHOWN else f"{said[: _SHOWN - 1]}…"
     return f"{type(error).__name__}: {said}" if said else type(error).__name__
 
 
-def _kept(program: str, trace: str) -> Path | None:
+def _keep_trace(program: str, trace: str) -> Path | None:
     """The file in which the traceback was kept, which only the user can read."""
     about = (
         f"{program}, Python {platform.python_version()}, {platform.platform()}\n"
         f"{sys.argv}\n\n{trace}"
     )
     data = about.encode("utf-8", "backslashreplace")
-    for write in (_to_state, _to_temporary):
+    for write in (_write_to_state, _write_to_temporary):
         with suppress(OSError, RuntimeError):
             return write(data)
     return None
 
 
-def _to_state(data: bytes) -> Path:
+def _write_to_state(data: bytes) -> Path:
     file = state_folder("kille") / _FILE
     file.parent.mkdir(parents=True, exist_ok=True)
     draft = file.with_name(f".{_FILE}.{os.getpid()}")
@@ -109,7 +110,7 @@ def _to_state(data: bytes) -> Path:
     return file
 
 
-def _to_temporary(data: bytes) -> Path:
+def _write_to_temporary(data: bytes) -> Path:
     with NamedTemporaryFile(prefix="kille-error-", suffix=".txt", delete=False) as file:
         file.write(data)
     return Path(file.name)

@@ -14,10 +14,10 @@ from ttr.cli.commands.output import (
     WRONG_USE,
     Commands,
     complain,
-    place,
+    json_place,
     say,
     say_json,
-    steps,
+    step_count,
 )
 from ttr.cli.consent_options import add_allow
 from ttr.errors import TooLargeError, TTRError
@@ -42,7 +42,7 @@ def add(commands: Commands) -> None:
     add_allow(check)
     check.add_argument(
         "--steps",
-        type=steps,
+        type=step_count,
         default=STEPS,
         metavar="N",
         help=f"how much work each check may be before it is left (default: {STEPS:,})",
@@ -73,9 +73,9 @@ def _check(options: argparse.Namespace) -> int:
             outcome = _outcome(file, options.allow)
         outcomes.append(outcome)
         if not options.json:
-            _tell(outcome)
+            _print_outcome(outcome)
     if options.json:
-        say_json([_facts(one) for one in outcomes])
+        say_json([_json_facts(one) for one in outcomes])
     return max(one.code for one in outcomes)
 
 
@@ -97,7 +97,7 @@ def _outcome(file: str, allow: Sequence[Path]) -> _Outcome:
     return _Outcome(file, report)
 
 
-def _tell(outcome: _Outcome) -> None:
+def _print_outcome(outcome: _Outcome) -> None:
     if outcome.unreadable:
         complain(outcome.unreadable)
         return
@@ -110,7 +110,7 @@ def _tell(outcome: _Outcome) -> None:
     say("\n\n".join([*told, f"{outcome.file}: {summary}"]))
 
 
-def _facts(outcome: _Outcome) -> dict[str, Any]:
+def _json_facts(outcome: _Outcome) -> dict[str, Any]:
     report = outcome.report
     return {
         "file": outcome.file,
@@ -118,7 +118,7 @@ def _facts(outcome: _Outcome) -> dict[str, Any]:
         "holds": outcome.code == FINE,
         "failures": [
             {
-                **place(failure.check.span),
+                **json_place(failure.check.span),
                 "check": failure.check.text,
                 "expected": failure.check.expected,
                 "found": failure.found,
@@ -129,7 +129,7 @@ def _facts(outcome: _Outcome) -> dict[str, Any]:
         "rules": report.rules if report else 0,
         "faults": [
             {
-                **place(fault.span),
+                **json_place(fault.span),
                 "rule": fault.rule.name if fault.rule else None,
                 "sort": fault.sort,
                 "severity": fault.severity,
@@ -139,7 +139,7 @@ def _facts(outcome: _Outcome) -> dict[str, Any]:
             for fault in (report.faults if report else ())
         ],
         "mistakes": [
-            {**place(error.span), "message": error.message, "help": error.hint}
+            {**json_place(error.span), "message": error.message, "help": error.hint}
             for error in outcome.mistakes
         ]
         + [{"message": outcome.unreadable}] * bool(outcome.unreadable),

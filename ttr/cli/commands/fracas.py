@@ -48,10 +48,10 @@ def _fracas(options: argparse.Namespace) -> int:
     for one in answered(some, words):
         found.append(one)
         if not options.json:
-            say(_answer(one))
+            say(_answer_line(one))
     totals = Counter[str](one.outcome for one in found)
     if options.json:
-        say_json(_answers(found, totals))
+        say_json(_json_answers(found, totals))
     else:
         say(
             f"{len(found)} problems: {totals['right']} right, {totals['wrong']} wrong, "
@@ -61,7 +61,7 @@ def _fracas(options: argparse.Namespace) -> int:
     return FAILED if totals["wrong"] else FINE
 
 
-def _answer(one: Answered) -> str:
+def _answer_line(one: Answered) -> str:
     """A line on one problem."""
     number = f"{one.problem.number:03}"
     match one.outcome:
@@ -74,7 +74,7 @@ def _answer(one: Answered) -> str:
     return f"{number}  right: {one.found}"
 
 
-def _answers(found: list[Answered], totals: Counter[str]) -> dict[str, Any]:
+def _json_answers(found: list[Answered], totals: Counter[str]) -> dict[str, Any]:
     outcomes = ("right", "wrong", "outside", "open")
     return {
         "problems": [

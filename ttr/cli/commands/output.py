@@ -27,8 +27,8 @@ __all__ = [
     "say",
     "say_json",
     "complain",
-    "place",
-    "steps",
+    "json_place",
+    "step_count",
 ]
 
 FINE, FAILED, INTERRUPTED, PIPE_CLOSED = 0, 1, 130, 141
@@ -82,14 +82,14 @@ class LiveLine:
             self._shows = False
 
 
-def place(span: Span | None) -> dict[str, Any]:
+def json_place(span: Span | None) -> dict[str, Any]:
     """Where something is written, for machines."""
     if span is None:
         return {}
     return {"file": span.source, "line": span.line, "column": span.column}
 
 
-def steps(text: str) -> int:
+def step_count(text: str) -> int:
     """A number of steps that was given as an option; refuses what is none."""
     try:
         found = int(text.replace("_", "").replace(",", ""))

@@ -85,25 +85,27 @@ def _play(options: argparse.Namespace) -> int:
     unread: list[Outcome] = []
     for file in options.files:
         try:
-            plan += ((str(file), it) for it in _stories(file, game, consent))
+            plan += ((str(file), it) for it in _read_allowed(file, game, consent))
         except TTRError as error:
             complain(str(error))
             unread.append(Outcome(str(file), file.stem, error=error))
     try:
         with ExitStack() as closing:
             log = closing.enter_context(LogFile(options.log)) if options.log else None
-            playing = _Playing(_echo(options), options.trace, log, consent, game)
+            playing = _Playing(_echo_of(options), options.trace, log, consent, game)
             results = playing.all(plan)
         _write_reports(options, unread, results)
     except TTRError as error:
         return complain(str(error))
-    _sum_up(options, results)
+    _print_summaries(options, results)
     if unread:
         return WRONG_USE
     return FINE if all(one.as_written for one, _ in results) else FAILED
 
 
-def _stories(file: Path, game: Setting | None, consent: Consent) -> Sequence[Story]:
+def _read_allowed(
+    file: Path, game: Setting | None, consent: Consent
+) -> Sequence[Story]:
     """The stories in a file, none of which names what there is no consent to.
 
     A game that was given is played in the place of those that they name.
@@ -116,7 +118,7 @@ def _stories(file: Path, game: Setting | None, consent: Consent) -> Sequence[Sto
     return stories
 
 
-def _echo(options: argparse.Namespace) -> Callable[[str], None]:
+def _echo_of(options: argparse.Namespace) -> Callable[[str], None]:
     return (lambda line: None) if options.quiet or options.json else say
 
 
@@ -191,7 +193,7 @@ def _write_reports(
         write_whole(options.html, transcript(title, shown))
 
 
-def _sum_up(options: argparse.Namespace, results: list[_Result]) -> None:
+def _print_summaries(options: argparse.Namespace, results: list[_Result]) -> None:
     """Says what differs, and how many stories of each file do."""
     from ttr.dialogues.stories import facts, summary
 

@@ -26,14 +26,14 @@ def add(commands: Commands) -> None:
 
 
 def _repl(options: argparse.Namespace) -> int:
-    from ttr.cli.session.sessions import Session, loaded
+    from ttr.cli.session.sessions import Session, load_file
     from ttr.cli.session.terminal import talk
     from ttr.theories.loading import Unreadable
 
     session = Session(consent=consent_of(options))
     try:
         if options.file is not None:
-            session, _ = loaded(session, Path(options.file))
+            session, _ = load_file(session, Path(options.file))
     except Unreadable as error:
         return complain(error.message)
     except TTRError as error:

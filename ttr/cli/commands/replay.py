@@ -69,20 +69,20 @@ def _replay(options: argparse.Namespace) -> int:
         return complain(str(error))
     try:
         logs = read_logs(options.file)
-        played = [_again(log, options) for log in logs]
+        played = [_replay_log(log, options) for log in logs]
     except (UnreadableLog, NotAllowed) as error:
         return complain(str(error))
     except TTRError as error:
         say(str(error))
         return FAILED
     try:
-        _write(options, played)
+        _write_outputs(options, played)
     except TTRError as error:
         return complain(str(error))
-    return max(_report(log, again, options.turn) for log, _, again in played)
+    return max(_print_result(log, again, options.turn) for log, _, again in played)
 
 
-def _again(log: Log, options: argparse.Namespace) -> tuple[Log, Setting, Replayed]:
+def _replay_log(log: Log, options: argparse.Namespace) -> tuple[Log, Setting, Replayed]:
     from ttr.dialogues.logs import LogError, replay
     from ttr.dialogues.stories import StoryError
 
@@ -110,7 +110,7 @@ def _setting(log: Log, options: argparse.Namespace, place: str) -> Setting:
         raise LogError(f"{place}: the log names no game: name it with --game")
     folder, python = options.file.parent, python_in(reference)
     if python and not options.trust:
-        raise NotAllowed(f"{place}: the log names {reference}, {_unrun(options)}")
+        raise NotAllowed(f"{place}: the log names {reference}, {_refusal(options)}")
     if python:
         where = (folder / python).resolve() if python.endswith(".py") else python
         say(f"{place}: running {where}, which the log names")
@@ -121,7 +121,7 @@ def _setting(log: Log, options: argparse.Namespace, place: str) -> Setting:
         raise NotAllowed(f"{place}: {error.message}") from error
 
 
-def _unrun(options: argparse.Namespace) -> str:
+def _refusal(options: argparse.Namespace) -> str:
     """Why Python that a log names is not run, and the ways on."""
     if options.no_python:
         return "which is Python, and --no-python refuses it"
@@ -131,7 +131,7 @@ def _unrun(options: argparse.Namespace) -> str:
     )
 
 
-def _report(log: Log, again: Replayed, start: int) -> int:
+def _print_result(log: Log, again: Replayed, start: int) -> int:
     count = len(log.entries)
     turns = f"{count} turn{'s' * (count != 1)}"
     name = f"{log.file}: {log.header.title or 'a dialogue'}"
@@ -147,7 +147,7 @@ def _report(log: Log, again: Replayed, start: int) -> int:
     return FAILED if log.cut else FINE
 
 
-def _write(
+def _write_outputs(
     options: argparse.Namespace, played: list[tuple[Log, Setting, Replayed]]
 ) -> None:
     from ttr.dialogues.logs import story_of

@@ -32,7 +32,7 @@ def add(commands: Commands) -> None:
     )
     show.add_argument(
         "--unfold",
-        type=_levels,
+        type=_level_count,
         metavar="N",
         help="show names for the definitions inside, but for N levels (default: all)",
     )
@@ -40,7 +40,7 @@ def add(commands: Commands) -> None:
     show.set_defaults(run=_show)
 
 
-def _levels(text: str) -> int:
+def _level_count(text: str) -> int:
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"expected 0, 1, 2 or so, found {text}")
     return int(text)
@@ -60,7 +60,7 @@ def _show(options: argparse.Namespace) -> int:
     if options.name in theory.objects:
         return complain(f"{options.file}: {options.name} is an object, only a name")
     try:
-        say(_shown(theory, options))
+        say(_text_of(theory, options))
     except KeyError as missing:
         return complain(f"{options.file}: {missing.args[0]}")
     except TTRError as error:
@@ -69,14 +69,14 @@ def _show(options: argparse.Namespace) -> int:
     return FINE
 
 
-def _shown(theory: Theory, options: argparse.Namespace) -> str:
+def _text_of(theory: Theory, options: argparse.Namespace) -> str:
     """What the name stands for, as asked; raises `KeyError` for a name nobody knows."""
     from ttr.display.abbreviations import folding
     from ttr.display.html import page
     from ttr.display.render import box, html, latex
 
     if options.name in {*theory.rules, *theory.strategies, *theory.openings}:
-        return _played(theory, options)
+        return _rule_text(theory, options)
     # What was asked for is opened itself, whatever else is not.
     unfold = None if options.unfold is None else options.unfold + 1
     value = folding(theory, unfold)(theory[options.name])
@@ -90,7 +90,7 @@ def _shown(theory: Theory, options: argparse.Namespace) -> str:
     return _declaration(theory, options.name, value)
 
 
-def _played(theory: Theory, options: argparse.Namespace) -> str:
+def _rule_text(theory: Theory, options: argparse.Namespace) -> str:
     """The statement that declares a rule, a strategy or a game."""
     from ttr.display.abbreviations import folding
     from ttr.updates.rule_notation import declaration

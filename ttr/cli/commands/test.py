@@ -114,7 +114,7 @@ def _test(options: argparse.Namespace) -> int:
     except ImportError as error:
         return complain(str(error))
     try:
-        places = _places(options.rules, options.game, consent_of(options))
+        places = _named_games(options.rules, options.game, consent_of(options))
     except TTRError as error:
         return complain(str(error))
     try:
@@ -138,7 +138,7 @@ def _test(options: argparse.Namespace) -> int:
 # --- which games ---------------------------------------------------------------------
 
 
-def _places(rules: str, game: str | None, consent: Consent) -> list[Setting]:
+def _named_games(rules: str, game: str | None, consent: Consent) -> list[Setting]:
     """The games that are named, with where they are."""
     if not rules.endswith(".ttr"):
         named = rules if ":" in Path(rules).name else f"{rules}:{game or 'game'}"
@@ -192,22 +192,22 @@ class _Outcome:
 
     def told(self) -> str:
         """For reading: what went wrong, and what was covered."""
-        known = "\n".join(filter(None, [self._roles(), self._skipped()]))
-        parts = [self._wrong(), self.coverage.table(), known, self._summary()]
+        known = "\n".join(filter(None, [self._roles(), self._unchecked()]))
+        parts = [self._failures(), self.coverage.table(), known, self._summary()]
         return "\n\n".join(filter(None, parts)) + "\n"
 
-    def _wrong(self) -> str:
+    def _failures(self) -> str:
         told = self.report.told(self.place) if self.report else ""
-        return "\n\n".join(filter(None, [told.rstrip(), self._across()]))
+        return "\n\n".join(filter(None, [told.rstrip(), self._process_difference()]))
 
-    def _across(self) -> str:
+    def _process_difference(self) -> str:
         from ttr.testing.determinism import DETERMINISTIC
 
         if not self.across:
             return ""
         return f"{DETERMINISTIC}: {DETERMINISTIC.says}\n{self.across}"
 
-    def _skipped(self) -> str:
+    def _unchecked(self) -> str:
         if self.report is None or not self.report.skipped:
             return ""
         lacking: dict[str, list[str]] = {}
@@ -244,7 +244,7 @@ class _Outcome:
         }
         if report is not None:
             facts["faults"] = [str(fault) for fault in report.faults]
-            facts["broken"] = _broken(report, self.place)
+            facts["broken"] = _broken_facts(report, self.place)
             facts["overall"] = [
                 {"property": one.name, "why": why} for one, why in report.overall
             ]
@@ -253,7 +253,7 @@ class _Outcome:
         return facts
 
 
-def _broken(report: Report, place: Setting) -> dict[str, Any] | None:
+def _broken_facts(report: Report, place: Setting) -> dict[str, Any] | None:
     from ttr.testing.failure_story import story
 
     if report.broken is None:
@@ -275,7 +275,7 @@ def _outcome(
     from ttr.testing.game_settings import starts_of, tutor_of
     from ttr.testing.hash_seeds import differing
 
-    watch = _Watch(place.game, options.examples)
+    watch = _Progress(place.game, options.examples)
     suite = Suite(
         place.game,
         tutor_of(place.game),
@@ -299,7 +299,7 @@ def _outcome(
     return _Outcome(place, watch.coverage, report, across, watch.seconds)
 
 
-class _Watch:
+class _Progress:
     """Keeps what was covered so far, and tells a terminal how far it has come.
 
     Ctrl-C takes effect between two dialogues: an interrupt that comes while something

@@ -25,21 +25,21 @@ def completions(session: Session, before: str) -> list[str]:
     """
     command = re.match(r":(\w*)$", before)
     if command:
-        return _beginning(command[1], COMMANDS)
+        return _starting_with(command[1], COMMANDS)
     file = re.match(r":(?:load|save)\s+(.*)$", before)
     if file:
         return _files(file[1])
     word = re.search(r"(\.?)(\w*)$", before)
     assert word is not None
     path, start = word.groups()
-    labels = {*_labels(session), *_written(before[: word.start()])}
+    labels = {*_labels(session), *_names_before_signs(before[: word.start()])}
     if path:
-        return _beginning(start, labels)
-    names = {*session.theory.names, *_written(before[: word.start()])}
-    return _beginning(start, names | {*KEYWORDS, *RESERVED, *ASKED})
+        return _starting_with(start, labels)
+    names = {*session.theory.names, *_names_before_signs(before[: word.start()])}
+    return _starting_with(start, names | {*KEYWORDS, *RESERVED, *ASKED})
 
 
-def _beginning(start: str, words: Iterable[str]) -> list[str]:
+def _starting_with(start: str, words: Iterable[str]) -> list[str]:
     return sorted(word for word in words if word.startswith(start))
 
 
@@ -50,7 +50,7 @@ def _labels(session: Session) -> Iterator[str]:
             yield from value
 
 
-def _written(text: str) -> list[str]:
+def _names_before_signs(text: str) -> list[str]:
     """The labels and variables in a text: the names before a colon or an equals."""
     return re.findall(r"(\w+)\s*(?::|=)", text)
 

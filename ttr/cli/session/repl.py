@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 from functools import reduce
 from pathlib import Path
 
-from ttr.cli.session.replies import Reply, answered, changes, term
-from ttr.cli.session.sessions import Session, loaded, saved
+from ttr.cli.session.replies import Reply, answer, evaluate_term, list_changes
+from ttr.cli.session.sessions import Session, load_file, save_file
 from ttr.computing.subtyping import Answer
 from ttr.display.render import box, latex
 from ttr.errors import TTRError, suggestion
@@ -41,10 +41,10 @@ def respond(session: Session, text: str) -> Reply:
     text = text.strip()
     try:
         if text.startswith(":"):
-            return _commanded(session, text)
+            return _run_command(session, text)
         if text in _WITHOUT_COLON and text not in session.theory.names:
             raise TTRError(f"{text} is no command here", hint=_COMMANDS_ARE)
-        return answered(session, text) if _says_something(text) else Reply(session)
+        return answer(session, text) if _says_something(text) else Reply(session)
     except TTRError as error:
         return Reply(session, f"error: {error}")
 
@@ -123,7 +123,7 @@ def is_complete(text: str) -> bool:
 
 
 @within_budget
-def _commanded(session: Session, text: str) -> Reply:
+def _run_command(session: Session, text: str) -> Reply:
     word, _, argument = text[1:].partition(" ")
     command = COMMANDS.get(word)
     if command is None:
@@ -139,15 +139,15 @@ def _commanded(session: Session, text: str) -> Reply:
 
 
 def _box(session: Session, argument: str) -> Reply:
-    return _drawn(session, argument, box)
+    return _draw(session, argument, box)
 
 
 def _latex(session: Session, argument: str) -> Reply:
-    return _drawn(session, argument, latex)
+    return _draw(session, argument, latex)
 
 
-def _drawn(session: Session, argument: str, draw: Callable[[object], str]) -> Reply:
-    value = term(session, argument) if argument else session.last
+def _draw(session: Session, argument: str, draw: Callable[[object], str]) -> Reply:
+    value = evaluate_term(session, argument) if argument else session.last
     if value is None or isinstance(value, Answer):
         raise TTRError("there is nothing to draw", hint="name a type or an object too")
     return Reply(session, draw(value))
@@ -165,10 +165,12 @@ def _why(session: Session, _: str) -> Reply:
 
 
 def _names(session: Session, _: str) -> Reply:
-    return Reply(session, "\n".join(_kinds(session.theory)) or "no name is declared")
+    return Reply(
+        session, "\n".join(_names_by_kind(session.theory)) or "no name is declared"
+    )
 
 
-def _kinds(theory: Theory) -> Iterator[str]:
+def _names_by_kind(theory: Theory) -> Iterator[str]:
     """The names, by what they are declared as."""
     arities = [one for pred in theory.predicates.values() for one in _arities(pred)]
     kinds = {
@@ -191,15 +193,15 @@ def _arities(pred: Pred) -> Iterator[str]:
 
 
 def _load(session: Session, argument: str) -> Reply:
-    after, changed = loaded(session, Path(argument).expanduser())
+    after, changed = load_file(session, Path(argument).expanduser())
     count = len(after.theory.names)
     said = f"{argument}: the session has {count} name{'s' * (count != 1)}"
-    told = "\n".join(filter(None, (said, changes(changed))))
+    told = "\n".join(filter(None, (said, list_changes(changed))))
     return Reply(replace(after, before=session), told)
 
 
 def _save(session: Session, argument: str) -> Reply:
-    saved(session, Path(argument).expanduser())
+    save_file(session, Path(argument).expanduser())
     count = len(session.entries)
     return Reply(session, f"{argument}: {count} statement{'s' * (count != 1)}")
 

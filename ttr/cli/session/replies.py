@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from ttr.building.merging import amerge, merge
-from ttr.cli.session.sessions import INPUT, Answered, Session, created, declared
+from ttr.cli.session.sessions import INPUT, LastAnswer, Session, create_witness, declare
 from ttr.computing.subtyping import subtype
 from ttr.display.abbreviations import folding
 from ttr.errors import NotationError, Span, TTRError
@@ -27,7 +27,7 @@ from ttr.types.syntax import Object, TypeNode, as_type
 from ttr.updates.rule_application import stepped
 from ttr.updates.rule_notation import declaration
 
-__all__ = ["ASKED", "Reply", "answered", "changes", "term"]
+__all__ = ["ASKED", "Reply", "answer", "list_changes", "evaluate_term"]
 
 _MERGES = {"merge": merge, "amerge": amerge}
 
@@ -46,11 +46,11 @@ class Reply:
 
 
 @within_budget
-def answered(session: Session, text: str) -> Reply:
+def answer(session: Session, text: str) -> Reply:
     """The reply to a statement, a question or a term; raises `TTRError`.
 
-    >>> kennel = answered(Session(), "basic A, B").session
-    >>> print(answered(kennel, "A <= B").text)
+    >>> kennel = answer(Session(), "basic A, B").session
+    >>> print(answer(kennel, "A <= B").text)
     no: A is not below B
     counter-example: a1
     """
@@ -59,29 +59,29 @@ def answered(session: Session, text: str) -> Reply:
     try:
         tree = parse_statement(source, 0, len(source.text))
     except NotationError as mistake:
-        return _replied(session, source, mistake)
-    return _stated(session, tree, source)
+        return _answer_question(session, source, mistake)
+    return _declare(session, tree, source)
 
 
 @within_budget
-def term(session: Session, text: str) -> Object:
+def evaluate_term(session: Session, text: str) -> Object:
     """The type or object a text stands for, with its applications worked out."""
     return session.model.reduced(read_term(text, session.theory, INPUT))
 
 
-def changes(names: Iterable[str]) -> str:
+def list_changes(names: Iterable[str]) -> str:
     """What is said where names mean something else from now on."""
     listed = ", ".join(sorted(names))
     return f"changed: {listed}" if listed else ""
 
 
-def _stated(session: Session, tree: Statement, source: Source) -> Reply:
+def _declare(session: Session, tree: Statement, source: Source) -> Reply:
     """The session with the statement; a check that fails is not kept."""
-    after, changed = declared(session, tree, source)
+    after, changed = declare(session, tree, source)
     if changed or isinstance(tree, trees.GameStatement):
         opened(after.theory)  # refuses a game that starts from what is no state of it
     if not isinstance(tree, trees.Question):
-        return Reply(replace(after, before=session), changes(changed))
+        return Reply(replace(after, before=session), list_changes(changed))
     report = asked(replace(after.theory, checks=after.theory.checks[-1:]))
     if not report.holds:
         return Reply(session, str(report))
@@ -91,7 +91,7 @@ def _stated(session: Session, tree: Statement, source: Source) -> Reply:
 # --- questions -----------------------------------------------------------------------
 
 
-def _replied(session: Session, source: Source, mistake: NotationError) -> Reply:
+def _answer_question(session: Session, source: Source, mistake: NotationError) -> Reply:
     """The reply to what is no statement, for which the mistake says why.
 
     The grammar knows questions as checks, so it is read as one.
@@ -100,14 +100,16 @@ def _replied(session: Session, source: Source, mistake: NotationError) -> Reply:
     try:
         tree = parse_statement(asked, 0, len(asked.text))
     except NotationError as error:
-        raise _further(mistake, _without_check(_in_place(error))) from None
+        raise _furthest(mistake, _without_check_hint(_without_prefix(error))) from None
     try:
-        return _answer(session, tree, Reader(session.theory, asked))
+        return _answer_tree(session, tree, Reader(session.theory, asked))
     except TTRError as error:
-        raise _in_place(_of_definition(error, tree, asked, mistake)) from None
+        raise _without_prefix(
+            _with_definition_hint(error, tree, asked, mistake)
+        ) from None
 
 
-def _of_definition(
+def _with_definition_hint(
     error: TTRError, tree: Statement, source: Source, mistake: NotationError
 ) -> TTRError:
     """The error; of an unknown name before = the hint is how names are defined.
@@ -124,7 +126,7 @@ def _of_definition(
     return error
 
 
-def _in_place(error: TTRError) -> TTRError:
+def _without_prefix(error: TTRError) -> TTRError:
     """The error where it is in the text without the word before it."""
     span = error.span
     if span is None or span.source != INPUT or span.line > 1:
@@ -136,34 +138,34 @@ def _in_place(error: TTRError) -> TTRError:
     return type(error)(error.message, span=moved, hint=error.hint)
 
 
-def _without_check(error: TTRError) -> TTRError:
+def _without_check_hint(error: TTRError) -> TTRError:
     """The error without a hint at the word, which nobody wrote."""
     hint = "" if _CHECK.strip() in error.hint else error.hint
     return type(error)(error.message, span=error.span, hint=hint)
 
 
-def _further(statement: TTRError, question: TTRError) -> TTRError:
+def _furthest(statement: TTRError, question: TTRError) -> TTRError:
     """Of two ways to read a text, the mistake of the one that came further.
 
     Where both came as far it is the one that knows a way out.
     """
-    return max(question, statement, key=lambda one: (_place(one), bool(one.hint)))
+    return max(question, statement, key=lambda one: (_position(one), bool(one.hint)))
 
 
-def _place(error: TTRError) -> tuple[int, int]:
+def _position(error: TTRError) -> tuple[int, int]:
     return (error.span.line, error.span.column) if error.span else (0, 0)
 
 
-def _answer(session: Session, tree: Statement, reader: Reader) -> Reply:
+def _answer_tree(session: Session, tree: Statement, reader: Reader) -> Reply:
     match tree:
         case trees.Question(_, _, "yes", trees.Claim(_, _, claim)):
-            return _claimed(session, claim, reader)
+            return _answer_term(session, claim, reader)
         case trees.Question(_, _, "yes", trees.Probability(degree=None) as asked):
-            return _probable(session, asked, reader)
+            return _answer_probability(session, asked, reader)
         case trees.Question(_, _, "yes", trees.Expectation(degree=None) as asked):
-            return _expected(session, asked, reader)
+            return _answer_expectation(session, asked, reader)
         case trees.Question(_, _, "yes"):
-            return _asked(session, Asking(reader).check(tree))
+            return _answer_check(session, Asking(reader).check(tree))
     reader.refuse(
         tree,
         "a question is asked as it is: the answer says yes, no or unknown",
@@ -171,15 +173,17 @@ def _answer(session: Session, tree: Statement, reader: Reader) -> Reply:
     )
 
 
-def _asked(session: Session, question: Check) -> Reply:
+def _answer_check(session: Session, question: Check) -> Reply:
     query, model = question.query, session.model
     match query:
         case TTRError():
             raise query
         case IsOf(sit, T):
-            return _judged(session, model.reduced(sit), _type(session, T))
+            return _judge(session, model.reduced(sit), _reduced_type(session, T))
         case IsBelow(lower, upper):
-            return _compared(session, _type(session, lower), _type(session, upper))
+            return _compare_types(
+                session, _reduced_type(session, lower), _reduced_type(session, upper)
+            )
     report = asked(replace(session.theory, checks=(question,)))
     if report.holds:
         return Reply(session, "yes")
@@ -190,31 +194,38 @@ def _asked(session: Session, question: Check) -> Reply:
     return Reply(session, f"no: {found}")
 
 
-def _type(session: Session, T: TypeNode) -> TypeNode:
+def _reduced_type(session: Session, T: TypeNode) -> TypeNode:
     return as_type(session.model.reduced(T))
 
 
-def _judged(session: Session, sit: Object, T: TypeNode) -> Reply:
+def _judge(session: Session, sit: Object, T: TypeNode) -> Reply:
     judgement = session.model.judge(sit, T)
-    text = f"{_verdict(judgement.p)}: {_ground(judgement.why)}"
+    text = f"{_verdict(judgement.p)}: {_deciding_step(judgement.why)}"
     return Reply(replace(session, last=judgement), text)
 
 
-def _probable(session: Session, asked: trees.Probability, reader: Reader) -> Reply:
+def _answer_probability(
+    session: Session, asked: trees.Probability, reader: Reader
+) -> Reply:
     """p(a : T | b : S), with what it is reckoned from."""
     model = session.model
     sit, T = reader.object(asked.sit, ()), reader.type(asked.type, ())
     when = [(reader.object(one, ()), reader.type(S, ())) for one, S in asked.when]
-    conditions = [(model.reduced(one), _type(session, S)) for one, S in when]
-    judgement = model.judge(model.reduced(sit), _type(session, T), when=conditions)
+    conditions = [(model.reduced(one), _reduced_type(session, S)) for one, S in when]
+    judgement = model.judge(
+        model.reduced(sit), _reduced_type(session, T), when=conditions
+    )
     text = f"{judgement.p}: {judgement.why.because}"
     return Reply(replace(session, last=judgement), text)
 
 
-def _expected(session: Session, asked: trees.Expectation, reader: Reader) -> Reply:
+def _answer_expectation(
+    session: Session, asked: trees.Expectation, reader: Reader
+) -> Reply:
     """p(T || S), over the known objects."""
     T, *types = [
-        _type(session, reader.type(one, ())) for one in (asked.type, *asked.when)
+        _reduced_type(session, reader.type(one, ()))
+        for one in (asked.type, *asked.when)
     ]
     return Reply(session, str(session.model.chance(T, when=types)))
 
@@ -225,7 +236,7 @@ def _verdict(p: Degree) -> str:
     return words.get(p, f"p = {p}")
 
 
-def _ground(why: Why) -> str:
+def _deciding_step(why: Why) -> str:
     """The step of a derivation that decides, on one line."""
     step = why.failure() or why
     said = step.because
@@ -236,7 +247,7 @@ def _ground(why: Why) -> str:
     return f"{where}{notation(step.sit)} : {step.type} ({said})"
 
 
-def _compared(session: Session, S: TypeNode, T: TypeNode) -> Reply:
+def _compare_types(session: Session, S: TypeNode, T: TypeNode) -> Reply:
     answer = subtype(S, T, session.theory)
     counter = answer.counter
     lines = [str(answer)]
@@ -248,43 +259,43 @@ def _compared(session: Session, S: TypeNode, T: TypeNode) -> Reply:
 # --- what is asked of types, and terms ------------------------------------------------
 
 
-def _claimed(session: Session, claim: trees.Term, reader: Reader) -> Reply:
+def _answer_term(session: Session, claim: trees.Term, reader: Reader) -> Reply:
     match claim:
         case Application(_, _, Name(_, _, (word,), None)) if (
             word in ASKED and word not in session.theory.names
         ):
-            return _asked_of_types(session, word, claim, reader)
-        case Name(_, _, (name,), None) if _is_played(session, name):
-            return Reply(session, _declared(session, name))
+            return _answer_about_types(session, word, claim, reader)
+        case Name(_, _, (name,), None) if _is_rule_or_game(session, name):
+            return Reply(session, _declaration_of(session, name))
         case Application(_, _, Name(_, _, (name,), None)) if (
             name in session.theory.rules
         ):
             rule, args = Asking(reader).step(claim, name)
             args = tuple(map(session.model.reduced, args))
-            return _shown(session, stepped(rule, args, session.model).state)
+            return _show(session, stepped(rule, args, session.model).state)
         case Application(_, _, Name(_, _, (name,), None), args) if (
             name in session.theory.openings
         ):
-            return _played(session, name, [reader.object(arg, ()) for arg in args])
-    return _shown(session, session.model.reduced(reader.object(claim, ())))
+            return _play_game(session, name, [reader.object(arg, ()) for arg in args])
+    return _show(session, session.model.reduced(reader.object(claim, ())))
 
 
-def _shown(session: Session, value: Answered) -> Reply:
+def _show(session: Session, value: LastAnswer) -> Reply:
     return Reply(replace(session, last=value), notation(value))
 
 
-def _is_played(session: Session, name: str) -> bool:
+def _is_rule_or_game(session: Session, name: str) -> bool:
     theory = session.theory
     played = (theory.rules, theory.strategies, theory.openings)
     return any(name in kind for kind in played)
 
 
-def _declared(session: Session, name: str) -> str:
+def _declaration_of(session: Session, name: str) -> str:
     """The rule, strategy or game, with the names of what is defined."""
     return declaration(session.theory, name, folding(session.theory, 0))
 
 
-def _played(session: Session, name: str, events: list[Object]) -> Reply:
+def _play_game(session: Session, name: str, events: list[Object]) -> Reply:
     """The turns of a game from its start: one for each event, or one without any."""
     game = session.theory.games[name]
     turns = game.play([session.model.reduced(event) for event in events] or [None])
@@ -292,7 +303,7 @@ def _played(session: Session, name: str, events: list[Object]) -> Reply:
     return Reply(session, "\n".join([*map(str, turns), f"state: {state}"]))
 
 
-def _asked_of_types(
+def _answer_about_types(
     session: Session, word: str, claim: Application, reader: Reader
 ) -> Reply:
     wanted = 2 if word in _MERGES else 1
@@ -302,11 +313,11 @@ def _asked_of_types(
     if word == "wellformed":
         place = claim.start, claim.end
         question = trees.Question(*place, "yes", trees.Claim(*place, claim))
-        return _asked(session, Asking(reader).check(question))
-    types = [_type(session, reader.type(arg, ())) for arg in claim.args]
+        return _answer_check(session, Asking(reader).check(question))
+    types = [_reduced_type(session, reader.type(arg, ())) for arg in claim.args]
     match word, types:
         case "create", [T]:
-            return _created(session, T)
+            return _create(session, T)
         case "P", [T]:
             return Reply(session, str(session.model.true(T)))
         case "witnesses", [T]:
@@ -314,10 +325,10 @@ def _asked_of_types(
             listed = "\n".join(map(notation, known)) or "none is known"
             return Reply(replace(session, last=known), listed)
     S, T = types
-    return _shown(session, _MERGES[word](S, T, session.theory))
+    return _show(session, _MERGES[word](S, T, session.theory))
 
 
-def _created(session: Session, T: TypeNode) -> Reply:
-    after, witness = created(session, T)
+def _create(session: Session, T: TypeNode) -> Reply:
+    after, witness = create_witness(session, T)
     last = after.model.judge(witness, T)
     return Reply(replace(after, last=last, before=session), notation(witness))

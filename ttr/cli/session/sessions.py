@@ -44,12 +44,20 @@ from ttr.types.paths import occurring
 from ttr.types.printing import notation
 from ttr.types.syntax import Basic, Object, PType, TypeNode
 
-__all__ = ["Answered", "Entry", "Session", "created", "declared", "loaded", "saved"]
+__all__ = [
+    "LastAnswer",
+    "Entry",
+    "Session",
+    "create_witness",
+    "declare",
+    "load_file",
+    "save_file",
+]
 
 INPUT = "<input>"
 """What a line that was typed is called where a mistake in it is shown."""
 
-Answered: TypeAlias = Object | Judgement | Answer | None
+LastAnswer: TypeAlias = Object | Judgement | Answer | None
 """What was answered last: a value, a judgement or an answer about types."""
 
 
@@ -78,7 +86,7 @@ class Session:
     entries: tuple[Entry, ...] = ()
     theory: Theory = field(default_factory=Theory)
     model: Model = field(default_factory=Model, repr=False)
-    last: Answered = None
+    last: LastAnswer = None
     before: Session | None = field(default=None, repr=False)
     over: bool = False
     consent: Consent = OWN_FOLDER
@@ -92,7 +100,7 @@ class Session:
 
 
 @within_budget
-def declared(
+def declare(
     session: Session, tree: Statement, source: Source
 ) -> tuple[Session, frozenset[str]]:
     """The session with a statement more, and the names that changed with it.
@@ -100,27 +108,27 @@ def declared(
     Raises `TTRError` for a mistake in it, a fact that contradicts others, or where what
     rests on a name has no use for its new meaning.
 
-    >>> kennel, _ = declared(Session(), *_read("basic Ind"))
-    >>> kennel, _ = declared(kennel, *_read("Pair := [a : Ind, b : Ind]"))
-    >>> kennel, changed = declared(kennel, *_read("Ind := list(Type)"))
+    >>> kennel, _ = declare(Session(), *_read("basic Ind"))
+    >>> kennel, _ = declare(kennel, *_read("Pair := [a : Ind, b : Ind]"))
+    >>> kennel, changed = declare(kennel, *_read("Ind := list(Type)"))
     >>> sorted(changed), str(kennel.theory.Pair)
     (['Ind', 'Pair'], '[a : list(Type), b : list(Type)]')
     """
     if isinstance(tree, trees.Import):
         session = session.naming(Path(os.path.realpath(tree.path)))
-        entries = (*session.entries, _entry(tree, source, Path(), session.consent))
-        return _afresh(session, entries, _theory_of(session, entries)), frozenset()
-    entry = _entry(tree, source, Path(), session.consent)
-    if _is_said_already(session, entry, tree):
+        entries = (*session.entries, _make_entry(tree, source, Path(), session.consent))
+        return _rebuild(session, entries, _theory_of(session, entries)), frozenset()
+    entry = _make_entry(tree, source, Path(), session.consent)
+    if _is_repetition(session, entry, tree):
         return session, frozenset()
-    again = _declared_again(session.theory, tree)
-    if again or _gathered(session, entry):
-        return _redeclared(session, entry, tree, source)
-    theory = _after(session.theory, session.entries, tree, source)
-    return _with(session, (*session.entries, entry), theory), frozenset()
+    again = _redefined_names(session.theory, tree)
+    if again or _is_gathered(session, entry):
+        return _redeclare(session, entry, tree, source)
+    theory = _theory_with(session.theory, session.entries, tree, source)
+    return _extend(session, (*session.entries, entry), theory), frozenset()
 
 
-def _is_said_already(session: Session, entry: Entry, tree: Statement) -> bool:
+def _is_repetition(session: Session, entry: Entry, tree: Statement) -> bool:
     """Is a statement in the session that the new one would only say once more?
 
     A question is asked again. A fact or a chance may have another degree by now.
@@ -130,7 +138,7 @@ def _is_said_already(session: Session, entry: Entry, tree: Statement) -> bool:
     return any(entry.text == one.text for one in session.entries)
 
 
-def _after(
+def _theory_with(
     theory: Theory, entries: Iterable[Entry], tree: Statement, source: Source
 ) -> Theory:
     """The theory of the entries with a statement more."""
@@ -140,7 +148,9 @@ def _after(
     return theory_of_draft(draft)
 
 
-def _entry(tree: Statement, source: Source, folder: Path, consent: Consent) -> Entry:
+def _make_entry(
+    tree: Statement, source: Source, folder: Path, consent: Consent
+) -> Entry:
     """The statement as an entry; an import in it is relative to the folder."""
     if isinstance(tree, trees.Import):
         path = Path(os.path.realpath(folder / tree.path))
@@ -149,40 +159,40 @@ def _entry(tree: Statement, source: Source, folder: Path, consent: Consent) -> E
             theory = theory_of_file(path, consent)
         except TTRError as error:
             raise error.at(source.span(tree)) from None
-        kinds = _of_kinds(rule.kind for rule in theory.rules.values())
+        kinds = _kind_marks(rule.kind for rule in theory.rules.values())
         text = f"import {json_text(str(path))}"
         return Entry(text, theory.names, frozenset(), kinds)
-    text = _indented(_written(source, tree))
-    rests_on = mentioned(tree) | _of_kinds(gathered(tree))
-    return Entry(text, _announced(tree), rests_on, _kinds(tree))
+    text = _indent(_text_of(source, tree))
+    rests_on = mentioned(tree) | _kind_marks(gathered(tree))
+    return Entry(text, _declared_names(tree), rests_on, _kinds_of(tree))
 
 
-def _kinds(tree: Statement) -> frozenset[str]:
+def _kinds_of(tree: Statement) -> frozenset[str]:
     """The kind of the rule that a statement declares, if it has one."""
     match tree:
         case trees.RuleStatement(kind=trees.Word(_, _, kind)):
-            return _of_kinds([kind])
+            return _kind_marks([kind])
     return frozenset()
 
 
-def _of_kinds(kinds: Iterable[str]) -> frozenset[str]:
+def _kind_marks(kinds: Iterable[str]) -> frozenset[str]:
     """The kinds of rules as what is rested on: written so that they are no names."""
     return frozenset(f"of {kind}" for kind in kinds)
 
 
-def _gathered(session: Session, entry: Entry) -> bool:
+def _is_gathered(session: Session, entry: Entry) -> bool:
     """Whether a strategy gathers the rules of a kind, and the entry is one more."""
     return any(entry.kinds & one.rests_on for one in session.entries)
 
 
-def _indented(text: str) -> str:
+def _indent(text: str) -> str:
     """The text with its further lines set in, as they are in a file."""
     first, *rest = text.split("\n")
     inner = (line if line[:1].isspace() else f"    {line}" for line in rest)
     return "\n".join((first, *inner))
 
 
-def _announced(tree: Statement) -> frozenset[str]:
+def _declared_names(tree: Statement) -> frozenset[str]:
     """The names that a statement declares, or may declare as it goes."""
     match tree:
         case trees.BasicNames(_, _, words) | trees.ObjectNames(_, _, words):
@@ -201,27 +211,27 @@ def _announced(tree: Statement) -> frozenset[str]:
     return frozenset()
 
 
-def _with(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Session:
+def _extend(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Session:
     """The session in which these entries have come to this theory."""
     old = session.theory
-    if _rules(theory) != _rules(old):
-        return _afresh(session, entries, theory)
+    if _entailment_rules(theory) != _entailment_rules(old):
+        return _rebuild(session, entries, theory)
     new = theory.givens[len(old.givens) :]
-    model = reduce(_told, new, session.model)
+    model = reduce(_give, new, session.model)
     return replace(session, entries=entries, theory=theory, model=model)
 
 
-def _rules(theory: Theory) -> tuple[object, ...]:
+def _entailment_rules(theory: Theory) -> tuple[object, ...]:
     """What judgements that were told before may have to be looked at again for."""
     return theory.axioms, theory.exclusions, theory.opened
 
 
-def _afresh(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Session:
-    model = reduce(_told, theory.givens, Model(replace(theory, givens=())))
+def _rebuild(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Session:
+    model = reduce(_give, theory.givens, Model(replace(theory, givens=())))
     return replace(session, entries=entries, theory=theory, model=model)
 
 
-def _told(model: Model, given: Given | Expected) -> Model:
+def _give(model: Model, given: Given | Expected) -> Model:
     try:
         return model.with_given(given)
     except TTRError as error:
@@ -240,12 +250,12 @@ def _union(names: Iterable[frozenset[str]]) -> frozenset[str]:
 # --- names that are declared again ---------------------------------------------------
 
 
-def _declared_again(theory: Theory, tree: Statement) -> frozenset[str]:
+def _redefined_names(theory: Theory, tree: Statement) -> frozenset[str]:
     """The names that a statement gives another meaning.
 
     A fact does not, nor does what makes a basic type of one, or an object of one.
     """
-    known = theory.names & _announced(tree)
+    known = theory.names & _declared_names(tree)
     match tree:
         case trees.BasicNames():
             return known - frozenset(theory.basics)
@@ -256,18 +266,18 @@ def _declared_again(theory: Theory, tree: Statement) -> frozenset[str]:
     return known
 
 
-def _redeclared(
+def _redeclare(
     session: Session, entry: Entry, tree: Statement, source: Source
 ) -> tuple[Session, frozenset[str]]:
     """The session with the entry for those that declared its names before."""
     names = entry.declares
-    ahead, behind = _parted(session.entries, names, entry.kinds)
+    ahead, behind = _split_entries(session.entries, names, entry.kinds)
     try:
-        _after(_theory_of(session, ahead), ahead, tree, source)
+        _theory_with(_theory_of(session, ahead), ahead, tree, source)
     except TTRError:
         _refuse_circle(names, entry.rests_on, _names_of(behind))
         raise
-    return _replaced(session, ahead, (entry,), behind)
+    return _replace_entries(session, ahead, (entry,), behind)
 
 
 def _refuse_circle(
@@ -283,7 +293,7 @@ def _refuse_circle(
         )
 
 
-def _replaced(
+def _replace_entries(
     session: Session,
     ahead: Sequence[Entry],
     new: Sequence[Entry],
@@ -296,7 +306,7 @@ def _replaced(
     names = session.theory.names & _names_of(new)
     entries = (*ahead, *new, *behind)
     try:
-        after = _afresh(session, entries, _theory_of(session, entries))
+        after = _rebuild(session, entries, _theory_of(session, entries))
     except TTRError as error:
         first = error.errors[0] if isinstance(error, Mistakes) else error
         raise type(first)(
@@ -311,7 +321,7 @@ def _names_of(entries: Iterable[Entry]) -> frozenset[str]:
     return _union(one.declares for one in entries)
 
 
-def _parted(
+def _split_entries(
     entries: Iterable[Entry],
     names: frozenset[str],
     kinds: frozenset[str] = frozenset(),
@@ -350,25 +360,29 @@ def _without(entry: Entry, names: frozenset[str]) -> tuple[Entry, ...]:
         case trees.GivenFact():
             text = entry.text
         case trees.BasicNames(_, _, words):
-            text = _shorter("basic", [w for w in words if w.text not in names], source)
+            text = _shortened(
+                "basic", [w for w in words if w.text not in names], source
+            )
         case trees.ObjectNames(_, _, words, kind):
-            text = _shorter("object", [w for w in words if w.text not in names], source)
-            text += f" : {_written(source, kind)}" * bool(text)
+            text = _shortened(
+                "object", [w for w in words if w.text not in names], source
+            )
+            text += f" : {_text_of(source, kind)}" * bool(text)
         case trees.Predicates(_, _, arities):
             left = [one for one in arities if one.name.text not in names]
-            text = _shorter("pred", left, source)
+            text = _shortened("pred", left, source)
         case _:
             text = ""
     return (replace(entry, text=text, declares=entry.declares - names),) * bool(text)
 
 
-def _shorter(keyword: str, left: Sequence[trees.Part], source: Source) -> str:
+def _shortened(keyword: str, left: Sequence[trees.Part], source: Source) -> str:
     """The declaration of the parts that are left, or nothing if none is."""
-    written = ", ".join(_written(source, part) for part in left)
+    written = ", ".join(_text_of(source, part) for part in left)
     return f"{keyword} {written}" if written else ""
 
 
-def _written(source: Source, part: trees.Part) -> str:
+def _text_of(source: Source, part: trees.Part) -> str:
     return source.text[part.start : part.end]
 
 
@@ -385,7 +399,7 @@ def _read(text: str) -> tuple[Statement, Source]:
 
 
 @within_budget
-def created(session: Session, T: TypeNode) -> tuple[Session, Object]:
+def create_witness(session: Session, T: TypeNode) -> tuple[Session, Object]:
     """The session with the facts of a fresh witness of T, and the witness.
 
     Raises `Refused` where there can be none.
@@ -394,8 +408,8 @@ def created(session: Session, T: TypeNode) -> tuple[Session, Object]:
     for sit, kind, p in _atoms(model.judge(witness, T).why, CERTAIN):
         is_new = isinstance(sit, str) and sit not in session.theory.names
         if is_new or session.model.judge(sit, kind).p != p:
-            fact = _fact(session.theory, sit, kind, p)
-            session, _ = declared(session, *_read(fact))
+            fact = _fact_statement(session.theory, sit, kind, p)
+            session, _ = declare(session, *_read(fact))
     return session, witness
 
 
@@ -413,7 +427,7 @@ def _atoms(why: Why, p: Degree) -> Iterable[tuple[Object, TypeNode, Degree]]:
         yield from _atoms(part, other if why.how == "none" else p)
 
 
-def _fact(theory: Theory, sit: Object, T: TypeNode, p: Degree) -> str:
+def _fact_statement(theory: Theory, sit: Object, T: TypeNode, p: Degree) -> str:
     """A statement of the fact; names of objects that mean something else are quoted."""
     meant = theory.names - theory.objects
     named = (part for part in occurring([T]) if isinstance(part, str))
@@ -426,7 +440,7 @@ def _fact(theory: Theory, sit: Object, T: TypeNode, p: Degree) -> str:
 # --- files ---------------------------------------------------------------------------
 
 
-def loaded(session: Session, path: Path) -> tuple[Session, frozenset[str]]:
+def load_file(session: Session, path: Path) -> tuple[Session, frozenset[str]]:
     """The session with the statements of a file, and the names that changed.
 
     Raises `TTRError` for a file that cannot be read and for the mistakes in it.
@@ -434,22 +448,24 @@ def loaded(session: Session, path: Path) -> tuple[Session, frozenset[str]]:
     session = session.naming(path)
     theory = theory_of_file(path, session.consent)
     known = {entry.text for entry in session.entries}
-    entries = _entries(path, session.consent)
+    entries = _entries_of_file(path, session.consent)
     new = tuple(entry for entry in entries if entry.text not in known)
     if not session.entries:
-        return _afresh(session, new, theory), frozenset()
+        return _rebuild(session, new, theory), frozenset()
     kinds = _union(one.kinds for one in new)
-    ahead, behind = _parted(session.entries, _names_of(new), kinds)
-    return _replaced(session, ahead, new, behind)
+    ahead, behind = _split_entries(session.entries, _names_of(new), kinds)
+    return _replace_entries(session, ahead, new, behind)
 
 
-def _entries(path: Path, consent: Consent) -> Iterator[Entry]:
+def _entries_of_file(path: Path, consent: Consent) -> Iterator[Entry]:
     source = Source.of(read_text(path, THEORY), str(path))
     for start, end in blocks(source.text):
-        yield _entry(parse_statement(source, start, end), source, path.parent, consent)
+        yield _make_entry(
+            parse_statement(source, start, end), source, path.parent, consent
+        )
 
 
-def saved(session: Session, path: Path) -> None:
+def save_file(session: Session, path: Path) -> None:
     """Writes the statements into a file that loads again, imports too.
 
     In another session, imports from other folders have to be allowed.
@@ -458,7 +474,7 @@ def saved(session: Session, path: Path) -> None:
     """
     try:
         folder = Path(os.path.realpath(path)).parent
-        lines = [_relative(entry.text, folder) for entry in session.entries]
+        lines = [_with_relative_import(entry.text, folder) for entry in session.entries]
         write_whole(path, "".join(f"{line}\n" for line in lines))
     except ValueError:
         raise Unsupported(
@@ -466,7 +482,7 @@ def saved(session: Session, path: Path) -> None:
         ) from None
 
 
-def _relative(text: str, folder: Path) -> str:
+def _with_relative_import(text: str, folder: Path) -> str:
     """The statement, an import as one that is relative to the folder."""
     if not text.startswith("import"):
         return text

@@ -37,12 +37,12 @@ def talk(session: Session, say: Say, ask: Ask) -> None:
     `say` prints a text, and `ask` a prompt, after which it gives the line typed.
     """
     if sys.stdin.isatty() and sys.stdout.isatty():
-        _at_terminal(session, say, ask)
+        _talk_at_terminal(session, say, ask)
     else:
-        _through_pipe(session, say)
+        _talk_through_pipe(session, say)
 
 
-def _through_pipe(session: Session, say: Say) -> None:
+def _talk_through_pipe(session: Session, say: Say) -> None:
     if isinstance(sys.stdin, TextIOWrapper):  # not where a program has replaced it
         sys.stdin.reconfigure(errors="backslashreplace")
     desk = _Desk(session, say)
@@ -96,7 +96,7 @@ class _Desk:
 # --- at a terminal -------------------------------------------------------------------
 
 
-def _at_terminal(session: Session, say: Say, ask: Ask) -> None:
+def _talk_at_terminal(session: Session, say: Say, ask: Ask) -> None:
     say("Type Theory with Records; :help lists what can be typed")
     desk = _Desk(session, say)
     with _line_editing(desk):
@@ -128,7 +128,7 @@ def _line_editing(desk: _Desk) -> Iterator[None]:
     readline.set_completer_delims(_BREAKS)
     editline = "libedit" in (readline.__doc__ or "")
     readline.parse_and_bind("bind ^I rl_complete" if editline else "tab: complete")
-    file = _history()
+    file = _history_file()
     with suppress(OSError):
         readline.read_history_file(file)
     readline.set_history_length(LINES)
@@ -142,6 +142,6 @@ def _line_editing(desk: _Desk) -> Iterator[None]:
             readline.write_history_file(file)
 
 
-def _history() -> Path:
+def _history_file() -> Path:
     """The file of the lines typed, where desktops keep such things."""
     return state_folder("ttr") / "history"

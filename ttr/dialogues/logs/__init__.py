@@ -1,7 +1,7 @@
 """Logs of dialogues: every turn in a line of JSON, to be read, replayed, gone on with.
 
 `LogFile` writes one, `read_logs` reads it, `replay` plays its events again and says
-where anything differs, `continued` takes the dialogue up, `story_of` makes a story.
+where anything differs, `continue_log` takes the dialogue up, `story_of` makes a story.
 """
 
 from typing import TYPE_CHECKING
@@ -13,7 +13,7 @@ from ttr.dialogues.logs.log_writer import LogFile, write_log
 from ttr.dialogues.logs.replay import (
     Divergence,
     Replayed,
-    continued,
+    continue_log,
     replay,
     run_after,
     story_of,
@@ -28,7 +28,7 @@ __all__ = [
     "LogFile",
     "Replayed",
     "UnreadableLog",
-    "continued",
+    "continue_log",
     "read_logs",
     "replay",
     "run_after",

@@ -21,8 +21,8 @@ __all__ = [
     "Fault",
     "Header",
     "LogError",
-    "entry",
-    "header",
+    "read_entry",
+    "read_header",
 ]
 
 FORMAT, VERSION = "ttr", 1
@@ -49,7 +49,7 @@ class Header:
     def text(self) -> str:
         """The line of the log."""
         begun = {"log": FORMAT, "version": VERSION}
-        return _line({**begun, **vars(self)})
+        return _json_line({**begun, **vars(self)})
 
 
 @dataclass(frozen=True)
@@ -77,17 +77,17 @@ class Entry:
 
     def text(self) -> str:
         """The line of the log."""
-        return _line(vars(self))
+        return _json_line(vars(self))
 
 
-def _line(facts: Mapping[str, Any]) -> str:
+def _json_line(facts: Mapping[str, Any]) -> str:
     return json_text(facts)
 
 
 # --- reading -------------------------------------------------------------------------
 
 
-def header(facts: object) -> Header | None:
+def read_header(facts: object) -> Header | None:
     """The header that a line is, None if it is none; raises `Fault`."""
     if not isinstance(facts, dict) or "log" not in facts:
         return None
@@ -107,45 +107,50 @@ def header(facts: object) -> Header | None:
     )
 
 
-def entry(facts: object) -> Entry:
+def read_entry(facts: object) -> Entry:
     """The turn that a line is; raises `Fault`."""
     if not isinstance(facts, dict):
         raise Fault("no turn of a log")
     return Entry(
-        _of(facts, "turn", int),
+        _field(facts, "turn", int),
         _text(facts, "line"),
-        _event(facts),
-        tuple((_at(one, 0, str), _at(one, 1, str)) for one in _list(facts, "said")),
-        tuple(_rule(one) for one in _list(facts, "rules")),
+        _read_event(facts),
+        tuple(
+            (_element(one, 0, str), _element(one, 1, str))
+            for one in _list(facts, "said")
+        ),
+        tuple(_read_rule(one) for one in _list(facts, "rules")),
         _text(facts, "state"),
-        tuple(map(_judged, _list(facts, "judged"))),
-        _of(facts, "names", int),
-        _of(facts, "whole", bool),
+        tuple(map(_read_fact, _list(facts, "judged"))),
+        _field(facts, "names", int),
+        _field(facts, "whole", bool),
         _texts(facts, "declares"),
         _texts(facts, "objects"),
     )
 
 
-def _of(facts: dict[str, Any], key: str, kind: type) -> Any:
+def _field(facts: dict[str, Any], key: str, kind: type) -> Any:
     if key not in facts:
         raise Fault(f"no turn of a log: {key} is missing")
     if type(facts[key]) is not kind:
-        raise Fault(f"{key} should be {_named(kind)}, found {json.dumps(facts[key])}")
+        raise Fault(
+            f"{key} should be {_kind_name(kind)}, found {json.dumps(facts[key])}"
+        )
     return facts[key]
 
 
-def _named(kind: type) -> str:
+def _kind_name(kind: type) -> str:
     names = {int: "a whole number", str: "a text", bool: "true or false"}
     return names.get(kind, "a list" if kind is list else "an object")
 
 
 def _text(facts: dict[str, Any], key: str) -> str:
-    text: str = _of(facts, key, str)
+    text: str = _field(facts, key, str)
     return text
 
 
 def _list(facts: dict[str, Any], key: str) -> list[Any]:
-    found: list[Any] = _of(facts, key, list)
+    found: list[Any] = _field(facts, key, list)
     return found
 
 
@@ -156,33 +161,33 @@ def _texts(facts: dict[str, Any], key: str) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _at(one: object, index: int, *kinds: type) -> Any:
+def _element(one: object, index: int, *kinds: type) -> Any:
     """An element of a list inside a turn."""
     if isinstance(one, list) and index < len(one) and type(one[index]) in kinds:
         return one[index]
     raise Fault(f"no turn of a log: {json.dumps(one)} is not expected in it")
 
 
-def _event(facts: dict[str, Any]) -> str | list[list[Any]] | None:
+def _read_event(facts: dict[str, Any]) -> str | list[list[Any]] | None:
     event = facts.get("event")
     if event is None or isinstance(event, str):
         return event
     if not isinstance(event, list):
         raise Fault(f"event should be a text or a list, found {json.dumps(event)}")
-    return [[_at(one, 0, str), _at(one, 1, float, int)] for one in event]
+    return [[_element(one, 0, str), _element(one, 1, float, int)] for one in event]
 
 
-def _rule(one: object) -> Mapping[str, Any]:
+def _read_rule(one: object) -> Mapping[str, Any]:
     if not isinstance(one, dict):
         raise Fault(f"no turn of a log: {json.dumps(one)} is no rule")
     return {
         "rule": _text(one, "rule"),
         "event": _text(one, "event"),
-        "with": _of(one, "with", dict),
+        "with": _field(one, "with", dict),
         "changes": list(_texts(one, "changes")),
     }
 
 
-def _judged(one: object) -> tuple[str, str, float, float]:
-    lo, hi = _at(one, 2, float, int), _at(one, 3, float, int)
-    return _at(one, 0, str), _at(one, 1, str), lo, hi
+def _read_fact(one: object) -> tuple[str, str, float, float]:
+    lo, hi = _element(one, 2, float, int), _element(one, 3, float, int)
+    return _element(one, 0, str), _element(one, 1, str), lo, hi

@@ -12,7 +12,7 @@ from ttr.judging.models import Model
 from ttr.probability import Degree
 from ttr.types.syntax import Object
 
-__all__ = ["Fact", "gained", "only_facts", "restored"]
+__all__ = ["Fact", "new_facts", "differs_by_facts_only", "restore_facts"]
 
 _NONE: Map[Atom, Degree] = Map()
 
@@ -26,7 +26,7 @@ class Fact:
     p: Degree
 
 
-def gained(before: Model, after: Model) -> tuple[Fact, ...]:
+def new_facts(before: Model, after: Model) -> tuple[Fact, ...]:
     """The facts that a model has and an earlier one has not, in the order told."""
     new: list[tuple[int, Fact]] = []
     for key, facts in after.facts.known.items():
@@ -40,7 +40,7 @@ def gained(before: Model, after: Model) -> tuple[Fact, ...]:
     return tuple(fact for _, fact in sorted(new, key=lambda one: one[0]))
 
 
-def only_facts(before: Model, after: Model) -> bool:
+def differs_by_facts_only(before: Model, after: Model) -> bool:
     """Whether a model differs from an earlier one by facts alone.
 
     Witness functions and conditional probabilities cannot be written down as facts.
@@ -49,7 +49,7 @@ def only_facts(before: Model, after: Model) -> bool:
     return has.functions is was.functions and has.links is was.links
 
 
-def restored(model: Model, facts: Iterable[Fact], names: int) -> Model:
+def restore_facts(model: Model, facts: Iterable[Fact], names: int) -> Model:
     """The model with these facts, after it has given out so many names."""
     for fact in facts:
         model = model.given(fact.sit, fact.type, fact.p)

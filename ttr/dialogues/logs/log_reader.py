@@ -7,8 +7,15 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from ttr.dialogues.logs.entries import Entry, Fault, Header, LogError, entry, header
-from ttr.dialogues.logs.name_declarations import Declared
+from ttr.dialogues.logs.entries import (
+    Entry,
+    Fault,
+    Header,
+    LogError,
+    read_entry,
+    read_header,
+)
+from ttr.dialogues.logs.name_declarations import Declarations
 from ttr.errors import TTRError
 from ttr.safety.files import why_unread
 from ttr.safety.inputs import parse_json, read_bytes
@@ -36,13 +43,13 @@ class Log:
     cut: str = ""
 
     @cached_property
-    def declared(self) -> Declared:
+    def declared(self) -> Declarations:
         """The names that are used in it; raises `LogError`."""
         lines: list[Header | Entry] = [self.header, *self.entries]
         statements = [text for line in lines for text in line.declares]
         objects = [name for line in lines for name in line.objects]
         try:
-            return Declared().together_with(statements, objects)
+            return Declarations().together_with(statements, objects)
         except TTRError as error:
             why = error.message.partition("\n")[0]
             raise LogError(
@@ -72,7 +79,7 @@ def read_logs(path: Path) -> tuple[Log, ...]:
     except OSError as error:
         raise UnreadableLog(why_unread(path, error)) from None
     *lines, rest = text.split(b"\n")
-    logs = _dialogues(path, lines)
+    logs = _group_lines(path, lines)
     if rest and logs:
         after = f"after turn {len(logs[-1].entries)}" if logs[-1].entries else "at once"
         told = f"{path}:{len(lines) + 1}: the log is cut off {after}"
@@ -82,10 +89,10 @@ def read_logs(path: Path) -> tuple[Log, ...]:
     return tuple(logs)
 
 
-def _dialogues(path: Path, lines: list[bytes]) -> list[Log]:
+def _group_lines(path: Path, lines: list[bytes]) -> list[Log]:
     logs: list[Log] = []
     entries: list[Entry] = []
-    for number, line in enumerate(_parsed(path, lines), start=1):
+    for number, line in enumerate(_parse_lines(path, lines), start=1):
         if isinstance(line, Header):
             if logs:
                 logs[-1] = replace(logs[-1], entries=tuple(entries))
@@ -105,13 +112,13 @@ def _dialogues(path: Path, lines: list[bytes]) -> list[Log]:
     return logs
 
 
-def _parsed(path: Path, lines: list[bytes]) -> Iterator[Header | Entry]:
+def _parse_lines(path: Path, lines: list[bytes]) -> Iterator[Header | Entry]:
     for number, line in enumerate(lines, start=1):
         try:
             if len(line) > LINE.allowed:
                 raise LogError(f"{path}:{number}: {LINE.exceeded().strerror}")
             facts = parse_json(line.decode("utf-8"))
-            yield header(facts) or entry(facts)
+            yield read_header(facts) or read_entry(facts)
         except Fault as fault:
             raise LogError(f"{path}:{number}: {fault}") from None
         except UnicodeDecodeError:

@@ -12,8 +12,8 @@ from typing import Any, Self
 
 from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.dialogues.logs.entries import Entry, Header, LogError
-from ttr.dialogues.logs.learned_facts import Fact, gained, only_facts
-from ttr.dialogues.logs.name_declarations import Declared
+from ttr.dialogues.logs.learned_facts import Fact, differs_by_facts_only, new_facts
+from ttr.dialogues.logs.name_declarations import Declarations
 from ttr.dialogues.settings import Setting
 from ttr.errors import TTRError
 from ttr.judging.models import Model
@@ -26,13 +26,13 @@ __all__ = ["LogFile", "write_log"]
 
 
 @dataclass(frozen=True)
-class _Now:
+class _Progress:
     """Where a dialogue that is logged has got to."""
 
     setting: Setting
     turn: int
     model: Model
-    declared: Declared
+    declared: Declarations
 
 
 class LogFile:
@@ -67,21 +67,21 @@ class LogFile:
         """A new log, which is there as soon as a dialogue begins."""
         self.path = path
         self._file: FileIO | None = None
-        self._now: _Now | None = None
+        self._now: _Progress | None = None
 
     @classmethod
     def going_on(
-        cls, path: Path, setting: Setting, turn: int, run: Run, declared: Declared
+        cls, path: Path, setting: Setting, turn: int, run: Run, declared: Declarations
     ) -> Self:
         """Goes on with a log whose last dialogue has come so far."""
         log = cls.__new__(cls)
         log.path = path
-        with _failing(path):
+        with _as_log_error(path):
             log._file = file = FileIO(path, "r+")
             whole = file.readall().rfind(b"\n") + 1  # the rest was cut off
             file.seek(whole)
             file.truncate()
-        log._now = _Now(setting, turn, run.model, declared)
+        log._now = _Progress(setting, turn, run.model, declared)
         return log
 
     def begin(
@@ -92,10 +92,10 @@ class LogFile:
         Raises `LogError` where the log cannot be written.
         """
         run = start or setting.game.begin()
-        statements, objects = Declared().missing([run.state])
-        declared = _declared(Declared(), statements, objects)
+        statements, objects = Declarations().missing([run.state])
+        declared = _declare(Declarations(), statements, objects)
         if not declared.reads_back(run.state):
-            raise _unwritable("the state at the start", run.state)
+            raise _no_notation("the state at the start", run.state)
         self._write(
             Header(
                 setting.reference_from(self.path.parent),
@@ -105,7 +105,7 @@ class LogFile:
                 tuple(objects),
             )
         )
-        self._now = _Now(setting, 0, run.model, declared)
+        self._now = _Progress(setting, 0, run.model, declared)
 
     def write(self, turn: Turn | Trial) -> None:
         """Adds a turn; raises `LogError` for an event that no text stands for.
@@ -118,13 +118,13 @@ class LogFile:
         trial = turn if isinstance(turn, Trial) else Trial.of(turn, now.setting)
         if trial.turn is None:
             return
-        entry, declared = _entry(trial.in_words(now.setting), trial.turn, now)
+        entry, declared = _make_entry(trial.in_words(now.setting), trial.turn, now)
         self._write(entry)
-        self._now = _Now(now.setting, entry.turn, trial.turn.model, declared)
+        self._now = _Progress(now.setting, entry.turn, trial.turn.model, declared)
 
     def _write(self, line: Header | Entry) -> None:
-        waiting = memoryview(_encoded(f"{line.text()}\n"))
-        with _failing(self.path):
+        waiting = memoryview(_encode(f"{line.text()}\n"))
+        with _as_log_error(self.path):
             if self._file is None:
                 self._file = FileIO(self.path, "w")
             while waiting:  # in one piece, unless the disk is nearly full
@@ -174,14 +174,14 @@ def write_log(path: Path, dialogues: Iterable[Dialogue]) -> None:
 
 
 @contextmanager
-def _failing(path: Path) -> Iterator[None]:
+def _as_log_error(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
         raise LogError(why_unwritten(path, error)) from None
 
 
-def _encoded(text: str) -> bytes:
+def _encode(text: str) -> bytes:
     try:
         return text.encode()
     except UnicodeEncodeError as error:
@@ -189,7 +189,7 @@ def _encoded(text: str) -> bytes:
         raise LogError(f"no log can keep the character {found}") from None
 
 
-def _unwritable(what: str, value: object) -> LogError:
+def _no_notation(what: str, value: object) -> LogError:
     shown = str(value)
     shown = shown if len(shown) < 60 else f"{shown[:60]}…"
     return LogError(f"{what} has no notation, so that no log can keep it: {shown}")
@@ -198,42 +198,44 @@ def _unwritable(what: str, value: object) -> LogError:
 # --- entries -------------------------------------------------------------------------
 
 
-def _entry(trial: Trial, turn: Turn, now: _Now) -> tuple[Entry, Declared]:
+def _make_entry(trial: Trial, turn: Turn, now: _Progress) -> tuple[Entry, Declarations]:
     number = now.turn + 1
-    facts = gained(now.model, turn.model)
-    values = list(_values(turn, facts))
+    facts = new_facts(now.model, turn.model)
+    values = list(_values_of(turn, facts))
     statements, objects = now.declared.missing(values)
-    declared = _declared(now.declared, statements, objects)
+    declared = _declare(now.declared, statements, objects)
     for event in _events(turn.event):
         if not declared.reads_back(event):
-            raise _unwritable(f"the event of turn {number}", event)
+            raise _no_notation(f"the event of turn {number}", event)
     entry = Entry(
         number,
         trial.line,
-        _event(turn.event),
+        _event_field(turn.event),
         tuple(
             (notation(move.type), words)
             for move, words in zip(turn.said, trial.said, strict=True)
         ),
-        tuple(map(_rule, turn.trace)),
+        tuple(map(_rule_field, turn.trace)),
         notation(turn.state),
-        tuple(map(_fact, facts)),
+        tuple(map(_fact_field, facts)),
         turn.model.facts.created,
-        only_facts(now.model, turn.model),
+        differs_by_facts_only(now.model, turn.model),
         tuple(statements),
         tuple(objects),
     )
     return entry, declared
 
 
-def _declared(before: Declared, statements: list[str], objects: list[str]) -> Declared:
+def _declare(
+    before: Declarations, statements: list[str], objects: list[str]
+) -> Declarations:
     try:
         return before.together_with(statements, objects)
     except TTRError as error:
         raise LogError(f"the names of this game cannot be logged: {error}") from error
 
 
-def _values(turn: Turn, facts: tuple[Fact, ...]) -> Iterator[object]:
+def _values_of(turn: Turn, facts: tuple[Fact, ...]) -> Iterator[object]:
     """What has to be read back from the entry."""
     yield turn.state
     yield from _events(turn.event)
@@ -251,7 +253,7 @@ def _events(event: object) -> list[Any]:
     return [event]
 
 
-def _event(event: Any) -> str | list[list[Any]] | None:
+def _event_field(event: Any) -> str | list[list[Any]] | None:
     match event:
         case None:
             return None
@@ -260,7 +262,7 @@ def _event(event: Any) -> str | list[list[Any]] | None:
     return notation(event)
 
 
-def _rule(step: Step) -> dict[str, Any]:
+def _rule_field(step: Step) -> dict[str, Any]:
     return {
         "rule": step.rule.name,
         "event": "" if step.event is None else notation(step.event),
@@ -269,6 +271,6 @@ def _rule(step: Step) -> dict[str, Any]:
     }
 
 
-def _fact(fact: Fact) -> tuple[str, str, float, float]:
+def _fact_field(fact: Fact) -> tuple[str, str, float, float]:
     sit: Object = fact.sit
     return notation(sit), notation(fact.type), fact.p.lo, fact.p.hi

@@ -13,11 +13,11 @@ from ttr.types.paths import occurring
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, Pred
 
-__all__ = ["Declared"]
+__all__ = ["Declarations"]
 
 
 @dataclass(frozen=True)
-class Declared:
+class Declarations:
     """What was declared so far: statements of the notation, and names of objects."""
 
     statements: tuple[str, ...] = ()
@@ -26,13 +26,13 @@ class Declared:
 
     def together_with(
         self, statements: Iterable[str], objects: Iterable[str]
-    ) -> Declared:
+    ) -> Declarations:
         """What is declared with these in addition; raises `TTRError`."""
         more = tuple(statements)
         everything = (*self.statements, *more)
         theory = _theory("\n".join(everything)) if more else self.theory
         names = self.objects.union(objects)
-        return Declared(everything, names, replace(theory, objects=names))
+        return Declarations(everything, names, replace(theory, objects=names))
 
     def missing(self, values: Iterable[object]) -> tuple[list[str], list[str]]:
         """The statements and names of objects that the values need in addition."""

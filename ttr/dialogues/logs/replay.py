@@ -10,7 +10,7 @@ from typing import Any
 from ttr.aliases import Alias
 from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.dialogues.logs.entries import Entry, LogError
-from ttr.dialogues.logs.learned_facts import Fact, gained, restored
+from ttr.dialogues.logs.learned_facts import Fact, new_facts, restore_facts
 from ttr.dialogues.logs.log_reader import Log
 from ttr.dialogues.logs.log_writer import LogFile
 from ttr.dialogues.settings import Setting
@@ -22,7 +22,7 @@ from ttr.types.records import differences
 from ttr.types.syntax import Basic, Object, PType, Record
 from ttr.updates import Run, Step, Turn, nbest
 
-__all__ = ["Divergence", "Replayed", "continued", "replay", "run_after", "story_of"]
+__all__ = ["Divergence", "Replayed", "continue_log", "replay", "run_after", "story_of"]
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ def replay(log: Log, setting: Setting, *, from_: int = 0) -> Replayed:
     trials: list[Trial] = []
     divergence: Divergence | None = None
     for entry in log.entries[from_:]:
-        turn, divergence = _again(log, entry, setting, now)
+        turn, divergence = _replay_turn(log, entry, setting, now)
         if turn is not None:
             now = turn.run
             trials.append(Trial.of(turn, setting, entry.line))
@@ -97,17 +97,17 @@ def run_after(log: Log, setting: Setting, turn: int) -> Run:
                 f"{log.place(entry.turn)} has changed the model by more than facts, so "
                 "that the log can be replayed from its start only"
             )
-        facts = [_fact(log, entry, *judged) for judged in entry.judged]
+        facts = [_read_fact(log, entry, *judged) for judged in entry.judged]
         try:
-            model = restored(model, facts, entry.names)
+            model = restore_facts(model, facts, entry.names)
         except TTRError as error:
             place = log.place(entry.turn)
             raise LogError(f"{place}: the facts cannot be: {error.message}") from error
     text = log.entries[turn - 1].state if turn else log.header.start
-    return Run(_state(log, turn, text), model, ())
+    return Run(_read_state(log, turn, text), model, ())
 
 
-def continued(log: Log, setting: Setting) -> tuple[LogFile, Run]:
+def continue_log(log: Log, setting: Setting) -> tuple[LogFile, Run]:
     """A log to be gone on with, and the state and the model that it has come to.
 
     What there is of a turn that was cut off is taken away. Raises `LogError`.
@@ -124,7 +124,7 @@ def story_of(log: Log, setting: Setting, folder: Path | None = None) -> str:
         reference = setting.reference_from(folder)
         setting = replace(setting, reference=reference, folder=folder)
     usual = notation(setting.game.start) == log.header.start
-    start = None if usual else _state(log, 0, log.header.start)
+    start = None if usual else _read_state(log, 0, log.header.start)
     lines = [format_story(_title(log), [], setting, start=start)]
     for entry in log.entries:
         said = [words for _, words in entry.said]
@@ -139,21 +139,21 @@ def _title(log: Log) -> str:
 # --- one turn ------------------------------------------------------------------------
 
 
-def _again(
+def _replay_turn(
     log: Log, entry: Entry, setting: Setting, now: Run
 ) -> tuple[Turn | None, Divergence | None]:
-    event = _event(log, entry)
+    event = _read_event(log, entry)
     place = log.place(entry.turn)
     try:
         turn = setting.game.take(now, event)
     except TTRError as error:
         return None, Divergence(place, "the turn", "no error", error.message)
-    for what, logged, found in _compared(log, entry, now, turn):
+    for what, logged, found in _differences(log, entry, now, turn):
         return turn, Divergence(place, what, logged, found)
     return turn, None
 
 
-def _compared(
+def _differences(
     log: Log, entry: Entry, now: Run, turn: Turn
 ) -> Iterator[tuple[str, str, str]]:
     """What is different, as it is in the log and as it was found."""
@@ -170,19 +170,19 @@ def _compared(
             ", ".join(made) or "nothing",
         )
     if entry.state != notation(turn.state):
-        yield _first_difference(_state(log, entry.turn, entry.state), turn.state)
+        yield _first_difference(_read_state(log, entry.turn, entry.state), turn.state)
     for one, step in zip(entry.rules, turn.trace, strict=True):
-        yield from _step_compared(one, step)
-    facts = tuple(_fact(log, entry, *judged) for judged in entry.judged)
-    new = gained(now.model, turn.model)
+        yield from _step_differences(one, step)
+    facts = tuple(_read_fact(log, entry, *judged) for judged in entry.judged)
+    new = new_facts(now.model, turn.model)
     if facts != new:
-        yield "what was judged", _listed(facts), _listed(new)
+        yield "what was judged", _list_facts(facts), _list_facts(new)
     if entry.names != turn.model.facts.created:
         count = turn.model.facts.created
         yield "how many names were given", str(entry.names), str(count)
 
 
-def _step_compared(
+def _step_differences(
     one: Mapping[str, Any], step: Step
 ) -> Iterator[tuple[str, str, str]]:
     """What is different in what a rule did."""
@@ -192,27 +192,27 @@ def _step_compared(
         yield f"what {name} took", str(one["event"]), event
     bound = {label: notation(value) for label, value in step.bindings.items()}
     if one["with"] != bound:
-        yield f"what {name} bound", _bindings(one["with"]), _bindings(bound)
+        yield f"what {name} bound", _list_bindings(one["with"]), _list_bindings(bound)
     if one["changes"] != list(step.changes):
         logged, found = ("; ".join(some) for some in (one["changes"], step.changes))
         yield f"what {name} changed", logged, found
 
 
-def _bindings(bound: Mapping[str, object]) -> str:
+def _list_bindings(bound: Mapping[str, object]) -> str:
     return ", ".join(f"{label} = {value}" for label, value in bound.items()) or "none"
 
 
-def _listed(facts: Iterable[Fact]) -> str:
+def _list_facts(facts: Iterable[Fact]) -> str:
     told = (f"{notation(one.sit)} : {one.type} {one.p}" for one in facts)
     return ", ".join(told) or "nothing"
 
 
 def _first_difference(logged: Record, found: Record) -> tuple[str, str, str]:
     path = next(differences(logged, found), "").partition(":")[0]
-    return f"the state at {path}", _shown_at(logged, path), _shown_at(found, path)
+    return f"the state at {path}", _notation_at(logged, path), _notation_at(found, path)
 
 
-def _shown_at(state: Record, path: str) -> str:
+def _notation_at(state: Record, path: str) -> str:
     value: Object = state
     for label in path.split("."):
         if not isinstance(value, Record) or label not in value:
@@ -224,28 +224,30 @@ def _shown_at(state: Record, path: str) -> str:
 # --- values --------------------------------------------------------------------------
 
 
-def _event(log: Log, entry: Entry) -> object:
+def _read_event(log: Log, entry: Entry) -> object:
     match entry.event:
         case None:
             return None
         case str(text):
-            return _value(log, entry.turn, "the event", text)
-    pairs = [(_value(log, entry.turn, "the event", text), p) for text, p in entry.event]
+            return _read_value(log, entry.turn, "the event", text)
+    pairs = [
+        (_read_value(log, entry.turn, "the event", text), p) for text, p in entry.event
+    ]
     try:
         return nbest(*pairs)
     except TTRError as error:
         raise LogError(f"{log.place(entry.turn)}: {error.message}") from error
 
 
-def _fact(log: Log, entry: Entry, sit: str, T: str, lo: float, hi: float) -> Fact:
-    found = _value(log, entry.turn, "a fact", T)
+def _read_fact(log: Log, entry: Entry, sit: str, T: str, lo: float, hi: float) -> Fact:
+    found = _read_value(log, entry.turn, "a fact", T)
     if not isinstance(found, Basic | PType):
         raise LogError(f"{log.place(entry.turn)}: no fact is of the type {T}")
-    return Fact(_value(log, entry.turn, "a fact", sit), found, Degree(lo, hi))
+    return Fact(_read_value(log, entry.turn, "a fact", sit), found, Degree(lo, hi))
 
 
-def _state(log: Log, turn: int, text: str) -> Record:
-    found = _value(log, turn, "the state", text)
+def _read_state(log: Log, turn: int, text: str) -> Record:
+    found = _read_value(log, turn, "the state", text)
     if isinstance(found, Record):
         return found
     raise LogError(f"{log.place(turn)}: the state is no record, but {text[:60]}")
@@ -255,7 +257,7 @@ def _first_line(error: TTRError) -> str:
     return error.message.partition("\n")[0]
 
 
-def _value(log: Log, turn: int, what: str, text: str) -> Object:
+def _read_value(log: Log, turn: int, what: str, text: str) -> Object:
     try:
         return log.declared.read(text, log.file)
     except TTRError as error:

@@ -127,10 +127,10 @@ def _add_case(suite: ElementTree.Element, one: Outcome) -> None:
     if one.as_written:
         return
     kind = "error" if one.error is not None else "failure"
-    first = str(one.error or f"{one.file} differs in line {_number(one)}")
+    first = str(one.error or f"{one.file} differs in line {_line_number(one)}")
     brief = {"message": terminal_text(first.splitlines()[0]), "type": kind}
     ElementTree.SubElement(case, kind, brief).text = terminal_text(str(one))
 
 
-def _number(one: Outcome) -> int:
+def _line_number(one: Outcome) -> int:
     return one.mismatch.line.number if one.mismatch is not None else 0

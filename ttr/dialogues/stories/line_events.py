@@ -13,7 +13,13 @@ from ttr.errors import NotationError, TTRError, UpdateError, suggestion
 from ttr.types.syntax import Object, TypeNode
 from ttr.updates import NBest, Run, nbest
 
-__all__ = ["Alternative", "alternatives", "event", "type_of", "value"]
+__all__ = [
+    "Alternative",
+    "alternatives",
+    "event_of_line",
+    "type_of_text",
+    "value_of_text",
+]
 
 _Read = Callable[[Line, str, int], object]
 """What a part of a line makes happen, which begins so far into its text."""
@@ -22,7 +28,9 @@ _VERBS = ("game", "start", "event", "perhaps")
 """What may stand after `@`."""
 
 
-def value(setting: Setting, now: Run, line: Line, text: str, begin: int) -> Object:
+def value_of_text(
+    setting: Setting, now: Run, line: Line, text: str, begin: int
+) -> Object:
     """What a part of a line stands for, which begins so far into its text.
 
     Raises `StoryError` with the place of the mistake.
@@ -44,43 +52,47 @@ def value(setting: Setting, now: Run, line: Line, text: str, begin: int) -> Obje
         raise line.wrong(error.message) from error
 
 
-def type_of(setting: Setting, now: Run, line: Line, text: str, begin: int) -> TypeNode:
+def type_of_text(
+    setting: Setting, now: Run, line: Line, text: str, begin: int
+) -> TypeNode:
     """The type that a part of a line stands for; raises `StoryError` for another."""
-    T = value(setting, now, line, text, begin)
+    T = value_of_text(setting, now, line, text, begin)
     if isinstance(T, TypeNode):
         return T
     raise line.wrong(f"expected a type, found {text.strip()}")
 
 
-def event(setting: Setting, now: Run, line: Line) -> object:
+def event_of_line(setting: Setting, now: Run, line: Line) -> object:
     """What a line makes happen, in words if the game hears them; None for nothing."""
     hear = setting.game.hear
-    in_notation: _Read = partial(value, setting, now)
+    in_notation: _Read = partial(value_of_text, setting, now)
     if line.mark == "@":
-        return _happening(line, in_notation)
+        return _event_of_statement(line, in_notation)
     if not line.text:
         return None
-    read = in_notation if hear is None else partial(_heard, hear)
+    read = in_notation if hear is None else partial(_understand, hear)
     if line.mark == "U>":
         return read(line, line.text, 0)
-    return _weighed(line, 0, read)
+    return _alternative_events(line, 0, read)
 
 
-def _happening(line: Line, read: _Read) -> object:
+def _event_of_statement(line: Line, read: _Read) -> object:
     verb, _, text = line.text.partition(" ")
     begin = len(verb) + 1
     match verb:
         case "event":
             return read(line, text, begin)
         case "perhaps":
-            return _weighed(line, begin, read)
+            return _alternative_events(line, begin, read)
         case "start":
             raise line.wrong("a story says where it starts before anything else")
     hint = suggestion(verb, _VERBS) or f"there are {', '.join(_VERBS)}"
     raise line.wrong(f"there is no `@ {verb}`: {hint}")
 
 
-def _heard(hear: Callable[[str], object], line: Line, text: str, begin: int) -> object:
+def _understand(
+    hear: Callable[[str], object], line: Line, text: str, begin: int
+) -> object:
     """What a game understands of words; None if nothing."""
     try:
         return hear(text)
@@ -91,7 +103,7 @@ def _heard(hear: Callable[[str], object], line: Line, text: str, begin: int) -> 
         raise line.wrong(f"what the game hears by failed: {fault}") from error
 
 
-def _weighed(line: Line, begin: int, read: _Read) -> NBest | None:
+def _alternative_events(line: Line, begin: int, read: _Read) -> NBest | None:
     """The alternatives of a line, each with the number after it.
 
     Those that are not understood are left out: it may have been something else.
@@ -122,10 +134,10 @@ def alternatives(line: Line, begin: int = 0) -> tuple[Alternative, ...]:
     Raises `StoryError` for one without.
     """
     parts = re.finditer(r"(?:(?!\s\|\s).)+", line.text[begin:])
-    return tuple(_alternative(line, begin + it.start(), it[0]) for it in parts)
+    return tuple(_read_alternative(line, begin + it.start(), it[0]) for it in parts)
 
 
-def _alternative(line: Line, begin: int, text: str) -> Alternative:
+def _read_alternative(line: Line, begin: int, text: str) -> Alternative:
     found = re.fullmatch(r"[\s|]*(\S.*?)\s+(\d*\.?\d+)\s*", text)
     if found is None:
         told = "an alternative ends with its probability, as in `Greet 0.6`"

@@ -37,9 +37,9 @@ class Mismatch:
         lines = [
             self.line.place,
             _EXPECTED + self.expected,
-            *_marked(_EXPECTED, expected),
+            *_caret_line(_EXPECTED, expected),
             _FOUND + self.found,
-            *_marked(_FOUND, found),
+            *_caret_line(_FOUND, found),
         ]
         if self.trace:
             lines.append("  the rules of this turn:")
@@ -87,5 +87,5 @@ def _cut(line: str) -> str:
     return line if len(line) <= _WIDTH else f"{line[: _WIDTH - 1]}…"
 
 
-def _marked(label: str, carets: str) -> list[str]:
+def _caret_line(label: str, carets: str) -> list[str]:
     return [" " * len(label) + carets] if carets else []

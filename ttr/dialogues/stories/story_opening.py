@@ -13,7 +13,7 @@ from ttr.dialogues.settings import (
     python_in,
     setting,
 )
-from ttr.dialogues.stories.line_events import value
+from ttr.dialogues.stories.line_events import value_of_text
 from ttr.dialogues.stories.story_reader import Line, Story
 from ttr.errors import TTRError, suggestion
 from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowed
@@ -37,7 +37,7 @@ def setting_of(story: Story, consent: Consent = OWN_FOLDER) -> Setting:
         )
         raise first.wrong(f"the story names no game: {near}")
     try:
-        return setting(*_named(story.game), _beside(story.game, consent))
+        return setting(*_reference_of(story.game), _consent_beside(story.game, consent))
     except StoryError as error:
         raise story.game.wrong(error.message) from error
 
@@ -47,9 +47,9 @@ def check_consent(story: Story, consent: Consent) -> None:
     if story.game is None:
         return
     try:
-        check_named(*_named(story.game), _beside(story.game, consent))
+        check_named(*_reference_of(story.game), _consent_beside(story.game, consent))
     except NotAllowed as error:
-        reference, _ = _named(story.game)
+        reference, _ = _reference_of(story.game)
         or_else = f", or name the game yourself, --game {quote(reference)}"
         told = error.message + or_else * bool(consent.python and python_in(reference))
         raise NotAllowed(f"{story.game.place}: {told}") from error
@@ -57,12 +57,12 @@ def check_consent(story: Story, consent: Consent) -> None:
         raise story.game.wrong(error.message) from error
 
 
-def _named(line: Line) -> tuple[str, Path]:
+def _reference_of(line: Line) -> tuple[str, Path]:
     """The reference to a game in a line, and the folder from which it is taken."""
     return line.text.partition(" ")[2].strip(), Path(line.file).parent
 
 
-def _beside(line: Line, consent: Consent) -> Consent:
+def _consent_beside(line: Line, consent: Consent) -> Consent:
     """The consent, and to what lies in the folder of the story."""
     return consent.adding(Path(line.file).parent)
 
@@ -76,7 +76,7 @@ def opening(story: Story, setting: Setting) -> Setting:
     if not _says_start(first):
         return setting
     verb, _, text = first.text.partition(" ")
-    start = value(setting, setting.game.begin(), first, text, len(verb) + 1)
+    start = value_of_text(setting, setting.game.begin(), first, text, len(verb) + 1)
     if not isinstance(start, Record):
         raise first.wrong(f"a story starts in a record, found {text or 'nothing'}")
     try:

@@ -10,7 +10,7 @@ from ttr.aliases import Alias
 from ttr.computing.subtyping import subtype
 from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.dialogues.settings import Setting
-from ttr.dialogues.stories.line_events import event, type_of
+from ttr.dialogues.stories.line_events import event_of_line, type_of_text
 from ttr.dialogues.stories.mismatches import SILENCE, Mismatch
 from ttr.dialogues.stories.story_opening import opening, setting_of, turns_of
 from ttr.dialogues.stories.story_reader import Line, Story
@@ -86,18 +86,18 @@ class _Playing:
             mismatch = self._step(line)
             if mismatch is not None:
                 return mismatch
-        return self._left_over(story.lines[-1])
+        return self._unexpected_words(story.lines[-1])
 
     def _step(self, line: Line) -> Mismatch | None:
         match line.mark:
             case "S>" | "S~":
-                return self._compare(line)
+                return self._compare_words(line)
             case "=":
-                return self._judge(line)
-        return self._left_over(line) or self._turn(line)
+                return self._check_state(line)
+        return self._unexpected_words(line) or self._take_turn(line)
 
-    def _turn(self, line: Line) -> Mismatch | None:
-        happening = event(self.setting, self._now, line)
+    def _take_turn(self, line: Line) -> Mismatch | None:
+        happening = event_of_line(self.setting, self._now, line)
         told = f"{line.mark} {line.text}".rstrip()
         self._echo(told)
         try:
@@ -119,25 +119,25 @@ class _Playing:
 
     # --- what the system says ---
 
-    def _compare(self, line: Line) -> Mismatch | None:
+    def _compare_words(self, line: Line) -> Mismatch | None:
         found = self._said.pop(0) if self._said else None
         if found is None:
-            return self._differing(line, SILENCE) if line.text else None
+            return self._mismatch_at(line, SILENCE) if line.text else None
         move, words = found
         if line.text and self._fits(line, move, words):
             return None
-        return self._differing(line, words)
+        return self._mismatch_at(line, words)
 
     def _fits(self, line: Line, move: Judgement, words: str) -> bool:
         """Whether a move is as written: to the letter, or roughly."""
         if self.setting.game.say is not None:
             return words == line.text if line.mark == "S>" else fits(line, words)
-        T = type_of(self.setting, self._now, line, line.text, 0)
+        T = type_of_text(self.setting, self._now, line, line.text, 0)
         theory = self.setting.theory
         below = subtype(move.type, T, theory).yes
         return below and (line.mark == "S~" or subtype(T, move.type, theory).yes)
 
-    def _left_over(self, line: Line) -> Mismatch | None:
+    def _unexpected_words(self, line: Line) -> Mismatch | None:
         """What the system said more than the story has, before this line."""
         if not self._said:
             return None
@@ -147,20 +147,20 @@ class _Playing:
 
     # --- states ---
 
-    def _judge(self, line: Line) -> Mismatch | None:
+    def _check_state(self, line: Line) -> Mismatch | None:
         name, colon, text = line.text.partition(":")
         if not colon or name.strip() != "s":
             raise line.wrong("a judgement of the state is written `= s : T`")
-        T = type_of(self.setting, self._now, line, text, len(name) + 1)
+        T = type_of_text(self.setting, self._now, line, text, len(name) + 1)
         try:
             judgement = self._now.model.judge(self._now.state, T)
         except TTRError as error:
             raise line.wrong(error.message) from error
         if judgement.p == CERTAIN:
             return None
-        return self._differing(line, failing(judgement))
+        return self._mismatch_at(line, failing(judgement))
 
-    def _differing(self, line: Line, found: str) -> Mismatch:
+    def _mismatch_at(self, line: Line, found: str) -> Mismatch:
         expected = (
             line.text.partition(":")[2].strip() if line.mark == "=" else line.text
         )
