@@ -19,7 +19,7 @@ from ttr.dialogues.stories import (
     Mismatch,
     Story,
     alternatives,
-    failing,
+    failure_reason,
     fits,
 )
 from ttr.errors import UpdateError
@@ -150,7 +150,7 @@ class _Playing:
         judgement = self._robot.model.judge(self._robot.state, T)
         if judgement.p == CERTAIN:
             return None
-        return self._differing(line, str(T), failing(judgement))
+        return self._differing(line, str(T), failure_reason(judgement))
 
     def _differing(self, line: Line, expected: str, found: str) -> Mismatch:
         latest = self._robot.exchanges[-1:]

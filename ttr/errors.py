@@ -1,7 +1,7 @@
-"""What can go wrong, said so that the reader can mend it.
+"""The errors of `ttr`: each says what is wrong, where, and how to mend it.
 
 Every error is a `TTRError`: one sentence that says what was expected and what was
-found, where it is known a place in a text, and where there is one a way out.
+found, with the place in the text and a way out where they are known.
 """
 
 from __future__ import annotations
@@ -99,7 +99,7 @@ class TTRError(Exception):
         )
 
     def __str__(self) -> str:
-        """The message, the place and the way out, as they may be printed."""
+        """The message, the place and the hint, safe to print."""
         lines = [terminal_text(self.message)]
         if self.span:
             lines.append(str(self.span))
@@ -118,20 +118,20 @@ def _rebuild(
 
 
 class NotationError(TTRError):
-    """A text that is no notation: what was expected there and what was found."""
+    """A text that the notation does not allow: what was expected, what was found."""
 
 
 class Mistakes(NotationError):
-    """Several mistakes in one theory; `errors` are they, in the order of the text."""
+    """Several mistakes in one theory; `errors` has them in the order of the text."""
 
     errors: tuple[TTRError, ...] = ()
 
     @classmethod
     def of(cls, errors: tuple[TTRError, ...]) -> Mistakes:
         """The mistakes as one error."""
-        told = cls(f"{len(errors)} mistakes\n\n" + "\n\n".join(map(str, errors)))
-        told.errors = errors
-        return told
+        error = cls(f"{len(errors)} mistakes\n\n" + "\n\n".join(map(str, errors)))
+        error.errors = errors
+        return error
 
     def __reduce__(self) -> tuple[object, ...]:
         return Mistakes.of, (self.errors,)
@@ -146,11 +146,11 @@ class Refused(TTRError):
 
 
 class Unexpected(Refused):
-    """An event that no type expects where it comes."""
+    """An event that does not fit the course of events where it comes."""
 
 
 class Undecided(TTRError):
-    """A question for yes or no, asked of a judgement that is neither."""
+    """A yes or no was asked of a judgement that is neither certain nor refuted."""
 
 
 class Unsupported(TTRError):
@@ -158,11 +158,11 @@ class Unsupported(TTRError):
 
 
 class TooLargeError(TTRError):
-    """A question that takes more steps than its budget allows."""
+    """A question that needs more steps than its budget allows."""
 
 
 class UpdateError(TTRError):
-    """A rule, a state or an event that an update cannot go on with.
+    """A rule, a state or an event with which an update cannot go on.
 
     `steps` are the rules that had been applied in the same turn, as far as is known.
     """
@@ -179,7 +179,7 @@ class RuleFailed(UpdateError):
 
 
 class Endless(UpdateError):
-    """A repetition, or an agenda, that comes to no end."""
+    """A repetition or an agenda that never ends."""
 
 
 class NotHeard(UpdateError):
@@ -187,7 +187,7 @@ class NotHeard(UpdateError):
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:
-    """A way out for a name nobody declared: the nearest known one, or none.
+    """A hint for an unknown name: the nearest known one; empty if none is near.
 
     >>> suggestion("hgu", ["hug", "dog"])
     'did you mean hug?'

@@ -12,7 +12,7 @@ from typing import TypeAlias
 
 from ttr.types.syntax import EventString, FiniteSet, Object, Record, TypeNode
 
-__all__ = ["Snapshot", "first_change", "copy_of", "snapshot"]
+__all__ = ["first_change", "copy_of", "snapshot"]
 
 Snapshot: TypeAlias = "dict[str, Snapshot] | tuple[object, ...]"
 

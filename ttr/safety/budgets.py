@@ -1,15 +1,15 @@
-"""Budgets of steps: how much work a question may be before it is left.
+"""Budgets of steps: how much work a question may take before it is given up.
 
 Types are small to write and can be large to answer questions about: each line of a
 theory may double the type of the line before. So every question counts its steps, and
-one that takes more than its budget ends with an honest answer: `unknown` where there is
-such an answer, else a `TooLargeError`. It never becomes a yes or a no.
+one that takes more than its budget ends honestly: with `unknown` where that is an
+answer, else with a `TooLargeError`. It never becomes a yes or a no.
 
-A question that is asked to answer another one spends the budget of the outermost. What
-ends it is no `Exception`, so that no handler on the way to the outermost question takes
-it for an error of the types and goes on; and what was not finished is remembered
-nowhere. Steps are counted, not seconds, and building a type that is there already
-counts as if it were new: the answers are the same on every machine.
+A question that is asked in order to answer another spends the budget of the outermost
+one. `Spent` is no `Exception`, so that no handler on the way out takes it for an error
+of the types and goes on; and nothing unfinished is remembered. Steps are counted, not
+seconds, and building a type that exists already counts as if it were new: so the
+answers are the same on every machine.
 """
 
 from __future__ import annotations
@@ -24,7 +24,6 @@ from ttr.errors import TooLargeError, TTRError, Unsupported
 
 __all__ = [
     "STEPS",
-    "Purse",
     "SharedPurse",
     "Spent",
     "budget",
@@ -32,26 +31,25 @@ __all__ = [
     "open_purse",
     "purse_of_several",
     "spend",
-    "steps_allowed",
     "within_budget",
 ]
 
 STEPS = 1_000_000
-"""How many steps a question may take where nobody says otherwise: some seconds."""
+"""How many steps a question may take by default: some seconds of work."""
 
 SEVERAL = 4
-"""How many whole budgets the questions of one file may take together."""
+"""How many budgets the questions of one file may spend together."""
 
 EACH = 1_000
-"""How many steps more they may take for each of them; most take some hundred."""
+"""How many more steps each of these questions adds; most take a few hundred."""
 
 
 class Spent(BaseException):
-    """The budget is used up; caught by whoever opened it and by nobody else."""
+    """The budget is used up; only the question that opened it catches this."""
 
 
 class Purse:
-    """What is left of a budget. It has no `__init__`, as every question opens one."""
+    """What is left of a budget; without `__init__`, for every question makes one."""
 
     __slots__ = ("left",)
 
@@ -59,7 +57,7 @@ class Purse:
 
 
 class SharedPurse(Purse):
-    """What is left of the budget that the questions of one file have together."""
+    """What is left of the budget that the questions of one file share."""
 
     __slots__ = ("steps",)
 
@@ -67,7 +65,7 @@ class SharedPurse(Purse):
         self.steps = self.left = steps
 
     def allow(self, questions: int) -> None:
-        """Adds what so many more questions of the same file may take."""
+        """Adds the steps of this many more questions of the same file."""
         self.steps += EACH * questions
         self.left += EACH * questions
 
@@ -83,11 +81,11 @@ _purse: ContextVar[Purse | None] = ContextVar("purse", default=None)
 _allowed: ContextVar[int] = ContextVar("steps", default=STEPS)
 
 open_purse = _purse.get
-"""The budget that is being spent here, or None where no question is being asked."""
+"""The budget being spent; None while no question is being asked."""
 
 
 def spend(steps: int = 1) -> None:
-    """Counts steps of the question that is being asked, if there is one."""
+    """Counts steps of the question being asked, if there is one."""
     purse = open_purse()
     if purse is not None:
         purse.left -= steps
@@ -96,13 +94,13 @@ def spend(steps: int = 1) -> None:
 
 
 def steps_allowed() -> int:
-    """How many steps a question may take that is asked here."""
+    """How many steps a question asked here may take."""
     return _allowed.get()
 
 
 @contextmanager
 def budget(*, steps: int) -> Iterator[None]:
-    """Lets each question that is asked inside take so many steps.
+    """Lets each question asked inside take this many steps.
 
     The default of 1,000,000 is some seconds. A question that takes more is answered
     `unknown`; what has no such answer raises `TooLargeError`.
@@ -126,7 +124,7 @@ def budget(*, steps: int) -> Iterator[None]:
 
 
 def purse_of_several(questions: int = 0) -> SharedPurse:
-    """The budget that so many questions of one file have together."""
+    """The budget that this many questions of one file share."""
     purse = SharedPurse(SEVERAL * steps_allowed())
     purse.allow(questions)
     return purse
@@ -134,9 +132,9 @@ def purse_of_several(questions: int = 0) -> SharedPurse:
 
 @contextmanager
 def one_of_several(purse: SharedPurse) -> Iterator[None]:
-    """Asks one of several questions that have a budget together, besides its own.
+    """Asks one of several questions that share a budget, besides the one it has.
 
-    Raises `TooLargeError` where it takes more than it may, or than the others left.
+    Raises `TooLargeError` where it takes more than its own, or than the others left.
     """
     around = open_purse()
     left = purse.left if around is None else min(purse.left, around.left)
@@ -180,11 +178,11 @@ def within_budget(
     *,
     otherwise: Callable[..., R] | None = None,
 ) -> Callable[P, R] | Callable[[Callable[P, R]], Callable[P, R]]:
-    """Makes a function a question, which ends when it has spent its budget.
+    """Makes a function a question, which ends when its budget is spent.
 
-    It then raises `TooLargeError`, or gives what `otherwise` makes of that error and
-    its arguments. Raises `Unsupported` where types nest too deep to be followed. Inside
-    another question it spends the budget of that one.
+    It then raises `TooLargeError`, or returns `otherwise(error, …)`, given that error
+    and the arguments. Inside another question it spends that one's budget. Raises
+    `Unsupported` where types nest too deep.
     """
     if function is None:
         return lambda decorated: _within_budget(decorated, otherwise)

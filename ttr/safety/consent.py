@@ -1,8 +1,8 @@
-"""Consent: what a file may name that is then run, or read and perhaps shown.
+"""Consent: which files the user lets another file use.
 
-A file that the user names may run Python, and import theories, that lie in its own
-folder or below. For others it needs the user's consent: to a folder, or by naming the
-Python himself.
+A file that the user names may run Python and import theories in its own folder or
+below. For anything else it needs the user's consent: to a folder with `--allow`, or to
+Python by naming it themselves.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ __all__ = ["OWN_FOLDER", "Consent", "NotAllowed", "check_called", "is_below"]
 
 
 class NotAllowed(TTRError):
-    """Something that a file names, and that the user has not consented to."""
+    """A file names something to which the user has not consented."""
 
 
 def is_below(path: str | os.PathLike[str], folder: str | os.PathLike[str]) -> bool:
@@ -39,10 +39,10 @@ def _real_path(path: str | os.PathLike[str]) -> Path:
 
 
 def check_called(path: str | os.PathLike[str], suffix: str, named: str = "") -> None:
-    """Raises `NotAllowed` for what is called otherwise, also where links lead to it.
+    """Raises `NotAllowed` unless a file, and what a link leads to, has this suffix.
 
-    A mistake in a file is told with its lines. So no file is read as a theory or as a
-    story that is not called one: it could be anything. `named` is how a file names it.
+    An error message shows lines of the file. So no file is read as a theory or a story
+    that is not called one: it could be a secret. `named` is how a file names this one.
     """
     real, told = _real_path(path), named or path
     if Path(path).suffix != suffix:
@@ -57,10 +57,10 @@ def check_called(path: str | os.PathLike[str], suffix: str, named: str = "") -> 
 
 @dataclass(frozen=True)
 class Consent:
-    """What the user lets files use that they name.
+    """What the user lets files use.
 
-    These are files in `folders` and below; Python only if `python` is true, and of
-    modules that lie elsewhere only `modules`, which the user has named himself.
+    They may use files in `folders` and below; Python only if `python` is true, and of
+    modules that lie elsewhere only `modules`, which the user has named.
 
     >>> consent = Consent.of(["games"])
     >>> consent.check("games/door.ttr")
@@ -83,12 +83,12 @@ class Consent:
         return cls(python=python).adding(*allow)
 
     def adding(self, *folders: str | os.PathLike[str]) -> Consent:
-        """The same with some folders more."""
+        """The same with more folders."""
         new = [it for it in map(_real_path, folders) if it not in self.folders]
         return replace(self, folders=(*self.folders, *dict.fromkeys(new)))
 
     def naming(self, python: str, folder: Path) -> Consent:
-        """The same of a user who names a Python file in a folder, or a module."""
+        """The same, for a user who names a Python file in a folder, or a module."""
         if python.endswith(".py"):
             return self.adding((folder / python).parent)
         return replace(self, modules=self.modules | {python})
@@ -108,10 +108,10 @@ class Consent:
             )
 
     def check_python(self, python: str, folder: Path) -> None:
-        """Raises `NotAllowed` for Python that is not to be run.
+        """Raises `NotAllowed` for Python that may not be run.
 
-        It is a file, named from a folder, or a module, which is looked for in all of
-        the folders that may be used.
+        It is a file, relative to a folder, or a module, which is looked for in all
+        folders that may be used.
         """
         if not self.python:
             raise NotAllowed(f"{python} is Python, which may not be run here")
@@ -124,7 +124,7 @@ class Consent:
             )
 
     def folder_of(self, module: str) -> Path | None:
-        """The first of the folders in which a module lies, by its dotted name."""
+        """The first folder in which a module with this dotted name lies."""
         path = Path(*module.split("."))
         for folder in self.folders:
             for file in (folder / f"{path}.py", folder / path / "__init__.py"):
@@ -134,11 +134,11 @@ class Consent:
 
 
 def _folder_of_path(path: str | os.PathLike[str]) -> str:
-    """The folder of a path, as the user would write it here."""
+    """The folder of a path, as the user would write it from here."""
     folder = _real_path(path).parent
     near = os.path.relpath(folder)
     return near if near.count("..") < len(folder.parts) - 1 else str(folder)
 
 
 OWN_FOLDER = Consent()
-"""The consent of a user who has named a file and said nothing else."""
+"""The consent of a user who named a file and said nothing else."""

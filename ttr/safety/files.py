@@ -1,4 +1,4 @@
-"""Files: why one cannot be read, and writing one in full or not at all."""
+"""Write files in full or not at all, and say why a file cannot be read or written."""
 
 from __future__ import annotations
 
@@ -39,11 +39,10 @@ def _reason(error: OSError) -> str:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Writes a text file, by way of a draft beside it that then takes its place.
+    """Writes a text file: first a draft beside it, which then takes its place.
 
-    A link goes on leading where it leads, and to what is no file, such as a device, it
-    is written as it is. Raises `TTRError` where it cannot be written; what was there is
-    there still.
+    A link is kept, and its target written; a device is written to directly. Raises
+    `TTRError` where the file cannot be written; then the old file is still there.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -77,7 +76,7 @@ def _write_by_draft(target: Path, data: bytes) -> None:
 
 
 def check_outputs(inputs: Iterable[Path], outputs: Iterable[Path | None]) -> None:
-    """Refuses to write over what is read, or two things into one file.
+    """Refuses to overwrite an input, or to write two outputs into one file.
 
     >>> check_outputs([Path("a.dlg")], [Path("a.html"), None])
     >>> check_outputs([Path("a.dlg")], [Path("./a.dlg")])
@@ -93,5 +92,5 @@ def check_outputs(inputs: Iterable[Path], outputs: Iterable[Path | None]) -> Non
 
 
 def _is_special(path: Path) -> bool:
-    """Whether it is a device or the like, which loses nothing when written to."""
+    """Is it a device or the like, which loses nothing when it is written to?"""
     return path.exists() and not path.is_file()

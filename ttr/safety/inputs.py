@@ -1,9 +1,8 @@
 """The one reader of inputs: files and pipes that somebody else may have written.
 
-Nothing is read that is neither a regular file nor a pipe, nothing before its size is
-known to be within its limit (`ttr.safety.limits`), and nothing is waited for without
-end. What is not read raises an `OSError` whose `strerror` says why, as a missing file
-does.
+Only regular files and pipes are read, only up to a limit (`ttr.safety.limits`), and no
+pipe is waited for without end. Whatever is refused raises an `OSError` whose `strerror`
+says why, as a missing file does.
 """
 
 from __future__ import annotations
@@ -37,14 +36,14 @@ __all__ = [
 ]
 
 DEPTH = 200
-"""How deep lists and tables may lie in one another."""
+"""How deep lists and tables may nest."""
 
 _PIECE = 1 << 20
-"""How many bytes are asked for at a time."""
+"""How many bytes are read at a time."""
 
 
 class _NoFile(OSError):
-    """What lies at a path, but is nothing that can be read."""
+    """Something at a path that cannot be read as a file."""
 
     def __init__(self, why: str) -> None:
         super().__init__(errno.EINVAL, why)
@@ -92,7 +91,7 @@ def open_file(path: str | os.PathLike[str]) -> BinaryIO:
 
 
 def read_line(stream: TextIO, limit: Limit = LINE) -> str:
-    """The next line of a stream, with its end; nothing where there is none.
+    """The next line of a stream, with its end; empty at the end of the stream.
 
     Raises `OSError` for a line that is too long.
 
@@ -133,7 +132,7 @@ def read_lines(stream: BinaryIO, limit: Limit = LINE) -> Iterator[bytes]:
 
 
 def _open(path: str | os.PathLike[str]) -> tuple[int, int]:
-    """A file descriptor and what it is of; a pipe is opened even if nobody writes."""
+    """A file descriptor and its mode; a pipe is opened even if nobody writes to it."""
     flags = os.O_RDONLY
     for name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY"):
         flags |= getattr(os, name, 0)
@@ -154,7 +153,7 @@ def _open(path: str | os.PathLike[str]) -> tuple[int, int]:
 
 
 def _pipe_pieces(opened: int) -> Iterator[bytes]:
-    """What comes through a pipe, as long as it does not keep us waiting."""
+    """The pieces that come through a pipe; `OSError` where it is silent too long."""
     end = monotonic() + PIPE.allowed
     with DefaultSelector() as waiting:
         waiting.register(opened, EVENT_READ)
@@ -193,7 +192,7 @@ def _join_pieces(pieces: Iterator[bytes], limit: Limit) -> bytes:
 def parse_json(
     text: str | bytes, parse_constant: Callable[[str], Any] | None = None
 ) -> Any:
-    """What is in a text of JSON; `ValueError` for whatever is wrong with it.
+    """The value of a JSON text; `ValueError` for whatever is wrong with it.
 
     >>> parse_json('{"a": [1]}')
     {'a': [1]}
@@ -205,7 +204,7 @@ def parse_json(
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """What is in a text of TOML; `ValueError` for whatever is wrong with it."""
+    """The table of a TOML text; `ValueError` for whatever is wrong with it."""
     if _LONG_KEY.search(text):  # for which tomllib takes minutes
         raise _too_deep()
     found: dict[str, Any] = _parse(lambda: tomllib.loads(text))
@@ -227,7 +226,7 @@ def _parse(parse: Callable[[], Any]) -> Any:
 
 
 def _check_depth(found: Any) -> None:
-    """Refuses what everything that later walks through it would have to follow."""
+    """Refuses data that nests too deep for whatever walks through it later."""
     level = [found] if isinstance(found, dict | list) else []
     for _ in range(DEPTH):
         level = [

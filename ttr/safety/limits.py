@@ -1,10 +1,10 @@
-"""How much is read of anything that somebody else may have written.
+"""Limits on the size of inputs that somebody else may have written.
 
 All limits of `ttr` and `kille` stand here. They are far above what people write,
 record or measure, and low enough that whatever is within them is read in seconds and in
-500 MB of memory. Who needs more sets `KILLE_LIMITS` in the environment: with
-`KILLE_LIMITS=4`, four times as much of everything is read, and four times as long
-waited for.
+500 MB of memory. If you need more, set `KILLE_LIMITS` in the environment: with
+`KILLE_LIMITS=4`, four times as much of everything is read, and every wait may be four
+times as long.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from errno import EFBIG
 __all__ = ["FACTOR", "Limit", "TooMuch", "amount"]
 
 FACTOR = "KILLE_LIMITS"
-"""The variable of the environment by which all limits are multiplied."""
+"""The environment variable that multiplies all limits."""
 
 
 class TooMuch(OSError):
-    """An input that has more of something than is read: one line says how much."""
+    """An input that is over a limit: one line says by how much."""
 
     def __init__(self, why: str) -> None:
         super().__init__(EFBIG, why)
@@ -29,7 +29,7 @@ class TooMuch(OSError):
 
 @dataclass(frozen=True)
 class Limit:
-    """The most of a unit that is read of one thing.
+    """The largest input of one kind that is read, in some unit.
 
     >>> Limit(1_000, "pixels").check(999)
     >>> Limit(1_000, "pixels").exceeded(3_500).strerror
@@ -41,18 +41,18 @@ class Limit:
 
     @property
     def allowed(self) -> int:
-        """The most that is read as the environment is now."""
+        """The limit, as the environment multiplies it now."""
         return math.ceil(self.most * _factor())
 
     def check(self, found: int) -> None:
-        """Raises `TooMuch` where more was found than is read."""
+        """Raises `TooMuch` where more was found than is allowed."""
         if found > self.allowed:
             raise self.exceeded(found)
 
     def exceeded(self, found: int | None = None) -> TooMuch:
-        """The error that there is more than is read, with the way to have it read.
+        """The error that an input is over the limit, with the way to have it read.
 
-        Of what comes piece by piece, it is not known how much there is.
+        Without `found`, it is not known how much there is, as with a pipe.
         """
         most = amount(self.allowed, self.unit)
         if found is None:
@@ -82,7 +82,7 @@ def amount(number: int, unit: str) -> str:
 
 
 def _factor() -> float:
-    """The number that the environment multiplies the limits by; 1 if it says none."""
+    """By what the environment multiplies the limits; 1 by default."""
     try:
         told = float(os.environ.get(FACTOR, "1"))
     except ValueError:

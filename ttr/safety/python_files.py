@@ -1,4 +1,4 @@
-"""Python files of a user's own, run as modules that may import what is beside them."""
+"""Run the user's own Python files, which may import what lies beside them."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from types import ModuleType
 
 from ttr.safety.consent import Consent, is_below
 
-__all__ = ["importing_from", "run_file", "run_named", "separate_python"]
+__all__ = ["run_file", "run_named", "separate_python"]
 
 
 def run_named(
     python: str, folder: Path, prefix: str, consent: Consent | None
 ) -> ModuleType:
-    """The module that is named FILE.py, from a folder, or MODULE; a file is run anew.
+    """The module that FILE.py, relative to a folder, or MODULE names; runs a file anew.
 
-    Raises `NotAllowed` where a file names it and there is no consent to that, and
-    whatever running it raises. None for the consent says that the caller names it.
+    Without a `consent`, it is the caller who names it. Raises `NotAllowed` where there
+    is no consent, and whatever running it raises.
     """
     if consent is None:
         consent = Consent.of([folder]).naming(python, folder)
@@ -32,7 +32,7 @@ def run_named(
     beside = consent.folder_of(python)
     if beside is None:
         return importlib.import_module(python)
-    with importing_from(beside):
+    with _imports_from(beside):
         module = importlib.import_module(python)
     found = getattr(module, "__file__", None)
     if found is None or not is_below(found, beside):
@@ -41,17 +41,17 @@ def run_named(
 
 
 def separate_python(*arguments: str) -> tuple[list[str], dict[str, str]]:
-    """The command and the environment of another process that runs Python as here.
+    """The command and environment of another process that runs Python as this one does.
 
-    It imports from where this process does, and not, as Python would, from the working
-    directory: what lies there by chance is not to be run.
+    It imports from where this process imports, and not from the working directory:
+    what lies there by chance must not be run.
     """
     modules = os.pathsep.join(filter(None, map(str, sys.path)))
     return [sys.executable, "-P", *arguments], {**os.environ, "PYTHONPATH": modules}
 
 
 def run_file(file: Path, name: str) -> ModuleType:
-    """The module of a file, under this name, by running it.
+    """Runs a file as a module of this name, and gives the module.
 
     Raises ImportError for what is no Python file, and whatever the file raises.
 
@@ -67,14 +67,14 @@ def run_file(file: Path, name: str) -> ModuleType:
         raise ImportError(f"{file} is no Python file")
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module  # where dataclasses look their module up
-    with importing_from(file.resolve().parent):
+    with _imports_from(file.resolve().parent):
         spec.loader.exec_module(module)
     return module
 
 
 @contextmanager
-def importing_from(folder: Path) -> Iterator[None]:
-    """Lets a file import what lies in a folder, as when Python runs it there."""
+def _imports_from(folder: Path) -> Iterator[None]:
+    """Lets a file import from a folder, as when Python runs it there."""
     sys.path.insert(0, str(folder))
     try:
         yield

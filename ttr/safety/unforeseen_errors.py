@@ -1,6 +1,6 @@
-"""The last line of defence of a command: an error that nobody foresaw, in one line.
+"""Report an error that nobody foresaw in one line: a command's last line of defence.
 
-Its traceback goes to a file, for those who mend it. With `KILLE_DEBUG=1` in the
+Its traceback is written to a file, for the developers. With `KILLE_DEBUG=1` in the
 environment it is printed, too.
 """
 
@@ -17,21 +17,21 @@ from tempfile import NamedTemporaryFile
 
 from ttr.escapes import terminal_line, terminal_text
 
-__all__ = ["DEBUG", "UNFORESEEN", "guarded", "report_unforeseen", "state_folder"]
+__all__ = ["DEBUG", "guarded", "report_unforeseen", "state_folder"]
 
 DEBUG = "KILLE_DEBUG"
-"""The variable of the environment that has tracebacks printed."""
+"""The environment variable that makes a command print tracebacks."""
 
 UNFORESEEN = 2
-"""The exit code of a command that met an error that nobody foresaw."""
+"""The exit code after an error that nobody foresaw."""
 
 _FILE = "last-error.txt"
 _SHOWN = 120
-"""How many characters of the error's own words are shown."""
+"""How many characters of the error's message are shown."""
 
 
 def guarded(program: str, run: Callable[[], int | None]) -> int:
-    """Runs a command; the exit code, also where it meets what nobody foresaw.
+    """Runs a command and gives the exit code, also after an unforeseen error.
 
     >>> guarded("ttr", lambda: 0)
     0
@@ -43,7 +43,7 @@ def guarded(program: str, run: Callable[[], int | None]) -> int:
 
 
 def report_unforeseen(program: str, error: BaseException) -> int:
-    """Says in one line what happened, and where to report it; the exit code."""
+    """Says in one line what happened and where to report it; gives the exit code."""
     trace = "".join(traceback.format_exception(error))
     with suppress(Exception):  # what was said before goes before
         sys.stdout.flush()
@@ -76,14 +76,14 @@ def _report_line(program: str, error: BaseException, file: Path | None) -> str:
 
 
 def _error_in_short(error: BaseException) -> str:
-    """The kind of the error and its words, on one line."""
+    """The class of the error and its message, on one line."""
     said = " ".join(str(error).split())
     said = said if len(said) <= _SHOWN else f"{said[: _SHOWN - 1]}…"
     return f"{type(error).__name__}: {said}" if said else type(error).__name__
 
 
 def _keep_trace(program: str, trace: str) -> Path | None:
-    """The file in which the traceback was kept, which only the user can read."""
+    """The file with the traceback, which only the user can read."""
     about = (
         f"{program}, Python {platform.python_version()}, {platform.platform()}\n"
         f"{sys.argv}\n\n{trace}"
@@ -117,7 +117,7 @@ def _write_to_temporary(data: bytes) -> Path:
 
 
 def state_folder(program: str) -> Path:
-    """Where a program keeps what it need not keep, as desktops have it."""
+    """The folder for a program's state: histories and reports (XDG)."""
     state = os.environ.get("XDG_STATE_HOME", "")
     home = Path(os.environ.get("HOME") or Path.home())
     return (Path(state) if os.path.isabs(state) else home / ".local/state") / program

@@ -18,7 +18,7 @@ from ttr.dialogues.stories.junit_report import Outcome, facts, junit, summary
 from ttr.dialogues.stories.line_events import Alternative, alternatives
 from ttr.dialogues.stories.mismatches import SILENCE, Mismatch
 from ttr.dialogues.stories.story_opening import check_consent, opening, setting_of
-from ttr.dialogues.stories.story_player import Played, failing, fits, play
+from ttr.dialogues.stories.story_player import Played, failure_reason, fits, play
 from ttr.dialogues.stories.story_reader import Line, Story, read_stories
 from ttr.dialogues.stories.story_writer import format_story, story_text
 from ttr.dialogues.wording import wording
@@ -36,7 +36,7 @@ __all__ = [
     "alternatives",
     "check_consent",
     "facts",
-    "failing",
+    "failure_reason",
     "fits",
     "format_story",
     "junit",

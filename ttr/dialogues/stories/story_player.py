@@ -20,7 +20,7 @@ from ttr.probability import CERTAIN
 from ttr.types.printing import notation
 from ttr.updates import Step
 
-__all__ = ["Played", "failing", "fits", "play"]
+__all__ = ["Played", "failure_reason", "fits", "play"]
 
 Echo = Callable[[str], None]
 
@@ -158,7 +158,7 @@ class _Playing:
             raise line.wrong(error.message) from error
         if judgement.p == CERTAIN:
             return None
-        return self._mismatch_at(line, failing(judgement))
+        return self._mismatch_at(line, failure_reason(judgement))
 
     def _mismatch_at(self, line: Line, found: str) -> Mismatch:
         expected = (
@@ -189,7 +189,7 @@ def fits(line: Line, words: str) -> bool:
         raise line.wrong(f"{line.text!r} is no regular expression: {error}") from None
 
 
-def failing(judgement: Judgement) -> str:
+def failure_reason(judgement: Judgement) -> str:
     """Where and why a judgement of the state fails."""
     failed = judgement.why.failure()
     if failed is None:
