@@ -69,7 +69,7 @@ one_at_a_time = Property(
 tutor = Tutor(answers=0.8, wanders=0.1, repeats=0.1)
 roles = Roles(commitments="commitments", retracts=frozenset({"strike"}))
 suite = Suite(restaurant(take, strike), tutor, (one_at_a_time,), roles, examples=200)
-print(suite.run().told())
+print(suite.run().explain_failure())
 
 # The rule is mended, and another mistake comes to light: what was never ordered cannot
 # be struck off.

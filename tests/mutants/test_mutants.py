@@ -78,7 +78,7 @@ def test_a_correct_game_is_left_alone(name, dialogues):
         examples=dialogues,
     )
     assert faults_of(beside.game) == ()
-    assert suite.run().told() == ""
+    assert suite.run().explain_failure() == ""
 
 
 EXPECTED = {

@@ -67,14 +67,14 @@ def test_there_are_twenty_and_most_are_found():
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ORIGINALS)
 def test_a_correct_game_is_left_alone(name):
-    assert Suite(game_of(name), examples=25).run().told() == ""
+    assert Suite(game_of(name), examples=25).run().explain_failure() == ""
 
 
 @pytest.mark.deep
 @pytest.mark.parametrize("name", CORRECT)
 def test_a_correct_game_is_left_alone_for_long(name):
     for game in load(CORRECT[name]).games.values():
-        assert Suite(game, examples=25_000).run().told() == ""
+        assert Suite(game, examples=25_000).run().explain_failure() == ""
 
 
 WHY = {
@@ -91,7 +91,7 @@ WHY = {
 @pytest.mark.parametrize("name", WHY)
 def test_it_is_said_what_is_wrong(name):
     slip = next(one for one in (*PLANTED, *HELD_OUT) if str(one) == name)
-    told = report_of(slip).told()
+    told = report_of(slip).explain_failure()
     property_, why = WHY[name]
     assert told.startswith(f"{property_} ")
     assert why in told

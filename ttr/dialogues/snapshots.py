@@ -1,7 +1,7 @@
-"""What a state looked like, to find out whether anybody has tampered with it.
+"""Snapshots of states, to find out whether a rule changed one in place.
 
-Records, lists and types cannot be changed by plain means; but a rule written in Python
-may change an object that it finds in a record, or a record's own inside.
+Records, lists and types are immutable; but a rule written in Python may change a
+mutable object in a record, or reach into the record itself.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Snapshot: TypeAlias = "dict[str, Snapshot] | tuple[object, ...]"
 
 
 def snapshot(value: Object) -> Snapshot:
-    """What the object is made of now: a dictionary for a record, else a tuple.
+    """What an object consists of now: a dictionary for a record, otherwise a tuple.
 
     >>> from ttr.types.syntax import record
     >>> snapshot(record(x="a")) == snapshot(record(x="a"))
@@ -37,9 +37,9 @@ def snapshot(value: Object) -> Snapshot:
 
 
 def _contents(value: object) -> Iterator[object]:
-    """What an object of another kind has in it: its bytes, or its own attributes.
+    """The contents of any other object: its bytes, or its own attributes.
 
-    Of what is no plain collection there it is only known which object it is.
+    Only plain collections in it are copied; other objects are known by their identity.
     """
     with suppress(TypeError):
         yield memoryview(value).tobytes()  # type: ignore[arg-type]
@@ -61,7 +61,7 @@ def _plain_value(value: object) -> object:
 
 
 def copy_of(value: Object) -> Object:
-    """The same object with records of its own in it, so that nobody else's are changed.
+    """The same object with new records in it, so that changes to them affect no other.
 
     >>> from ttr.types.syntax import record
     >>> r = record(x=record(y="a"))
@@ -74,7 +74,7 @@ def copy_of(value: Object) -> Object:
 
 
 def first_change(before: Snapshot, value: Object) -> str:
-    """The first path at which the object is no longer what it was, or an empty text."""
+    """The first path at which an object has changed; empty if it has not."""
     return next(_changes(before, snapshot(value), ""), "")
 
 

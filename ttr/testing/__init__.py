@@ -1,14 +1,16 @@
 """Property tests of update rules: `check_rules` plays thousands of dialogues.
 
 Rules are tested by properties that any dialogue theory should have, P1 to P27, on
-dialogues that a state-aware tutor plays. What goes wrong is told with the shortest
-dialogue that shows it, as a story that reproduces it.
+dialogues with a tutor who looks at the state. A failure is reported with the shortest
+dialogue that shows it, as a story that reproduces it. Read `suites` first, then
+`catalogue` and the modules of the properties; `search` and `shrinking` find the
+dialogue, `strategies` draws it. This room may use all others except `cli`.
 
 >>> for one in sorted(ALL, key=lambda one: int(one.name[1:]))[:3]:
 ...     print(one.name, one.says)
-P1 after every rule the state is of the type that it, and the rule, declare.
-P2 a rule, applied or not, leaves the state that it is given as it was.
-P3 the same events lead to the same states, by the same rules.
+P1 after every rule the state is of its type, and of what the rule promises.
+P2 a rule never changes the state that it is given, whether it applies or not.
+P3 the same events lead to the same states by the same rules.
 """
 
 from __future__ import annotations

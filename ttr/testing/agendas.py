@@ -1,4 +1,4 @@
-"""What is planned is done, and is planned no longer when it has been done: P23."""
+"""A planned move leaves the agenda when it has been made, and not before: P23."""
 
 from __future__ import annotations
 
@@ -6,8 +6,13 @@ from collections.abc import Iterator, Sequence
 
 from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.judging.certainty import certainly
-from ttr.testing.event_subjects import field_at, items_at, same
-from ttr.testing.properties import Checked, Property
+from ttr.testing.event_subjects import (
+    field_at,
+    format_objects,
+    items_at,
+    items_not_in,
+)
+from ttr.testing.properties import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.types.paths import escaping
 from ttr.types.printing import notation
@@ -17,16 +22,16 @@ from ttr.updates.running import Step
 __all__ = ["DONE_ONCE"]
 
 
-def _undone(dialogue: Dialogue, roles: Roles) -> Checked:
+def _check_agenda(dialogue: Dialogue, roles: Roles) -> Breaches:
     path = str(roles.agenda)
     for number, trial in enumerate(dialogue.trials, start=1):
-        for steps in _by_event(trial):
-            if why := _undone_by(steps, path):
+        for steps in _steps_by_event(trial):
+            if why := _why_undone(steps, path):
                 yield number, why
 
 
-def _by_event(trial: Trial) -> Iterator[Sequence[Step]]:
-    """The steps of a turn, those on one event together."""
+def _steps_by_event(trial: Trial) -> Iterator[Sequence[Step]]:
+    """The steps of a turn, grouped by the event that the rules took."""
     steps: list[Step] = []
     event: Object = None
     for step in trial.steps:
@@ -39,48 +44,48 @@ def _by_event(trial: Trial) -> Iterator[Sequence[Step]]:
         yield steps
 
 
-def _undone_by(steps: Sequence[Step], path: str) -> str:
-    """What went wrong with an agenda when something happened."""
+def _why_undone(steps: Sequence[Step], path: str) -> str:
+    """Why an agenda is wrong after the steps on one event."""
     first, last = steps[0], steps[-1]
     before, after = items_at(first.before, path), items_at(last.after, path)
     if not before:
         return ""
     if _is_made(before[0], first):
-        if _is_same(before, after):
+        if _are_same(before, after):
             return f"{notation(before[0])} was made, and is still on {path}"
-        lost = _lost(before[1:], after)
-        if lost and _one_rule(steps, path):
-            named = ", ".join(map(notation, lost))
-            return f"{first.rule} takes {named} off {path}, which nobody made"
+        lost = items_not_in(before[1:], after)
+        if lost and _is_changed_once(steps, path):
+            named = format_objects(lost)
+            return f"{first.rule} takes {named} off {path}, but nobody made that move"
         return ""
     for step in steps:
-        if why := _overwritten(step, path):
+        if why := _why_overwritten(step, path):
             return why
     return ""
 
 
-def _one_rule(steps: Sequence[Step], path: str) -> bool:
-    """Whether a single step changed the agenda: what others planned anew is meant."""
+def _is_changed_once(steps: Sequence[Step], path: str) -> bool:
+    """Did a single step change the agenda? If several did, they planned it anew."""
     changed = [
         step
         for step in steps
-        if not _is_same(items_at(step.before, path), items_at(step.after, path))
+        if not _are_same(items_at(step.before, path), items_at(step.after, path))
     ]
     return len(changed) == 1
 
 
-def _overwritten(step: Step, path: str) -> str:
-    """Whether a rule that does not look at the agenda puts another in its place."""
+def _why_overwritten(step: Step, path: str) -> str:
+    """Why a rule that does not look at the agenda may not replace what is on it."""
     before, after = items_at(step.before, path), items_at(step.after, path)
-    lost = _lost(before, after)
+    lost = items_not_in(before, after)
     if not lost or not after or _looks_at(step, path):
         return ""
-    named = ", ".join(map(notation, lost))
-    return f"{step.rule} puts something else in the place of {named} on {path}"
+    named = format_objects(lost)
+    return f"{step.rule} replaces {named} on {path} with something else"
 
 
 def _looks_at(step: Step, path: str) -> bool:
-    """Whether a rule asks what is on the agenda, in its condition or its bindings."""
+    """Does a rule look at the agenda, in its condition or its bindings?"""
     if isinstance(field_at(step.rule.when, path), Singleton | NonEmpty):
         return True
     labels = tuple(path.split("."))
@@ -96,19 +101,14 @@ def _is_made(planned: Object, step: Step) -> bool:
     )
 
 
-def _is_same(one: Sequence[Object], other: Sequence[Object]) -> bool:
+def _are_same(one: Sequence[Object], other: Sequence[Object]) -> bool:
     return identity(tuple(one)) == identity(tuple(other))
-
-
-def _lost(before: Sequence[Object], after: Sequence[Object]) -> list[Object]:
-    """What was there and is there no longer."""
-    return [one for one in before if not any(same(one, kept) for kept in after)]
 
 
 DONE_ONCE = Property(
     "P23",
     "agenda",
-    "what was made leaves the agenda, and nothing else does unless a rule looks at it.",
-    _undone,
+    "a move that was made leaves the agenda; others only by rules that look at it.",
+    _check_agenda,
     needs=("agenda",),
 )

@@ -1,4 +1,4 @@
-"""The properties, by name: those that say most about what went wrong come first."""
+"""All properties, in the order in which they are checked: causes before effects."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ ALL: tuple[Property, ...] = (
 """Every property, P1 to P27."""
 
 OF_GAMES = (TAKES_TURNS, DONE_ONCE, IN_TURN, EMPTIES, ANSWERED, NOTHING_DROPPED)
-"""What is asked of games only: the states that they begin in are no others'."""
+"""Properties of games only: they may not hold from states drawn at random."""
 
 OF_ONE_RULE = (PURE, KEEPS_TYPE, TERMINATES, NAMES_BOUND, NEVER_BREAKS, DETERMINISTIC)
-"""What can be asked of a rule by itself."""
+"""Properties that a single rule may have."""

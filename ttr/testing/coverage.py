@@ -1,4 +1,4 @@
-"""What dialogues covered: which rules were applied, and which right after which."""
+"""Coverage: which rules were applied in dialogues, and which right after which."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ __all__ = ["Coverage"]
 
 @dataclass
 class Coverage:
-    """Counts of dialogues, turns, rules and pairs of rules of one game.
+    """Counts of the dialogues, turns, rules and pairs of rules of one game.
 
-    A pair (r, s) is that s was applied right after r in a turn. It is added to as
-    dialogues are played; `table` is for reading, `facts` for machines.
+    A pair (r, s) counts how often s was applied right after r in a turn. `add` counts
+    one more dialogue; `table` gives the counts as text, `facts` as plain data.
     """
 
     game: Game
@@ -28,7 +28,7 @@ class Coverage:
     pairs: Counter[tuple[str, str]] = field(default_factory=Counter)
 
     def add(self, dialogue: Dialogue) -> None:
-        """Counts a dialogue."""
+        """Count a dialogue."""
         self.dialogues += 1
         self.turns += len(dialogue.trials)
         for trial in dialogue.trials:
@@ -47,7 +47,7 @@ class Coverage:
         return tuple(dict.fromkeys(rule.name for rule in self.game.rules))
 
     def table(self) -> str:
-        """The rules with how often they were applied, and which came next most often.
+        """The rules, how often each was applied, and which rules followed most often.
 
         >>> from ttr.building.constructors import rectype
         >>> from ttr.updates import rule
@@ -64,7 +64,9 @@ class Coverage:
         lines = [f"{'rule':{width}}  {'applied':>{count}}  most often followed by"]
         for name in self.names:
             n = self.rules[name]
-            lines.append(f"{name:{width}}  {n:>{count}}  {self._following(name)}")
+            lines.append(
+                f"{name:{width}}  {n:>{count}}  {self._most_frequent_successors(name)}"
+            )
         applied = len(self.names) - len(self.missed)
         pairs = sum(1 for n in self.pairs.values() if n)
         lines.append(
@@ -75,7 +77,7 @@ class Coverage:
         )
         return "\n".join(line.rstrip() for line in lines)
 
-    def _following(self, name: str) -> str:
+    def _most_frequent_successors(self, name: str) -> str:
         if not self.rules[name]:
             return "never applied"
         after = {then: n for (first, then), n in self.pairs.items() if first == name}

@@ -1,4 +1,4 @@
-"""Properties of playing the same again, P3 and P20, and in another order, P5."""
+"""Playing a dialogue again gives the same, P3 and P20, also in another order, P5."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from ttr.dialogues.dialogue import Dialogue, Trial, give, play
 from ttr.judging.models import Model
-from ttr.testing.properties import Checked, Property
-from ttr.testing.single_rules import applied
+from ttr.testing.properties import Breaches, Property
+from ttr.testing.single_rules import apply_rules
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.types.printing import notation
 from ttr.types.records import differences
@@ -29,24 +29,24 @@ from ttr.updates.running import Run, Step
 __all__ = ["CONFLUENT", "DETERMINISTIC", "REPLAYS"]
 
 
-# --- the same again ------------------------------------------------------------------
+# --- again ---------------------------------------------------------------------------
 
 
-# The first half of a dialogue is played again from its start, the second from its
-# middle: each turn is played twice, and no more.
+# The first half of a dialogue is played again from its start, the second half from its
+# middle, so that each turn is played only twice.
 
 
-def _differs(dialogue: Dialogue, roles: Roles) -> Checked:
+def _check_from_start(dialogue: Dialogue, roles: Roles) -> Breaches:
     again = play(dialogue.game, dialogue.given[: len(dialogue.trials) // 2 + 1])
     pairs = zip(dialogue.trials, again.trials, strict=False)
     for number, (trial, other) in enumerate(pairs, start=1):
-        if what := _difference(trial, other):
-            yield number, f"played once more, {what}"
+        if what := _why_different(trial, other):
+            yield number, f"played again, {what}"
             return
 
 
-def _cannot_go_on(dialogue: Dialogue, roles: Roles) -> Checked:
-    """Goes on from the middle with nothing but the state and the model there."""
+def _check_from_middle(dialogue: Dialogue, roles: Roles) -> Breaches:
+    """Continue from the middle with nothing but the state and the model there."""
     middle = len(dialogue.trials) // 2
     rest = dialogue.trials[middle:]
     if not rest:
@@ -54,35 +54,35 @@ def _cannot_go_on(dialogue: Dialogue, roles: Roles) -> Checked:
     so_far = rest[0].before
     for number, trial in enumerate(rest, start=middle + 1):
         other = give(dialogue.game, so_far, trial.given)
-        if what := _difference(trial, other):
+        if what := _why_different(trial, other):
             yield number, f"continued from turn {middle}, {what}"
             return
         so_far = other.after
 
 
-def _difference(trial: Trial, other: Trial) -> str:
-    """What two trials in which the same was given do not have in common."""
+def _why_different(trial: Trial, other: Trial) -> str:
+    """Why two trials of the same event came out differently."""
     if str(trial.fault) != str(other.fault):
-        return f"it ends with {other.fault}, not with {trial.fault}"
+        return f"it fails with {other.fault}, not with {trial.fault}"
     rules = [step.rule.name for step in trial.steps]
     others = [step.rule.name for step in other.steps]
     if rules != others:
-        return f"the rules are {_listed(others)}, not {_listed(rules)}"
+        return f"the rules are {_format_names(others)}, not {_format_names(rules)}"
     was, now = trial.after.state, other.after.state
     if was != now:
-        return f"the state is another: {next(differences(was, now), '')}"
+        return f"it leads to another state: {next(differences(was, now), '')}"
     return ""
 
 
-def _listed(names: list[str]) -> str:
+def _format_names(names: list[str]) -> str:
     return ", ".join(names) or "none"
 
 
 # --- in another order ----------------------------------------------------------------
 
 
-def _depends_on_order(dialogue: Dialogue, roles: Roles) -> Checked:
-    classes = tuple(_classes(dialogue.game.algorithm))
+def _check_order(dialogue: Dialogue, roles: Roles) -> Breaches:
+    classes = tuple(_rule_classes(dialogue.game.algorithm))
     if not classes:
         return
     for number, trial in enumerate(dialogue.trials, start=1):
@@ -91,48 +91,48 @@ def _depends_on_order(dialogue: Dialogue, roles: Roles) -> Checked:
                 (number, f"in the class {kind}, {why}")
                 for kind, members in classes
                 if step.rule in members
-                and (why := _order_matters(dialogue.game, members, step))
+                and (why := _why_order_matters(dialogue.game, members, step))
             )
 
 
-def _classes(algorithm: Algorithm) -> Iterator[tuple[str, tuple[Rule, ...]]]:
+def _rule_classes(algorithm: Algorithm) -> Iterator[tuple[str, tuple[Rule, ...]]]:
     """The classes of rules whose order is claimed not to matter."""
     match algorithm:
         case ByClass(classes):
             yield from ((kind, rules) for kind, rules in classes if len(rules) > 1)
         case Maybe(part) | Repeat(part):
-            yield from _classes(part)
+            yield from _rule_classes(part)
         case First(parts) | All(parts) | Seq(parts) | Ask(parts):
             for part in parts:
-                yield from _classes(part)
+                yield from _rule_classes(part)
 
 
-def _order_matters(game: Game, members: tuple[Rule, ...], step: Step) -> str:
-    """Which two rules give different states in one and in the other order, if any."""
+def _why_order_matters(game: Game, members: tuple[Rule, ...], step: Step) -> str:
+    """Why the order of two rules of a class matters after all."""
     one = step.rule
     for other in members:
         if other is one:
             continue
-        this_way = applied(game, step, one, other)
-        that_way = applied(game, step, other, one)
+        this_way = apply_rules(game, step, one, other)
+        that_way = apply_rules(game, step, other, one)
         if this_way is None or that_way is None:
             if this_way is not that_way:
-                return f"{one} and {other} fail in one order, and not in the other"
-        elif not _alike(this_way, that_way, step.model):
+                return f"{one} and {other} fail in one order, but not in the other"
+        elif not _are_equal_up_to_names(this_way, that_way, step.model):
             change = next(differences(this_way.state, that_way.state), "")
             return f"{one}, {other} lead elsewhere than {other}, {one}: {change}"
     return ""
 
 
-def _alike(one: Run, two: Run, before: Model) -> bool:
-    """Whether two states are the same, up to the names of what was made up since."""
+def _are_equal_up_to_names(one: Run, two: Run, before: Model) -> bool:
+    """Are two states the same, up to the names of objects created since `before`?"""
     if one.state == two.state:
         return True
-    return _renamed(one, before) == _renamed(two, before)
+    return _with_names_numbered(one, before) == _with_names_numbered(two, before)
 
 
-def _renamed(after: Run, before: Model) -> str:
-    """The state in print, with new names in the order in which they occur."""
+def _with_names_numbered(after: Run, before: Model) -> str:
+    """The state in the notation, with new names numbered in order of occurrence."""
     new = after.model.facts.known
     old = before.facts.known
     names: dict[str, str] = {}
@@ -149,18 +149,18 @@ def _renamed(after: Run, before: Model) -> str:
 DETERMINISTIC = Property(
     "P3",
     "determinism",
-    "the same events lead to the same states, by the same rules.",
-    _differs,
+    "the same events lead to the same states by the same rules.",
+    _check_from_start,
 )
 CONFLUENT = Property(
     "P5",
     "confluence",
-    "rules of one class lead to the same state in any order, up to new names.",
-    _depends_on_order,
+    "the rules of a class lead to the same state in any order, up to new names.",
+    _check_order,
 )
 REPLAYS = Property(
     "P20",
     "replay",
-    "a dialogue cut anywhere goes on from its state as it went on.",
-    _cannot_go_on,
+    "a dialogue that is cut anywhere continues from that state as it did before.",
+    _check_from_middle,
 )

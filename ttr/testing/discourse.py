@@ -6,14 +6,22 @@ once, and leaves when it is resolved; what has been agreed on stays.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from collections.abc import Set as AbstractSet
 
 from ttr.computing.subtyping import subtype
 from ttr.dialogues.dialogue import Dialogue, Trial, give
 from ttr.semantics.questions import resolves
-from ttr.testing.event_subjects import item_type, items_at, kin, mentions, same
-from ttr.testing.properties import Checked, Property
+from ttr.testing.event_subjects import (
+    format_objects,
+    is_same,
+    item_type,
+    items_at,
+    items_not_in,
+    mentions,
+    mentions_of_sort,
+)
+from ttr.testing.properties import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles, at
 from ttr.types.printing import notation
 from ttr.types.syntax import Function, Object, Record, RecordType, TypeNode, identity
@@ -24,69 +32,63 @@ from ttr.updates.running import Step
 __all__ = ["COMMITMENTS_STAY", "DOWNDATES_ONCE", "QUD_DISCIPLINE"]
 
 
-def _doubled(items: Sequence[Object]) -> int:
-    """How many items are there that have been there before."""
+def _count_duplicates(items: Sequence[Object]) -> int:
+    """How many of the items have occurred before in the list."""
     return len(items) - len(set(map(identity, items)))
-
-
-def _gone(before: Sequence[Object], after: Sequence[Object]) -> list[Object]:
-    """What was there and is no longer."""
-    if before is after:
-        return []
-    left = set(map(identity, after))
-    return [one for one in before if identity(one) not in left]
 
 
 # --- P8 ------------------------------------------------------------------------------
 
 
-def _careless(dialogue: Dialogue, roles: Roles) -> Checked:
+def _check_questions(dialogue: Dialogue, roles: Roles) -> Breaches:
     labels: set[str] = set()
     for number, trial in enumerate(dialogue.trials, start=1):
         for step in trial.steps:
-            labels.update(_asking_labels(step, str(roles.qud)))
-            if why := _careless_step(step, trial, roles, dialogue.game, labels):
+            labels.update(_labels_of_questions(step, str(roles.qud)))
+            if why := _why_careless(step, trial, roles, dialogue.game, labels):
                 yield number, why
-        if why := _still_asked(trial, roles):
+        if why := _why_still_asked(trial, roles):
             yield number, why
 
 
-def _asking_labels(step: Step, path: str) -> Iterator[str]:
-    """Under which labels of an event the questions stand that it puts."""
+def _labels_of_questions(step: Step, path: str) -> Iterator[str]:
+    """The labels of an event that lead to the questions that it raises."""
     if step.rule.on is None or not isinstance(step.event, Record):
         return
-    new = _gone(items_at(step.after, path), items_at(step.before, path))
+    new = items_not_in(items_at(step.after, path), items_at(step.before, path))
     for label, value in step.event._fields.items():
-        if any(same(value, one) for one in new):
+        if any(is_same(value, one) for one in new):
             yield label
 
 
-def _careless_step(
+def _why_careless(
     step: Step, trial: Trial, roles: Roles, game: Game, labels: AbstractSet[str]
 ) -> str:
     qud = items_at(step.after, roles.qud)
     before = items_at(step.before, roles.qud)
     if qud is before:
         return ""
-    if _doubled(qud):
-        return f"after {step.rule} a question is twice on {roles.qud}: {_shown(qud)}"
+    if _count_duplicates(qud):
+        questions = format_objects(qud)
+        return f"after {step.rule} a question is twice on {roles.qud}: {questions}"
     if step.rule.name in roles.drops:
         return ""
-    for question in _gone(before, qud):
-        if not _settled(question, step, trial, roles):
+    for question in items_not_in(before, qud):
+        if not _is_settled(question, step, trial, roles):
             return f"{step.rule} drops {notation(question)}, which nothing resolves"
-        if why := _beside_the_point(question, step, roles, game, labels):
+        if why := _why_beside_the_point(question, step, roles, game, labels):
             return why
     return ""
 
 
-def _beside_the_point(
+def _why_beside_the_point(
     question: Object, step: Step, roles: Roles, game: Game, labels: AbstractSet[str]
 ) -> str:
-    """Whether a question goes by what is about another one of its sort.
+    """Why an event that removes a question is about another one of the same sort.
 
-    It may go by a rule that takes no event, for what has been agreed on before. Where
-    the sort does not tell, what stands under a label of questions is one.
+    A rule without an event may remove a question for what has been agreed on before.
+    Where sorts do not distinguish them, what an event has at a label at which other
+    events raised questions is taken for a question.
     """
     if roles.resolves is not None or roles.answers is not None:
         return ""  # then it is known what answers what
@@ -94,23 +96,24 @@ def _beside_the_point(
     if step.rule.on is None and _is_among(question, agreed):
         return ""
     T = item_type(game.type, str(roles.qud))
-    others = kin(question, T, step.event, step.model, game)
+    others = mentions_of_sort(question, T, step.event, step.model, game)
     if not others and isinstance(question, str) and isinstance(step.event, Record):
         fields = step.event._fields.items()
         others = tuple(one for label, one in fields if label in labels)
     if others and not _is_about(question, step, others):
-        asked, about = notation(question), _shown(others)
-        return f"{step.rule} drops {asked}, though what happened is about {about}"
-    new = _gone(agreed, items_at(step.before, roles.commitments))
-    fresh = [one for one in new if kin(question, T, one, step.model, game)]
+        dropped, about = notation(question), format_objects(others)
+        return f"{step.rule} drops {dropped}, but the event is about {about}"
+    new = items_not_in(agreed, items_at(step.before, roles.commitments))
+    fresh = [one for one in new if mentions_of_sort(question, T, one, step.model, game)]
     if isinstance(question, str) and fresh and not _is_among(question, fresh):
-        return f"{step.rule} drops {notation(question)}, but agrees on {_shown(fresh)}"
+        dropped, about = notation(question), format_objects(fresh)
+        return f"{step.rule} drops {dropped}, but agrees on {about}"
     return ""
 
 
 def _is_about(question: Object, step: Step, others: Sequence[Object]) -> bool:
-    """Whether an event mentions a question, or a type that is more or less specific."""
-    if any(same(question, one) for one in mentions(step.event, step.model)):
+    """Does an event mention the question, or a more or less specific type?"""
+    if any(is_same(question, one) for one in mentions(step.event, step.model)):
         return True
     return isinstance(question, RecordType) and any(
         subtype(question, one).yes or subtype(one, question).yes
@@ -120,24 +123,26 @@ def _is_about(question: Object, step: Step, others: Sequence[Object]) -> bool:
 
 
 def _is_among(item: Object, others: Sequence[Object]) -> bool:
-    """Whether an item is one of these, or stands in one of them that is a record."""
-    return any(same(item, one) or _stands_in(item, one) for one in others)
+    """Is an item one of these, or in one of them that is a record?"""
+    return any(is_same(item, one) or _is_in_record(item, one) for one in others)
 
 
-def _stands_in(item: Object, other: Object) -> bool:
+def _is_in_record(item: Object, other: Object) -> bool:
     return isinstance(other, Record) and any(
-        same(item, value) for value in other._fields.values()
+        is_same(item, value) for value in other._fields.values()
     )
 
 
-def _settled(question: Object, step: Step, trial: Trial, roles: Roles) -> bool:
-    """Whether something answers or resolves a question; if nobody can tell, whether
-    anything was said or agreed on."""
+def _is_settled(question: Object, step: Step, trial: Trial, roles: Roles) -> bool:
+    """Does anything answer or resolve a question?
+
+    Where the roles do not say what answers what: is anything said or agreed on at all?
+    """
     agreed = items_at(step.after, roles.commitments)
-    events = _events(trial)
+    events = _possible_events(trial)
     if roles.resolves is None and roles.answers is None:
         return bool(events) or bool(
-            _gone(agreed, items_at(step.before, roles.commitments))
+            items_not_in(agreed, items_at(step.before, roles.commitments))
         )
     settles, answers = roles.resolves, roles.answers
     if settles is not None and any(settles(one, question) for one in agreed):
@@ -145,29 +150,29 @@ def _settled(question: Object, step: Step, trial: Trial, roles: Roles) -> bool:
     return answers is not None and any(answers(one, question) for one in events)
 
 
-def _still_asked(trial: Trial, roles: Roles) -> str:
-    """Whether a question that was answered is still there when all has been said."""
+def _why_still_asked(trial: Trial, roles: Roles) -> str:
+    """Why a question that was answered is still there after the turn."""
     qud = items_at(trial.before.state, roles.qud)
     after = items_at(trial.after.state, roles.qud)
     for path in (roles.qud, roles.pending):
-        if why := _settled_and_still_there(trial, path, roles):
+        if why := _why_agreed_but_still_there(trial, path, roles):
             return why
     if trial.turn is None or not roles.answers or not qud:
         return ""
     top = qud[0]
-    answered = any(roles.answers(event, top) for event in _heard(trial))
-    if answered and not _gone((top,), after):
+    answered = any(roles.answers(event, top) for event in _certain_events(trial))
+    if answered and not items_not_in((top,), after):
         return f"{notation(top)} was answered, but is still on {roles.qud}"
     return ""
 
 
-def _settled_and_still_there(trial: Trial, path: str | None, roles: Roles) -> str:
-    """Whether what has just been agreed on is still asked, or pending, at the end."""
+def _why_agreed_but_still_there(trial: Trial, path: str | None, roles: Roles) -> str:
+    """Why what has just been agreed on is still asked, or pending, after the turn."""
     if path is None or roles.commitments is None or path == roles.commitments:
         return ""
-    for one in _agreed(trial, roles):
+    for one in _items_agreed_on(trial, roles):
         for item in items_at(trial.after.state, path):
-            if same(one, item):
+            if is_same(one, item):
                 return f"{notation(item)} has been agreed on, but is still on {path}"
     return ""
 
@@ -175,22 +180,25 @@ def _settled_and_still_there(trial: Trial, path: str | None, roles: Roles) -> st
 # --- P9 ------------------------------------------------------------------------------
 
 
-def _downdates_twice(dialogue: Dialogue, roles: Roles) -> Checked:
+def _check_downdates(dialogue: Dialogue, roles: Roles) -> Breaches:
     for number, trial in enumerate(dialogue.trials, start=1):
         if trial.turn is None:
             continue
-        gone = _resolved(trial, roles)
-        new = _agreed(trial, roles)
-        if len(gone) > max(1, len(new)) and not _all_resolved(gone, trial, roles):
-            yield number, f"one answer takes away {len(gone)} questions: {_shown(gone)}"
-        if why := _counts_again(dialogue, trial, roles):
+        gone = _questions_removed(trial, roles)
+        new = _items_agreed_on(trial, roles)
+        if len(gone) > max(1, len(new)) and not _are_all_resolved(gone, trial, roles):
+            yield (
+                number,
+                f"one answer takes away {len(gone)} questions: {format_objects(gone)}",
+            )
+        if why := _why_counted_again(dialogue, trial, roles):
             yield number, why
 
 
-def _all_resolved(gone: Sequence[Object], trial: Trial, roles: Roles) -> bool:
-    """Whether each question is one that a proposition agreed on resolves.
+def _are_all_resolved(gone: Sequence[Object], trial: Trial, roles: Roles) -> bool:
+    """Is each of these questions resolved by a proposition that was agreed on?
 
-    An answer that is accepted resolves what was asked, and whether it is so.
+    An accepted answer may resolve two: what was asked, and whether the answer is right.
     """
     agreed = items_at(trial.after.state, roles.commitments)
     model = trial.after.model
@@ -201,25 +209,25 @@ def _all_resolved(gone: Sequence[Object], trial: Trial, roles: Roles) -> bool:
     )
 
 
-def _resolved(trial: Trial, roles: Roles) -> list[Object]:
-    """The questions that the rules took away in a turn, but for those that may drop."""
+def _questions_removed(trial: Trial, roles: Roles) -> list[Object]:
+    """The questions removed in a turn, except by rules that may drop questions."""
     return [
         question
         for step in trial.steps
         if step.rule.name not in roles.drops
-        for question in _gone(
+        for question in items_not_in(
             items_at(step.before, roles.qud), items_at(step.after, roles.qud)
         )
     ]
 
 
-def _agreed(trial: Trial, roles: Roles) -> list[Object]:
-    """What became agreed on in a turn."""
+def _items_agreed_on(trial: Trial, roles: Roles) -> list[Object]:
+    """What was agreed on in a turn, and not before."""
     before = items_at(trial.before.state, roles.commitments)
-    return _gone(items_at(trial.after.state, roles.commitments), before)
+    return items_not_in(items_at(trial.after.state, roles.commitments), before)
 
 
-def _counts_again(dialogue: Dialogue, trial: Trial, roles: Roles) -> str:
+def _why_counted_again(dialogue: Dialogue, trial: Trial, roles: Roles) -> str:
     """What an answer resolves or adds twice when it is given once more.
 
     It may be taken for the answer to another question that was planned.
@@ -230,22 +238,26 @@ def _counts_again(dialogue: Dialogue, trial: Trial, roles: Roles) -> str:
         return ""
     again = give(dialogue.game, trial.after, trial.given)
     # A question that a rule takes away to ask it anew is still there at the end.
-    left = _gone(items_at(state, roles.qud), items_at(again.after.state, roles.qud))
-    gone = [question for question in _resolved(again, roles) if question in left]
+    left = items_not_in(
+        items_at(state, roles.qud), items_at(again.after.state, roles.qud)
+    )
+    gone = [
+        question for question in _questions_removed(again, roles) if question in left
+    ]
     if gone:
-        return f"the same answer once more takes away {_shown(gone)}"
-    twice = _doubled(items_at(again.after.state, roles.commitments))
-    if twice > _doubled(items_at(state, roles.commitments)):
-        return f"the same answer is on {roles.commitments} once more"
+        return f"the same answer, given again, removes {format_objects(gone)}"
+    twice = _count_duplicates(items_at(again.after.state, roles.commitments))
+    if twice > _count_duplicates(items_at(state, roles.commitments)):
+        return f"the same answer, given again, is on {roles.commitments} twice"
     return ""
 
 
 def _is_answer(trial: Trial, state: Record, roles: Roles) -> bool:
-    """Whether what was heard answers a question that is under discussion."""
+    """Does what was heard answer a question under discussion?"""
     answers = roles.answers
     return answers is not None and any(
         answers(event, question)
-        for event in _heard(trial)
+        for event in _certain_events(trial)
         for question in items_at(state, roles.qud)
     )
 
@@ -253,16 +265,16 @@ def _is_answer(trial: Trial, state: Record, roles: Roles) -> bool:
 # --- P10 -----------------------------------------------------------------------------
 
 
-def _forgets(dialogue: Dialogue, roles: Roles) -> Checked:
+def _check_commitments(dialogue: Dialogue, roles: Roles) -> Breaches:
     for number, trial in enumerate(dialogue.trials, start=1):
         for step in trial.steps:
             if step.rule.name in roles.retracts:
                 continue
-            if why := _forgotten(step, str(roles.commitments)):
+            if why := _why_forgotten(step, str(roles.commitments)):
                 yield number, why
 
 
-def _forgotten(step: Step, path: str) -> str:
+def _why_forgotten(step: Step, path: str) -> str:
     before, after = at(step.before, path), at(step.after, path)
     if before is after:
         return ""
@@ -270,53 +282,49 @@ def _forgotten(step: Step, path: str) -> str:
         if subtype(after, before).yes:
             return ""
         return f"after {step.rule} {path} is {after}, which is no longer {before}"
-    gone = _gone(items_at(step.before, path), items_at(step.after, path))
-    return f"{step.rule} takes {_shown(gone)} from {path}" if gone else ""
+    gone = items_not_in(items_at(step.before, path), items_at(step.after, path))
+    return f"{step.rule} takes {format_objects(gone)} from {path}" if gone else ""
 
 
-# --- what happened -------------------------------------------------------------------
+# --- events --------------------------------------------------------------------------
 
 
-def _heard(trial: Trial) -> Sequence[Object]:
-    """The event of the turn, if it is certain what it was."""
+def _certain_events(trial: Trial) -> Sequence[Object]:
+    """The event of the turn, if it is certain what it is."""
     if trial.turn is None or trial.turn.heard is None:
         return ()
     event = trial.turn.heard
     return () if isinstance(event, NBest) else (event,)
 
 
-def _events(trial: Trial) -> Sequence[Object]:
-    """What was heard, or may have been, and what the system said."""
+def _possible_events(trial: Trial) -> Sequence[Object]:
+    """What was heard, or may have been heard, and what the system said."""
     if trial.turn is None:
         return ()
     event = trial.turn.heard
     perhaps = [one for one, _ in event] if isinstance(event, NBest) else ()
     said = [move.sit for move in trial.turn.said]
-    return (*_heard(trial), *perhaps, *said)
-
-
-def _shown(objects: Iterable[Object]) -> str:
-    return ", ".join(map(notation, objects))
+    return (*_certain_events(trial), *perhaps, *said)
 
 
 QUD_DISCIPLINE = Property(
     "P8",
     "questions under discussion",
-    "no question is there twice; it goes when it is resolved, and not before.",
-    _careless,
+    "no question is there twice; it is removed when it is resolved, and not before.",
+    _check_questions,
     needs=("qud",),
 )
 DOWNDATES_ONCE = Property(
     "P9",
     "downdate once",
-    "one answer resolves one question; given once more, it resolves no other.",
-    _downdates_twice,
+    "one answer resolves one question; given again, it resolves no other.",
+    _check_downdates,
     needs=("qud",),
 )
 COMMITMENTS_STAY = Property(
     "P10",
     "commitments stay",
-    "what is agreed on stays so, but for rules that take it back.",
-    _forgets,
+    "what is agreed on stays agreed on, unless a rule for that takes it back.",
+    _check_commitments,
     needs=("commitments",),
 )

@@ -1,12 +1,13 @@
-"""What events are about, and who says them: read off their fields and their ptypes.
+"""What events are about, and whose they are, by their fields and their ptypes.
 
 An event `{by = ann, t = rain, e = s1}` with s1 : ask(ann, rain) is Ann's, and about
-rain. Who acts in some event is no subject of any.
+rain. Nobody who acts in some event counts as what an event is about.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 
 from ttr.judging.certainty import certainly
@@ -14,6 +15,7 @@ from ttr.judging.models import Model
 from ttr.testing.strategies.discourse_roles import at
 from ttr.testing.strategies.random_states import heard_by
 from ttr.types.paths import occurring
+from ttr.types.printing import notation
 from ttr.types.syntax import (
     Basic,
     FiniteSet,
@@ -34,24 +36,25 @@ from ttr.updates.games import Game
 __all__ = [
     "agents_of",
     "field_at",
+    "format_objects",
+    "items_added",
     "items_at",
+    "items_not_in",
     "item_type",
-    "kin",
+    "mentions_of_sort",
     "mentions",
-    "names_in",
-    "same",
+    "is_same",
     "speaker_of",
-    "types_in",
 ]
 
 SPEAKERS = frozenset(
     ("spkr", "speaker", "by", "actor", "agent", "sender", "from", "said_by", "author")
 )
-"""What the field of an event is called that says whose it is."""
+"""Labels of an event under which stands whose event it is."""
 
 
 def items_at(state: Record, path: str | None) -> tuple[Object, ...]:
-    """What is in the list or set at a path; a type is what there is of itself."""
+    """The elements of the list or set at a path; anything else there is one item."""
     found = None if path is None else at(state, path)
     if isinstance(found, tuple):
         return found
@@ -61,7 +64,7 @@ def items_at(state: Record, path: str | None) -> tuple[Object, ...]:
 
 
 def field_at(T: TypeNode, path: str) -> TypeNode | None:
-    """The type of the field at a path of a record type, if it says what is there."""
+    """The type of the field at a path of a record type, if there is one."""
     found: TypeNode | None = T
     for label in path.split("."):
         if not isinstance(found, RecordType) or label not in found:
@@ -72,16 +75,50 @@ def field_at(T: TypeNode, path: str) -> TypeNode | None:
 
 @lru_cache(maxsize=256)
 def item_type(T: RecordType, path: str) -> TypeNode | None:
-    """The type of what is in the list or set at a path of a state."""
+    """The type of the elements of the list or set at a path of a state."""
     found = field_at(T, path)
     if isinstance(found, Singleton):
         found = found.base
     return found.item if isinstance(found, ListOf | NonEmpty | SetOf) else None
 
 
-def same(one: Object, other: Object) -> bool:
-    """Whether two objects are the same one."""
+def is_same(one: Object, other: Object) -> bool:
+    """Are they the same object?"""
     return identity(one) == identity(other)
+
+
+def items_not_in(some: Sequence[Object], others: Sequence[Object]) -> list[Object]:
+    """The items of `some` that are not among the `others`.
+
+    >>> items_not_in(["a", "b", "a"], ["b"])
+    ['a', 'a']
+    """
+    if some is others:
+        return []
+    excluded = set(map(identity, others))
+    return [one for one in some if identity(one) not in excluded]
+
+
+def items_added(before: Sequence[Object], after: Sequence[Object]) -> list[Object]:
+    """The items that occur more often than before, each as often as it was added.
+
+    >>> items_added(["a"], ["a", "b", "a", "b"])
+    ['b', 'a', 'b']
+    """
+    if before is after:
+        return []
+    had = Counter(map(identity, before))
+    more: list[Object] = []
+    for one in after:
+        had[identity(one)] -= 1
+        if had[identity(one)] < 0:
+            more.append(one)
+    return more
+
+
+def format_objects(objects: Iterable[Object]) -> str:
+    """The objects in the notation, with commas between them."""
+    return ", ".join(map(notation, objects))
 
 
 # --- who -----------------------------------------------------------------------------
@@ -89,7 +126,7 @@ def same(one: Object, other: Object) -> bool:
 
 @lru_cache(maxsize=64)
 def agents_of(game: Game) -> frozenset[str]:
-    """Who acts in some event: named by a field for speakers, or first in a ptype."""
+    """Who acts in some event of a game: by a label of speakers, or first in a ptype."""
     taken = (rule.on for rule in game.rules if rule.on is not None)
     found: set[str] = set()
     for T in dict.fromkeys((*taken, *heard_by(game))):
@@ -113,7 +150,7 @@ def _agents_in(T: RecordType) -> Iterator[str]:
 
 
 def speaker_of(event: Object, model: Model, agents: frozenset[str]) -> str | None:
-    """Whose event it is, if that is clear."""
+    """Whose event it is; None if that is not clear."""
     if not isinstance(event, Record):
         return None
     named = {event[label] for label in SPEAKERS if label in event}
@@ -130,7 +167,7 @@ def speaker_of(event: Object, model: Model, agents: frozenset[str]) -> str | Non
 
 
 def _ptypes(event: Record, model: Model) -> Iterator[PType]:
-    """What the proof objects of an event are known to be of."""
+    """The ptypes that the proof objects of an event are known to be of."""
     for value in event._fields.values():
         if isinstance(value, str):
             for T in model.facts.types_of(value):
@@ -139,7 +176,7 @@ def _ptypes(event: Record, model: Model) -> Iterator[PType]:
 
 
 def mentions(event: Object, model: Model) -> tuple[Object, ...]:
-    """All that is in an event, and in what its proof objects are known to be of."""
+    """All that occurs in an event, and in the ptypes of its proof objects."""
     if not isinstance(event, Record):
         return tuple(_within((event,)))
     return tuple(_within((event, *_ptypes(event, model))))
@@ -152,22 +189,13 @@ def _within(values: Iterable[Object]) -> Iterator[Object]:
                 yield part
 
 
-def names_in(value: Object) -> frozenset[str]:
-    """The names of objects in a value."""
-    return frozenset(part for part in _within((value,)) if isinstance(part, str))
-
-
-def types_in(parts: Iterable[Object]) -> tuple[RecordType, ...]:
-    """The record types among what an event mentions."""
-    return tuple(part for part in parts if isinstance(part, RecordType))
-
-
-def kin(
+def mentions_of_sort(
     item: Object, T: TypeNode | None, event: Object, model: Model, game: Game
 ) -> tuple[Object, ...]:
-    """What an event mentions that is of the item's own sort; nothing if none is clear.
+    """What an event mentions that is of the same sort as an item, the basic type T.
 
-    A sort to which those belong who act is none: anybody may be mentioned anywhere.
+    Those who act are of no sort here, as they may be mentioned anywhere. All record
+    types are of one sort.
     """
     parts = mentions(event, model)
     if isinstance(item, str) and isinstance(T, Basic):
@@ -179,5 +207,5 @@ def kin(
             dict.fromkeys(one for one in named if certainly(model.facts, one, T))
         )
     if isinstance(item, RecordType):
-        return types_in(parts)
+        return tuple(part for part in parts if isinstance(part, RecordType))
     return ()

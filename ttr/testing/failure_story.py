@@ -1,4 +1,4 @@
-"""A dialogue as a story that plays it again."""
+"""Writing a dialogue as a story that reproduces it."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from pathlib import Path
 
 from ttr.dialogues.dialogue import Dialogue
 from ttr.dialogues.stories import Setting, StoryError, setting, story_text
-from ttr.testing.game_settings import named_in
+from ttr.testing.game_settings import module_and_name
 from ttr.updates.games import Game
 
 __all__ = ["place_of", "story"]
 
 
 def story(dialogue: Dialogue, title: str, place: Setting | None = None) -> str:
-    """The dialogue as a story of a `.dlg` file, which names the game that it is in.
+    """The dialogue as a story of a `.dlg` file, with the name of its game.
 
-    A game that no module has by a name cannot be named; then the story says where it
-    starts.
+    A game has a name if a module has it under one; otherwise the story gives the state
+    that it starts in.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.dialogues.dialogue import play
@@ -38,15 +38,15 @@ def story(dialogue: Dialogue, title: str, place: Setting | None = None) -> str:
 
 
 def place_of(game: Game) -> Setting:
-    """The setting of a game: by the module and the name that Python has it by."""
-    found = named_in(game)
+    """The setting of a game, by the module that has it and its name there."""
+    found = module_and_name(game)
     if found is None:
         return Setting.of(game)
     module, name = found
-    return _named(f"{module.__name__}:{name}", game)
+    return _setting_by_name(f"{module.__name__}:{name}", game)
 
 
-def _named(reference: str, game: Game) -> Setting:
+def _setting_by_name(reference: str, game: Game) -> Setting:
     try:
         return setting(reference, Path())
     except StoryError:

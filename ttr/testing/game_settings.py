@@ -1,4 +1,4 @@
-"""What stands beside a game in the modules that have it: its tutor, roles, starts."""
+"""The tutor, roles and starts that modules define beside a game."""
 
 from __future__ import annotations
 
@@ -14,34 +14,34 @@ from ttr.testing.strategies.tutors import Tutor
 from ttr.types.syntax import Record
 from ttr.updates.games import Game
 
-__all__ = ["named_in", "roles_of", "starts_of", "tutor_of"]
+__all__ = ["module_and_name", "roles_of", "starts_of", "tutor_of"]
 
 
-def named_in(game: Game) -> tuple[ModuleType, str] | None:
-    """A module that has the game, and its name there, if any module has."""
-    return next(_places(game), None)
+def module_and_name(game: Game) -> tuple[ModuleType, str] | None:
+    """A module that has the game, and the game's name there; None if no module has."""
+    return next(_modules_with(game), None)
 
 
 def tutor_of(game: Game) -> Tutor | None:
     """The tutor that a module of the game calls `tutor`."""
-    found = (getattr(module, "tutor", None) for module, _ in _places(game))
+    found = (getattr(module, "tutor", None) for module, _ in _modules_with(game))
     return next((one for one in found if isinstance(one, Tutor)), None)
 
 
 def roles_of(game: Game) -> Roles | None:
     """The roles that a module of the game calls `roles`."""
-    found = (getattr(module, "roles", None) for module, _ in _places(game))
+    found = (getattr(module, "roles", None) for module, _ in _modules_with(game))
     return next((one for one in found if isinstance(one, Roles)), None)
 
 
 def starts_of(game: Game) -> st.SearchStrategy[tuple[Record, Model]] | None:
-    """What a module of the game calls `starts`: it draws states, and their models."""
-    found = (getattr(module, "starts", None) for module, _ in _places(game))
+    """The strategy for states and models that a module of the game calls `starts`."""
+    found = (getattr(module, "starts", None) for module, _ in _modules_with(game))
     return next((one for one in found if isinstance(one, st.SearchStrategy)), None)
 
 
-def _places(game: Game) -> Iterator[tuple[ModuleType, str]]:
-    """The modules that have the game, in order of their names, with its name there."""
+def _modules_with(game: Game) -> Iterator[tuple[ModuleType, str]]:
+    """The modules that have the game, in order of their names, each with its name."""
     for name, module in sorted(sys.modules.items()):
         if name == "__main__" or not isinstance(module, ModuleType):
             continue

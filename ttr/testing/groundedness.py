@@ -1,13 +1,13 @@
-"""What is agreed on was said: P21, P22 and P23.
+"""What is agreed on was said: P21 and P22.
 
 Source: Clark and Schaefer 1989 and Larsson 2002 for grounding: what becomes common
-ground has been put forward in the dialogue, by somebody, and once.
+ground was put forward in the dialogue by somebody, once.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from ttr.computing.subtyping import subtype
 from ttr.dialogues.dialogue import Dialogue, Trial
@@ -15,14 +15,16 @@ from ttr.judging.certainty import certainly
 from ttr.testing.event_subjects import (
     SPEAKERS,
     agents_of,
+    format_objects,
+    is_same,
     item_type,
+    items_added,
     items_at,
-    kin,
     mentions,
-    same,
+    mentions_of_sort,
     speaker_of,
 )
-from ttr.testing.properties import Checked, Property
+from ttr.testing.properties import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.testing.strategies.random_states import heard_by
 from ttr.types.printing import notation
@@ -30,84 +32,70 @@ from ttr.types.syntax import Object, Record, RecordType, TypeNode, identity
 from ttr.updates.games import Game
 from ttr.updates.running import Step
 
-__all__ = ["AGREED_ONCE", "SAID_FIRST", "added"]
-
-
-def added(before: Sequence[Object], after: Sequence[Object]) -> list[Object]:
-    """What is there more often than before, each as often as that."""
-    if before is after:
-        return []
-    had = Counter(map(identity, before))
-    more: list[Object] = []
-    for one in after:
-        had[identity(one)] -= 1
-        if had[identity(one)] < 0:
-            more.append(one)
-    return more
+__all__ = ["AGREED_ONCE", "SAID_FIRST"]
 
 
 # --- P21 -----------------------------------------------------------------------------
 
 
-def _unsaid(dialogue: Dialogue, roles: Roles) -> Checked:
+def _check_said(dialogue: Dialogue, roles: Roles) -> Breaches:
     for number, trial in enumerate(dialogue.trials, start=1):
         for step in trial.steps:
             for path in (roles.commitments, roles.qud, roles.pending):
                 if path is not None:
-                    for why in _unsaid_in(step, path, dialogue.game):
+                    for why in _why_unsaid(step, path, dialogue.game):
                         yield number, why
 
 
-def _unsaid_in(step: Step, path: str, game: Game) -> Iterator[str]:
-    """What a rule puts somewhere that neither the event nor the state offered."""
-    more = added(items_at(step.before, path), items_at(step.after, path))
+def _why_unsaid(step: Step, path: str, game: Game) -> Iterator[str]:
+    """Why what a rule adds at a path was not said in this turn."""
+    more = items_added(items_at(step.before, path), items_at(step.after, path))
     if not more:
         return
     said = mentions(step.event, step.model)
     T = item_type(game.type, path)
     for item in more:
-        if any(same(item, one) for one in said):
+        if any(is_same(item, one) for one in said):
             continue
-        if why := _another(item, T, step, game):
+        if why := _why_another(item, T, step, game):
             yield f"{step.rule} puts {notation(item)} on {path}, {why}"
-        if why := _of_another(item, step, game):
+        if why := _why_wrong_speaker(item, step, game):
             yield f"{step.rule} puts {notation(item)} on {path}, {why}"
 
 
-def _another(item: Object, T: TypeNode | None, step: Step, game: Game) -> str:
-    """Whether an item is none of its sort that was said, or that was there before."""
+def _why_another(item: Object, T: TypeNode | None, step: Step, game: Game) -> str:
+    """Why something else was said than the item that was added."""
     if isinstance(item, str):
-        others = kin(item, T, step.event, step.model, game)
+        others = mentions_of_sort(item, T, step.event, step.model, game)
         if others:
-            about = ", ".join(map(notation, others))
-            return f"though what happened is about {about}"
+            return f"but the event is about {format_objects(others)}"
         return ""
-    if isinstance(item, RecordType) and item in _moves(game):
-        return _another_move(item, step)
+    if isinstance(item, RecordType) and item in _move_types(game):
+        return _why_move_not_made(item, step)
     return ""
 
 
-def _another_move(item: RecordType, step: Step) -> str:
-    """Whether a move counts as made that is not the one that was made."""
+def _why_move_not_made(item: RecordType, step: Step) -> str:
+    """Why a move that counts as made was not made."""
     if step.rule.on is None or not isinstance(step.event, Record):
         return ""
     if certainly(step.model.facts, step.event, item) or subtype(item, step.rule.on).yes:
         return ""
     in_state = (part for part in mentions(step.before, step.model))
-    if any(same(item, part) for part in in_state):
+    if any(is_same(item, part) for part in in_state):
         return ""
     return "which is a move that was not made"
 
 
-def _moves(game: Game) -> frozenset[TypeNode]:
-    """The types of moves that somebody makes in the game."""
+def _move_types(game: Game) -> frozenset[TypeNode]:
+    """The types of moves that anybody makes in the game."""
     return frozenset(heard_by(game)) | {
         rule.on for rule in game.rules if rule.on is not None
     }
 
 
-def _of_another(item: Object, step: Step, game: Game) -> str:
-    """Whether an item says that somebody said it who did not."""
+def _why_wrong_speaker(item: Object, step: Step, game: Game) -> str:
+    """Why an item names the wrong speaker."""
     who = speaker_of(step.event, step.model, agents_of(game))
     if who is None or not isinstance(item, Record):
         return ""
@@ -120,28 +108,29 @@ def _of_another(item: Object, step: Step, game: Game) -> str:
 # --- P22 -----------------------------------------------------------------------------
 
 
-def _twice(dialogue: Dialogue, roles: Roles) -> Checked:
+def _check_agreed_once(dialogue: Dialogue, roles: Roles) -> Breaches:
     path = str(roles.commitments)
     for number, trial in enumerate(dialogue.trials, start=1):
-        if why := _twice_in(trial, path):
+        if why := _why_agreed_twice(trial, path):
             yield number, why
 
 
-def _twice_in(trial: Trial, path: str) -> str:
-    """What one turn adds more often than it was said in it."""
+def _why_agreed_twice(trial: Trial, path: str) -> str:
+    """Why a turn adds something more often than it was said."""
     if trial.turn is None:
         return ""
-    more = added(items_at(trial.before.state, path), items_at(trial.after.state, path))
-    said = 1 + len(trial.turn.said)
+    more = items_added(
+        items_at(trial.before.state, path), items_at(trial.after.state, path)
+    )
     for key, count in Counter(map(identity, more)).items():
-        if count > 1 and count > _times_said(key, trial, said):
+        if count > 1 and count > _times_said(key, trial):
             item = next(one for one in more if identity(one) == key)
             return f"{notation(item)} is put on {path} {count} times in one turn"
     return ""
 
 
-def _times_said(key: object, trial: Trial, most: int) -> int:
-    """How many events of a turn mention an item; all of them, if none does."""
+def _times_said(key: object, trial: Trial) -> int:
+    """How many events of a turn mention an item; at least one is taken to do so."""
     assert trial.turn is not None
     events = [trial.turn.heard, *(move.sit for move in trial.turn.said)]
     model = trial.turn.model
@@ -156,13 +145,13 @@ def _times_said(key: object, trial: Trial, most: int) -> int:
 SAID_FIRST = Property(
     "P21",
     "said first",
-    "what is agreed on or under discussion was said, by whom it says, in this turn.",
-    _unsaid,
+    "what is added to facts and questions was said in this turn, by the right person.",
+    _check_said,
 )
 AGREED_ONCE = Property(
     "P22",
     "agreed once",
-    "what is said once is agreed on once.",
-    _twice,
+    "what is said once is agreed on only once.",
+    _check_agreed_once,
     needs=("commitments",),
 )

@@ -1,7 +1,7 @@
-"""Determinism across processes: the same dialogues under other hash seeds.
+"""Determinism across processes: the same dialogues under different hash seeds.
 
-Sets, dictionaries of objects and addresses come in another order in another process; a
-rule that depends on that order gives other states there.
+The order of sets, and of objects by their addresses, differs between processes; a rule
+that depends on that order gives other states in another process.
 """
 
 from __future__ import annotations
@@ -28,19 +28,21 @@ HASH_SEEDS = ("1", "2")
 
 
 def differing(place: Setting, *, examples: int, start: int) -> str:
-    """How the dialogues of two processes differ, or an empty text if they do not.
+    """The first dialogue that differs between two processes; empty if none does.
 
-    The game is one that the user has named. Raises `TTRError` where a process fails.
+    The game is one that the user has named. Raises `TTRError` if a process fails.
     """
-    one, two = (_printed(place, examples, start, it) for it in HASH_SEEDS)
+    one, two = (_digests_in_process(place, examples, start, it) for it in HASH_SEEDS)
     for number, (line, other) in enumerate(zip(one, two, strict=False), start=1):
         if line != other:
-            return f"dialogue {number} is another in a process with another hash seed"
+            return f"dialogue {number} differs in a process with another hash seed"
     return ""
 
 
-def _printed(place: Setting, examples: int, start: int, hash_seed: str) -> list[str]:
-    """What a process of its own prints: a line for each dialogue."""
+def _digests_in_process(
+    place: Setting, examples: int, start: int, hash_seed: str
+) -> list[str]:
+    """The digests of the dialogues that a process with this hash seed plays."""
     named = (place.reference, str(place.folder), str(examples), str(start))
     allowed = map(str, place.consent.folders)
     command, around = separate_python("-m", __name__, *named, *allowed)
@@ -58,7 +60,7 @@ def _printed(place: Setting, examples: int, start: int, hash_seed: str) -> list[
 
 
 def main() -> None:
-    """Prints a line for each dialogue: a digest of its rules and states."""
+    """Print a digest of each dialogue, on a line of its own."""
     reference, folder, examples, start, *allowed = sys.argv[1:]
     consent = named_by_user(reference, Path(folder), Consent.of(allowed))
     game = setting(reference, Path(folder), consent).game
@@ -79,7 +81,7 @@ def main() -> None:
 
 
 def digest(dialogue: Dialogue) -> str:
-    """A short text that is the same where the rules and states are."""
+    """A short text that is the same for dialogues with the same rules and states."""
     parts = [notation(state) for state in dialogue.states]
     parts += [step.rule.name for step in dialogue.steps]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]

@@ -1,8 +1,8 @@
-"""What comes and goes over many dialogues: P25, P26 and P27.
+"""What is put on and taken off lists of the state in many dialogues: P25 and P26.
 
-One dialogue cannot show that a question is never answered, only that it has not been so
-far. Over hundreds of dialogues in which a tutor does all that there is to do, what was
-never taken up will not be.
+One dialogue cannot show that a question is never answered, only that it has not been
+answered yet. But what hundreds of dialogues never take up, although the tutor does all
+that can be done, will never be taken up.
 """
 
 from __future__ import annotations
@@ -14,32 +14,32 @@ from dataclasses import dataclass, field
 from ttr.dialogues.dialogue import Dialogue
 from ttr.testing.event_subjects import (
     agents_of,
+    is_same,
     item_type,
+    items_added,
     items_at,
-    kin,
     mentions,
-    same,
+    mentions_of_sort,
     speaker_of,
 )
-from ttr.testing.groundedness import added
 from ttr.testing.properties import Property
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.types.syntax import Object, PType, Record, identity
 from ttr.updates.games import Game
 from ttr.updates.running import Step
 
-__all__ = ["ANSWERED", "EMPTIES", "Flows", "Seen"]
+__all__ = ["ANSWERED", "EMPTIES", "DialogueCounts", "Finding"]
 
 ENOUGH = 25
-"""How often something has to happen before it says something that nothing else did."""
+"""How often something has to happen before what never happens counts as a fault."""
 
 STACKS = ("qud", "issues")
-"""Lists of questions that are stacks in the literature: the latest is the first."""
+"""Labels of lists of questions that are stacks: the latest question comes first."""
 
 
 @dataclass(frozen=True)
-class Seen:
-    """Something that dialogues together show: one of them, in which turn, and why."""
+class Finding:
+    """What many dialogues show together, and why; with one of them, and its turn."""
 
     dialogue: Dialogue
     turn: int
@@ -47,8 +47,8 @@ class Seen:
 
 
 @dataclass
-class Flow:
-    """What came to be at one place of the state, and what went from there."""
+class FlowCounts:
+    """How often items were put on and taken off one list, and at which end."""
 
     put: int = 0
     taken: int = 0
@@ -60,8 +60,8 @@ class Flow:
 
 
 @dataclass
-class Answering:
-    """By which kinds of events a rule takes questions off: naming them, or nothing."""
+class AnswerCounts:
+    """How often a rule removes questions by which acts: that name them, or do not."""
 
     naming: Counter[str] = field(default_factory=Counter)
     nameless: Counter[str] = field(default_factory=Counter)
@@ -69,19 +69,19 @@ class Answering:
 
 
 @dataclass
-class Flows:
-    """Counts of what came and went in the dialogues of one game, by the roles."""
+class DialogueCounts:
+    """Counts of what was put on and taken off the lists that play a role in a game."""
 
     game: Game
     roles: Roles
     dialogues: int = 0
-    by_path: dict[str, Flow] = field(default_factory=dict)
-    by_rule: dict[str, Answering] = field(default_factory=dict)
+    by_path: dict[str, FlowCounts] = field(default_factory=dict)
+    by_rule: dict[str, AnswerCounts] = field(default_factory=dict)
     own: Counter[bool] = field(default_factory=Counter)
     own_example: tuple[Dialogue, int] | None = None
 
     def add(self, dialogue: Dialogue) -> None:
-        """Counts a dialogue."""
+        """Count a dialogue."""
         self.dialogues += 1
         roles = self.roles
         asked_by: dict[object, str] = {}
@@ -100,19 +100,19 @@ class Flows:
         before, after = items_at(step.before, path), items_at(step.after, path)
         if before is after:
             return
-        flow = self.by_path.setdefault(path, Flow())
+        flow = self.by_path.setdefault(path, FlowCounts())
         here = (dialogue, turn)
-        if added(before, after):
+        if items_added(before, after):
             flow.put += 1
-            flow.first = _shorter(flow.first, here)
-        if added(after, before):
+            flow.first = _earlier(flow.first, here)
+        if items_added(after, before):
             flow.taken += 1
-            flow.last = _shorter(flow.last, here)
+            flow.last = _earlier(flow.last, here)
         if before and len(after) == len(before) + 1:
-            flow.pushed[_end(before, after)] += 1
+            flow.pushed[_end_of_difference(before, after)] += 1
         if len(before) > 1 and len(after) == len(before) - 1:
-            flow.popped[_end(after, before)] += 1
-            flow.wrong_end = _shorter(flow.wrong_end, here)
+            flow.popped[_end_of_difference(after, before)] += 1
+            flow.wrong_end = _earlier(flow.wrong_end, here)
 
     def _count_answers(
         self,
@@ -121,55 +121,55 @@ class Flows:
         turn: int,
         asked_by: dict[object, str],
     ) -> None:
-        """Notes who puts a question and who takes it off, and with what."""
+        """Count who asks a question, and who removes it with what event."""
         path = str(self.roles.qud)
         before, after = items_at(step.before, path), items_at(step.after, path)
         if before is after or not isinstance(step.event, Record):
             return
-        # A rule that takes no event may put a question of its own: nobody asked it.
+        # Nobody asked the question that a rule without an event puts.
         takes = step.rule.on is not None
         agents = agents_of(self.game)
         who = speaker_of(step.event, step.model, agents) if takes else None
         said = [identity(one) for one in mentions(step.event, step.model)]
-        for item in added(before, after):
+        for item in items_added(before, after):
             asked_by.pop(identity(item), None)
             if who is not None and identity(item) in said:
                 asked_by[identity(item)] = who
-        for item in added(after, before):
+        for item in items_added(after, before):
             asker = asked_by.get(identity(item))
             if who is not None and asker is not None:
                 self.own[who == asker] += 1
                 if who == asker:
-                    self.own_example = _shorter(self.own_example, (dialogue, turn))
+                    self.own_example = _earlier(self.own_example, (dialogue, turn))
             if who is None and asker is not None:
-                self.own[False] += 1  # it may go without an answer
+                self.own[False] += 1  # it may be removed without an answer
             if takes and isinstance(item, str):
                 self._count_naming(item, step, (dialogue, turn))
 
     def _count_naming(self, item: str, step: Step, here: tuple[Dialogue, int]) -> None:
         said = mentions(step.event, step.model)
         act = " ".join(sorted(one.pred.name for one in said if isinstance(one, PType)))
-        found = self.by_rule.setdefault(step.rule.name, Answering())
+        found = self.by_rule.setdefault(step.rule.name, AnswerCounts())
         T = item_type(self.game.type, str(self.roles.qud))
-        if any(same(item, one) for one in said):
+        if any(is_same(item, one) for one in said):
             found.naming[act] += 1
-        elif not kin(item, T, step.event, step.model, self.game):
+        elif not mentions_of_sort(item, T, step.event, step.model, self.game):
             found.nameless[act] += 1
-            found.example = _shorter(found.example, here)
+            found.example = _earlier(found.example, here)
 
 
-def _shorter(
+def _earlier(
     known: tuple[Dialogue, int] | None, found: tuple[Dialogue, int]
 ) -> tuple[Dialogue, int]:
-    """The one of two that happens earlier, cut off after its turn."""
+    """The one of two turns that comes earlier, in its dialogue up to there."""
     if known is not None and known[1] <= found[1]:
         return known
     dialogue, turn = found
     return Dialogue(dialogue.game, dialogue.trials[:turn]), turn
 
 
-def _end(shorter: tuple[Object, ...], longer: tuple[Object, ...]) -> str:
-    """At which end a list has one more: first, last, or neither."""
+def _end_of_difference(shorter: tuple[Object, ...], longer: tuple[Object, ...]) -> str:
+    """The end at which the longer list has one more: first, last, either or none."""
     first = identity(longer[1:]) == identity(shorter)
     last = identity(longer[:-1]) == identity(shorter)
     return "either" if first and last else "first" if first else "last" if last else ""
@@ -178,7 +178,7 @@ def _end(shorter: tuple[Object, ...], longer: tuple[Object, ...]) -> str:
 # --- P25 -----------------------------------------------------------------------------
 
 
-def _never_empties(flows: Flows) -> Iterator[Seen]:
+def _check_emptying(flows: DialogueCounts) -> Iterator[Finding]:
     for role in ("pending", "agenda", "qud"):
         path = getattr(flows.roles, role)
         flow = flows.by_path.get(path) if path is not None else None
@@ -187,32 +187,32 @@ def _never_empties(flows: Flows) -> Iterator[Seen]:
                 f"what is put on {path} is never taken off: "
                 f"it was put there {flow.put} times in {flows.dialogues} dialogues"
             )
-            yield Seen(*flow.first, why)
+            yield Finding(*flow.first, why)
 
 
 # --- P26 -----------------------------------------------------------------------------
 
 
-def _unanswered(flows: Flows) -> Iterator[Seen]:
-    yield from _settled_by_anything(flows)
-    yield from _at_the_wrong_end(flows)
-    yield from _comes_to_nothing(flows)
-    yield from _answered_by_the_asker(flows)
+def _check_answering(flows: DialogueCounts) -> Iterator[Finding]:
+    yield from _rules_that_accept_anything(flows)
+    yield from _questions_from_the_wrong_end(flows)
+    yield from _questions_without_effect(flows)
+    yield from _questions_answered_by_their_askers(flows)
 
 
-def _settled_by_anything(flows: Flows) -> Iterator[Seen]:
-    """Rules that take a question off by events that name it, and by other acts."""
+def _rules_that_accept_anything(flows: DialogueCounts) -> Iterator[Finding]:
+    """Rules that remove a question after acts that name it, but after others, too."""
     for name, found in flows.by_rule.items():
         acts = set(found.nameless) - set(found.naming)
         count = sum(found.nameless[act] for act in acts)
         if acts and found.naming and count >= ENOUGH // 5 and found.example:
-            told, other = sorted(found.naming)[0], sorted(acts)[0]
-            why = f"{name} takes {other} for an answer, as it does {told}"
-            yield Seen(*found.example, why)
+            answer, other = sorted(found.naming)[0], sorted(acts)[0]
+            why = f"{name} takes {other} for an answer, just like {answer}"
+            yield Finding(*found.example, why)
 
 
-def _at_the_wrong_end(flows: Flows) -> Iterator[Seen]:
-    """Questions of which the last to be put is the last to be taken."""
+def _questions_from_the_wrong_end(flows: DialogueCounts) -> Iterator[Finding]:
+    """Questions that are put on one end of a stack and taken off at the other."""
     path = flows.roles.qud
     flow = flows.by_path.get(path) if path is not None else None
     if path is None or flow is None or flow.wrong_end is None:
@@ -227,41 +227,42 @@ def _at_the_wrong_end(flows: Flows) -> Iterator[Seen]:
             and not flow.popped[put]
         ):
             why = f"a question is put {put} on {path}, but the {taken} one is taken off"
-            yield Seen(*flow.wrong_end, why)
+            yield Finding(*flow.wrong_end, why)
 
 
-def _comes_to_nothing(flows: Flows) -> Iterator[Seen]:
-    """Questions that go, of which never anything is agreed on."""
+def _questions_without_effect(flows: DialogueCounts) -> Iterator[Finding]:
+    """Questions that are removed although nothing is ever agreed on."""
     qud, agreed = flows.roles.qud, flows.roles.commitments
     if qud is None or agreed is None or agreed in flows.by_path:
         return
     flow = flows.by_path.get(qud)
     if flow is not None and flow.taken >= ENOUGH and flow.last:
         why = (
-            f"questions go from {qud}, {flow.taken} times in {flows.dialogues} "
+            f"questions leave {qud}, {flow.taken} times in {flows.dialogues} "
             f"dialogues, but nothing is ever put on {agreed}"
         )
-        yield Seen(*flow.last, why)
+        yield Finding(*flow.last, why)
 
 
-def _answered_by_the_asker(flows: Flows) -> Iterator[Seen]:
-    """Questions that only those answer who asked them, though there are others."""
+def _questions_answered_by_their_askers(flows: DialogueCounts) -> Iterator[Finding]:
+    """Questions that are answered only by those who asked them."""
     if flows.own[True] < ENOUGH or flows.own[False] or not flows.own_example:
         return
     if len(agents_of(flows.game)) > 1:
-        yield Seen(*flows.own_example, "only who asked a question ever answers it")
+        why = "a question is only ever answered by the one who asked it"
+        yield Finding(*flows.own_example, why)
 
 
 EMPTIES = Property(
     "P25",
     "pending empties",
-    "what is asked, planned or pending can be taken up: not everything stays for ever.",
-    across=_never_empties,
+    "what is asked, planned or pending does not always stay for ever.",
+    across=_check_emptying,
 )
 ANSWERED = Property(
     "P26",
     "questions are answered",
-    "a question goes by what answers it, or rejects it; the latest one is the first.",
-    across=_unanswered,
+    "questions are removed by what answers or rejects them, the latest one first.",
+    across=_check_answering,
     needs=("qud",),
 )

@@ -1,4 +1,4 @@
-"""A property of dialogues: its name, what it says, and how a dialogue breaks it."""
+"""Properties of dialogues: what they say, and how a dialogue breaks them."""
 
 from __future__ import annotations
 
@@ -12,41 +12,42 @@ from ttr.testing.coverage import Coverage
 from ttr.testing.strategies.discourse_roles import Roles
 
 if TYPE_CHECKING:
-    from ttr.testing.pending_items import Flows, Seen
+    from ttr.testing.pending_items import DialogueCounts, Finding
 
-__all__ = ["Breach", "Checked", "Property"]
+__all__ = ["Breach", "Breaches", "Property"]
 
-Checked: TypeAlias = Iterator[tuple[int, str]]
-"""What breaks a property, in order: the number of the turn, and why."""
+Breaches: TypeAlias = Iterator[tuple[int, str]]
+"""How a dialogue breaks a property, in order: the number of the turn, and why."""
 
 
 @dataclass(frozen=True)
 class Property:
     """A property that update rules should have, checked on dialogues.
 
-    `each` tells where one dialogue breaks it, `overall` whether many together do, by
-    what they covered, and `across` by what came and went in them. `needs` are the roles
-    that a state must have for it to be checked; `says` explains it in a line.
+    `says` states it in a line. `each` finds where a dialogue breaks it. `overall` says
+    why many dialogues together break it, by the rules that they covered; so does
+    `across`, by what they put on and took off the lists of the state. `needs` are the
+    roles without which it cannot be checked.
     """
 
     name: str
     title: str
     says: str
-    each: Callable[[Dialogue, Roles], Checked] | None = None
+    each: Callable[[Dialogue, Roles], Breaches] | None = None
     overall: Callable[[Coverage], str] | None = None
-    across: Callable[[Flows], Iterator[Seen]] | None = None
+    across: Callable[[DialogueCounts], Iterator[Finding]] | None = None
     needs: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         return f"{self.name} {self.title}"
 
-    def lacks(self, roles: Roles) -> tuple[str, ...]:
-        """The roles that it needs and nothing plays."""
+    def missing_roles(self, roles: Roles) -> tuple[str, ...]:
+        """The roles that it needs and that no field of the state plays."""
         return tuple(role for role in self.needs if getattr(roles, role) is None)
 
     def breach(self, dialogue: Dialogue, roles: Roles) -> Breach | None:
-        """The first thing in the dialogue that breaks it, if anything does."""
-        if self.each is None or self.lacks(roles):
+        """Where the dialogue first breaks it; None if it does not."""
+        if self.each is None or self.missing_roles(roles):
             return None
         for turn, why in self.each(dialogue, roles):
             return Breach(self, turn, why)
@@ -55,7 +56,7 @@ class Property:
 
 @dataclass(frozen=True)
 class Breach:
-    """That a dialogue breaks a property: in which of its turns, and why."""
+    """That a dialogue breaks a property, in which turn, and why."""
 
     property: Property
     turn: int
@@ -65,8 +66,10 @@ class Breach:
         return f"{self.property}: {self.property.says}\nturn {self.turn}: {self.why}"
 
 
-def chosen(properties: object, known: tuple[Property, ...]) -> tuple[Property, ...]:
-    """The properties, by value or by name. Raises `TTRError` for what is none."""
+def select_properties(
+    properties: object, known: tuple[Property, ...]
+) -> tuple[Property, ...]:
+    """The properties, given as such or by name. Raises `TTRError` for others."""
     if isinstance(properties, str | Property):
         properties = (properties,)
     by_name = {one.name: one for one in known}

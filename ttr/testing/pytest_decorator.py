@@ -1,4 +1,4 @@
-"""A property of one's own, as a test that pytest runs on many dialogues."""
+"""Test functions of one's own that pytest runs on many dialogues."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import TTRError
 from ttr.escapes import terminal_text
 from ttr.testing.failure_story import story
-from ttr.testing.search import how_many, search
+from ttr.testing.search import find_failure, number_of_examples
 from ttr.testing.strategies.random_dialogues import TURNS, dialogues
 from ttr.testing.strategies.tutors import Speaker, Tutor
 from ttr.updates.games import Game
@@ -28,9 +28,10 @@ def on_dialogues(
     examples: int | None = None,
     seed: int = 0,
 ) -> Callable[[Test], Callable[[], None]]:
-    """Makes a test of a function of a dialogue: it is run on many, drawn by a tutor.
+    """Turn a function of a dialogue into a test, run on many dialogues of a tutor.
 
-    What it raises on the shortest dialogue found is raised, with the story added.
+    It raises what the function raises on the shortest dialogue found, and adds the
+    story of that dialogue.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.records import replace
@@ -51,7 +52,7 @@ def on_dialogues(
             "dialogues are drawn of a game: @on_dialogues(game), "
             f"found {type(game).__name__}"
         )
-    drawn, count = dialogues(game, tutor, turns=turns), how_many(examples)
+    drawn, count = dialogues(game, tutor, turns=turns), number_of_examples(examples)
 
     def decorate(test: Test) -> Callable[[], None]:
         asked = list(inspect.signature(test).parameters)
@@ -65,7 +66,7 @@ def on_dialogues(
             try:
                 test(dialogue)
             except Exception as error:
-                # What is shown is where the test fails, not who called it.
+                # The traceback shows where the test fails, not this call of it.
                 own = error.__traceback__
                 return error.with_traceback(own.tb_next if own else None)
             return None
@@ -73,16 +74,16 @@ def on_dialogues(
         @wraps(test)
         def play_many() -> None:
             __tracebackhide__ = True
-            broken = search(drawn, verdict, verdict, examples=count, start=seed)
+            broken = find_failure(drawn, verdict, verdict, examples=count, start=seed)
             if broken is None:
                 return
             title = test.__name__.removeprefix("test_").replace("_", " ")
-            shown = story(broken.dialogue, title)
-            told = f"The shortest dialogue found:\n\n{shown}"
-            broken.why.add_note(terminal_text(told))
+            text = story(broken.dialogue, title)
+            note = f"The shortest dialogue found:\n\n{text}"
+            broken.why.add_note(terminal_text(note))
             raise broken.why from None
 
-        # pytest takes the parameters of a test for fixtures: this one has none.
+        # pytest takes parameters for fixtures; this test has none.
         del play_many.__dict__["__wrapped__"]
         return play_many
 

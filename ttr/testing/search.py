@@ -1,8 +1,7 @@
-"""Looking for a dialogue with something wrong with it, among many that are drawn."""
+"""Looking for a dialogue with something wrong with it, among many random ones."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TypeVar
 
 from hypothesis import HealthCheck, Phase, Verbosity, given, seed, settings
@@ -11,23 +10,17 @@ from hypothesis.errors import Flaky
 
 from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import TTRError
-from ttr.testing.shrinking import Broken, Verdict, shortest
+from ttr.testing.shrinking import Failure, Verdict, shorten
 
-__all__ = ["DRAWN", "DRAWN_AND_SHRUNK", "Unsteady", "how_many", "search"]
+__all__ = ["UnsteadyError", "find_failure", "number_of_examples"]
 
 Why = TypeVar("Why")
 
-DRAWN = (Phase.generate,)
-"""Dialogues that begin where the game does: what is found is made shorter here."""
 
-DRAWN_AND_SHRUNK = (Phase.generate, Phase.shrink)
-"""Dialogues of which more is drawn, as where they begin: Hypothesis shrinks that."""
+def number_of_examples(examples: int | None) -> int:
+    """How many dialogues are drawn: by default as many as the Hypothesis profile says.
 
-
-def how_many(examples: int | None) -> int:
-    """As many as are asked for, else as the Hypothesis profile says; from 1 on.
-
-    >>> how_many(20)
+    >>> number_of_examples(20)
     20
     """
     if examples is None:
@@ -38,61 +31,63 @@ def how_many(examples: int | None) -> int:
     return examples
 
 
-class _Stop(Exception):
+class _FoundError(Exception):
     """Something is wrong with the dialogue that was drawn."""
 
 
-class Unsteady(Exception):
-    """A dialogue that was not the same when it was drawn once more."""
+class UnsteadyError(Exception):
+    """A dialogue went another way when the same moves were made again."""
 
     def __init__(self, dialogue: Dialogue) -> None:
-        super().__init__("a dialogue is not the same when it is drawn once more")
+        super().__init__("the dialogue goes another way when it is played again")
         self.dialogue = dialogue
 
 
-def search(
+def find_failure(
     drawn: st.SearchStrategy[Dialogue],
-    counted: Verdict[Why],
     verdict: Verdict[Why],
+    verdict_again: Verdict[Why],
     *,
     examples: int,
     start: int,
-    phases: Sequence[Phase] = DRAWN,
-) -> Broken[Why] | None:
-    """The shortest dialogue found with something wrong with it, of so many drawn.
+    shrink_first: bool = False,
+) -> Failure[Why] | None:
+    """A short dialogue with something wrong with it; None if all are right.
 
-    `counted` is the verdict on what is drawn, `verdict` the same on what is made of it
-    while it is made shorter. The same `start` of the random numbers draws the same
-    dialogues. Raises `Unsteady` where they are not the same within one search.
+    `verdict` is asked of the dialogues that are drawn, `verdict_again` of those that
+    are made of the first that fails, to make it shorter. With `shrink_first` Hypothesis
+    shrinks it before that, as needed where dialogues begin in a random state, too. The
+    same `start` draws the same dialogues. Raises `UnsteadyError` where a dialogue is
+    not the same when it is drawn again.
     """
-    found: list[Broken[Why]] = []
-    seen: list[Dialogue] = []
+    found: list[Failure[Why]] = []
+    latest: list[Dialogue] = []
 
     @seed(start)
     @settings(
         max_examples=examples,
         database=None,
         deadline=None,
-        phases=phases,
+        phases=(Phase.generate, Phase.shrink) if shrink_first else (Phase.generate,),
         report_multiple_bugs=False,
         verbosity=Verbosity.quiet,
         suppress_health_check=list(HealthCheck),
     )
     @given(drawn)
     def look(dialogue: Dialogue) -> None:
-        seen[:] = [dialogue]
-        why = verdict(dialogue) if found else counted(dialogue)
+        latest[:] = [dialogue]
+        why = verdict_again(dialogue) if found else verdict(dialogue)
         if why is not None:
-            found[:] = [Broken(dialogue, why)]
-            raise _Stop
+            found[:] = [Failure(dialogue, why)]
+            raise _FoundError
 
-    # What is found is made shorter when the exception is over, so that no failure that
-    # is raised then comes "during the handling of another".
+    # The dialogue is made shorter after the `except`, so that no error that is raised
+    # then comes "during the handling of another".
     try:
         look()
-    except _Stop:
+    except _FoundError:
         pass
     except Flaky as error:
         if not found:
-            raise Unsteady(*seen) from error
-    return shortest(found[0], verdict) if found else None
+            raise UnsteadyError(*latest) from error
+    return shorten(found[0], verdict_again) if found else None

@@ -1,4 +1,4 @@
-"""Applying rules by themselves, where a step of a dialogue began."""
+"""Applying single rules again to the state before a step of a dialogue."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from ttr.updates.games import Game
 from ttr.updates.rules import Rule
 from ttr.updates.running import Run, Step, run
 
-__all__ = ["applied", "rerun"]
+__all__ = ["apply_rules", "state_when_rerun"]
 
 
-def applied(game: Game, step: Step, *rules: Rule) -> Run | None:
-    """These rules, in this order, each if it applies, where a step began.
+def apply_rules(game: Game, step: Step, *rules: Rule) -> Run | None:
+    """Apply these rules in this order, each if it can be, to the state before a step.
 
-    None where one of them fails, or none applies.
+    None if one of them fails, or if none applies.
     """
     algorithm = seq(*map(maybe, rules))
     events = () if step.given is None else (step.given,)
@@ -28,7 +28,7 @@ def applied(game: Game, step: Step, *rules: Rule) -> Run | None:
     return after if after.trace else None
 
 
-def rerun(step: Step, game: Game) -> Record | None:
-    """The state that the rule of a step gives when it is applied once more, if any."""
-    after = applied(game, step, step.rule)
+def state_when_rerun(step: Step, game: Game) -> Record | None:
+    """The state that the rule of a step gives when it is applied again, if any."""
+    after = apply_rules(game, step, step.rule)
     return None if after is None else after.state

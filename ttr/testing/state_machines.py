@@ -13,7 +13,7 @@ from ttr.errors import TTRError
 from ttr.escapes import terminal_text
 from ttr.testing.catalogue import ALL
 from ttr.testing.failure_story import story
-from ttr.testing.properties import Property, chosen
+from ttr.testing.properties import Property, select_properties
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.testing.strategies.random_states import event_of, heard_by
 from ttr.types.syntax import Object, TypeNode, kind_of
@@ -28,12 +28,11 @@ def machine(
     properties: Iterable[Property | str] = ALL,
     roles: Roles | None = None,
 ) -> type[RuleBasedStateMachine]:
-    """A state machine that takes any event the game hears, and checks the properties.
+    """A state machine that plays any events the game hears and checks the properties.
 
-    Its rules are one for each type of event, and the empty turn; `self.dialogue` is
-    what was played. `machine(game).TestCase` is a test that pytest runs; rules and
-    invariants of one's own are added in a subclass. Raises `TTRError` for what is no
-    game, and for properties of other names.
+    It has a rule for each type of events and one for the empty turn; `self.dialogue` is
+    the dialogue so far. `machine(game).TestCase` is a test that pytest runs; subclasses
+    may add rules and invariants. Raises `TTRError` for what is no game or property.
 
     >>> from hypothesis import settings
     >>> from hypothesis.stateful import run_state_machine_as_test
@@ -50,7 +49,7 @@ def machine(
     """
     if not isinstance(game, Game):
         raise TTRError(f"a machine is made of a game, found {kind_of(game)}")
-    asked = chosen(properties, ALL)
+    asked = select_properties(properties, ALL)
     who = roles or Roles.of(game.type)
 
     class Machine(RuleBasedStateMachine):
@@ -61,7 +60,7 @@ def machine(
             self.dialogue = Dialogue(game)
 
         def take(self, event: Object) -> None:
-            """Goes on with the dialogue, if nothing went wrong in it."""
+            """Continue the dialogue, unless something has gone wrong in it."""
             if self.dialogue.fault is None:
                 self.dialogue = self.dialogue.then(event)
 
@@ -72,7 +71,7 @@ def machine(
 
         @invariant()
         def properties_hold(self) -> None:
-            """What was played so far breaks no property."""
+            """The dialogue so far breaks no property."""
             __tracebackhide__ = True
             for one in asked:
                 if breach := one.breach(self.dialogue, who):
@@ -81,13 +80,13 @@ def machine(
                     raise AssertionError(told) from None
 
     for number, T in enumerate(heard_by(game), start=1):
-        setattr(Machine, f"event_{number}", rule(data=st.data())(_happening(T)))
+        setattr(Machine, f"event_{number}", rule(data=st.data())(_rule_for_events(T)))
     Machine.__name__ = Machine.__qualname__ = f"Machine_{game.name}"
     return Machine
 
 
-def _happening(T: TypeNode) -> Callable[..., None]:
-    """What a machine does where an event of the type happens."""
+def _rule_for_events(T: TypeNode) -> Callable[..., None]:
+    """The rule of a machine that lets an event of the type happen."""
 
     def happens(self: Any, data: st.DataObject) -> None:
         self.take(data.draw(event_of(T, self.dialogue.now.model)))

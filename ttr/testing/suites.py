@@ -1,4 +1,4 @@
-"""Testing a rule set: static faults first, then the properties on many dialogues."""
+"""Testing a rule set: static checks first, then the properties of many dialogues."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from ttr.testing.catalogue import ALL, OF_GAMES, OF_ONE_RULE
 from ttr.testing.coverage import Coverage
 from ttr.testing.determinism import DETERMINISTIC
 from ttr.testing.failure_story import story
-from ttr.testing.pending_items import Flows
-from ttr.testing.properties import Breach, Property, chosen
-from ttr.testing.search import DRAWN, DRAWN_AND_SHRUNK, Unsteady, how_many, search
-from ttr.testing.shrinking import Broken
+from ttr.testing.pending_items import DialogueCounts
+from ttr.testing.properties import Breach, Property, select_properties
+from ttr.testing.search import UnsteadyError, find_failure, number_of_examples
+from ttr.testing.shrinking import Failure
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.testing.strategies.random_dialogues import TURNS, dialogues
 from ttr.testing.strategies.random_states import states
@@ -39,50 +39,50 @@ Starts = st.SearchStrategy[tuple[Record, Model]]
 
 @dataclass(frozen=True)
 class Report:
-    """What came of testing: static faults, or the shortest dialogue that went wrong.
+    """The result of testing: static faults, or the shortest dialogue that fails.
 
-    `coverage` is what the dialogues covered, `roles` what played which role; `skipped`
-    are the properties that nothing in the state could be checked for, with the roles
-    that nothing plays.
+    `coverage` is what the dialogues covered, `roles` which field played which role;
+    `skipped` are the properties that could not be checked, with the roles that no field
+    plays. `overall` are the properties that the dialogues break together, and why.
     """
 
     coverage: Coverage
     faults: tuple[Fault, ...] = ()
-    broken: Broken[Breach] | None = None
+    broken: Failure[Breach] | None = None
     overall: tuple[tuple[Property, str], ...] = ()
     skipped: tuple[tuple[Property, tuple[str, ...]], ...] = ()
     roles: Roles = field(default_factory=Roles)
 
     @property
     def holds(self) -> bool:
-        """Whether nothing went wrong."""
+        """Did nothing go wrong?"""
         return not (self.faults or self.broken or self.overall)
 
     def __str__(self) -> str:
-        """What went wrong, or else what was covered."""
-        return self.told() or self.coverage.table()
+        """What went wrong; if nothing did, what was covered."""
+        return self.explain_failure() or self.coverage.table()
 
-    def told(self, place: Setting | None = None) -> str:
-        """What went wrong, with the story that shows it; an empty text if nothing."""
+    def explain_failure(self, place: Setting | None = None) -> str:
+        """What went wrong, with the story that shows it; empty if nothing did."""
         parts = [f"{fault.severity}: {fault}" for fault in self.faults]
         if self.broken is not None:
-            parts.append(_told(self.broken, place))
+            parts.append(_format_failure(self.broken, place))
         parts += [f"{one}: {one.says}\n{why}" for one, why in self.overall]
         return "\n\n".join(parts)
 
 
-def _told(broken: Broken[Breach], place: Setting | None) -> str:
+def _format_failure(broken: Failure[Breach], place: Setting | None) -> str:
     breach, count = broken.why, len(broken.dialogue.trials)
     turns = "one turn" if count == 1 else f"{count} turns"
-    shown = story(broken.dialogue, str(breach.property), place)
-    return f"{breach}\nThe shortest dialogue found, of {turns}:\n\n{shown}"
+    text = story(broken.dialogue, str(breach.property), place)
+    return f"{breach}\nThe shortest dialogue found, of {turns}:\n\n{text}"
 
 
 @dataclass(frozen=True)
 class Suite:
-    """How a game is tested: with which tutor, for which properties, how long.
+    """How a game is tested: with which tutor, for which properties, for how long.
 
-    `after_each` is told of the coverage so far after every dialogue.
+    `after_each` is called with the coverage so far after every dialogue.
     """
 
     game: Game
@@ -96,13 +96,13 @@ class Suite:
     after_each: Callable[[Coverage], object] | None = None
 
     def run(self) -> Report:
-        """The static faults, or else what the dialogues came to."""
+        """Check the rules; if they have no faults, test dialogues as well."""
         if found := self.faults():
             return Report(Coverage(self.game), found, roles=self._roles())
         return self.played()
 
     def faults(self) -> tuple[Fault, ...]:
-        """What is certainly wrong before anything runs; a warning may be meant."""
+        """What is certainly wrong before anything runs: errors, but no warnings."""
         game = self.game
         if self.starts is None:
             found = faults_of(game)
@@ -111,37 +111,37 @@ class Suite:
         return tuple(fault for fault in found if fault.severity == "error")
 
     def played(self) -> Report:
-        """What the dialogues came to, whatever the static checks say."""
+        """Test dialogues, whatever the static checks say."""
         coverage = Coverage(self.game)
         roles = self._roles()
-        flows = Flows(self.game, roles)
+        flows = DialogueCounts(self.game, roles)
 
-        def verdict(dialogue: Dialogue) -> Breach | None:
+        def judge(dialogue: Dialogue) -> Breach | None:
             breaches = (one.breach(dialogue, roles) for one in self.properties)
             return next((one for one in breaches if one is not None), None)
 
-        def counted(dialogue: Dialogue) -> Breach | None:
+        def count_and_judge(dialogue: Dialogue) -> Breach | None:
             coverage.add(dialogue)
             flows.add(dialogue)
             if self.after_each is not None:
                 self.after_each(coverage)
-            return verdict(dialogue)
+            return judge(dialogue)
 
         drawn = dialogues(self.game, self.tutor, turns=self.turns, starts=self.starts)
         try:
-            broken = search(
+            broken = find_failure(
                 drawn,
-                counted,
-                verdict,
-                examples=how_many(self.examples),
+                count_and_judge,
+                judge,
+                examples=number_of_examples(self.examples),
                 start=self.seed,
-                phases=DRAWN if self.starts is None else DRAWN_AND_SHRUNK,
+                shrink_first=self.starts is not None,
             )
-        except Unsteady as error:
-            broken = Broken(error.dialogue, _unsteady(error))
+        except UnsteadyError as error:
+            broken = Failure(error.dialogue, _breach_of_determinism(error))
         if broken is None:
             broken = next(self._across(flows), None)
-        skipped = [(one, one.lacks(roles)) for one in self.properties]
+        skipped = [(one, one.missing_roles(roles)) for one in self.properties]
         return Report(
             coverage,
             broken=broken,
@@ -151,7 +151,7 @@ class Suite:
         )
 
     def _roles(self) -> Roles:
-        """The roles, with what the tutor may do."""
+        """The roles, with the game's agenda and the tutor's moves."""
         roles = self.roles or Roles.of(self.game.type)
         if roles.agenda is None and self.game.agenda is not None:
             roles = replace(roles, agenda=self.game.agenda)
@@ -159,13 +159,13 @@ class Suite:
             return roles
         return replace(roles, acts=self.tutor.moves)
 
-    def _across(self, flows: Flows) -> Iterator[Broken[Breach]]:
-        """What the dialogues show together, with one of them."""
+    def _across(self, flows: DialogueCounts) -> Iterator[Failure[Breach]]:
+        """What the dialogues show together, each time with one of them."""
         for one in self.properties:
-            if one.across is None or one.lacks(flows.roles):
+            if one.across is None or one.missing_roles(flows.roles):
                 continue
             for seen in one.across(flows):
-                yield Broken(seen.dialogue, Breach(one, seen.turn, seen.why))
+                yield Failure(seen.dialogue, Breach(one, seen.turn, seen.why))
 
     def _overall(self, coverage: Coverage) -> Iterable[tuple[Property, str]]:
         for one in self.properties:
@@ -173,9 +173,9 @@ class Suite:
                 yield one, why
 
 
-def _unsteady(error: Unsteady) -> Breach:
+def _breach_of_determinism(error: UnsteadyError) -> Breach:
     turn = len(error.dialogue.trials)
-    return Breach(DETERMINISTIC, turn, f"{error}, after the same moves as before")
+    return Breach(DETERMINISTIC, turn, str(error))
 
 
 def check_rules(
@@ -190,14 +190,14 @@ def check_rules(
     examples: int | None = None,
     seed: int = 0,
 ) -> Report:
-    """Tests a game, or rules over states of a type; what is wrong is raised.
+    """Test a game, or rules over states of a type; raise what is wrong.
 
-    The static faults come first. Then a tutor plays dialogues, as many as `examples`
-    says or the Hypothesis profile, and each is checked for the properties. What fails
-    is an `AssertionError` with its property, the reason, and the shortest dialogue
-    that shows it, as a story. A list of rules is played as `first` of them, from
-    states drawn of the type; then nothing is asked that only a game has, such as a way
-    on (P14), or that what is planned is made (P23). The same `seed` draws the same
+    The static checks come first. Then a tutor plays dialogues, as many as `examples`
+    or the Hypothesis profile says, and each is checked for the properties. A failure is
+    raised as an `AssertionError` with the property, the reason, and the shortest
+    dialogue that shows it, as a story. A list of rules is played as `first` of them,
+    from random states of the type; the properties of whole games are left out then,
+    such as that the game is never stuck (P14). The same `seed` draws the same
     dialogues. Raises `TTRError` for what is no rule set.
 
     >>> from ttr.building.constructors import rectype
@@ -214,17 +214,17 @@ def check_rules(
     note      ...
     1 of 1 rules applied, 0 pairs of rules, in ... turns of 20 dialogues
     """
-    __tracebackhide__ = True  # pytest shows what is wrong, and not where it is raised
-    found = chosen(properties, ALL)
+    __tracebackhide__ = True  # pytest shows what is wrong, not where it is raised
+    found = select_properties(properties, ALL)
     if isinstance(rules, Game):
         suite = Suite(rules, tutor, found, roles, turns, examples, seed)
     else:
-        game, starts = _bare(rules, type, model)
+        game, starts = _game_of_rules(rules, type, model)
         found = tuple(one for one in found if one not in OF_GAMES)
         suite = Suite(game, tutor, found, roles, turns, examples, seed, starts)
     report = suite.run()
     if not report.holds:
-        raise AssertionError(terminal_text(report.told())) from None
+        raise AssertionError(terminal_text(report.explain_failure())) from None
     return report
 
 
@@ -236,10 +236,10 @@ def check_rule(
     examples: int | None = None,
     seed: int = 0,
 ) -> Report:
-    """Tests one rule on states drawn of its condition, and events of its type.
+    """Test one rule on random states of its condition and events of its type.
 
-    It keeps the type, leaves the state that it is given as it was, gives the same every
-    time, and finds what it names. Raises as `check_rules` does.
+    It has to keep the type of the state, change nothing in the state that it is given,
+    give the same each time, and name only what exists. Raises as `check_rules` does.
     """
     __tracebackhide__ = True
     if not isinstance(rule, Rule):
@@ -259,8 +259,10 @@ def check_rule(
 # --- rules without a game ------------------------------------------------------------
 
 
-def _bare(rules: object, type: object, model: Model | None) -> tuple[Game, Starts]:
-    """A game of the rules, and the states that dialogues in it begin with."""
+def _game_of_rules(
+    rules: object, type: object, model: Model | None
+) -> tuple[Game, Starts]:
+    """A game of the rules, and a strategy for the states in which dialogues start."""
     if not isinstance(type, RecordType):
         raise TTRError(
             f"rules are tested over states of a record type, found {kind_of(type)}",
@@ -270,7 +272,7 @@ def _bare(rules: object, type: object, model: Model | None) -> tuple[Game, Start
     M = Model() if model is None else as_model(model)
     start, begun = M.create(type)
     game = Game("the rules", type, start, algorithm, begun)
-    kinds = [type, *_conditions(game, M)]
+    kinds = [type, *_types_of_states(game, M)]
     return game, st.sampled_from(kinds).flatmap(lambda T: states(T, model))
 
 
@@ -285,8 +287,8 @@ def _algorithm(rules: object) -> Algorithm:
     return first(*parts)
 
 
-def _conditions(game: Game, M: Model) -> Iterable[RecordType]:
-    """The states in which each rule's condition holds, where there are any."""
+def _types_of_states(game: Game, M: Model) -> Iterable[RecordType]:
+    """The types of states in which a rule's condition holds, if there are any."""
     for rule in game.rules:
         with suppress(TTRError):
             T = merge(game.type, rule.when, M.theory)

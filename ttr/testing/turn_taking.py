@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from ttr.dialogues.dialogue import Dialogue, Trial, give
 from ttr.judging.judgements import Judgement
-from ttr.testing.properties import Checked, Property
+from ttr.testing.event_subjects import format_objects
+from ttr.testing.properties import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles, acts_in, at
 from ttr.testing.strategies.random_states import heard_by, variants
 from ttr.types.printing import notation
@@ -21,19 +22,21 @@ __all__ = ["EVENTS_ONCE", "FRESH_ANSWERS", "ROUND_TRIP", "TAKES_TURNS"]
 # --- P13 -----------------------------------------------------------------------------
 
 
-def _stale(dialogue: Dialogue, roles: Roles) -> Checked:
+def _check_freshness(dialogue: Dialogue, roles: Roles) -> Breaches:
     for number, trial in enumerate(dialogue.trials, start=1):
         if trial.turn is None:
             continue
         why = ""
-        if _talks(trial.given, trial.turn, roles):
-            why = _unheeded(trial, trial.turn, roles) or _old_latest(trial, roles)
-        if why := why or _unfitting(dialogue.game, trial.turn, roles):
+        if _is_talk(trial.given, trial.turn, roles):
+            why = _why_unheeded(trial, trial.turn, roles) or _why_latest_is_old(
+                trial, roles
+            )
+        if why := why or _why_unfitting(dialogue.game, trial.turn, roles):
             yield number, why
 
 
-def _talks(given: Object, turn: Turn, roles: Roles) -> bool:
-    """Whether something was said in the turn, by the tutor or by the system."""
+def _is_talk(given: Object, turn: Turn, roles: Roles) -> bool:
+    """Did the tutor or the system say anything in the turn?"""
     if turn.said:
         return True
     if turn.heard is None or isinstance(turn.heard, NBest):
@@ -44,11 +47,11 @@ def _talks(given: Object, turn: Turn, roles: Roles) -> bool:
     return spoken is not None and turn.model.judge(turn.heard, spoken).at_least(1.0)
 
 
-def _unheeded(trial: Trial, turn: Turn, roles: Roles) -> str:
-    """A move of the tutor's of which nothing is made."""
+def _why_unheeded(trial: Trial, turn: Turn, roles: Roles) -> str:
+    """Why a move of the tutor's had no effect."""
     if turn.trace or _is_over(trial.before, roles):
         return ""
-    return f"nothing is made of {_given(turn.heard)}"
+    return f"no rule takes {_format_event(turn.heard)}"
 
 
 def _is_over(now: Run, roles: Roles) -> bool:
@@ -56,8 +59,8 @@ def _is_over(now: Run, roles: Roles) -> bool:
     return over is not None and now.model.judge(now.state, over).at_least(1.0)
 
 
-def _old_latest(trial: Trial, roles: Roles) -> str:
-    """Whether the latest move is one of an earlier turn, though there was a new one."""
+def _why_latest_is_old(trial: Trial, roles: Roles) -> str:
+    """Why the latest move is still that of an earlier turn."""
     events = [step.event for step in trial.steps if step.rule.on is not None]
     if roles.latest is None or not events:
         return ""
@@ -66,7 +69,7 @@ def _old_latest(trial: Trial, roles: Roles) -> str:
         return ""
     if any(_is_part(latest, one) or _is_part(one, latest) for one in events):
         return ""
-    return f"{roles.latest} is still {notation(latest)}, of an earlier turn"
+    return f"{roles.latest} is still {notation(latest)}, from an earlier turn"
 
 
 def _is_part(part: Object, whole: Object) -> bool:
@@ -80,11 +83,11 @@ def _is_part(part: Object, whole: Object) -> bool:
     return False
 
 
-def _unfitting(game: Game, turn: Turn, roles: Roles) -> str:
-    """A move of the system's that is no answer to what happened in its turn."""
+def _why_unfitting(game: Game, turn: Turn, roles: Roles) -> str:
+    """Why a move of the system's does not answer what happened in its turn."""
     if roles.fits is None or isinstance(turn.heard, NBest):
         return ""
-    heard = None if turn.heard is None else _judged(game, turn)
+    heard = None if turn.heard is None else _judge_event(game, turn)
     to = "silence" if heard is None else str(heard.type)
     for move in turn.said:
         if not roles.fits(heard, move):
@@ -92,8 +95,8 @@ def _unfitting(game: Game, turn: Turn, roles: Roles) -> str:
     return ""
 
 
-def _judged(game: Game, turn: Turn) -> Judgement:
-    """The event of a turn, judged of the type that it was given as, or is heard as."""
+def _judge_event(game: Game, turn: Turn) -> Judgement:
+    """The judgement of a turn's event: of the type that it was given or heard as."""
     if isinstance(turn.event, TypeNode):
         return turn.model.judge(turn.heard, turn.event)
     judged = (turn.model.judge(turn.heard, T) for T in heard_by(game))
@@ -104,15 +107,15 @@ def _judged(game: Game, turn: Turn) -> Judgement:
 # --- P14 -----------------------------------------------------------------------------
 
 
-def _out_of_turn(dialogue: Dialogue, roles: Roles) -> Checked:
+def _check_turn_taking(dialogue: Dialogue, roles: Roles) -> Breaches:
     for number, trial in enumerate(dialogue.trials, start=1):
-        said = _said(trial)
+        said = _system_moves(trial)
         if roles.moves is not None and len(said) > roles.moves:
-            yield number, f"the system makes {len(said)} moves: {_listed(said)}"
+            yield number, f"the system makes {len(said)} moves: {format_objects(said)}"
     if dialogue.trials and dialogue.fault is None and _is_stuck(dialogue, roles):
         yield (
             len(dialogue.trials),
-            "nothing that the tutor could do leads on from here",
+            "the game is stuck here: no rule takes anything that the tutor could do",
         )
 
 
@@ -120,13 +123,13 @@ def _is_stuck(dialogue: Dialogue, roles: Roles) -> bool:
     now = dialogue.now
     if _is_over(now, roles):
         return False
-    acts = _acts(dialogue, roles)
+    acts = _possible_acts(dialogue, roles)
     tried = (give(dialogue.game, now, one) for one in acts)
     return not any(trial.steps or trial.fault is not None for trial in tried)
 
 
-def _acts(dialogue: Dialogue, roles: Roles) -> Iterator[Object]:
-    """What the tutor could do: what led on before, and events of each type heard."""
+def _possible_acts(dialogue: Dialogue, roles: Roles) -> Iterator[Object]:
+    """What the tutor could do: anything done before, and events of each type heard."""
     state, model, _ = dialogue.now
     yield from reversed(dialogue.given)
     yield from acts_in(state, model, roles.acts)
@@ -137,16 +140,16 @@ def _acts(dialogue: Dialogue, roles: Roles) -> Iterator[Object]:
 # --- P16 -----------------------------------------------------------------------------
 
 
-def _misread(dialogue: Dialogue, roles: Roles) -> Checked:
+def _check_round_trip(dialogue: Dialogue, roles: Roles) -> Breaches:
     for number, trial in enumerate(dialogue.trials, start=1):
         if trial.turn is None or isinstance(trial.turn.heard, NBest):
             continue
-        if why := _misread_turn(dialogue.game, trial.turn, roles):
+        if why := _why_misread(dialogue.game, trial.turn, roles):
             yield number, why
 
 
-def _misread_turn(game: Game, turn: Turn, roles: Roles) -> str:
-    """Whether the words for the event of a turn are read as another event."""
+def _why_misread(game: Game, turn: Turn, roles: Roles) -> str:
+    """Why the words for a turn's event are not read as that event."""
     if game.hear is None or roles.words is None or turn.heard is None:
         return ""
     text = roles.words(turn.heard)
@@ -157,10 +160,14 @@ def _misread_turn(game: Game, turn: Turn, roles: Roles) -> str:
         read = game.hear(text)
     except Exception as error:
         return f"{worded} cannot be read: {type(error).__name__}: {error}"
-    return "" if _is_same(read, turn) else f"{worded} is read as {_given(read)}"
+    return (
+        ""
+        if _is_same_event(read, turn)
+        else f"{worded} is read as {_format_event(read)}"
+    )
 
 
-def _is_same(read: object, turn: Turn) -> bool:
+def _is_same_event(read: object, turn: Turn) -> bool:
     if isinstance(read, TypeNode):
         return turn.model.judge(turn.heard, read).at_least(1.0)
     return identity(freeze(read)) == identity(turn.heard)
@@ -169,32 +176,34 @@ def _is_same(read: object, turn: Turn) -> bool:
 # --- P18 -----------------------------------------------------------------------------
 
 
-def _out_of_order(dialogue: Dialogue, roles: Roles) -> Checked:
+def _check_order_of_events(dialogue: Dialogue, roles: Roles) -> Breaches:
     for number, trial in enumerate(dialogue.trials, start=1):
         if trial.turn is None:
             continue
-        expected = [trial.turn.heard, *_said(trial)]
+        expected = [trial.turn.heard, *_system_moves(trial)]
         took = [step.event for step in trial.steps if step.rule.on is not None]
-        if why := _mixed_up(expected, took) or _misremembered(trial, took, roles):
+        if why := _why_mixed_up(expected, took) or _why_history_differs(
+            trial, took, roles
+        ):
             yield number, why
 
 
-def _mixed_up(expected: Sequence[Object], took: Sequence[Object]) -> str:
-    """Whether the rules took anything but the events of the turn, each in its time."""
+def _why_mixed_up(expected: Sequence[Object], took: Sequence[Object]) -> str:
+    """Why the rules did not take the events of the turn, each once and in order."""
     place = 0
     for event in took:
-        while place < len(expected) and not _is_of(event, expected[place]):
+        while place < len(expected) and not _is_event_of(event, expected[place]):
             place += 1
         if place == len(expected):
-            return f"{notation(event)} is taken once more, or out of its time"
+            return f"{notation(event)} is taken again, or out of order"
     for move in expected[1:]:
-        if not any(_is_of(event, move) for event in took):
-            return f"the system's own move {notation(move)} is never taken in"
+        if not any(_is_event_of(event, move) for event in took):
+            return f"no rule takes the system's own move {notation(move)}"
     return ""
 
 
-def _misremembered(trial: Trial, took: Sequence[Object], roles: Roles) -> str:
-    """Whether the history has not just got longer by what happened in the turn."""
+def _why_history_differs(trial: Trial, took: Sequence[Object], roles: Roles) -> str:
+    """Why the history did not become longer by just what happened in the turn."""
     if roles.history is None:
         return ""
     before = at(trial.before.state, roles.history) or ()
@@ -206,52 +215,48 @@ def _misremembered(trial: Trial, took: Sequence[Object], roles: Roles) -> str:
     ):
         return ""
     return (
-        f"{roles.history} has got from {len(before)} to {len(after)} moves, "
-        f"but there were {len(events)}: {_listed(events)}"
+        f"{roles.history} went from {len(before)} to {len(after)} moves, "
+        f"but {len(events)} were made: {format_objects(events)}"
     )
 
 
-def _is_of(event: Object, happened: Object) -> bool:
+def _is_event_of(event: Object, happened: Object) -> bool:
     if isinstance(happened, NBest):
         return any(identity(event) == identity(one) for one, _ in happened)
     return identity(event) == identity(happened)
 
 
-def _said(trial: Trial) -> tuple[Object, ...]:
+def _system_moves(trial: Trial) -> tuple[Object, ...]:
     """The moves that the system made in a turn."""
     return () if trial.turn is None else tuple(m.sit for m in trial.turn.said)
 
 
-def _given(event: object) -> str:
+def _format_event(event: object) -> str:
     return str(event) if isinstance(event, NBest) else notation(event)
-
-
-def _listed(objects: Sequence[Object]) -> str:
-    return ", ".join(map(notation, objects))
 
 
 FRESH_ANSWERS = Property(
     "P13",
     "fresh answers",
-    "what is said belongs to this turn, and nothing that was said is passed over.",
-    _stale,
+    "what is said answers this turn, and nothing that the tutor says is ignored.",
+    _check_freshness,
 )
 TAKES_TURNS = Property(
     "P14",
     "turn-taking",
-    "the system makes no more moves than it may, and there is always a way on.",
-    _out_of_turn,
+    "the system makes no more moves than it may, and is never stuck.",
+    _check_turn_taking,
 )
 ROUND_TRIP = Property(
     "P16",
     "round trip",
     "the words for an event are read as that event, yes as yes and no as no.",
-    _misread,
+    _check_round_trip,
     needs=("words",),
 )
 EVENTS_ONCE = Property(
     "P18",
     "events once",
-    "every event is taken in its turn, in order, and the system's own moves as well.",
-    _out_of_order,
+    "rules take every event in its turn, once and in order, the system's moves, too.",
+    _check_order_of_events,
 )

@@ -1,4 +1,4 @@
-"""Every rule is of some use: P6, asked of all dialogues together."""
+"""Every rule is applied in some dialogue: P6, checked over all dialogues together."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ ENOUGH = 5000
 """Turns after which a rule that was never applied counts as dead."""
 
 
-def _dead(coverage: Coverage) -> str:
+def _why_dead(coverage: Coverage) -> str:
     if coverage.turns < ENOUGH or not coverage.missed:
         return ""
     names = ", ".join(coverage.missed)
@@ -23,5 +23,5 @@ NO_DEAD_RULE = Property(
     "P6",
     "no dead rule",
     "every rule is applied in some dialogue.",
-    overall=_dead,
+    overall=_why_dead,
 )

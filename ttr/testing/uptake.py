@@ -1,4 +1,4 @@
-"""Nothing that can be heard is dropped for ever: P27."""
+"""Some rule takes each event that can be heard: P27."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from ttr.updates.rules import Body, Rule
 __all__ = ["NOTHING_DROPPED"]
 
 
-def _dropped(coverage: Coverage) -> str:
-    untaken = tuple(untaken_by(coverage.game))
+def _why_dropped(coverage: Coverage) -> str:
+    untaken = tuple(untaken_events(coverage.game))
     if not untaken:
         return ""
     names = ", ".join(untaken)
@@ -28,49 +28,49 @@ def _dropped(coverage: Coverage) -> str:
     return f"{names} look like events, but no rule of the game takes them"
 
 
-def untaken_by(game: Game) -> Iterator[str]:
-    """The names of what a theory defines as events that no rule takes.
+def untaken_events(game: Game) -> Iterator[str]:
+    """The names of the types that a theory defines as events and no rule takes.
 
-    They are closed record types with a proof object of the same label as all events of
-    the game have; what a rule plans, asks for or speaks of is something else.
+    A record type counts as an event if it has a proof object at a label where all
+    events of the game have one. What a rule plans, asks for or speaks of does not.
     """
     theory = game.theory
     if theory is None or game.name not in theory.openings:
         return
-    taken = [rule.on for rule in _played(theory) if rule.on is not None]
-    labels = _labels(taken)
+    taken = [rule.on for rule in _rules_of_games(theory) if rule.on is not None]
+    labels = _common_proof_labels(taken)
     if not labels:
         return
-    used = _used(theory)
+    used = _types_used_as_objects(theory)
     for name, T in theory.definitions.items():
-        if not isinstance(T, RecordType) or T in used or not labels & _proofs(T):
+        if not isinstance(T, RecordType) or T in used or not labels & _proof_labels(T):
             continue
-        if not any(_meet(T, on, theory) for on in (*taken, *heard_by(game))):
+        if not any(_are_comparable(T, on, theory) for on in (*taken, *heard_by(game))):
             yield name
 
 
-def _played(theory: Theory) -> Iterator[Rule]:
+def _rules_of_games(theory: Theory) -> Iterator[Rule]:
     """The rules of all the games of a theory."""
     for opening in theory.openings.values():
         yield from rules_of(opening.algorithm)
 
 
-def _labels(taken: list[TypeNode]) -> frozenset[str]:
-    """The labels under which every event that is taken has a proof object."""
-    sets = [_proofs(T) for T in taken if isinstance(T, RecordType)]
+def _common_proof_labels(taken: list[TypeNode]) -> frozenset[str]:
+    """The labels at which every event that some rule takes has a proof object."""
+    sets = [_proof_labels(T) for T in taken if isinstance(T, RecordType)]
     return frozenset.intersection(*sets) if sets else frozenset()
 
 
-def _proofs(T: RecordType) -> frozenset[str]:
+def _proof_labels(T: RecordType) -> frozenset[str]:
     return frozenset(label for label, one in T.fields if isinstance(one, PType))
 
 
-def _used(theory: Theory) -> frozenset[TypeNode]:
-    """The types that stand in a rule, a start, a fact or another ptype as objects."""
+def _types_used_as_objects(theory: Theory) -> frozenset[TypeNode]:
+    """The record types that occur in a rule, a start, a fact or a ptype."""
     values: list[Object] = [
         given.type for given in theory.givens if hasattr(given, "type")
     ]
-    for rule in _played(theory):
+    for rule in _rules_of_games(theory):
         effect = rule.effect.value if isinstance(rule.effect, Body) else None
         values += [one for one in (rule.when, rule.where, effect) if one is not None]
     for opening in theory.openings.values():
@@ -85,14 +85,14 @@ def _used(theory: Theory) -> frozenset[TypeNode]:
     )
 
 
-def _meet(T: RecordType, on: TypeNode, theory: Theory) -> bool:
-    """Whether one of two types is more specific than the other."""
+def _are_comparable(T: RecordType, on: TypeNode, theory: Theory) -> bool:
+    """Is one of two types more specific than the other?"""
     return subtype(T, on, theory).yes or subtype(on, T, theory).yes
 
 
 NOTHING_DROPPED = Property(
     "P27",
     "nothing heard is dropped",
-    "whatever the theory defines as an event is taken by some rule.",
-    overall=_dropped,
+    "some rule takes each type of events that the theory defines.",
+    overall=_why_dropped,
 )

@@ -41,7 +41,7 @@ def played(examples: int, language: str = "en", seed: int = 0, **strategy: str) 
         examples=examples,
         seed=seed,
     )
-    return suite.played().told()
+    return suite.played().explain_failure()
 
 
 def test_there_is_no_fault_before_anything_is_played():
@@ -79,7 +79,7 @@ def test_what_was_taught_on_another_day_is_unlearned_by_name_only():
         examples=40,
         seed=18 + ROBOTS.index(robot),
     )
-    assert suite.played().told() == ""
+    assert suite.played().explain_failure() == ""
 
 
 # --- misheard, and corrected (P15) ---------------------------------------------------

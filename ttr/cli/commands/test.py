@@ -197,7 +197,7 @@ class _Outcome:
         return "\n\n".join(filter(None, parts)) + "\n"
 
     def _failures(self) -> str:
-        told = self.report.told(self.place) if self.report else ""
+        told = self.report.explain_failure(self.place) if self.report else ""
         return "\n\n".join(filter(None, [told.rstrip(), self._process_difference()]))
 
     def _process_difference(self) -> str:

@@ -1,4 +1,4 @@
-"""Where in a state the things are that properties of dialogue speak of."""
+"""Roles: the paths of a state at which questions, commitments and so on are."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ __all__ = ["PATHS", "Acts", "Roles", "acts_in", "at"]
 Test: TypeAlias = Callable[[Object, Object], bool]
 
 Acts: TypeAlias = Sequence[object] | Callable[[Record, Model], Sequence[object]]
-"""What a tutor may do, in any state or in one."""
+"""What a tutor may do: a list, or a function that gives one for a state and a model."""
 
-_NAMES = {
+_USUAL_NAMES = {
     "qud": (
         *("qud", "issues", "questions", "open_questions", "open_issues"),
         *("under_discussion", "questions_under_discussion", "raised"),
@@ -53,7 +53,7 @@ _NAMES = {
     ),
     "addressee": ("addressee", "addr", "hearer"),
 }
-"""What the fields are called in the gameboards of the literature."""
+"""The labels of the fields for each role in gameboards of the literature."""
 
 
 @dataclass(frozen=True)
@@ -99,10 +99,10 @@ class Roles:
 
     @classmethod
     def of(cls, type: RecordType) -> Roles:
-        """The roles of the fields that are called as in the literature.
+        """The roles played by the fields with the labels of the literature.
 
-        A field plays a role if its type can, too: what is under discussion is a list or
-        a set, who speaks is of a basic type.
+        The type of the field has to fit as well: questions under discussion are a list
+        or a set, a speaker is of a basic type.
 
         >>> from ttr.building.constructors import rectype
         >>> from ttr.types.syntax import Ind
@@ -110,15 +110,15 @@ class Roles:
         >>> roles.qud, roles.commitments, roles.latest
         ('shared.qud', 'shared.com', None)
         """
-        fields = list(_fields(type, ""))
-        found = {role: _playing(role, fields) for role in _NAMES}
+        fields = list(_field_paths(type, ""))
+        found = {role: _path_for_role(role, fields) for role in _USUAL_NAMES}
         return cls(**found)  # type: ignore[arg-type]
 
     def declared(self, type: RecordType, named: Mapping[str, str]) -> Roles:
-        """The roles, but for these: each is played by the field at a path of the type.
+        """The same roles, except that the ones named are played at these paths.
 
-        An empty path is for a role that nothing plays; `drops` and `retracts` are names
-        of rules, with commas between. Raises `TTRError` for what is no role or path.
+        No field plays a role whose path is empty; `drops` and `retracts` are names of
+        rules, with commas between them. Raises `TTRError` for what is no role or path.
 
         >>> from ttr.building.constructors import rectype
         >>> from ttr.types.syntax import Ind
@@ -130,7 +130,7 @@ class Roles:
         ttr.errors.TTRError: the role qud is played by shared.wish, but a state has ...
         help: did you mean shared.wishes?
         """
-        known = dict(_fields(type, ""))
+        known = dict(_field_paths(type, ""))
         changes: dict[str, object] = {}
         for role, path in named.items():
             if role in RULES:
@@ -169,17 +169,17 @@ def acts_in(state: Record, model: Model, acts: Acts) -> Sequence[object]:
     return acts(state, model) if callable(acts) else acts
 
 
-def _playing(role: str, fields: Sequence[tuple[str, TypeNode]]) -> str | None:
-    """The path of the field that is called as the role is; the usual names first."""
-    for name in _NAMES[role]:
+def _path_for_role(role: str, fields: Sequence[tuple[str, TypeNode]]) -> str | None:
+    """The path of the field that plays a role; the usual labels come first."""
+    for name in _USUAL_NAMES[role]:
         for path, T in fields:
-            if path.rpartition(".")[2].lower() == name and _can_be(role, name, T):
+            if path.rpartition(".")[2].lower() == name and _can_play(role, name, T):
                 return path
     return None
 
 
-def _can_be(role: str, name: str, field: TypeNode) -> bool:
-    """Whether a field of this type can play a role."""
+def _can_play(role: str, name: str, field: TypeNode) -> bool:
+    """Can a field with this label and type play a role?"""
     T = field.base if isinstance(field, Singleton) else field
     match role:
         case "qud" | "pending":
@@ -188,21 +188,21 @@ def _can_be(role: str, name: str, field: TypeNode) -> bool:
             return isinstance(T, ListOf | NonEmpty) and isinstance(T.item, Universe)
         case "speaker" | "addressee":
             return isinstance(T, Basic)
-        case "commitments" if name not in _NAMES["commitments"][:3]:
+        case "commitments" if name not in _USUAL_NAMES["commitments"][:3]:
             return isinstance(T, ListOf | NonEmpty | SetOf | Universe)
     return True
 
 
-def _fields(T: RecordType, above: str) -> Iterator[tuple[str, TypeNode]]:
+def _field_paths(T: RecordType, above: str) -> Iterator[tuple[str, TypeNode]]:
     for label, field in T.fields:
         path = f"{above}.{label}" if above else label
         yield path, field
         if isinstance(field, RecordType):
-            yield from _fields(field, path)
+            yield from _field_paths(field, path)
 
 
 def at(state: Record, path: str) -> Object:
-    """What is at the path; None where the state has no such path."""
+    """The value at a path; None if the state has no such path."""
     value: Object = state
     for label in path.split("."):
         if not isinstance(value, Record) or label not in value:

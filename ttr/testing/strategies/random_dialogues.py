@@ -16,7 +16,7 @@ from ttr.updates.games import Game
 __all__ = ["dialogues"]
 
 TURNS = 10
-"""How many turns a dialogue has at most, if nothing else is asked for."""
+"""How many turns a dialogue has at most by default."""
 
 
 def dialogues(
@@ -26,11 +26,11 @@ def dialogues(
     turns: int = TURNS,
     starts: st.SearchStrategy[tuple[Record, Model]] | None = None,
 ) -> st.SearchStrategy[Dialogue]:
-    """Dialogues of a tutor with the game, most of them of so many turns.
+    """Dialogues of a tutor with the game; most of them have `turns` turns.
 
-    The tutor looks at the state before each turn. What goes wrong in a turn is not
-    raised: it ends the dialogue, which then has a `fault`. Where `starts` draws states
-    and models, as `states` does, a dialogue begins there, and not at the game's start.
+    The tutor looks at the state before each turn. An error in a turn is not raised: it
+    ends the dialogue, which then has a `fault`. If `starts` is given, it draws states
+    and models, as `states` does, in which dialogues begin instead of the game's start.
     Raises `TTRError` for what is no game, tutor or number of turns.
 
     >>> from hypothesis import find
@@ -54,13 +54,13 @@ def dialogues(
     lengths = st.sampled_from([*range(1, turns), *[turns] * (3 * turns)])
     voice = voice_of(tutor, game)
     if starts is None:
-        return _drawn(st.just(game), voice, lengths)
+        return _draw_dialogue(st.just(game), voice, lengths)
     begun = starts.map(lambda start: replace(game, start=start[0], model=start[1]))
-    return _drawn(begun, voice, lengths)
+    return _draw_dialogue(begun, voice, lengths)
 
 
 @st.composite
-def _drawn(
+def _draw_dialogue(
     draw: st.DrawFn,
     games: st.SearchStrategy[Game],
     voice: Voice,

@@ -19,10 +19,10 @@ __all__ = ["facts", "models"]
 def models(
     theory: Theory | None = None, *, degrees: st.SearchStrategy[Any] | None = None
 ) -> st.SearchStrategy[Model]:
-    """Models of a theory with random facts about few objects.
+    """Models of a theory with random facts about a few objects.
 
-    `degrees` draws how probable they are, as numbers or intervals; else all are
-    certain. Raises `TTRError` for degrees that no strategy draws.
+    `degrees` draws their probabilities, as numbers or intervals; by default all facts
+    are certain. Raises `TTRError` if `degrees` is no strategy.
     """
     if degrees is None:
         degrees = st.just(1.0)
@@ -52,7 +52,7 @@ def facts(
 
 
 def _with_fact(M: Model, sit: Object, T: TypeNode, degree: object) -> Model:
-    """The model with the fact, or without it where an axiom speaks against it."""
+    """The model with the fact, or without it if an axiom excludes it."""
     if not isinstance(T, Basic | PType):
         return M
     try:

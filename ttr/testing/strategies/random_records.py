@@ -39,15 +39,15 @@ from ttr.types.syntax import (
     kind_of,
 )
 
-__all__ = ["records", "shaped", "told_of"]
+__all__ = ["records", "objects_of_shape", "with_fact"]
 
 
 def records(T: TypeNode, model: Model | None = None) -> st.SearchStrategy[Any]:
     """Records for a record type, or for a meet or join of record types.
 
-    With a model they have the shape of T, over the model's objects and new ones; many
-    are of T, others nearly so. Without one they are pairs (record, model) in which the
-    record is of T; drawing raises `Refused` where no such record can be made up. Raises
+    With a model they have the shape of T, with objects of the model and new ones: many
+    are of T, others nearly. Without a model they are pairs (record, model) in which the
+    record is of T; drawing raises `Refused` if no such record can be created. Raises
     `IllFormed` for what is no record type.
 
     >>> from hypothesis import find
@@ -58,34 +58,34 @@ def records(T: TypeNode, model: Model | None = None) -> st.SearchStrategy[Any]:
     >>> M.judge(r, T).holds
     True
     """
-    if not is_of_records(as_type(T)):
+    if not has_only_records(as_type(T)):
         raise IllFormed(f"records are drawn for a record type, found {kind_of(T)}")
     if model is None:
         return _witnesses(T)
     if not isinstance(model, Model):
         raise TTRError(f"records are drawn over a model, found {kind_of(model)}")
-    return shaped(T, model)
+    return objects_of_shape(T, model)
 
 
-def is_of_records(T: TypeNode) -> bool:
-    """Whether by its form only records are of it."""
+def has_only_records(T: TypeNode) -> bool:
+    """Does its form alone say that only records are of this type?"""
     match T:
         case RecordType():
             return True
         case Singleton(base, _):
-            return is_of_records(base)
+            return has_only_records(base)
         case Meet(parts):
-            return any(map(is_of_records, parts))
+            return any(map(has_only_records, parts))
         case Join(parts):
-            return all(map(is_of_records, parts))
+            return all(map(has_only_records, parts))
     return False
 
 
 @st.composite
 def _witnesses(draw: st.DrawFn, T: TypeNode) -> tuple[Object, Model]:
-    """A record of the shape of T that a model is told is of T; else one made up."""
+    """A record of the shape of T in a model that says it is of T; or one created."""
     M = draw(facts(Words.of(Theory.of(T)), None, st.just(1.0)))
-    told = told_of(M, draw(shaped(T, M)), T)
+    told = with_fact(M, draw(objects_of_shape(T, M)), T)
     if told is not None and draw(st.booleans()):
         return told
     for model in (M, Model()):
@@ -94,8 +94,8 @@ def _witnesses(draw: st.DrawFn, T: TypeNode) -> tuple[Object, Model]:
     return told or Model().create(T)
 
 
-def told_of(M: Model, r: Object, T: TypeNode) -> tuple[Object, Model] | None:
-    """The record with the model in which it is of T, if it can be."""
+def with_fact(M: Model, r: Object, T: TypeNode) -> tuple[Object, Model] | None:
+    """The record with a model in which it is of T; None if there is none."""
     try:
         M = M.given(r, T)
         return (r, M) if M.judge(r, T).holds else None
@@ -103,8 +103,8 @@ def told_of(M: Model, r: Object, T: TypeNode) -> tuple[Object, Model] | None:
         return None
 
 
-def shaped(T: TypeNode, M: Model) -> st.SearchStrategy[Object]:
-    """Objects of the shape of T, over the names that the model knows and new ones."""
+def objects_of_shape(T: TypeNode, M: Model) -> st.SearchStrategy[Object]:
+    """Objects of the shape of T, with names that the model knows and new ones."""
     known = [name for name in M.facts.known if isinstance(name, str)]
     names = [*sorted(known), *(f"new{number}" for number in range(1, 4))]
     return _shapes(T, M, tuple(names))
@@ -117,9 +117,9 @@ def _shapes(draw: st.DrawFn, T: TypeNode, M: Model, names: tuple[str, ...]) -> O
         case RecordType(kinds):
             fields: dict[str, Object] = {}
             for label, field in kinds:
-                fields[label] = draw(_shapes_in(fields, field, M, names))
+                fields[label] = draw(_shapes_of_field(fields, field, M, names))
             return Record(fields)
-        case Meet(parts) if is_of_records(T):
+        case Meet(parts) if has_only_records(T):
             whole = [draw(_shapes(part, M, names)) for part in parts]
             several = [r for r in whole if isinstance(r, Record)]
             return Record({k: v for r in several for k, v in r._fields.items()})
@@ -153,13 +153,13 @@ _MADE_OF: dict[type[TypeNode], Callable[..., Object]] = {
     NonEmpty: _tuple,
     SetOf: FiniteSet,
 }
-"""What makes an object of a type of collections."""
+"""Constructors of the objects of collection types."""
 
 
-def _shapes_in(
+def _shapes_of_field(
     fields: Mapping[str, Object], T: TypeNode, M: Model, names: tuple[str, ...]
 ) -> st.SearchStrategy[Object]:
-    """Objects of the shape of a field, in a record that has these fields already."""
+    """Objects of the shape of a field, in a record that already has other fields."""
     try:
         return _shapes(grounded(T, (fields,)), M, names)
     except Unresolved:

@@ -14,7 +14,7 @@ from ttr.building.constructors import rectype
 from ttr.computing.subtyping import subtype
 from ttr.errors import IllFormed, TTRError
 from ttr.judging.models import Model, as_model
-from ttr.testing.strategies.random_records import records, shaped, told_of
+from ttr.testing.strategies.random_records import objects_of_shape, records, with_fact
 from ttr.types.paths import escaping
 from ttr.types.syntax import (
     Basic,
@@ -33,10 +33,10 @@ from ttr.updates.games import Game
 __all__ = ["events", "states"]
 
 KNOWN = 6
-"""How many known objects a field of an event is set to, at most."""
+"""How many of the known objects a field of an event may be set to."""
 
 TRIED = 100
-"""How many ways to set the fields of an event are tried, where all would do."""
+"""How many ways to set the fields of an event are tried at most."""
 
 
 def states(
@@ -44,9 +44,9 @@ def states(
 ) -> st.SearchStrategy[tuple[Record, Model]]:
     """Pairs (state, model) in which the state certainly is of the record type.
 
-    States are made of what the model knows and of new objects, about which the model
-    that is drawn with them knows more. Raises `IllFormed` for what is no record type;
-    drawing raises `Refused` where no state can be made up.
+    States have objects of the model and new ones, about which the model of the pair
+    knows more. Raises `IllFormed` for what is no record type; drawing raises `Refused`
+    if no state can be created.
 
     >>> from hypothesis import find
     >>> from ttr.types.syntax import Ind, ListOf
@@ -57,13 +57,15 @@ def states(
     """
     if not isinstance(T, RecordType):
         raise IllFormed(f"states are drawn for a record type, found {kind_of(T)}")
-    return records(T) if model is None else _over(T, as_model(model))
+    return records(T) if model is None else _states_over_model(T, as_model(model))
 
 
 @st.composite
-def _over(draw: st.DrawFn, T: RecordType, M: Model) -> tuple[Object, Model]:
-    """A state over what the model knows; one made up, where that is none."""
-    told = told_of(M, draw(shaped(T, M)), T)
+def _states_over_model(
+    draw: st.DrawFn, T: RecordType, M: Model
+) -> tuple[Object, Model]:
+    """A state with what the model knows; one that is created if that is of no use."""
+    told = with_fact(M, draw(objects_of_shape(T, M)), T)
     return told if told is not None else M.create(T)
 
 
@@ -73,12 +75,12 @@ def _over(draw: st.DrawFn, T: RecordType, M: Model) -> tuple[Object, Model]:
 def events(
     source: Game | Iterable[TypeNode], model: Model | None = None
 ) -> st.SearchStrategy[Object]:
-    """Events of the types that a game hears, or of these: a game can take each.
+    """Events of the types that a game hears, or of these types; a game can take each.
 
-    Most are drawn as the *types* of events, with some of their fields set to objects
-    that the model knows: `[x = fido : Ind, c : bark(x)]`. A game creates an event of
-    such a type. Of a type that is no record type, known objects are drawn as well.
-    Raises `TTRError` where there is no type to draw events of.
+    Most are drawn as *types* of events with some fields set to objects that the model
+    knows, such as `[x = fido : Ind, c : bark(x)]`: the game creates an event of the
+    type. For a type that is no record type, known objects are drawn as well. Raises
+    `TTRError` if there is no type to draw events of.
 
     >>> from hypothesis import find
     >>> from ttr.types.syntax import Ind, Pred, this
@@ -99,10 +101,10 @@ def events(
 
 @lru_cache(maxsize=64)
 def heard_by(game: Game) -> tuple[TypeNode, ...]:
-    """The types of the events that a game hears: by default, what any rule takes.
+    """The types of the events that a game hears: by default, all that its rules take.
 
-    What the game's theory defines as more specific ones is among them, such as asking
-    whether it rains among asking.
+    More specific types that the game's theory defines are among them, such as asking
+    whether it rains if a rule takes any asking.
     """
     taken = tuple(rule.on for rule in game.rules if rule.on is not None)
     defined = game.theory.definitions.values() if game.theory else ()
@@ -115,17 +117,16 @@ def heard_by(game: Game) -> tuple[TypeNode, ...]:
 
 
 def _is_below(T: RecordType, on: TypeNode, game: Game) -> bool:
-    """Whether T asks for all that another record type does, and for more."""
+    """Is T a subtype of another record type?"""
     return isinstance(on, RecordType) and subtype(T, on, game.theory).yes
 
 
 def event_of(
     T: TypeNode, M: Model, about: Record | None = None
 ) -> st.SearchStrategy[Object]:
-    """Events of one type: itself, or what it becomes for objects that are known.
+    """Events of one type: the type itself, or with fields set to known objects.
 
-    If they are about a state, they are of objects that occur in it, where there are
-    any of the right types.
+    With `about`, these are objects that occur in that state, if any is of a right type.
     """
     ways = _Ways.of(T, M, about)
     if ways.number == 1:
@@ -134,14 +135,14 @@ def event_of(
 
 
 def variants(T: TypeNode, M: Model, about: Record) -> Iterator[Object]:
-    """Events of one type that are about a state, the plain one first; not too many."""
+    """Events of one type that are about a state, the type itself first."""
     ways = _Ways.of(T, M, about)
     return map(ways, range(min(ways.number, TRIED)))
 
 
 @dataclass(frozen=True)
 class _Ways:
-    """The ways to make a type more specific, by number; in way 0 nothing is set."""
+    """The ways to set fields of a type, by number; way 0 sets none."""
 
     T: TypeNode
     open_fields: Mapping[tuple[str, ...], tuple[Object, ...]]
@@ -159,18 +160,18 @@ class _Ways:
 
     @cached_property
     def number(self) -> int:
-        """How many there are."""
+        """How many ways there are."""
         return prod(1 + len(values) for values in self.open_fields.values())
 
     def __call__(self, way: int) -> Object:
-        """The type in this way, or the object that there is of it."""
+        """The type with its fields set in this way, or a known object of it."""
         if not isinstance(self.T, RecordType):
             return (self.T, *self.open_fields[()])[way]
-        return _set(self.T, self.open_fields, way)
+        return _type_in_way(self.T, self.open_fields, way)
 
 
 def _names_in(value: Object) -> Iterator[Object]:
-    """The names in a state, in its records and lists."""
+    """The names that occur in the records and lists of a state."""
     match value:
         case str():
             yield value
@@ -185,7 +186,7 @@ def _names_in(value: Object) -> Iterator[Object]:
 def _settable(
     T: RecordType, M: Model, path: tuple[str, ...], among: Container[object] | None
 ) -> Iterator[tuple[tuple[str, ...], tuple[Object, ...]]]:
-    """The paths of fields that depend on nothing, and the objects known of each."""
+    """The paths of fields that depend on nothing, with known objects of their types."""
     for label, field in T.fields:
         if isinstance(field, RecordType):
             yield from _settable(field, M, (*path, label), among)
@@ -196,7 +197,7 @@ def _settable(
 def _known(
     T: TypeNode, M: Model, among: Container[object] | None = None
 ) -> tuple[Object, ...]:
-    """Objects that the model knows of a type: the first, and the last, if many."""
+    """Objects that the model knows of a type; of many, the first and the last ones."""
     if not isinstance(T, Basic | PType) or escaping(T):
         return ()
     found = M.witnesses(T)
@@ -207,10 +208,10 @@ def _known(
     )
 
 
-def _set(
+def _type_in_way(
     T: RecordType, fields: Mapping[tuple[str, ...], tuple[Object, ...]], way: int
 ) -> RecordType:
-    """The type with the fields set in one of the possible ways; in way 0 none is."""
+    """The type with the fields set in one of the possible ways."""
     for path, values in fields.items():
         way, choice = divmod(way, 1 + len(values))
         if choice:

@@ -13,43 +13,43 @@ from ttr.types.syntax import Object, RecordType, TypeNode
 __all__ = ["objects", "record_types", "types"]
 
 DEPTH = 3
-"""How deep what is drawn nests, if nothing else is asked for."""
+"""How deep types and objects nest at most by default."""
 
 
 def types(
     theory: Theory | None = None, *, depth: int = DEPTH
 ) -> st.SearchStrategy[TypeNode]:
-    """Well-formed types of every constructor, over what a theory declares.
+    """Well-formed types of every constructor, with the names that a theory declares.
 
-    Without a theory there are the basic types A, B and C, and predicates p, q and r of
-    several arities. Constructors nest at most so deep. Raises `TTRError` for what is no
-    theory or no depth.
+    Without a theory these are the basic types A, B and C, and predicates p, q and r of
+    several arities. Constructors nest at most `depth` deep. Raises `TTRError` for what
+    is no theory or no depth.
 
     >>> from hypothesis import find
     >>> print(find(types(), lambda T: isinstance(T, RecordType) and len(T.labels) == 2))
     [x : A, y : A]
     """
-    return arbitrary.types(Words.of(theory), (), _checked(depth))
+    return arbitrary.types(Words.of(theory), (), _check_depth(depth))
 
 
 def record_types(
     theory: Theory | None = None, *, depth: int = DEPTH
 ) -> st.SearchStrategy[RecordType]:
     """Well-formed record types, drawn as `types` does."""
-    return arbitrary.record_types(Words.of(theory), (), _checked(depth))
+    return arbitrary.record_types(Words.of(theory), (), _check_depth(depth))
 
 
 def objects(
     theory: Theory | None = None, *, depth: int = DEPTH
 ) -> st.SearchStrategy[Object]:
-    """Objects of every kind that has a notation, over what a theory declares.
+    """Objects of every kind that has a notation, with the names of a theory.
 
     They are names, numbers, records, lists, sets, strings of events, functions, types.
     """
-    return arbitrary.objects(Words.of(theory), (), _checked(depth))
+    return arbitrary.objects(Words.of(theory), (), _check_depth(depth))
 
 
-def _checked(depth: object) -> int:
+def _check_depth(depth: object) -> int:
     if type(depth) is not int or depth < 0:
         raise TTRError(f"a depth is a whole number, 0 or more, found {depth!r}")
     return depth

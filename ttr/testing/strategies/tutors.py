@@ -1,7 +1,7 @@
-"""Tutors: who a game is played with, and what they say next.
+"""Tutors: those with whom a game is played, and what they say next.
 
-A tutor who answers what was asked reaches states that random moves never do: 3 000
-unguided dialogues with a travel agency crashed it never, guided ones one time in seven.
+A tutor who answers what was asked reaches states that random moves never reach: 3,000
+random dialogues never crashed a travel agency; of 3,000 with answers, one in seven did.
 """
 
 from __future__ import annotations
@@ -28,21 +28,21 @@ from ttr.updates.rules import Rule
 __all__ = ["Speaker", "Tutor", "Voice", "voice_of"]
 
 Speaker: TypeAlias = Callable[[st.DrawFn, Record, Model], object]
-"""A tutor of one's own: draws what is given to the game next, from state and model."""
+"""A tutor of one's own: draws what is said next, from the state and the model."""
 
 Voice: TypeAlias = Callable[[st.DrawFn, Dialogue], Object]
-"""Draws what is given next, from the dialogue so far."""
+"""Draws what is said next, from the dialogue so far."""
 
 
 _WAYS = ("answers", "wanders", "contradicts", "repeats", "silent", "mumbles")
 
 _CERTAINTIES = st.sampled_from([(0.9, 0.05), (0.6, 0.3), (0.4, 0.2), (0.1, 0.05)])
-"""How probable it is that the one, and the other, of two things was heard."""
+"""Probabilities that the one, and the other, of two things was heard."""
 
 
 @dataclass(frozen=True)
 class Tutor:
-    """What a tutor can say, and how often it does what: weights, as shares of 1.
+    """What a tutor can say, and how often they do what, as shares of 1.
 
     `moves` is all that there is to say and `replies` what answers what was asked: a
     sequence of texts, events, uncertain events and types of events, or a function of
@@ -51,9 +51,9 @@ class Tutor:
     waits for in the state.
 
     The tutor `answers` what was asked, or `wanders` off to any other move, or
-    `contradicts` the answer it gave before, `repeats` what it said last, or is
-    `silent`; it `mumbles` so that two things may have been heard, with probabilities.
-    Where it cannot do one of them, it answers. Raises `TTRError` for what is no weight.
+    `contradicts` their last answer, `repeats` what they said last, is `silent`, or
+    `mumbles`, so that two things may have been heard, with probabilities. A tutor who
+    cannot do one of these answers. Raises `TTRError` for what is no share.
     """
 
     moves: Acts = ()
@@ -75,7 +75,7 @@ class Tutor:
 
     @cached_property
     def ways(self) -> st.SearchStrategy[str]:
-        """What the tutor does next; the first, to answer, is what it shrinks to."""
+        """What the tutor does next; Hypothesis shrinks it to the first, answering."""
         shares = [round(100 * getattr(self, name)) for name in _WAYS]
         unit = gcd(*shares) or 1
         numbers = [share // unit for share in shares]
@@ -84,7 +84,7 @@ class Tutor:
 
 
 def voice_of(tutor: Tutor | Speaker | None, game: Game) -> Voice:
-    """How a tutor draws what is given to this game next. Raises `TTRError`."""
+    """How a tutor draws what to say in this game. Raises `TTRError` for no tutor."""
     if tutor is None:
         tutor = Tutor()
     if isinstance(tutor, Tutor):
@@ -134,14 +134,14 @@ class _Talk:
     def _uncertain(
         self, one: Object, other: Object, certainties: tuple[float, float]
     ) -> Object:
-        """Two things that may have been heard; the first, where one is none."""
+        """Two things of which either may have been heard; the first, if one is none."""
         events = [self._event(one), self._event(other)]
         if any(event is None or isinstance(event, NBest) for event in events):
             return one
         return nbest(*zip(events, certainties, strict=True))
 
     def _event(self, said: Object) -> Object:
-        """What a text is heard as; any other event is itself."""
+        """The event that a text is heard as; any other event itself."""
         if isinstance(said, str) and self.game.hear is not None:
             return self.game.hear(said)
         return said
