@@ -190,8 +190,10 @@ class Prover:
         if self.is_judged and _is_closed(term, T) and self.is_judged(term, T):
             return _YES
         found = self._prove_by_form(term, T, where)
-        if found.yes or self._follows_in_each_case(term, T, known):
-            return _YES if not found.yes else found
+        if found.yes:
+            return found
+        if self._follows_in_each_case(term, T, known):
+            return _YES
         if isinstance(term, Application) and self._follows_from_function(term, T):
             return _YES
         return found
@@ -474,7 +476,7 @@ class Prover:
         """Is the function defined on T's domain, with values of T's result?"""
         x = self._new_place()
 
-        def mapped(q: Prover) -> Finding:
+        def prove_value(q: Prover) -> Finding:
             inside = q.prove(x, domain, where)
             value = substitute_variable(body, x)
             return (
@@ -483,13 +485,13 @@ class Prover:
                 else inside
             )
 
-        return self._prove_in_cases(x, T.domain, mapped)
+        return self._prove_in_cases(x, T.domain, prove_value)
 
     def _prove_covers(self, known: FunType, T: FunType) -> Finding:
         """Is every function of the known type one of T?"""
         x = self._new_place()
 
-        def covered(q: Prover) -> Finding:
+        def prove_result(q: Prover) -> Finding:
             inside = q.prove(x, known.domain)
             if not inside.yes:
                 return inside
@@ -499,20 +501,20 @@ class Prover:
                 y, substitute_variable(known.result, x), lambda r: r.prove(y, result)
             )
 
-        return self._prove_in_cases(x, T.domain, covered)
+        return self._prove_in_cases(x, T.domain, prove_result)
 
     def _new_place(self) -> Path:
         """A place of which nothing is known yet."""
         return Path(0, (f"{ITSELF.labels[0]}{len(self.assumed)}",))
 
     def _prove_in_cases(
-        self, place: Path, S: TypeNode, asked: Callable[[Prover], Finding]
+        self, place: Path, S: TypeNode, prove_case: Callable[[Prover], Finding]
     ) -> Finding:
         """Does it hold in each case of S, when something of S is at the place?"""
         if len(self.assumed) >= ASSUMPTIONS:
             return Finding(False, lambda: "this nests too deep to be followed")
         further = [self.assume((place, case)) for case in _cases(S)]
-        return _every(asked(q) for q in further if not q._has_misfit)
+        return _every(prove_case(q) for q in further if not q._has_misfit)
 
     def _follows_from_function(self, term: Application, T: TypeNode) -> bool:
         """Is a value of T because of the type of the function that gives it?"""

@@ -18,7 +18,7 @@ from ttr.computing.strings.automata import Automaton, Edges
 from ttr.safety.budgets import spend
 from ttr.types.syntax import TypeNode, meet
 
-__all__ = ["_Below", "Inclusion", "check_inclusion"]
+__all__ = ["Inclusion", "check_inclusion"]
 
 PAIRS = 1024
 """How many pairs of a state and a set of states are followed at most."""

@@ -18,8 +18,6 @@ from ttr.types.syntax import TypeNode, join
 
 __all__ = [
     "Division",
-    "_Fits",
-    "_FitsWhole",
     "Piece",
     "Stop",
     "a_way",
