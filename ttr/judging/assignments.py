@@ -1,8 +1,8 @@
 """Assignments: which objects are judged to be of which basic types and ptypes.
 
-An assignment is an immutable value, cheap to extend: facts with their degrees, witness
-functions, and the types that are open. It knows atoms only; what follows for records,
-lists and meets is derived from it elsewhere.
+An assignment is an immutable value that is cheap to extend: facts with their degrees,
+witness functions, and the open types. It is about atoms only; `evaluator` derives what
+follows for records, lists and other types.
 """
 
 from __future__ import annotations
@@ -37,23 +37,23 @@ Head: TypeAlias = Basic | Pred
 """What is open or has a witness function: a basic type, or a predicate's ptypes."""
 
 WitnessFunction = Callable[..., object]
-"""Objects to a truth value, a number in [0, 1] or an interval."""
+"""A function from objects to a truth value, a number in [0, 1] or an interval."""
 
 Facts: TypeAlias = Map[Atom, Degree]
-"""What one object is judged to be of, and how probably."""
+"""The types that one object is judged to be of, with degrees."""
 
 Bound: TypeAlias = tuple[float, str]
-"""A probability that another one cannot pass, and what says so."""
+"""A bound on a probability, and the rule that sets it."""
 
 
 _EMPTY: Map[Any, Any] = Map()
 
 _NO_LOWER: Bound = (0.0, "")
 _NO_UPPER: Bound = (1.0, "")
-"""What axioms say of a type that none is about."""
+"""The bounds on a type that no axiom is about."""
 
 NO_LINKS = Links()
-"""Nothing was said of how judgements depend."""
+"""The links where nothing was said of how judgements depend."""
 
 
 def head(T: Atom) -> Head:
@@ -81,7 +81,7 @@ class Assignment:
     facts: int = 0
 
     def degree_of(self, sit: Object, T: Atom) -> tuple[Degree, str]:
-        """How probable it is that sit is of T, and what says so."""
+        """The probability of sit : T, and the rule that gives it."""
         facts = self.known.get(identity(sit), _EMPTY)
         told = facts.get(T)
         if told is not None and told in (CERTAIN, REFUTED):
@@ -103,14 +103,14 @@ class Assignment:
         return REFUTED, "nothing says so"
 
     def _is_open(self, T: Atom) -> bool:
-        """Whether more may be of T than what was told, by itself or by an axiom."""
+        """May other objects be of T than the facts say, by itself or by an axiom?"""
         heads = [head(T), *(head(one) for _, one in below(T, self.theory.axioms))]
         return any(one in self.opened or one in self.functions for one in heads)
 
     def can_be(self, sit: Object, pred: Pred) -> bool:
-        """Whether anything could make sit a situation in which this predicate is true.
+        """May sit be a situation in which this predicate is true?
 
-        It is quick: where nothing was said of it and nothing else tells, it cannot.
+        It is quick: sit may not where no fact, function, open type or axiom says so.
         """
         if (
             pred in self.functions
@@ -124,7 +124,7 @@ class Assignment:
         return False
 
     def perceived(self, sit: Object, T: Atom) -> Degree | None:
-        """What the witness function of T answers, or None where there is none.
+        """The answer of the witness function of T, or None where there is none.
 
         For a basic type it is asked of the object, for a ptype of its arguments.
         """
@@ -144,7 +144,7 @@ class Assignment:
             raise TTRError(f"{_call(T, args)} failed: {fault}") from error
 
     def told_degree(self, sit: Object, T: Atom) -> Degree | None:
-        """With what probability sit was told to be of T; None if it was not."""
+        """The probability given for sit : T; None if none was."""
         return self.known.get(identity(sit), _EMPTY).get(T)
 
     def seen_types(self) -> list[Basic]:
@@ -153,17 +153,17 @@ class Assignment:
         return [T for T in self.functions if isinstance(T, Basic) and T in related]
 
     def is_told(self, sit: Object, T: Atom) -> bool:
-        """Whether something says by itself how probable it is that sit is of T."""
+        """Does a fact or a witness function give the probability of sit : T?"""
         seen = isinstance(T, Basic) and T in self.functions
         return seen or self.told_degree(sit, T) is not None
 
     def types_of(self, sit: Object) -> list[Atom]:
-        """What the object was told, and perhaps is, to be of; in no order."""
+        """The types with a fact that the object may be of them, in no order."""
         facts = self.known.get(identity(sit), _EMPTY)
         return [T for T, p in facts.items() if p.hi > 0.0]
 
     def objects(self) -> list[Object]:
-        """What was told to be of anything, in the order in which it was."""
+        """The objects that facts are about, in the order of the facts."""
         told: dict[object, tuple[int, Object]] = {}
         for entries in self.told.values():
             for key, entry in entries.items():
@@ -171,16 +171,16 @@ class Assignment:
         return [sit for _, sit in sorted(told.values(), key=itemgetter(0))]
 
     def leaves_open(self, T: TypeNode) -> bool:
-        """Whether a type mentions atoms that more may be of than what was told."""
+        """Does a type mention atoms that other objects may be of than the facts say?"""
         atoms = (part for part in occurring([T]) if isinstance(part, Atom))
         return any(map(self._is_open, atoms))
 
     def witnesses(self, T: Atom) -> Iterator[Object]:
-        """The objects that certainly are of T by what was told, in the order told."""
+        """The objects that are certainly of T, in the order of the facts."""
         yield from self.told_of(T, lambda p: p == CERTAIN)
 
     def told_of(self, T: Atom, enough: Callable[[Degree], bool]) -> Iterator[Object]:
-        """The objects that were told to be of T with a degree that is enough."""
+        """The objects with a fact for T whose degree is enough."""
         kinds = [T]
         for _, lower in below(T, self.theory.axioms):
             kinds += _instances(lower, self.told)
@@ -196,7 +196,7 @@ class Assignment:
     # --- new assignments -----------------------------------------------------------
 
     def with_fact(self, sit: Object, T: Atom, p: Degree) -> Assignment:
-        """The assignment in which also sit : T, in place of what was said of it.
+        """The assignment in which also sit : T, in place of an earlier fact.
 
         Raises `Refused` where a witness function says no, or an axiom contradicts.
         """

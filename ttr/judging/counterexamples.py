@@ -1,4 +1,4 @@
-"""Assignments that show something: a made-up witness, checked by judging it."""
+"""Counterexamples: new witnesses of one type that are not of another."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ from ttr.types.syntax import Object, Path, RecordType, TypeNode, meet
 __all__ = ["find_counterexample", "witness"]
 
 SIZES = (1, 0, 2)
-"""How many elements lists and sets have in what is tried: one shows the most."""
+"""The numbers of elements of lists and sets to try; one shows the most."""
 
 
 @counterexample.provided_by
 def find_counterexample(refutation: Refutation) -> Judgement | None:
-    """A judgement of a witness of S that is not of T; None where none was made up."""
+    """A judgement of a witness of S that is not of T; None if none was found."""
     T, theory = refutation.T, refutation.theory
     for size, (S, assumed) in product(SIZES, _starts(refutation)):
         found = witness(S, theory, assumed, size)

@@ -1,4 +1,4 @@
-"""Making up witnesses, and telling an assignment of what they are."""
+"""Creating witnesses of types, and adding judgements to an assignment."""
 
 from __future__ import annotations
 
@@ -63,9 +63,9 @@ __all__ = ["create_witness", "with_judgement"]
 
 
 def with_judgement(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
-    """The assignment in which sit is of T, taken apart into its atoms.
+    """The assignment in which also sit : T, taken apart into judgements of atoms.
 
-    T has no paths that escape it. Raises `Refused` where sit cannot be of T.
+    No path leads out of T. Raises `Refused` where sit cannot be of T.
     """
     match T:
         case Basic() | PType():
@@ -97,7 +97,7 @@ def with_judgement(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
 
 
 def _has_events(sit: Object, T: Str) -> bool:
-    """Whether it is plain which events of a string are to be of what."""
+    """Is it plain which events of a string are to be of which types?"""
     events = events_of(T)
     return (
         isinstance(sit, EventString) and events is not None and len(sit) == len(events)
@@ -111,7 +111,7 @@ def _with_each(facts: Assignment, sit: Iterable[Object], T: TypeNode) -> Assignm
 
 
 def _with_denial(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
-    """The assignment in which sit is not of T."""
+    """The assignment in which also sit is not of T."""
     match T:
         case Basic() | PType():
             return facts.with_fact(sit, T, REFUTED)
@@ -152,11 +152,11 @@ def _with_fields(facts: Assignment, sit: Record, T: RecordType) -> Assignment:
 def create_witness(
     facts: Assignment, T: TypeNode, size: int = 0
 ) -> tuple[Object, Assignment]:
-    """A fresh witness of T, and the assignment that has it.
+    """A new witness of T, and the assignment that has it.
 
-    `size` is how many elements the lists, sets and repetitions in it have, if they may;
-    those of a join take turns. From 2 on, a record has a label more than it needs. T
-    has no paths that escape it. Raises `Refused` where none can be made up.
+    `size` is the number of elements of the lists, sets and repetitions in it, where T
+    leaves that open; elements of a join take turns. From 2 on, a record has one label
+    more than it needs. No path leads out of T. Raises `Refused` where there is none.
     """
     try:
         sit, facts = _WitnessMaker(size).make(facts, T)
@@ -171,7 +171,7 @@ def create_witness(
 
 
 def _settled(T: TypeNode) -> TypeNode:
-    """The type with those fields manifest that others say to be a certain object."""
+    """The type with each field made manifest whose value other fields determine."""
     if not isinstance(T, RecordType):
         return T
     witness = GenericWitness(T)
@@ -184,7 +184,7 @@ def _settled(T: TypeNode) -> TypeNode:
 
 
 def _check(facts: Assignment, sit: Object, T: TypeNode) -> None:
-    """Refuses what cannot be: what was denied of an object may have been told of it."""
+    """Raise `Refused` where the facts contradict what T denies of its witness."""
     if derivation(facts, sit, T).p != CERTAIN:
         raise Refused(f"a witness of {T} cannot be made up: it denies what it says")
 
@@ -194,13 +194,13 @@ Made = tuple[Object, Assignment]
 
 
 class _WitnessMaker:
-    """Makes up witnesses; lists and sets get so many elements."""
+    """Makes new witnesses; lists and sets in them have `size` elements."""
 
     def __init__(self, size: int) -> None:
         self._size = size
 
     def make(self, facts: Assignment, T: TypeNode) -> Made:
-        """A fresh witness of T, and the assignment that has it."""
+        """A new witness of T, and the assignment that has it."""
         match T:
             case Basic():
                 sit, facts = facts.with_new("a")
@@ -246,7 +246,7 @@ class _WitnessMaker:
         return tuple(items), facts
 
     def _string_or_another(self, facts: Assignment, T: Str | Plus) -> Made:
-        """A string of the first alternatives; if there is none, of any."""
+        """A string of the first alternatives; if there is none, of other ones."""
         try:
             return self._string(facts, T)
         except Refused:
@@ -263,7 +263,7 @@ class _WitnessMaker:
         return string_of(items, pieces), facts
 
     def _repeated(self, T: Plus) -> list[TypeNode]:
-        """The types of so many pieces; those of a join take turns."""
+        """The types of `size` pieces; the parts of a join take turns."""
         kinds = [case for one in alternatives(T.item) for case in cases(one) or (one,)]
         return list(islice(cycle(kinds), max(1, self._size)))
 
@@ -294,7 +294,7 @@ class _WitnessMaker:
     # --- functions ---
 
     def _function(self, facts: Assignment, T: FunType) -> Made:
-        """The first function that is one of T."""
+        """The first of some functions that is of T."""
         for body, known in self._bodies(facts, T):
             made = Function(T.domain, body, T.hint)
             if derivation(known, made, T).p == CERTAIN:
@@ -302,7 +302,7 @@ class _WitnessMaker:
         raise Refused(f"a function of {T} cannot be made up, only be given")
 
     def _bodies(self, facts: Assignment, T: FunType) -> Iterator[Made]:
-        """What it might give; where one element is enough, constants come last."""
+        """Bodies to try; constants come last where lists have one element."""
         constants = partial(self._constants, facts, T)
         x = Path(0, (BOUND,))
         of_x = RecordType((("i", Singleton(moved(T.domain, 2), Path(1, x.labels))),))
@@ -312,7 +312,7 @@ class _WitnessMaker:
         yield from constants()
 
     def _constants(self, facts: Assignment, T: FunType) -> Iterator[Made]:
-        """What gives the same for every argument, or what the type says it gives."""
+        """A body that is the same for every argument, or that the type prescribes."""
         if isinstance(T.result, Singleton):
             yield T.result.value, facts
         if all(path.up > 0 for path in escaping(T.result)):
@@ -321,7 +321,7 @@ class _WitnessMaker:
     # --- meets, joins, negations ---
 
     def _combined(self, facts: Assignment, T: TypeNode) -> Made:
-        """A witness of the first case of which one can be made up."""
+        """A witness of the first case that has one."""
         refused = Refused(f"a witness of {T} cannot be made up, only be given")
         for case in cases(T) or (T,):
             try:
@@ -354,7 +354,7 @@ class _WitnessMaker:
         return sit, _with_certainty(facts, sit, T)
 
     def _by_events(self, facts: Assignment, T: TypeNode) -> Made:
-        """A string as the types of its events say, told to be of what is left of T."""
+        """A string as an automaton above T says, judged to be of the rest of T, too."""
         refused = Refused(f"a witness of {T} cannot be made up, only be given")
         found = automaton_above(T)
         for labels in islice(shortest(found, self._size), TRIED):
@@ -367,13 +367,13 @@ class _WitnessMaker:
 
 
 _FORMLESS = (Basic, PType, Negation)
-"""Types that do not say what form their witnesses have."""
+"""Types that do not determine the form of their witnesses."""
 
 _VAGUE = (ListOf,)
-"""Types of collections that do not say how many elements there are."""
+"""Types of collections that leave the number of elements open."""
 
 TRIED = 16
-"""How many strings are tried, shortest first, where there have to be several types."""
+"""The number of strings that are tried for a meet, the shortest first."""
 
 
 def _individual(parts: tuple[TypeNode, ...]) -> bool:
@@ -381,7 +381,7 @@ def _individual(parts: tuple[TypeNode, ...]) -> bool:
 
 
 def _type(T: Universe, size: int) -> TypeNode:
-    """A type of the universe: Rec, or where it shall be typical, one only of it."""
+    """A type of the universe: Rec, or for other sizes one of no lower universe."""
     if size == 0 or T is RecType:
         return Rec
     if T.level == 0:
@@ -400,7 +400,7 @@ def _further_out(path: Path) -> Path:
 
 
 def _with_certainty(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
-    """The assignment itself if sit certainly is of T, else one told so."""
+    """The assignment itself if sit is certainly of T, else one in which it is."""
     return facts if certainly(facts, sit, T) else with_judgement(facts, sit, T)
 
 

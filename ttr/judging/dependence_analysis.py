@@ -1,4 +1,4 @@
-"""How the judgements that a claim rests on depend on one another, by the facts."""
+"""How the judgements that a claim rests on depend on one another by the facts."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ from ttr.types.syntax import Object, identity
 __all__ = ["check_together", "contradiction", "dependence"]
 
 RELATIVES = 32
-"""How many judgements of one object are looked at, where some bear on others."""
+"""The number of related judgements of one object that are taken into account."""
 
 SHOWN = 3
-"""How many links or judgements are named."""
+"""The number of links or judgements that a message names."""
 
 
 def dependence(facts: Assignment, asked: Mapping[Claim, Degree]) -> Dependence:
-    """What is known of how these claims depend, and of others that tell of them.
+    """How these claims depend on one another, and on others that bear on them.
 
-    Each comes with its degree, as far as it is known.
+    `asked` gives the claims with their degrees.
     """
     theory = facts.theory
     if not (theory.axioms or theory.exclusions or facts.links):
@@ -77,7 +77,7 @@ def dependence(facts: Assignment, asked: Mapping[Claim, Degree]) -> Dependence:
 
 
 def _known_by_axioms(facts: Assignment, linked: _LinkedClaims) -> dict[Claim, None]:
-    """The claims of which only axioms say anything, in a fixed order."""
+    """The claims that are known by axioms only, in a fixed order."""
     heads = facts.theory.axiom_heads
     targets = {claim for one in linked.said for claim in one.claims()}
     together = {key for group in linked.unknown for key in group}
@@ -98,10 +98,10 @@ def _definitions(
     claims: Iterable[Claim],
     degrees: Mapping[Hashable, Degree],
 ) -> dict[Hashable, Event]:
-    """What nothing is told of, in terms of what is.
+    """The claims known by axioms only, defined in terms of the other claims.
 
-    It is the case if something is that entails it; and it may be, as nothing is known,
-    if everything is that it entails and nothing that excludes it.
+    Such a claim holds if one does that entails it. It may hold, with unknown
+    probability, if all those hold that it entails and none that excludes it.
     """
     theory = facts.theory
     known = [(claim, Atomic(claim.key, degrees[claim.key])) for claim in claims]
@@ -133,7 +133,7 @@ def _by_keys(said: Conditioned) -> Conditional:
 
 
 class _LinkedClaims(NamedTuple):
-    """Claims, with those they are conditioned on and those that may depend on them."""
+    """Claims with those they are conditioned on and those conditioned on them."""
 
     claims: list[Claim]
     said: list[Conditioned]
@@ -141,7 +141,7 @@ class _LinkedClaims(NamedTuple):
 
 
 def _follow_links(facts: Assignment, claims: Iterable[Claim]) -> _LinkedClaims:
-    """The claims and what was said of how they depend, followed all the way."""
+    """The claims and all that are linked to them by what was said of dependence."""
     links = facts.links
     found = {claim.key: claim for claim in claims}
     said: list[Conditioned] = []
@@ -166,10 +166,10 @@ def _follow_links(facts: Assignment, claims: Iterable[Claim]) -> _LinkedClaims:
 
 
 def _is_informative(facts: Assignment, claim: Claim) -> bool:
-    """Whether a claim tells of what it is conditioned on.
+    """Does a claim tell anything about the claims that it is conditioned on?
 
-    In a network what nothing else is known of does not; but there each claim has its
-    conditionals on the same others, and axioms do not relate it.
+    In a network a claim of which nothing else is known does not. There all conditionals
+    of a claim have the same conditions, and no axiom is about it.
     """
     if facts.degree_of(claim.sit, claim.type)[0] != UNKNOWN:
         return True
@@ -183,10 +183,9 @@ def _is_informative(facts: Assignment, claim: Claim) -> bool:
 
 
 def _relatives(facts: Assignment, claims: Iterable[Claim]) -> tuple[list[Claim], bool]:
-    """What else is known of the same objects, and related to the claims by axioms.
+    """Other claims of the same objects that axioms relate to these; are they all?
 
-    And whether that is all. What is certain is left out: axioms say of each claim by
-    itself what follows.
+    Certain claims are left out, as `Assignment.degree_of` draws what follows from them.
     """
     heads = facts.theory.axiom_heads
     subject = [claim for claim in claims if head(claim.type) in heads]
@@ -207,7 +206,7 @@ def _relatives(facts: Assignment, claims: Iterable[Claim]) -> tuple[list[Claim],
 
 
 def _others(facts: Assignment, sit: Object) -> Iterator[Claim]:
-    """What is known, but not for certain, of an object; in no order."""
+    """The uncertain claims of an object, in no order."""
     yield from facts.links.concerning(sit)
     yield from (Claim(sit, T) for T in facts.seen_types())
     for T in facts.types_of(sit):
@@ -254,7 +253,7 @@ def _by_object(claims: Iterable[Claim]) -> dict[object, list[Claim]]:
 
 
 def check_together(facts: Assignment, sit: Object, T: Atom) -> None:
-    """Raises `Refused` where what was told of an object contradicts that it is of T."""
+    """Raise `Refused` where sit : T contradicts other judgements of sit."""
     claim = Claim(sit, T)
     known = dependence(facts, {claim: facts.degree_of(sit, T)[0]})
     number = known.place.get(claim.key)

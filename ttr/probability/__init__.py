@@ -1,4 +1,4 @@
-"""Probabilities as intervals, and how probable events are together.
+"""Probabilities as intervals, and the probability of events made of others.
 
 The atoms are judgements of an object and a basic type or ptype; an event is made of
 them. Equal atoms are one event; distinct atoms are independent, unless a `Dependence`

@@ -1,4 +1,4 @@
-"""How probable an event is, by what is known of its atoms and their dependence."""
+"""The probability of an event from its atoms and their dependence."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from ttr.safety.budgets import spend
 __all__ = ["Chance", "Contradiction", "Impossible", "are_apart", "chance"]
 
 BRANCHES = 1024
-"""How many cases of linked atoms are told apart, in all."""
+"""The number of cases of linked atoms that are distinguished, in all."""
 
 
 class Chance(NamedTuple):
@@ -51,7 +51,7 @@ class Contradiction(Exception):
 def chance(
     event: Event, known: Dependence = INDEPENDENT, given: Event = SURE
 ) -> Chance:
-    """How probable an event is, given another one.
+    """The probability of an event, given another one.
 
     Exact where at most ten atoms are shared between parts of the event, and components
     are small; else bounds that hold whatever depends on what. Raises `Impossible` where
@@ -76,7 +76,7 @@ def chance(
 
 
 def are_apart(events: Sequence[Event], known: Dependence = INDEPENDENT) -> bool:
-    """Whether events are independent, as no two of them share or link an atom."""
+    """Are the events independent, as no two of them share or link an atom?"""
     seen: set[Hashable] = set()
     for event in events:
         mine = _keys(known.spelt_out(event), known)
@@ -92,7 +92,7 @@ def _keys(event: Event, known: Dependence) -> set[Hashable]:
 
 
 def _quotient(event: Event, known: Dependence, given: Event) -> Chance:
-    """Where more is given than some atoms: p(E ∧ C) / (p(E ∧ C) + p(¬E ∧ C))."""
+    """p(E ∧ C) / (p(E ∧ C) + p(¬E ∧ C)), for a condition that is no conjunction."""
     if are_apart((event, given), known):
         if chance(given, known).p.hi == 0.0:
             raise Impossible
@@ -113,14 +113,14 @@ Joint: TypeAlias = Network | Polytope
 
 
 def _joint(component: Component, needed: tuple[Hashable, ...]) -> Joint | None:
-    """How some atoms of a component hang together; None where that is too much."""
+    """The joint distribution of some atoms of a component; None if it is too large."""
     return network(component, needed) or polytope(component, needed)
 
 
 def _conjoin(component: Component, event: Event, given: Truth) -> Degree | None:
-    """How probable an event of a network is that says of atoms that all are so, or any.
+    """The probability of a conjunction or disjunction of literals of a network.
 
-    None where it says more, or says something of other atoms.
+    None for any other event, and where it mentions atoms outside the component.
     """
     truth, denied = literals(event), literals(Not(event))
     wanted = denied if truth is None else truth
@@ -133,7 +133,7 @@ def _conjoin(component: Component, event: Event, given: Truth) -> Degree | None:
 
 
 class _Solving:
-    """Divides an event into independent parts, and what hangs together into worlds."""
+    """Divides an event into independent parts, and linked parts into worlds."""
 
     def __init__(self, known: Dependence, condition: Truth) -> None:
         self._known, self._condition = known, condition
@@ -142,7 +142,7 @@ class _Solving:
         self._branches = 1
 
     def of(self, event: Event, given: Event) -> Chance:
-        """How probable an event is under the condition, which is what is given."""
+        """The probability of an event under the condition, which is `given`."""
         place = self._known.place
         free = {a: so for a, so in self._condition.items() if a not in place}
         if simplify(given, {}) == AnyOf(()):
@@ -177,7 +177,7 @@ class _Solving:
         return sum_over_cases(kind(tuple(apart))) or UNKNOWN
 
     def _solve_component(self, event: Event) -> Degree:
-        """An event whose parts hang together, in each world of a component of it."""
+        """The probability of an event whose parts are linked, world by world."""
         place = self._known.place
         number = next(
             (place[one.atom] for one in atoms(event) if one.atom in place), None
@@ -191,7 +191,7 @@ class _Solving:
         return self._bound(event) if found is None else found
 
     def _in_cases(self, number: int, event: Event) -> Degree | None:
-        """How probable it is by what is left in each case; None if they are many."""
+        """The probability from what is left in each case; None for too many cases."""
         spend()
         component = self._known.components[number]
         mine = {a: so for a, so in self._condition.items() if a in component.degrees}
@@ -216,9 +216,9 @@ class _Solving:
             raise Contradiction(component) from None
 
     def _is_mixed(self, event: Event) -> bool:
-        """Whether it may rise and fall with an unlinked atom of unknown degree.
+        """May the event both rise and fall with an unlinked atom with an interval?
 
-        In each world the end of its interval is chosen that suits there.
+        Each world then uses the end of the interval that suits it.
         """
         rising: dict[Hashable, bool] = {}
         return any(
@@ -228,7 +228,7 @@ class _Solving:
         )
 
     def _bound(self, event: Event) -> Degree:
-        """What holds whatever depends on what; nothing, where something is given."""
+        """Bounds that hold for any dependence; unknown under a condition on it."""
         self._exact = False
         given = {self._known.place.get(a, a) for a in self._condition}
         return bounds(event) if given.isdisjoint(_keys(event, self._known)) else UNKNOWN

@@ -89,7 +89,7 @@ def complement(x: float) -> float:
 
 
 def ordered(lo: float, hi: float) -> Degree:
-    """The interval, where rounding may have taken an end too far.
+    """The interval of two ends that rounding may have put out of order.
 
     >>> ordered(0.3000000001, 0.3)
     Degree(lo=0.3, hi=0.3000000001)

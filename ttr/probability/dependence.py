@@ -1,8 +1,8 @@
-"""What is known of how atoms depend on one another.
+"""How atoms depend on one another.
 
 Atoms are independent unless they are linked: by a conditional, because one entails the
 other or they exclude each other, or because it was said that nothing is known of how
-they depend. What hangs together by links is a *component*; components are independent.
+they depend. Linked atoms form a *component*; components are independent.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Conditional:
-    """p(target | condition): how probable an atom is where others are so, or not so."""
+    """p(target | condition), where the condition is that other atoms hold or fail."""
 
     target: Atom
     condition: tuple[tuple[Atom, bool], ...]
@@ -38,15 +38,15 @@ class Conditional:
         return self.target, *[atom for atom, _ in self.condition]
 
     def applies(self, truth: Truth) -> bool:
-        """Whether the condition is met."""
+        """Is the condition met?"""
         return all(truth[atom] == wanted for atom, wanted in self.condition)
 
 
 @dataclass(frozen=True, eq=False)
 class Component:
-    """Atoms that hang together, in order, and all that is known of them together.
+    """Linked atoms, in order, and all that is known of them together.
 
-    It is not whole if more hangs together with them than was looked at.
+    It is not whole if further atoms are linked to them.
     """
 
     atoms: tuple[Atom, ...]
@@ -210,12 +210,12 @@ class Dependence:
 
     @cached_property
     def place(self) -> dict[Atom, int]:
-        """Which component an atom is in, for those that are in one."""
+        """The number of the component of each linked atom."""
         return {a: i for i, one in enumerate(self.components) for a in one.atoms}
 
 
 INDEPENDENT = Dependence()
-"""Nothing depends on anything."""
+"""All atoms are independent."""
 
 
 def _group(links: Iterable[tuple[Atom, ...]]) -> Iterator[tuple[Atom, ...]]:
@@ -236,7 +236,7 @@ def _group(links: Iterable[tuple[Atom, ...]]) -> Iterator[tuple[Atom, ...]]:
 def _distribute(
     values: Iterable[T], numbers: Iterable[int]
 ) -> defaultdict[int, list[T]]:
-    """The values by their numbers."""
+    """The values grouped by their numbers."""
     found: defaultdict[int, list[T]] = defaultdict(list)
     for value, number in zip(values, numbers, strict=True):
         found[number].append(value)

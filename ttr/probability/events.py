@@ -1,4 +1,4 @@
-"""Events: what is to happen of judgements that may or may not be so.
+"""Events: conditions on judgements that may or may not hold.
 
 The atoms are judgements of an object and a basic type or ptype. An event is made of
 atoms by `All`, `AnyOf` and `Not`.
@@ -60,13 +60,13 @@ class Not:
 Event: TypeAlias = Atomic | All | AnyOf | Not
 
 Truth: TypeAlias = Mapping[Hashable, bool]
-"""Which atoms are so, and which are not."""
+"""Which atoms hold, and which do not."""
 
 SURE, NEVER = All(()), AnyOf(())
 
 
 def atoms(event: Event) -> Iterator[Atomic]:
-    """The atoms as often as they occur."""
+    """The atoms, as often as they occur."""
     for one, _ in signs(event):
         yield one
 
@@ -86,7 +86,7 @@ def signs(event: Event) -> Iterator[tuple[Atomic, bool]]:
 
 
 def simplify(event: Event, truth: Truth) -> Event:
-    """What is left of an event where some atoms are so, or are not.
+    """What is left of an event when some atoms hold or fail.
 
     >>> a, b = Atomic("a", Degree(0.5, 0.5)), Atomic("b", Degree(0.4, 0.4))
     >>> simplify(All((a, b)), {"a": True})
@@ -128,7 +128,7 @@ def _join(
     parts: tuple[Event, ...],
     truth: Truth,
 ) -> Event:
-    """The parts that are left, those of the same kind inside them taken out."""
+    """The simplified parts, with parts of the same kind inside them taken out."""
     spend()
     kept: list[Event] = []
     for part in parts:
@@ -160,7 +160,7 @@ def substitute(event: Event, by: Mapping[Hashable, Event]) -> Event:
 
 
 def literals(event: Event) -> dict[Hashable, bool] | None:
-    """The atoms that an event says are so or not so; None if it says anything else.
+    """The atoms of a conjunction of literals, and their signs; None for other events.
 
     >>> a, b = Atomic("a", Degree(0.5, 0.5)), Atomic("b", Degree(0.4, 0.4))
     >>> literals(All((a, Not(b))))

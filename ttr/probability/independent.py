@@ -1,4 +1,4 @@
-"""How probable an event is whose atoms are independent of one another."""
+"""The probability of an event whose atoms are independent of one another."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ttr.safety.budgets import spend
 __all__ = ["bounds", "sum_over_cases", "shared_atoms"]
 
 SHARED = 10
-"""How many atoms may occur more than once for a probability to be exact."""
+"""The number of atoms that may occur more than once for an exact probability."""
 
 
 def shared_atoms(event: Event) -> list[Hashable]:
@@ -67,7 +67,7 @@ def _weigh(event: Event, p: Mapping[Hashable, float]) -> tuple[float, float]:
 
 
 def _separate(event: Event, case: Mapping[Hashable, bool]) -> tuple[float, float]:
-    """The probability where all atoms are apart but those that the case decides."""
+    """The probability in a case where no other atom occurs twice."""
     spend()
     match event:
         case Atomic(atom, p):
@@ -84,13 +84,13 @@ def _separate(event: Event, case: Mapping[Hashable, bool]) -> tuple[float, float
 
 
 def _any(found: list[float]) -> float:
-    """One of them, at least; rounding does not make it less than any of them."""
+    """The probability of at least one; rounding does not take it below any of them."""
     missed = math.prod([1.0 - p for p in found])
     return max(1.0 - missed, max(found, default=0.0))
 
 
 def bounds(event: Event) -> Degree:
-    """What holds whatever depends on what: Fréchet's bounds, part by part.
+    """Bounds that hold for any dependence: Fréchet's, part by part.
 
     >>> a, b = Atomic("a", Degree(0.7, 0.7)), Atomic("b", Degree(0.8, 0.8))
     >>> print(bounds(All((a, b))))

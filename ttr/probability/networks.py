@@ -23,27 +23,27 @@ from ttr.safety.budgets import spend
 __all__ = ["Impossible", "Network", "conjunction", "network"]
 
 CASES = 256
-"""How many cases of the atoms asked for are told apart."""
+"""The number of cases of the atoms asked for that are distinguished."""
 
 WIDTH = 12
-"""How many atoms may be put into one table when others are summed out."""
+"""The number of atoms that one table may have when others are summed out."""
 
 EFFORT = 8192
-"""How many atoms are looked at in all, over the ends of all intervals."""
+"""The number of atoms that are visited in all, over the ends of all intervals."""
 
 Parents = Mapping[Hashable, tuple[Hashable, ...]]
 
 Case = tuple[bool, ...]
 
 Row = tuple[Hashable, Case]
-"""An atom, and whether its parents are so."""
+"""An atom, and which of its parents hold."""
 
 Table = tuple[tuple[Hashable, ...], dict[Case, int]]
 """Some atoms, and a weight for each case of them."""
 
 
 class Impossible(Exception):
-    """A condition surely is not met."""
+    """The condition is certainly not met."""
 
 
 @dataclass(frozen=True)

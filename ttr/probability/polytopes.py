@@ -123,7 +123,7 @@ def _extend(
 
 
 def _is_allowed(component: Component, world: Truth, new: Hashable) -> bool:
-    """Is the new atom in line with what entails and excludes what?"""
+    """Does every atom hold with all that it entails, and with none that it excludes?"""
     spend()
     for lower, upper in component.entailed:
         if new in (lower, upper) and world.get(lower) and world.get(upper) is False:

@@ -1,4 +1,4 @@
-"""How probable it is that enough of P are Q, where some of it is uncertain.
+"""The probability that enough of P are Q, where some of it is uncertain.
 
 Each thing that may be of P adds to a score: so much where it is Q, so much where it is
 not. The chance that the score is reached is worked out one thing after the other
@@ -18,12 +18,12 @@ from ttr.semantics.quantifiers.thresholds import Threshold
 __all__ = ["EXACT", "Chances", "chance_of", "independent_chances"]
 
 EXACT = 500
-"""How many uncertain things are counted exactly."""
+"""The number of uncertain things that are counted exactly."""
 
 
 @dataclass(frozen=True)
 class Chances:
-    """How probably one thing is P, and with it Q, and without it."""
+    """The probabilities that one thing is P, P and Q, and P but not Q."""
 
     first: Degree
     both: Degree
@@ -90,7 +90,7 @@ def _chance(
 
 
 def _uncertain(lo: float, hi: float) -> Degree:
-    """The interval, where rounding must not make it certain or refuted."""
+    """The interval, which rounding must not make certain or refuted."""
     below, above = math.nextafter(1.0, 0.0), math.nextafter(0.0, 1.0)
     if lo == hi:
         within = min(max(lo, above), below)
@@ -105,7 +105,7 @@ Steps = Sequence[tuple[float, float]]
 def _decide(
     need: int, inside: int, outside: int, low: Steps, high: Steps
 ) -> Degree | None:
-    """What is certain, whatever the uncertain things come to."""
+    """The answer if it is the same whatever the uncertain things are; else None."""
     most = sum(inside if one[0] > 0.0 else 0 for one in high)
     least = sum(outside if one[1] > 0.0 else 0 for one in low)
     least += sum(inside for one in low if one[0] == 1.0)

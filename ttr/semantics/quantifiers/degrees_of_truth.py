@@ -1,4 +1,4 @@
-"""Degrees of truth with their reasons, and how several are true together."""
+"""Degrees of truth with their reasons, and how to combine several."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ Atoms: TypeAlias = frozenset[Hashable]
 """The uncertain judgements that something rests on, or what stands for several."""
 
 SHOWN = 5
-"""How many grounds of one kind are shown."""
+"""The number of grounds of one kind that are shown."""
 
 
 @dataclass(frozen=True)
@@ -61,14 +61,14 @@ class Truth:
 
 
 def own_atoms(M: Model, p: Degree, T: TypeNode) -> Atoms:
-    """What is uncertain in itself rests on itself."""
+    """The atoms of a type that is uncertain by itself: the type alone."""
     if p in (CERTAIN, REFUTED):
         return frozenset()
     return frozenset({_atom(M, Missing(), T)})
 
 
 def truth_of_derivation(M: Model, why: Why) -> Truth:
-    """What a derivation says, with the uncertain judgements in it."""
+    """The truth that a derivation gives, with the uncertain judgements in it."""
     steps = why.uncertain()
     atoms = frozenset(_atom(M, identity(step.sit), step.type) for step in steps)
     return Truth(why.p, why, atoms)
@@ -88,7 +88,7 @@ def _atom(M: Model, sit: object, T: TypeNode) -> Hashable:
 
 
 def conjoin_fields(T: RecordType, parts: list[tuple[str, Truth]]) -> Truth:
-    """The fields together."""
+    """The truth of a record type from the truths of its fields."""
     p, atoms = all_true([found for _, found in parts])
     sit = Record({label: found.witness for label, found in parts})
     whys = tuple(_at(label, found.why) for label, found in parts)
@@ -100,7 +100,7 @@ def _at(label: str, why: Why) -> Why:
 
 
 def all_true(grounds: list[Truth]) -> tuple[Degree, Atoms]:
-    """How certain it is that all hold; bounds, where they rest on the same."""
+    """How certain it is that all hold; bounds where they share judgements."""
     degrees = [found.p for found in grounds]
     atoms = frozenset[Hashable]().union(*(found.atoms for found in grounds))
     if REFUTED in degrees:
@@ -113,7 +113,7 @@ def all_true(grounds: list[Truth]) -> tuple[Degree, Atoms]:
 
 
 def one_true(T: TypeNode, truths: Iterable[Truth], rule: str) -> Truth:
-    """How certain it is that one holds; bounds, where they rest on the same."""
+    """How certain it is that one holds; bounds where they share judgements."""
     grounds = list(truths)
     sure = next((found for found in grounds if found.p == CERTAIN), None)
     if sure is not None:

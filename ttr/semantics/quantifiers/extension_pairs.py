@@ -1,4 +1,4 @@
-"""Extensions side by side: those of P that are Q, those that are not, the uncertain.
+"""Two extensions compared: the P that are Q, those that are not, and the uncertain.
 
 Who they are is kept as keys, and looked up when it is asked for: counting is quick.
 """
@@ -93,7 +93,7 @@ def _only(p: Degree) -> Chances:
 
 
 def _chances(one: Member, other: Member) -> Chances:
-    """Independent, the same, or as far as can be said of what rests on the same."""
+    """The chances of independent or equal members, else bounds on them."""
     p, q = one.p, other.p
     if one is other:
         return Chances(p, p, REFUTED)

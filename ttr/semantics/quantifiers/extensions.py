@@ -1,4 +1,4 @@
-"""Extensions: what has a property in a model, worked out once and counted often."""
+"""Extensions: the things that have a property in a model, found once, counted often."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Member:
 
     @property
     def situation(self) -> Object:
-        """What is of the type that the property gives for the thing."""
+        """The situation of the type that the property gives for the thing."""
         return self.sit if self.found is None else self.found.witness
 
 
@@ -96,7 +96,7 @@ class Extension:
 
 
 def _entry(entry: object) -> tuple[object, Degree]:
-    """A thing and its degree, which it may be given without."""
+    """A thing and its degree, which may be left out."""
     match entry:
         case (thing, int() | float() | tuple() as p):
             return thing, degree(p)
@@ -154,7 +154,7 @@ def _restrict_to_domain(one: Member, domain: Truth) -> Member:
 
 
 def in_domain(M: Model, Q: Property, sit: Object) -> None:
-    """Raises `Refused` where a function does not take a thing at all."""
+    """Raise `Refused` where a function does not take a thing at all."""
     if not isinstance(Q, Function):
         return
     inside = M.judge(sit, Q.domain).p

@@ -136,7 +136,7 @@ class Quantification:
         return said
 
     def _exceptions(self) -> tuple[Case, ...]:
-        """Those that refute it: not Q, where too few are; else Q."""
+        """The things that refute it: those not Q if too few are Q, else those Q."""
         if self.p != REFUTED:
             return ()
         k, n = len(self.refset), len(self.maxset)

@@ -75,7 +75,7 @@ class _Fitting:
         return CERTAIN, "X is a witness set"
 
     def _objections(self, s: Object) -> Iterator[str]:
-        """What speaks against s = {X, f}."""
+        """The objections to s = {X, f}."""
         if not isinstance(s, Record) or not isinstance(s._fields.get("X"), FiniteSet):
             yield "it is no record {X, f} with a set X"
             return
@@ -119,7 +119,7 @@ class _Fitting:
                 yield f"{notation(given[key])} does not make {notation(x)} so"
 
     def _makes(self, x: Object, e: Object) -> bool:
-        """Whether a situation may make x one of Q."""
+        """May a situation be one in which x is Q?"""
         if not isinstance(self._Q, Function):
             return identity(e) == identity(x) and self._M.judge(x, self._Q).p.hi > 0.0
         T = self._M.apply(self._Q, x)

@@ -37,12 +37,12 @@ class Threshold:
 
     @property
     def rising(self) -> bool:
-        """Whether more is better: at least, or more than."""
+        """Is it a lower bound: at least, or more than?"""
         return self.sign in RISING
 
     @property
     def presupposes(self) -> bool:
-        """Whether it means nothing of nothing: a share that is neither none nor all."""
+        """Is it undefined for an empty P: a share that is neither none nor all?"""
         return self.unit == "share" and 0 < self.amount < 1
 
     @property
@@ -63,12 +63,12 @@ class Threshold:
         return zero + (self.sign in ("more than", "at most"))
 
     def met(self, k: int, n: int) -> bool:
-        """Whether k of n meet it."""
+        """Do k of n meet it?"""
         inside, outside = self.weights
         return self.reached(k * inside + (n - k) * outside)
 
     def reached(self, score: int) -> bool:
-        """Whether a score meets it."""
+        """Does a score meet it?"""
         return (score >= self.bound) == self.rising
 
     def __str__(self) -> str:
@@ -109,7 +109,7 @@ def share(sign: Sign, amount: Rational | float | str) -> Threshold:
 
 
 LARGEST = 10_000
-"""Into how many parts P may be divided to say a share."""
+"""The largest denominator of a share."""
 
 
 def _check_sign(sign: str) -> Sign:

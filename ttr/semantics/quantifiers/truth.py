@@ -1,8 +1,8 @@
 """How certain it is that a type is true: that something is of it.
 
-Other than `Model.true` it works out quantified types, sentence negation and functions
-that stand for "whatever is of S", and takes the situations that were told to be of a
-type for all that there are.
+Unlike `Model.true` it evaluates quantified types, sentence negation and function types
+as "whatever is of S", and takes the situations that are known to be of a type for all
+that there are.
 """
 
 from __future__ import annotations
@@ -65,17 +65,17 @@ It is not `~T`, which whatever is not of T is of.
 
 @hook
 def truth_of_quantified(M: Model, T: PType, thresholds: Thresholds) -> Truth:
-    """How certain a quantified type is, which asks this of its parts: `settle`."""
+    """How certain a quantified type is; `quantified_propositions` provides it."""
     raise NotImplementedError
 
 
 @within_budget
 def truth(M: Model, T: TypeNode, thresholds: Thresholds | None = None) -> Truth:
-    """How certain it is that something is of T, by what M has been told.
+    """How certain it is that something is of T, by the facts of M.
 
-    Of a ptype it is how probable the situations are together that were told to be of
-    it; its witness function where it has one; unknown where it is open. Raises
-    `IllFormed` for a type with a path that leads out of it.
+    For a ptype this is the probability that one of the known situations is of it, or
+    what its witness function says if it has one; where none is known and the type is
+    open, it is unknown. Raises `IllFormed` for a type with a path that leads out of it.
 
     >>> from ttr.semantics.quantifiers import no
     >>> from ttr.types.syntax import Ind
@@ -146,7 +146,7 @@ class _Truths:
         return found
 
     def ways(self, T: RecordType) -> Iterator[list[tuple[str, Truth]]]:
-        """The ways to fill the fields by known objects; without recursion."""
+        """The ways to fill the fields with known objects, without recursion."""
         paths = [path for _, S in T.fields for path in escaping(S)]
         needed = {path.labels[0] for path in paths if path.up == 0}
         needed |= {label for label, S in T.fields if not isinstance(S, PType)}
@@ -163,7 +163,7 @@ class _Truths:
     def _extend(
         self, T: RecordType, way: list[tuple[str, Truth]], needed: set[str]
     ) -> Iterator[list[tuple[str, Truth]]]:
-        """The ways to fill one field more; each object, where others depend on it."""
+        """The ways to fill one more field; with each object if others depend on it."""
         spend()
         label, field = T.fields[len(way)]
         try:
@@ -179,7 +179,7 @@ class _Truths:
             yield [*way, (label, found)]
 
     def _function_type(self, T: FunType, domain: TypeNode, result: TypeNode) -> Truth:
-        """((x : S) → T) is true if for whatever is of S, T is true of it."""
+        """((x : S) → T) is true if T is true for every x of S."""
         grounds = []
         for sit, p in known_objects(self._M, domain, self._thresholds):
             found = self.of(_reduce_to_type(self._M, grounded(result, ({BOUND: sit},))))
@@ -216,7 +216,7 @@ class _Truths:
 
 
 def _truth_of_atom(M: Model, T: Basic | PType) -> Truth:
-    """How probable the situations are together that were told to be of T."""
+    """The probability that one of the known situations is of T."""
     facts = M.facts
     seen = facts.perceived(Missing(), T) if isinstance(T, PType) else None
     if seen is not None:
@@ -240,7 +240,7 @@ def _truth_of_atom(M: Model, T: Basic | PType) -> Truth:
 def known_objects(
     M: Model, T: TypeNode, thresholds: Thresholds | None = None
 ) -> list[tuple[Object, Degree]]:
-    """The objects that are, or may be, of T by what was told, in the order told.
+    """The objects that are or may be of T by the facts, in their order.
 
     Of a record type they are records of such objects, with one situation for each
     field that no other field mentions. Raises `Unsupported` for a type of which there
@@ -256,13 +256,13 @@ def known_objects(
 
 
 def _degree_of(M: Model, sit: Object, T: Basic | PType) -> Degree:
-    """How probably an object is of a type, in the light of what it depends on."""
+    """The probability that an object is of a type, dependences included."""
     p, _ = M.facts.degree_of(sit, T)
     return p if p == CERTAIN else M.judge(sit, T).p
 
 
 def _may_have_more(M: Model, T: TypeNode) -> bool:
-    """Whether more may be of T than what was told, by what it is made of."""
+    """May other objects be of T than the known ones, by the types in it?"""
     return any(
         M.facts.leaves_open(part)
         for part in occurring([T])
@@ -278,7 +278,7 @@ def truth_of_judgement(M: Model, sit: Object, T: TypeNode) -> Truth:
 def truth_of_instance(
     M: Model, f: Function, sit: Object, thresholds: Thresholds
 ) -> Truth:
-    """How certain it is that what a function gives for an object is true."""
+    """How certain it is that the type a function gives for an object is true."""
     body = _reduce_to_type(M, grounded(f.body, ({BOUND: sit},)))
     return _Truths(M, thresholds).of(body)
 
