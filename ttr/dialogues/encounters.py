@@ -1,8 +1,8 @@
-"""Encounters: several participants, each with an own board, who act and look on.
+"""Encounters: several participants, each with their own board, who act and look on.
 
-Each plays a game by itself: what happens is taken by the rules of everyone who sees it.
-Who has on the agenda a type of event that it can bring about is licensed to create one
-(Cooper 2023, chapter 2), in turn with the others or at the same time as they.
+Each plays their own game: an event is taken by the rules of everyone who sees it. A
+participant is licensed to create an event (Cooper 2023, chapter 2) if its type is next
+on their agenda and they can bring it about. They act in turn or all at once.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ __all__ = ["Encounter", "Happening", "Participant", "meeting"]
 
 @dataclass(frozen=True, eq=False)
 class Participant:
-    """Somebody who plays a game by its own board.
+    """Somebody who plays a game on their own board.
 
-    `does` is the type of the events that it can bring about: what is on its agenda and
-    not of this type is for others to do.
+    `does` is the type of the events that they can bring about: what is on the agenda
+    and not of this type is for others to do.
     """
 
     name: str
@@ -50,7 +50,7 @@ class Participant:
             )
 
     def licensed(self, board: Run) -> Create | None:
-        """What its board licenses it to do: create the first thing on its agenda."""
+        """The act that their board licenses: to create what is first on the agenda."""
         planned = self.game.planned(board.state)
         if not planned:
             return None
@@ -61,9 +61,9 @@ class Participant:
 
 @dataclass(frozen=True, eq=False)
 class Happening:
-    """One step of an encounter: who did what, and what each board made of it.
+    """One step of an encounter: who did what, and how it changed each board.
 
-    `by` and `event` are None where only tacit rules applied.
+    `by` and `event` are None where only rules without an event applied.
     """
 
     by: str | None
@@ -87,7 +87,7 @@ def _lines(step: Step) -> list[str]:
 
 @dataclass(frozen=True, eq=False)
 class Encounter:
-    """Participants with their boards, and what has happened so far. Built by `meeting`.
+    """Participants with their boards, and what has happened; built by `meeting`.
 
     `in_turn` and `in_step` give the encounter after one more round.
     """
@@ -97,7 +97,7 @@ class Encounter:
     history: tuple[Happening, ...] = ()
 
     def board(self, name: str) -> Record:
-        """The board of a participant; raises `UpdateError` for one who is not there."""
+        """The board of a participant; raises `UpdateError` for an unknown name."""
         for one, board in zip(self.participants, self.boards, strict=True):
             if one.name == name:
                 return board.state
@@ -106,13 +106,13 @@ class Encounter:
 
     @property
     def agree(self) -> bool:
-        """Whether all boards are the same."""
+        """Are all boards the same?"""
         return len({board.state for board in self.boards}) == 1
 
     def in_turn(self) -> Encounter:
-        """A round in which each who is licensed acts, one after the other.
+        """A round in which everyone who is licensed acts, one after the other.
 
-        What one has done the others have seen before it is their turn.
+        The others see each act before it is their turn.
         """
         current = self
         for index in range(len(self.participants)):
@@ -122,7 +122,7 @@ class Encounter:
         return current
 
     def in_step(self) -> Encounter:
-        """A round in which all who are licensed act at once, and then all see it."""
+        """A round in which all who are licensed act at once; then everyone sees it."""
         ready = self._after_tacit_rules()
         pairs = zip(ready.participants, ready.boards, strict=True)
         acts = [one.licensed(board) for one, board in pairs]
@@ -133,13 +133,13 @@ class Encounter:
 
     @cached_property
     def is_idle(self) -> bool:
-        """Whether nobody is licensed to anything, even after the tacit rules."""
+        """Is nobody licensed to do anything, even after the rules without an event?"""
         ready = self._after_tacit_rules()
         pairs = zip(ready.participants, ready.boards, strict=True)
         return all(one.licensed(board) is None for one, board in pairs)
 
     def _after_tacit_rules(self) -> Encounter:
-        """After the tacit rules of all whose agenda is empty."""
+        """After the rules without an event, for everyone whose agenda is empty."""
         boards = [
             board if one.game.planned(board.state) else _continue_board(one, board, ())
             for one, board in zip(self.participants, self.boards, strict=True)
@@ -147,7 +147,7 @@ class Encounter:
         return self._with_boards(boards, None, None)
 
     def _after_act(self, index: int, act: Create) -> Encounter:
-        """After a participant has created something, and everyone has seen it."""
+        """After a participant has created an event and everyone has seen it."""
         by = self.participants[index]
         made = performed(act, _with_fresh_names(self.boards, index))
         event, T = made.answer.sit, act.type
@@ -164,7 +164,7 @@ class Encounter:
     def _with_boards(
         self, boards: Sequence[Run], by: str | None, event: Judgement | None
     ) -> Encounter:
-        """The encounter with these boards, whose traces are those of one step."""
+        """The encounter with these boards, whose traces belong to one step."""
         names = [one.name for one in self.participants]
         if by is None and not any(board.trace for board in boards):
             return self
@@ -182,9 +182,9 @@ class Encounter:
 
 
 def meeting(*participants: Participant) -> Encounter:
-    """The encounter of participants, each at the start of its game.
+    """The encounter of participants, each at the start of their game.
 
-    Raises `UpdateError` where two are called the same.
+    Raises `UpdateError` where two have the same name.
 
     >>> from ttr.theories.theory import Theory
     >>> from ttr.updates import first, update
@@ -225,7 +225,7 @@ def meeting(*participants: Participant) -> Encounter:
 def _model_of_witness(
     one: Participant, model: Model, event: Object, T: TypeNode, by: Participant
 ) -> Model:
-    """The model of one who has seen another do something."""
+    """The model of a participant who has seen somebody act."""
     try:
         return model.given(event, T)
     except TTRError as error:
@@ -247,7 +247,7 @@ def _continue_board(one: Participant, board: Run, events: Sequence[object]) -> R
 
 
 def _with_fresh_names(boards: Sequence[Run], index: int) -> Model:
-    """The actor's model, in which names that any board knows are not given again."""
+    """The actor's model; names that it makes up are not yet known on any board."""
     most = max(board.model.facts.created for board in boards)
     mine = boards[index].model
     return Model.of(replace(mine.facts, created=most))

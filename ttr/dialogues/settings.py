@@ -1,4 +1,4 @@
-"""What a story is played in: the game that it names, and the names that it may use."""
+"""The setting of a dialogue: the game that is named, and the names it may use."""
 
 from __future__ import annotations
 
@@ -37,9 +37,9 @@ class StoryError(TTRError):
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """A game, the theory whose names are used in its stories, and how it is named.
+    """A game, the theory whose names its stories use, and the reference to the game.
 
-    `reference` is what stands after `@ game` in a story in this folder; it may be
+    `reference` is what stands after `@ game` in a story in this `folder`; it may be
     empty. `consent` is what the user lets the game's files use.
     """
 
@@ -51,11 +51,11 @@ class Setting:
 
     @classmethod
     def of(cls, game: Game, theory: Theory | None = None, reference: str = "") -> Self:
-        """The setting of a game; without a theory, what occurs in it can be named."""
+        """The setting of a game; by default, all that occurs in the game has a name."""
         return cls(game, theory or game.theory or _mentioned_theory(game), reference)
 
     def reference_from(self, folder: Path) -> str:
-        """What stands after `@ game` in another folder."""
+        """The reference, as seen from another folder."""
         file, rest = _file_and_rest(self.reference)
         if not file or Path(file).is_absolute():
             return self.reference
@@ -63,7 +63,7 @@ class Setting:
         return Path(moved).as_posix() + rest
 
     def value(self, text: str, model: Model, source: str = "<text>") -> Object:
-        """The type or object that a text stands for, among what the model knows."""
+        """The type or object that a text stands for, also by names the model knows."""
         known = (name for name in model.facts.known if isinstance(name, str))
         names = self.theory.objects.union(known)
         value = read_term(text, replace(self.theory, objects=names), source)
@@ -71,12 +71,12 @@ class Setting:
 
 
 def setting(reference: str, folder: Path, consent: Consent | None = None) -> Setting:
-    """The setting that a reference names; a file is taken from the folder.
+    """The setting that a reference names; its file is relative to the folder.
 
     A reference is the path of a theory and the name of a game in it, or a Python file
-    or module, a colon and a name. Who calls this names it, and so consents to what is
-    run; for a reference that was found in a file, `consent` is the user's. Raises
-    `StoryError` where nothing is named so, and `NotAllowed` where there is no consent.
+    or module, a colon and a name. Without `consent`, the caller names it, and so lets
+    it run; for a reference from a file, pass the user's consent. Raises `StoryError`
+    where there is no such game, and `NotAllowed` where there is no consent.
     """
     if consent is not None:
         check_named(reference, folder, consent)
@@ -91,7 +91,7 @@ def setting(reference: str, folder: Path, consent: Consent | None = None) -> Set
 
 
 def check_named(reference: str, folder: Path, consent: Consent) -> None:
-    """Raises `NotAllowed` for a reference in a file that there is no consent to.
+    """Raises `NotAllowed` for a reference in a file without consent to it.
 
     A theory may lie anywhere, for nothing in it is run.
     """
@@ -104,13 +104,13 @@ def check_named(reference: str, folder: Path, consent: Consent) -> None:
 
 
 def named_by_user(reference: str, folder: Path, consent: Consent) -> Consent:
-    """The consent of a user who has named a game himself, and so what has to be run."""
+    """The consent of a user who names a game, and so lets its Python run."""
     python = python_in(reference)
     return consent.naming(python, folder) if python else consent
 
 
 def python_in(reference: str) -> str:
-    """The Python file or module that a reference names; none, if it is of a theory.
+    """The Python file or module that a reference names; empty for a theory.
 
     >>> python_in("games.py:door"), python_in("door.ttr door")
     ('games.py', '')
@@ -129,7 +129,7 @@ def _module_and_name(reference: str) -> tuple[str, str]:
 
 
 def _file_and_rest(reference: str) -> tuple[str, str]:
-    """The file that a reference names, if it names one, and what follows it."""
+    """The file that a reference names, or an empty text, and the rest of it."""
     found = re.fullmatch(r"(.+?\.ttr|.+\.py(?=:))((?: +\S+)?|:.*)", reference)
     return (found[1], found[2]) if found else ("", reference)
 
@@ -181,7 +181,7 @@ def _no_game_message(file: str, name: str, known: tuple[str, ...]) -> str:
 
 
 def _module(path: str, folder: Path, consent: Consent | None) -> ModuleType:
-    """The module of a file or a dotted name, run if it has not been."""
+    """The module of a file or of a dotted name."""
     if path.endswith(".py"):
         _check_exists(path, folder)
     try:
@@ -200,19 +200,19 @@ def _failure_message(path: str, error: Exception) -> str:
 
 
 def _with_parents(module: str) -> list[str]:
-    """A dotted name and those of the packages that it is in: a.b.c, a.b and a."""
+    """A dotted name and the packages around it: a, a.b and a.b.c."""
     return [".".join(module.split(".")[: n + 1]) for n in range(module.count(".") + 1)]
 
 
 def _mentioned_theory(game: Game) -> Theory:
-    """The theory that declares what occurs in a game."""
+    """The theory that declares all that occurs in a game."""
     types = [T for rule in game.rules for T in (rule.when, rule.on, rule.gives)]
     planned = [T for T in types if T is not None]
     return Theory.of(game.type, game.start, *game.hears, *planned)
 
 
 def _with_definitions(module: ModuleType, theory: Theory) -> Theory:
-    """The theory in which the types of a module have their names in it, too."""
+    """The theory with the names that a Python module gives to types."""
     definitions = {
         name: T
         for name, T in vars(module).items()

@@ -1,7 +1,7 @@
-"""Snapshots of states, to find out whether a rule changed one in place.
+"""Snapshots of states, which show whether a rule has tampered with one.
 
-Records, lists and types are immutable; but a rule written in Python may change a
-mutable object in a record, or reach into the record itself.
+Records, lists and types cannot be changed by plain means; but a rule in Python may
+change an object that it finds in a record, or the inside of the record.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Snapshot: TypeAlias = "dict[str, Snapshot] | tuple[object, ...]"
 
 
 def snapshot(value: Object) -> Snapshot:
-    """What an object consists of now: a dictionary for a record, otherwise a tuple.
+    """What an object is made of now: a dictionary for a record, else a tuple.
 
     >>> from ttr.types.syntax import record
     >>> snapshot(record(x="a")) == snapshot(record(x="a"))
@@ -37,9 +37,10 @@ def snapshot(value: Object) -> Snapshot:
 
 
 def _contents(value: object) -> Iterator[object]:
-    """The contents of any other object: its bytes, or its own attributes.
+    """What is in an object of another kind: its bytes, or its attributes.
 
-    Only plain collections in it are copied; other objects are known by their identity.
+    Attributes that are no plain collections count as the same while they are the same
+    objects.
     """
     with suppress(TypeError):
         yield memoryview(value).tobytes()  # type: ignore[arg-type]
@@ -61,7 +62,7 @@ def _plain_value(value: object) -> object:
 
 
 def copy_of(value: Object) -> Object:
-    """The same object with new records in it, so that changes to them affect no other.
+    """A copy of an object, in which all records are copies, too.
 
     >>> from ttr.types.syntax import record
     >>> r = record(x=record(y="a"))
@@ -74,7 +75,7 @@ def copy_of(value: Object) -> Object:
 
 
 def first_change(before: Snapshot, value: Object) -> str:
-    """The first path at which an object has changed; empty if it has not."""
+    """The first path at which an object has changed since; empty if it has not."""
     return next(_changes(before, snapshot(value), ""), "")
 
 

@@ -1,7 +1,7 @@
 """Transcripts: dialogues as a page, with the state beside each turn.
 
-The page is one file, with its style and without script or anything fetched. Fields that
-a turn has changed are marked, and the rules that did it open with their docstrings.
+The page is one file with its own style; it has no script and fetches nothing. Fields
+that a turn changed are marked, and the rules that changed them open on a click.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def Transcribed(
     moments: Iterable[Trial],
     ending: str = "",
 ) -> Dialogue:
-    """A dialogue on a page, as it was made before there was `Dialogue`."""
+    """A dialogue for a page: the former name, before there was `Dialogue`."""
     message = "Transcribed is now ttr.dialogues.dialogue.Dialogue"
     warn(message, DeprecationWarning, stacklevel=2)
     return Dialogue(setting.game, tuple(moments), title, setting, start, ending)
@@ -39,9 +39,9 @@ def Transcribed(
 
 @within_budget
 def transcript(title: str, dialogues: Iterable[Dialogue]) -> str:
-    """The page, as HTML.
+    """The HTML page of some dialogues.
 
-    What the theory of the game defines is shown by its name.
+    What the theory of a game defines is shown by its name.
     """
     shown = [dialogue.in_words() for dialogue in dialogues]
     parts = [f"<h1>{html_text(title)}</h1>"]

@@ -1,12 +1,12 @@
 """The commands of `ttr`: one module each, which does its work when it is asked to.
 
-Every module has `add(commands)`, which declares the command's arguments, and imports
-what it needs only when the command runs, so that `ttr --help` is there at once.
+Every module has `add(commands)`, which declares the command's arguments. It imports
+what it needs only when the command runs, so that `ttr --help` is fast.
 """
 
 from ttr.cli.commands import check, fracas, play, repl, replay, show, test
 
 __all__ = ["COMMANDS"]
 
-#: In the order in which the help shows them.
+#: In the order of the help text.
 COMMANDS = (check, play, replay, test, show, repl, fracas)

@@ -45,14 +45,14 @@ def add(commands: Commands) -> None:
         type=step_count,
         default=STEPS,
         metavar="N",
-        help=f"how much work each check may be before it is left (default: {STEPS:,})",
+        help=f"how many steps each check may take (default: {STEPS:,})",
     )
     check.set_defaults(run=_check)
 
 
 @dataclass(frozen=True)
 class _Outcome:
-    """What became of one file: its mistakes, or the report on it."""
+    """The result of one file: its mistakes, or the report on it."""
 
     file: str
     report: Report | None = None

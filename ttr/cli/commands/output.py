@@ -1,6 +1,6 @@
-"""What all the commands share: exit codes, and one way to say a thing or complain.
+"""What all commands share: exit codes, printing and complaining.
 
-Nothing else in `ttr` writes to a terminal; so no file can speak to it in escape codes.
+All that `ttr` prints passes here, so that no file can send escape codes to a terminal.
 """
 
 from __future__ import annotations
@@ -34,63 +34,63 @@ __all__ = [
 FINE, FAILED, INTERRUPTED, PIPE_CLOSED = 0, 1, 130, 141
 
 if TYPE_CHECKING:
-    #: What a command is added to.
+    #: The collection that a command adds itself to.
     Commands = argparse._SubParsersAction[argparse.ArgumentParser]
 else:
     Commands = Any
 
 
 def say(text: str) -> None:
-    """Prints a line, or several; what cannot be seen is made visible."""
+    """Prints lines; characters that cannot be seen are made visible."""
     sys.stdout.write(f"{terminal_text(text)}\n")
     sys.stdout.flush()
 
 
 def say_json(value: Any) -> None:
-    """Prints a value for machines."""
+    """Prints a value as JSON."""
     say(json_text(value, indent=2))
 
 
 def complain(text: str) -> int:
-    """Says on the error stream what was wrong with the use; gives the exit code."""
+    """Prints to the error stream what was wrong, and gives the exit code."""
     sys.stderr.write(f"ttr: {terminal_text(text)}\n")
     return WRONG_USE
 
 
 def ask(prompt: str) -> str:
-    """A line that is typed after a prompt; raises `EOFError` where there is none."""
+    """The line that is typed after a prompt; `EOFError` at the end."""
     return input(terminal_text(prompt))
 
 
 class LiveLine:
-    """A line at a terminal that shows how far something has come."""
+    """A line at a terminal that shows progress."""
 
     def __init__(self) -> None:
         self._shows = False
 
     def show(self, text: str) -> None:
-        """Shows it in the place of what was shown; elsewhere nothing is."""
+        """Replaces the line; prints nothing if this is no terminal."""
         if sys.stderr.isatty():
             self._shows = True
             sys.stderr.write(f"\r{terminal_line(text)}")
             sys.stderr.flush()
 
     def clear(self) -> None:
-        """Takes the line away."""
+        """Removes the line."""
         if self._shows:
             sys.stderr.write("\r\x1b[K")
             self._shows = False
 
 
 def json_place(span: Span | None) -> dict[str, Any]:
-    """Where something is written, for machines."""
+    """The place of a span, for JSON."""
     if span is None:
         return {}
     return {"file": span.source, "line": span.line, "column": span.column}
 
 
 def step_count(text: str) -> int:
-    """A number of steps that was given as an option; refuses what is none."""
+    """The number of steps in an option; refuses all else."""
     try:
         found = int(text.replace("_", "").replace(",", ""))
     except ValueError:

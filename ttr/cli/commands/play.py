@@ -106,9 +106,9 @@ def _play(options: argparse.Namespace) -> int:
 def _read_allowed(
     file: Path, game: Setting | None, consent: Consent
 ) -> Sequence[Story]:
-    """The stories in a file, none of which names what there is no consent to.
+    """The stories in a file; `NotAllowed` if one names something without consent.
 
-    A game that was given is played in the place of those that they name.
+    If a game is given, it is played instead of those that the stories name.
     """
     from ttr.dialogues.stories import check_consent, read_stories
 
@@ -134,7 +134,7 @@ class _Playing:
     settings: dict[Line | None, Setting] = field(default_factory=dict)
 
     def all(self, plan: list[tuple[str, Story]]) -> list[_Result]:
-        """What became of the stories, with what was played of them."""
+        """The results of the stories, each with what was played of it."""
         return [self._one(file, story) for file, story in plan]
 
     def _one(self, file: str, story: Story) -> _Result:
@@ -159,7 +159,7 @@ class _Playing:
         return play(story, setting, echo=self.echo, witness=self._witness)
 
     def _setting(self, story: Story) -> Setting:
-        """The setting that the story names, found once for all that name it so."""
+        """The setting that the story names, found once for all stories that name it."""
         from ttr.dialogues.stories import setting_of
 
         if self.game is not None:
@@ -194,7 +194,7 @@ def _write_reports(
 
 
 def _print_summaries(options: argparse.Namespace, results: list[_Result]) -> None:
-    """Says what differs, and how many stories of each file do."""
+    """Prints what differs, and a summary of each file."""
     from ttr.dialogues.stories import facts, summary
 
     if options.json:

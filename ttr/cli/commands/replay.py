@@ -98,7 +98,7 @@ def _replay_log(log: Log, options: argparse.Namespace) -> tuple[Log, Setting, Re
 def _setting(log: Log, options: argparse.Namespace, place: str) -> Setting:
     """The game that the user names, or else the log; raises `NotAllowed`.
 
-    A log by itself runs nothing: for Python that it names the user has to be asked.
+    A log runs nothing by itself: Python that it names needs the user's consent.
     """
     from ttr.dialogues.logs import LogError
     from ttr.dialogues.stories import named_by_user, python_in, setting
@@ -122,7 +122,7 @@ def _setting(log: Log, options: argparse.Namespace, place: str) -> Setting:
 
 
 def _refusal(options: argparse.Namespace) -> str:
-    """Why Python that a log names is not run, and the ways on."""
+    """Why Python that a log names is not run, and how to run it."""
     if options.no_python:
         return "which is Python, and --no-python refuses it"
     return (

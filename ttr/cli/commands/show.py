@@ -70,14 +70,14 @@ def _show(options: argparse.Namespace) -> int:
 
 
 def _text_of(theory: Theory, options: argparse.Namespace) -> str:
-    """What the name stands for, as asked; raises `KeyError` for a name nobody knows."""
+    """What the name stands for, in the form asked for; `KeyError` if unknown."""
     from ttr.display.abbreviations import folding
     from ttr.display.html import page
     from ttr.display.render import box, html, latex
 
     if options.name in {*theory.rules, *theory.strategies, *theory.openings}:
         return _rule_text(theory, options)
-    # What was asked for is opened itself, whatever else is not.
+    # The definition asked for is always unfolded itself.
     unfold = None if options.unfold is None else options.unfold + 1
     value = folding(theory, unfold)(theory[options.name])
     match options.form:

@@ -38,10 +38,10 @@ __all__ = ["add"]
 
 EXAMPLES = 1000
 PROCESSED = 20
-"""How many dialogues are played once more in processes of their own."""
+"""How many dialogues are played once more, in processes of their own."""
 
 PATIENCE = 2.0
-"""After how many seconds a terminal is told how far it has come."""
+"""After how many seconds a terminal shows progress."""
 
 REFRESH = 0.1
 WIDTH = 30
@@ -139,7 +139,7 @@ def _test(options: argparse.Namespace) -> int:
 
 
 def _named_games(rules: str, game: str | None, consent: Consent) -> list[Setting]:
-    """The games that are named, with where they are."""
+    """The settings of the games that the user names."""
     if not rules.endswith(".ttr"):
         named = rules if ":" in Path(rules).name else f"{rules}:{game or 'game'}"
         return [named_game(named, consent)]
@@ -156,7 +156,7 @@ def _named_games(rules: str, game: str | None, consent: Consent) -> list[Setting
 
 
 def _roles(game: Game, declared: list[tuple[str, str]]) -> Roles | None:
-    """What plays which role: what stands beside the game, and what was declared."""
+    """The roles of paths: as the module of the game says, and as options declare."""
     from ttr.testing.game_settings import roles_of
     from ttr.testing.strategies.discourse_roles import Roles
 
@@ -171,13 +171,13 @@ def _roles(game: Game, declared: list[tuple[str, str]]) -> Roles | None:
 
 @dataclass(frozen=True)
 class _Outcome:
-    """What became of one game."""
+    """The result of testing one game."""
 
     place: Setting
     coverage: Coverage
     report: Report | None
     across: str
-    """How the processes differ."""
+    """How processes with different hash seeds differ; empty if they do not."""
     seconds: float
 
     @property
@@ -191,7 +191,7 @@ class _Outcome:
         return FINE if self.report.holds and not self.across else FAILED
 
     def told(self) -> str:
-        """For reading: what went wrong, and what was covered."""
+        """The report for people: what went wrong, and what was covered."""
         known = "\n".join(filter(None, [self._roles(), self._unchecked()]))
         parts = [self._failures(), self.coverage.table(), known, self._summary()]
         return "\n\n".join(filter(None, parts)) + "\n"
@@ -217,7 +217,7 @@ class _Outcome:
         return f"not checked: {'; '.join(told)}"
 
     def _roles(self) -> str:
-        """What was taken for what, and how to say it otherwise."""
+        """Which paths were taken for which roles, and how to change that."""
         paths = self.report.roles.paths if self.report is not None else {}
         if not paths:
             return ""
@@ -232,7 +232,7 @@ class _Outcome:
         return f"{name}: {'holds' if self.code == FINE else 'breaks'}, {took}"
 
     def facts(self) -> dict[str, Any]:
-        """For machines."""
+        """The report as a JSON object."""
         report = self.report
         facts: dict[str, Any] = {
             "game": self.place.game.name,
@@ -300,10 +300,10 @@ def _outcome(
 
 
 class _Progress:
-    """Keeps what was covered so far, and tells a terminal how far it has come.
+    """Keeps what was covered so far, and shows progress at a terminal.
 
-    Ctrl-C takes effect between two dialogues: an interrupt that comes while something
-    is let go of would be lost. A second one takes effect at once.
+    Ctrl-C takes effect between two dialogues: an interrupt during the destruction of an
+    object would be lost. A second one takes effect at once.
     """
 
     def __init__(self, game: Game, total: int) -> None:
@@ -331,11 +331,11 @@ class _Progress:
 
     @property
     def seconds(self) -> float:
-        """How long it has been."""
+        """The seconds since it began."""
         return monotonic() - self._began
 
     def see(self, coverage: Coverage) -> None:
-        """Takes note of what was covered after one more dialogue."""
+        """Notes what is covered after one more dialogue."""
         self.coverage = coverage
         if self._stops:
             raise KeyboardInterrupt

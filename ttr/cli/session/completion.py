@@ -1,4 +1,4 @@
-"""Completion of what is being typed into a session: names, words, commands, files."""
+"""Completion in a session: names, keywords, commands and files."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["completions"]
 
 
 def completions(session: Session, before: str) -> list[str]:
-    """The ways to go on with the word at the end of a text, as whole words.
+    """The completions of the word at the end of a text, as whole words.
 
     >>> completions(Session(), ":la"), completions(Session(), "ba")
     (['latex'], ['basic'])
@@ -44,7 +44,7 @@ def _starting_with(start: str, words: Iterable[str]) -> list[str]:
 
 
 def _labels(session: Session) -> Iterator[str]:
-    """The labels of the types and records that have a name."""
+    """The labels of all named types and records."""
     for value in occurring(session.theory.definitions.values()):
         if isinstance(value, RecordType | Record):
             yield from value
@@ -56,7 +56,7 @@ def _names_before_signs(text: str) -> list[str]:
 
 
 def _files(start: str) -> list[str]:
-    """The folders and theories whose path begins so, but for what stands already."""
+    """The folders and theory files whose path begins so, from the last folder on."""
     folder, _, name = start.rpartition("/")
     place = Path(f"{folder}/" if "/" in start else ".").expanduser()
     try:

@@ -1,4 +1,4 @@
-"""`ttr repl`: what is typed, and what is said to it.
+"""`ttr repl`: the reply to each input, and the commands after a colon.
 
 `respond` is a function from a session and an input to a reply; the loop that reads
 lines and prints is in `ttr.cli.session.terminal`.
@@ -28,7 +28,7 @@ __all__ = ["COMMANDS", "Pending", "is_complete", "respond"]
 def respond(session: Session, text: str) -> Reply:
     """The reply to an input, and the session after it.
 
-    A mistake is a reply too, and leaves the session as it was.
+    A mistake is a reply, too, and leaves the session as it was.
 
     >>> session = respond(Session(), "basic Ind").session
     >>> print(respond(session, "[x : Idn]").text)
@@ -50,13 +50,13 @@ def respond(session: Session, text: str) -> Reply:
 
 
 _WITHOUT_COLON = ("exit", "quit", "help", "?")
-"""What other programs take for a command."""
+"""Words that are commands in other programs."""
 
 _COMMANDS_ARE = ":help lists the commands, :quit ends"
 
 
 def _says_something(text: str) -> bool:
-    """Whether there is more than comments."""
+    """Is there anything but comments?"""
     return any(line.strip()[:1] not in ("", "#") for line in text.splitlines())
 
 
@@ -79,10 +79,10 @@ _PROMISES = re.compile(r"\s*(rule|game)\s+\w+\s*\(")
 
 @dataclass(frozen=True)
 class Pending:
-    """How an input stands after some of its lines, so that each is looked at once.
+    """The state of an input after some of its lines, so that each is scanned once.
 
-    `depth` is how many brackets are open, `last` the kind of the last sign. What
-    `is_promised` is a rule or a game before its :=.
+    `depth` is the number of open brackets, `last` the kind of the last sign;
+    `is_promised` holds of a rule or a game before its `:=`.
     """
 
     depth: int = 0
@@ -91,7 +91,7 @@ class Pending:
     is_promised: bool = False
 
     def after(self, line: str) -> Pending:
-        """How it stands after a line more."""
+        """The state after one more line."""
         depth, last = self.depth, self.last
         is_promised = self.is_promised or (not last and bool(_PROMISES.match(line)))
         for found in _SIGNS.finditer(line):
@@ -105,13 +105,13 @@ class Pending:
 
     @property
     def is_complete(self) -> bool:
-        """Whether the input ends here."""
+        """Does the input end here?"""
         waits = self.last == "operator" and not self.is_command
         return self.depth <= 0 and not waits and not self.is_promised
 
 
 def is_complete(text: str) -> bool:
-    r"""Whether an input ends here: no bracket is open, and no operator stands last.
+    r"""Does an input end here? No bracket is open, and no operator stands last.
 
     >>> [is_complete(t) for t in ("Ind", "[x : Ind,", "Dog :=", r"\x:Ind.", ")")]
     [True, False, False, False, True]
@@ -171,7 +171,7 @@ def _names(session: Session, _: str) -> Reply:
 
 
 def _names_by_kind(theory: Theory) -> Iterator[str]:
-    """The names, by what they are declared as."""
+    """A line for each kind of declaration, with the names."""
     arities = [one for pred in theory.predicates.values() for one in _arities(pred)]
     kinds = {
         "basic": theory.basics,
@@ -235,12 +235,12 @@ _TYPED = (
     ("r(s, e), g(e)", "the state that a rule gives; the turns of a game"),
     ("create(T)", "make a witness and keep it; witnesses(T) lists the known ones"),
 )
-"""What is no command, with what it does."""
+"""Inputs that are no commands, and what they do."""
 
 
 @dataclass(frozen=True)
 class Command:
-    """What a word after a colon does; `takes` is its argument, in brackets if free."""
+    """A command after a colon; `takes` is its argument, in brackets if optional."""
 
     run: Callable[[Session, str], Reply]
     takes: str
@@ -258,4 +258,4 @@ COMMANDS: Mapping[str, Command] = {
     "help": Command(_help, "", "show these lines"),
     "quit": Command(_quit, "", "end; so does Ctrl-D"),
 }
-"""The commands by their words."""
+"""The commands, by the words that call them."""

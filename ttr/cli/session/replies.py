@@ -1,4 +1,4 @@
-"""What is typed into a session: a statement, a question or a term, and the reply."""
+"""Replies to what is typed into a session: statements, questions and terms."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ __all__ = ["ASKED", "Reply", "answer", "list_changes", "evaluate_term"]
 _MERGES = {"merge": merge, "amerge": amerge}
 
 ASKED = (*_MERGES, "create", "wellformed", "witnesses", "P")
-"""What is asked of types and written like an application."""
+"""Words for questions about types, written like an application."""
 
 _CHECK = "check "
 
 
 @dataclass(frozen=True)
 class Reply:
-    """What is said, and the session after it."""
+    """The text of a reply, and the session after it."""
 
     session: Session
     text: str = ""
@@ -65,12 +65,12 @@ def answer(session: Session, text: str) -> Reply:
 
 @within_budget
 def evaluate_term(session: Session, text: str) -> Object:
-    """The type or object a text stands for, with its applications worked out."""
+    """The type or object that a text stands for, with its applications computed."""
     return session.model.reduced(read_term(text, session.theory, INPUT))
 
 
 def list_changes(names: Iterable[str]) -> str:
-    """What is said where names mean something else from now on."""
+    """The line that names have changed their meaning; empty without names."""
     listed = ", ".join(sorted(names))
     return f"changed: {listed}" if listed else ""
 
@@ -92,9 +92,9 @@ def _declare(session: Session, tree: Statement, source: Source) -> Reply:
 
 
 def _answer_question(session: Session, source: Source, mistake: NotationError) -> Reply:
-    """The reply to what is no statement, for which the mistake says why.
+    """The reply to a text that is no statement, as the mistake says.
 
-    The grammar knows questions as checks, so it is read as one.
+    The grammar knows questions as checks, so the text is read as a check.
     """
     asked = Source(_CHECK + source.text, source.name)
     try:
@@ -112,9 +112,9 @@ def _answer_question(session: Session, source: Source, mistake: NotationError) -
 def _with_definition_hint(
     error: TTRError, tree: Statement, source: Source, mistake: NotationError
 ) -> TTRError:
-    """The error; of an unknown name before = the hint is how names are defined.
+    """The error; for an unknown name before `=`, with a hint how to define names.
 
-    `mistake` says why what was typed is no definition.
+    `mistake` says why the text is no definition.
     """
     match tree:
         case trees.Question(
@@ -127,7 +127,7 @@ def _with_definition_hint(
 
 
 def _without_prefix(error: TTRError) -> TTRError:
-    """The error where it is in the text without the word before it."""
+    """The error with its place in the text as typed, without the word `check`."""
     span = error.span
     if span is None or span.source != INPUT or span.line > 1:
         return error
@@ -139,7 +139,7 @@ def _without_prefix(error: TTRError) -> TTRError:
 
 
 def _without_check_hint(error: TTRError) -> TTRError:
-    """The error without a hint at the word, which nobody wrote."""
+    """The error without a hint about the word `check`, which nobody typed."""
     hint = "" if _CHECK.strip() in error.hint else error.hint
     return type(error)(error.message, span=error.span, hint=hint)
 
@@ -147,7 +147,7 @@ def _without_check_hint(error: TTRError) -> TTRError:
 def _furthest(statement: TTRError, question: TTRError) -> TTRError:
     """Of two ways to read a text, the mistake of the one that came further.
 
-    Where both came as far it is the one that knows a way out.
+    Where both came equally far, it is the one with a hint.
     """
     return max(question, statement, key=lambda one: (_position(one), bool(one.hint)))
 
@@ -207,7 +207,7 @@ def _judge(session: Session, sit: Object, T: TypeNode) -> Reply:
 def _answer_probability(
     session: Session, asked: trees.Probability, reader: Reader
 ) -> Reply:
-    """p(a : T | b : S), with what it is reckoned from."""
+    """p(a : T | b : S), and what it is computed from."""
     model = session.model
     sit, T = reader.object(asked.sit, ()), reader.type(asked.type, ())
     when = [(reader.object(one, ()), reader.type(S, ())) for one, S in asked.when]
@@ -231,13 +231,13 @@ def _answer_expectation(
 
 
 def _verdict(p: Degree) -> str:
-    """The answer in a word, or the degree."""
+    """The answer in one word, or the degree."""
     words = {CERTAIN: "yes", REFUTED: "no", UNKNOWN: "unknown"}
     return words.get(p, f"p = {p}")
 
 
 def _deciding_step(why: Why) -> str:
-    """The step of a derivation that decides, on one line."""
+    """The step that decides a derivation, on one line."""
     step = why.failure() or why
     said = step.because
     if step is why:
@@ -291,12 +291,12 @@ def _is_rule_or_game(session: Session, name: str) -> bool:
 
 
 def _declaration_of(session: Session, name: str) -> str:
-    """The rule, strategy or game, with the names of what is defined."""
+    """The declaration of a rule, strategy or game; defined types by name."""
     return declaration(session.theory, name, folding(session.theory, 0))
 
 
 def _play_game(session: Session, name: str, events: list[Object]) -> Reply:
-    """The turns of a game from its start: one for each event, or one without any."""
+    """The turns of a game from its start: one for each event, or one empty turn."""
     game = session.theory.games[name]
     turns = game.play([session.model.reduced(event) for event in events] or [None])
     state = notation(turns[-1].state)

@@ -1,7 +1,7 @@
 """A session: a theory that grows statement by statement, and the model of its facts.
 
-A session is a value. What is entered gives another session, and a mistake gives none.
-Unlike in a file, a name may be declared again: what rests on it then follows it.
+A session is a value. Each statement gives another session; a mistake gives none. Unlike
+in a file, a name may be declared again: what rests on it then changes with it.
 """
 
 from __future__ import annotations
@@ -55,17 +55,17 @@ __all__ = [
 ]
 
 INPUT = "<input>"
-"""What a line that was typed is called where a mistake in it is shown."""
+"""The source that is named where a mistake in a typed line is shown."""
 
 LastAnswer: TypeAlias = Object | Judgement | Answer | None
-"""What was answered last: a value, a judgement or an answer about types."""
+"""The last answer: a value, a judgement or an answer about types."""
 
 
 @dataclass(frozen=True)
 class Entry:
     """A statement of a session: the names that it declares, and those it rests on.
 
-    `kinds` are those of the rules in it, as `rests_on` has those that are gathered.
+    `kinds` are the kinds of its rules; `rests_on` has the kinds it gathers, too.
     """
 
     text: str
@@ -78,9 +78,9 @@ class Entry:
 class Session:
     """What was entered so far: `theory` and `model` are what the entries come to.
 
-    `last` is what was answered last, `before` the session before the last change, and
-    `over` says that nothing more is to be asked. By `consent`, files may import from
-    the folders of those that the user has named.
+    `last` is the last answer, `before` the session before the last change, and `over`
+    is true when the user is done. By `consent`, files may import from the folders of
+    files that the user has named.
     """
 
     entries: tuple[Entry, ...] = ()
@@ -92,7 +92,7 @@ class Session:
     consent: Consent = OWN_FOLDER
 
     def naming(self, path: Path) -> Session:
-        """The session in which the user has named this file."""
+        """The session after the user has named this file."""
         return replace(self, consent=self.consent.adding(path.parent))
 
 
@@ -103,10 +103,10 @@ class Session:
 def declare(
     session: Session, tree: Statement, source: Source
 ) -> tuple[Session, frozenset[str]]:
-    """The session with a statement more, and the names that changed with it.
+    """The session with one more statement, and the names that changed with it.
 
-    Raises `TTRError` for a mistake in it, a fact that contradicts others, or where what
-    rests on a name has no use for its new meaning.
+    Raises `TTRError` for a mistake in it, for a fact that contradicts others, and where
+    what rests on a name does not fit its new meaning.
 
     >>> kennel, _ = declare(Session(), *_read("basic Ind"))
     >>> kennel, _ = declare(kennel, *_read("Pair := [a : Ind, b : Ind]"))
@@ -129,7 +129,7 @@ def declare(
 
 
 def _is_repetition(session: Session, entry: Entry, tree: Statement) -> bool:
-    """Is a statement in the session that the new one would only say once more?
+    """Does the session have this very statement already?
 
     A question is asked again. A fact or a chance may have another degree by now.
     """
@@ -141,7 +141,7 @@ def _is_repetition(session: Session, entry: Entry, tree: Statement) -> bool:
 def _theory_with(
     theory: Theory, entries: Iterable[Entry], tree: Statement, source: Source
 ) -> Theory:
-    """The theory of the entries with a statement more."""
+    """The theory of the entries with one more statement."""
     draft = Draft.of(theory)
     draft.used.update(*(one.rests_on for one in entries))
     Declaring(draft, source).declare(tree)
@@ -176,24 +176,24 @@ def _kinds_of(tree: Statement) -> frozenset[str]:
 
 
 def _kind_marks(kinds: Iterable[str]) -> frozenset[str]:
-    """The kinds of rules as what is rested on: written so that they are no names."""
+    """Kinds of rules as they stand in `rests_on`: written so that they are no names."""
     return frozenset(f"of {kind}" for kind in kinds)
 
 
 def _is_gathered(session: Session, entry: Entry) -> bool:
-    """Whether a strategy gathers the rules of a kind, and the entry is one more."""
+    """Does a strategy gather the rules of a kind, of which the entry is one more?"""
     return any(entry.kinds & one.rests_on for one in session.entries)
 
 
 def _indent(text: str) -> str:
-    """The text with its further lines set in, as they are in a file."""
+    """The text with its further lines indented, as in a file."""
     first, *rest = text.split("\n")
     inner = (line if line[:1].isspace() else f"    {line}" for line in rest)
     return "\n".join((first, *inner))
 
 
 def _declared_names(tree: Statement) -> frozenset[str]:
-    """The names that a statement declares, or may declare as it goes."""
+    """The names that a statement declares, or may declare in passing."""
     match tree:
         case trees.BasicNames(_, _, words) | trees.ObjectNames(_, _, words):
             return frozenset(word.text for word in words)
@@ -212,7 +212,7 @@ def _declared_names(tree: Statement) -> frozenset[str]:
 
 
 def _extend(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Session:
-    """The session in which these entries have come to this theory."""
+    """The session with these entries and the theory that they make."""
     old = session.theory
     if _entailment_rules(theory) != _entailment_rules(old):
         return _rebuild(session, entries, theory)
@@ -222,7 +222,7 @@ def _extend(session: Session, entries: tuple[Entry, ...], theory: Theory) -> Ses
 
 
 def _entailment_rules(theory: Theory) -> tuple[object, ...]:
-    """What judgements that were told before may have to be looked at again for."""
+    """The parts of a theory after whose change earlier facts are judged again."""
     return theory.axioms, theory.exclusions, theory.opened
 
 
@@ -253,7 +253,7 @@ def _union(names: Iterable[frozenset[str]]) -> frozenset[str]:
 def _redefined_names(theory: Theory, tree: Statement) -> frozenset[str]:
     """The names that a statement gives another meaning.
 
-    A fact does not, nor does what makes a basic type of one, or an object of one.
+    A fact gives none, nor does declaring a basic type or an object once more.
     """
     known = theory.names & _declared_names(tree)
     match tree:
@@ -269,7 +269,7 @@ def _redefined_names(theory: Theory, tree: Statement) -> frozenset[str]:
 def _redeclare(
     session: Session, entry: Entry, tree: Statement, source: Source
 ) -> tuple[Session, frozenset[str]]:
-    """The session with the entry for those that declared its names before."""
+    """The session with the entry in place of those that declared its names."""
     names = entry.declares
     ahead, behind = _split_entries(session.entries, names, entry.kinds)
     try:
@@ -299,7 +299,7 @@ def _replace_entries(
     new: Sequence[Entry],
     behind: Sequence[Entry],
 ) -> tuple[Session, frozenset[str]]:
-    """The session of these entries, and the names that changed with the new ones.
+    """The session of these entries, and the names that the new ones change.
 
     Raises `TTRError` where one of those behind does not fit with the new ones.
     """
@@ -326,9 +326,9 @@ def _split_entries(
     names: frozenset[str],
     kinds: frozenset[str] = frozenset(),
 ) -> tuple[list[Entry], list[Entry]]:
-    """The entries but for those that declare the names, in two parts.
+    """The entries without declarations of the names, in two parts.
 
-    First those that do not rest on the names and the kinds, then those that do, each in
+    First those that do not rest on the names and the kinds, then those that do, both in
     their order.
     """
     ahead: list[Entry] = []
@@ -346,7 +346,7 @@ def _split_entries(
 
 
 def _without(entry: Entry, names: frozenset[str]) -> tuple[Entry, ...]:
-    """The entry without its declarations of the names: none if nothing is left."""
+    """The entry without its declarations of the names; empty if nothing is left."""
     if not entry.declares & names:
         return (entry,)
     tree, source = _read(entry.text)
@@ -377,7 +377,7 @@ def _without(entry: Entry, names: frozenset[str]) -> tuple[Entry, ...]:
 
 
 def _shortened(keyword: str, left: Sequence[trees.Part], source: Source) -> str:
-    """The declaration of the parts that are left, or nothing if none is."""
+    """The declaration of the parts that are left; empty without any."""
     written = ", ".join(_text_of(source, part) for part in left)
     return f"{keyword} {written}" if written else ""
 
@@ -400,9 +400,9 @@ def _read(text: str) -> tuple[Statement, Source]:
 
 @within_budget
 def create_witness(session: Session, T: TypeNode) -> tuple[Session, Object]:
-    """The session with the facts of a fresh witness of T, and the witness.
+    """The session with the facts of a new witness of T, and the witness.
 
-    Raises `Refused` where there can be none.
+    Raises `Refused` where there can be no witness.
     """
     witness, model = session.model.create(T)
     for sit, kind, p in _atoms(model.judge(witness, T).why, CERTAIN):
@@ -414,9 +414,9 @@ def create_witness(session: Session, T: TypeNode) -> tuple[Session, Object]:
 
 
 def _atoms(why: Why, p: Degree) -> Iterable[tuple[Object, TypeNode, Degree]]:
-    """The judgements of basic types and ptypes that a derivation of degree p rests on.
+    """The judgements of basic types and ptypes on which a derivation of degree p rests.
 
-    Under a negation they are those that are refuted.
+    Under a negation, these are the refuted ones.
     """
     if why.p != p:
         return
@@ -428,7 +428,7 @@ def _atoms(why: Why, p: Degree) -> Iterable[tuple[Object, TypeNode, Degree]]:
 
 
 def _fact_statement(theory: Theory, sit: Object, T: TypeNode, p: Degree) -> str:
-    """A statement of the fact; names of objects that mean something else are quoted."""
+    """The statement of a fact; objects whose names mean something else are quoted."""
     meant = theory.names - theory.objects
     named = (part for part in occurring([T]) if isinstance(part, str))
     unheard = [name for name in named if name not in theory.objects]
@@ -466,11 +466,10 @@ def _entries_of_file(path: Path, consent: Consent) -> Iterator[Entry]:
 
 
 def save_file(session: Session, path: Path) -> None:
-    """Writes the statements into a file that loads again, imports too.
+    """Writes the statements, imports too, into a file that can be loaded again.
 
-    In another session, imports from other folders have to be allowed.
-
-    Raises `TTRError` where the file cannot be written.
+    In another session, imports from other folders must be allowed again. Raises
+    `TTRError` where the file cannot be written.
     """
     try:
         folder = Path(os.path.realpath(path)).parent
@@ -483,7 +482,7 @@ def save_file(session: Session, path: Path) -> None:
 
 
 def _with_relative_import(text: str, folder: Path) -> str:
-    """The statement, an import as one that is relative to the folder."""
+    """The statement; an import is written relative to the folder."""
     if not text.startswith("import"):
         return text
     tree, _ = _read(text)

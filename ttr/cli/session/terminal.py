@@ -1,4 +1,4 @@
-"""A session at a terminal or through a pipe: reading lines, printing the replies."""
+"""A session at a terminal or through a pipe: read lines, print the replies."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ LINES = 2000
 """How many lines the history keeps."""
 
 _BREAKS = " \t\n()[]{}<>,;:=@&|+~\\/\"'.→∧∨¬⊑λ^"
-"""What a word to be completed does not hold."""
+"""The characters at which a word to be completed begins anew."""
 
 
 def talk(session: Session, say: Say, ask: Ask) -> None:
-    """Answers what is typed until it is enough: prompts only where someone types.
+    """Answers inputs until the session is over; prompts only at a terminal.
 
-    `say` prints a text, and `ask` a prompt, after which it gives the line typed.
+    `say` prints a text; `ask` prints a prompt and gives the line that is typed.
     """
     if sys.stdin.isatty() and sys.stdout.isatty():
         _talk_at_terminal(session, say, ask)
@@ -54,26 +54,26 @@ def _talk_through_pipe(session: Session, say: Say) -> None:
 
 
 class _Desk:
-    """What is on the desk: the session, and the lines of an input not yet whole."""
+    """The session, and the lines of an input that is not yet complete."""
 
     def __init__(self, session: Session, say: Say) -> None:
         self.session, self._say = session, say
         self.clear()
 
     def clear(self) -> None:
-        """Takes the lines away that wait for more."""
+        """Drops the lines of an incomplete input."""
         self.waiting: list[str] = []
         self._characters = 0
         self._pending = Pending()
 
     def take(self, typed: str) -> None:
-        """Goes on with what was typed; what was pasted may have several lines."""
+        """Takes an input line; pasted text may have several."""
         for line in typed.split("\n"):
             if not self.session.over:
                 self._take_line(line)
 
     def _take_line(self, line: str) -> None:
-        """Goes on with a line; an empty one ends an input that is not whole."""
+        """Takes one line; an empty one ends an incomplete input."""
         self.waiting.append(line)
         self._characters += len(line)
         if self._characters > LINE.allowed:
@@ -89,7 +89,7 @@ class _Desk:
             self._say(reply.text)
 
     def completions(self, line: str) -> list[str]:
-        """The ways to go on with the word at the end of the line."""
+        """The completions of the word at the end of the line."""
         return completions(self.session, "\n".join((*self.waiting, line)))
 
 
@@ -113,7 +113,7 @@ def _talk_at_terminal(session: Session, say: Say, ask: Ask) -> None:
 
 @contextmanager
 def _line_editing(desk: _Desk) -> Iterator[None]:
-    """History and completion, where Python has readline: some systems leave it out."""
+    """History and completion, where Python has readline; some systems lack it."""
     try:
         import readline
     except ImportError:
@@ -143,5 +143,5 @@ def _line_editing(desk: _Desk) -> Iterator[None]:
 
 
 def _history_file() -> Path:
-    """The file of the lines typed, where desktops keep such things."""
+    """The file that keeps the lines typed."""
     return state_folder("ttr") / "history"

@@ -1,7 +1,8 @@
-"""Logs of dialogues: every turn in a line of JSON, to be read, replayed, gone on with.
+"""Logs of dialogues: every turn is a line of JSON, to be read, replayed and continued.
 
-`LogFile` writes one, `read_logs` reads it, `replay` plays its events again and says
-where anything differs, `continue_log` takes the dialogue up, `story_of` makes a story.
+`LogFile` writes a log turn by turn, `write_log` that of whole dialogues; `read_logs`
+reads it, `replay` plays its events again and says where anything differs,
+`continue_log` takes the dialogue up, and `story_of` makes a story of it.
 """
 
 from typing import TYPE_CHECKING

@@ -1,7 +1,7 @@
-"""The lines of a log: a dialogue begins with a header, and has an entry for each turn.
+"""The lines of a log: a dialogue has a header, then an entry for each turn.
 
-Each line is an object of JSON. Values are written in the notation; every name in them
-is declared in the line where it is first used, or in one before it.
+Each line is a JSON object. Values are written in the notation; every name in them is
+declared in the line where it is first used, or before.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class LogError(TTRError):
 
 
 class Fault(Exception):
-    """What is wrong with a line, without its place."""
+    """What is wrong with a line; the reader adds the place."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ def _json_line(facts: Mapping[str, Any]) -> str:
 
 
 def read_header(facts: object) -> Header | None:
-    """The header that a line is, None if it is none; raises `Fault`."""
+    """The header in a line, or None if it holds none; raises `Fault`."""
     if not isinstance(facts, dict) or "log" not in facts:
         return None
     if facts["log"] != FORMAT:
@@ -108,7 +108,7 @@ def read_header(facts: object) -> Header | None:
 
 
 def read_entry(facts: object) -> Entry:
-    """The turn that a line is; raises `Fault`."""
+    """The turn in a line; raises `Fault`."""
     if not isinstance(facts, dict):
         raise Fault("no turn of a log")
     return Entry(

@@ -1,4 +1,4 @@
-"""What a turn adds to the model, so that a dialogue can be taken up from its log."""
+"""The facts that a turn adds to the model, so that a log can be continued."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Fact:
 
 
 def new_facts(before: Model, after: Model) -> tuple[Fact, ...]:
-    """The facts that a model has and an earlier one has not, in the order told."""
+    """The facts of a model that an earlier one lacks, in the order of their coming."""
     new: list[tuple[int, Fact]] = []
     for key, facts in after.facts.known.items():
         known = before.facts.known.get(key, _NONE)
@@ -41,7 +41,7 @@ def new_facts(before: Model, after: Model) -> tuple[Fact, ...]:
 
 
 def differs_by_facts_only(before: Model, after: Model) -> bool:
-    """Whether a model differs from an earlier one by facts alone.
+    """Does a model differ from an earlier one by facts alone?
 
     Witness functions and conditional probabilities cannot be written down as facts.
     """
@@ -50,7 +50,7 @@ def differs_by_facts_only(before: Model, after: Model) -> bool:
 
 
 def restore_facts(model: Model, facts: Iterable[Fact], names: int) -> Model:
-    """The model with these facts, after it has given out so many names."""
+    """The model with these facts, after it has made up this many names."""
     for fact in facts:
         model = model.given(fact.sit, fact.type, fact.p)
     return Model.of(replace(model.facts, created=names))

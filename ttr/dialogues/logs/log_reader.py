@@ -1,4 +1,4 @@
-"""Reading logs, up to the last whole turn."""
+"""Reading logs, up to the last complete turn."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ __all__ = ["Log", "UnreadableLog", "read_logs"]
 
 
 class UnreadableLog(LogError):
-    """A log that is not there, or that may not be read; it may well be a good one."""
+    """A log that cannot be read at all: it is missing, or may not be opened."""
 
 
 @dataclass(frozen=True)
 class Log:
     """A dialogue in a log: its header and turns, and where they are.
 
-    `number` is the line of the header. `cut` says that the turn after the last one is
-    there in part only, as where a process was killed; it is empty otherwise.
+    `number` is the line of the header. `cut` says where the log is cut off in the
+    middle of a turn, as when a process was killed; it is empty otherwise.
     """
 
     file: str
@@ -44,7 +44,7 @@ class Log:
 
     @cached_property
     def declared(self) -> Declarations:
-        """The names that are used in it; raises `LogError`."""
+        """The declarations of all names in the log; raises `LogError`."""
         lines: list[Header | Entry] = [self.header, *self.entries]
         statements = [text for line in lines for text in line.declares]
         objects = [name for line in lines for name in line.objects]
@@ -68,11 +68,10 @@ class Log:
 
 
 def read_logs(path: Path) -> tuple[Log, ...]:
-    """The dialogues in a file. Raises `LogError` for a line that has been damaged.
+    """The dialogues in a file; a last line that is cut off is left out.
 
-    Of these, `UnreadableLog` is for a file that cannot be read at all.
-
-    The last line may be cut off: what is before it is given.
+    Raises `LogError` for a damaged line, and `UnreadableLog` for a file that cannot be
+    read at all.
     """
     try:
         text = read_bytes(path, LOG)

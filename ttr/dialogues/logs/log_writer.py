@@ -1,4 +1,4 @@
-"""Writing a log: a line for each turn, which is there in full or not at all."""
+"""Writing a log: a line for each turn, written in full or not at all."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ __all__ = ["LogFile", "write_log"]
 
 @dataclass(frozen=True)
 class _Progress:
-    """Where a dialogue that is logged has got to."""
+    """How far a dialogue that is being logged has come."""
 
     setting: Setting
     turn: int
@@ -38,8 +38,8 @@ class _Progress:
 class LogFile:
     """A log that is written turn by turn; it is its own context manager.
 
-    A turn is handed to the system in one piece as soon as it is over, so that a process
-    that is killed leaves whole turns, and at most the beginning of one more.
+    A turn is written in one piece as soon as it is over, so that a process that is
+    killed leaves complete turns, and at most the beginning of one more.
 
     >>> import tempfile
     >>> from ttr.dialogues.logs import read_logs
@@ -64,16 +64,16 @@ class LogFile:
     """
 
     def __init__(self, path: Path) -> None:
-        """A new log, which is there as soon as a dialogue begins."""
+        """A new log; its file is made when a dialogue begins."""
         self.path = path
         self._file: FileIO | None = None
         self._now: _Progress | None = None
 
     @classmethod
-    def going_on(
+    def resume(
         cls, path: Path, setting: Setting, turn: int, run: Run, declared: Declarations
     ) -> Self:
-        """Goes on with a log whose last dialogue has come so far."""
+        """Continues a log after the given turn of its last dialogue."""
         log = cls.__new__(cls)
         log.path = path
         with _as_log_error(path):
@@ -87,7 +87,7 @@ class LogFile:
     def begin(
         self, setting: Setting, title: str = "", start: Run | None = None
     ) -> None:
-        """Begins a dialogue, at the start of the game if nothing else is said.
+        """Begins a dialogue, by default at the start of the game.
 
         Raises `LogError` where the log cannot be written.
         """
@@ -108,7 +108,7 @@ class LogFile:
         self._now = _Progress(setting, 0, run.model, declared)
 
     def write(self, turn: Turn | Trial) -> None:
-        """Adds a turn; raises `LogError` for an event that no text stands for.
+        """Adds a turn; raises `LogError` for an event without a notation.
 
         A trial that the game did not take has no turn, and is left out.
         """
@@ -131,7 +131,7 @@ class LogFile:
                 waiting = waiting[self._file.write(waiting) :]
 
     def close(self) -> None:
-        """Lets go of the file."""
+        """Closes the file."""
         if self._file is not None:
             self._file.close()
 
@@ -236,7 +236,7 @@ def _declare(
 
 
 def _values_of(turn: Turn, facts: tuple[Fact, ...]) -> Iterator[object]:
-    """What has to be read back from the entry."""
+    """The values that must be readable from the entry."""
     yield turn.state
     yield from _events(turn.event)
     yield from (move.type for move in turn.said)

@@ -1,4 +1,4 @@
-"""The names that a log uses, declared in it, so that it can be read by itself."""
+"""Declarations of the names in a log, so that it can be read without its game."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["Declarations"]
 
 @dataclass(frozen=True)
 class Declarations:
-    """What was declared so far: statements of the notation, and names of objects."""
+    """What a log has declared: statements of the notation, and names of objects."""
 
     statements: tuple[str, ...] = ()
     objects: frozenset[str] = frozenset()
@@ -27,7 +27,7 @@ class Declarations:
     def together_with(
         self, statements: Iterable[str], objects: Iterable[str]
     ) -> Declarations:
-        """What is declared with these in addition; raises `TTRError`."""
+        """These declarations and more; raises `TTRError`."""
         more = tuple(statements)
         everything = (*self.statements, *more)
         theory = _theory("\n".join(everything)) if more else self.theory
@@ -35,7 +35,7 @@ class Declarations:
         return Declarations(everything, names, replace(theory, objects=names))
 
     def missing(self, values: Iterable[object]) -> tuple[list[str], list[str]]:
-        """The statements and names of objects that the values need in addition."""
+        """The further statements and names of objects that these values need."""
         needed = Theory.of(*values)
         known = self.theory
         basics = [name for name in needed.basics if name not in known.basics]
@@ -53,7 +53,7 @@ class Declarations:
         return read_term(text, self.theory, source)
 
     def reads_back(self, value: Object) -> bool:
-        """Whether the value has a notation from which it can be had again."""
+        """Has the value a notation that reads back to the same value?"""
         try:
             again = self.read(notation(value), "<log>")
         except TTRError:
@@ -62,7 +62,7 @@ class Declarations:
 
 
 def _theory(text: str) -> Theory:
-    """The theory of what a log declares, which imports nothing."""
+    """The theory that a log declares, which imports nothing."""
     return theory_of_text(text, "<log>", Consent())
 
 

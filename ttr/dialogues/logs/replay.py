@@ -1,4 +1,4 @@
-"""Replaying a log: the same events again, and whether everything else is the same."""
+"""Replaying a log: the same events again; is everything else the same, too?"""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ __all__ = ["Divergence", "Replayed", "continue_log", "replay", "run_after", "sto
 
 @dataclass(frozen=True)
 class Divergence:
-    """Where a log and its replay differ first: in what, and what there is in each."""
+    """The first difference of a log and its replay: what differs, and both values."""
 
     place: str
     what: str
@@ -58,11 +58,11 @@ class Replayed:
 
 
 def replay(log: Log, setting: Setting, *, from_: int = 0) -> Replayed:
-    """Plays the events of a log again, from the state after a turn of it.
+    """Plays the events of a log again, from the state after one of its turns.
 
-    The state and the facts of that turn are taken from the log, and what comes then is
-    compared. Raises `LogError` for a turn that the log has not, or from which no game
-    can be taken up.
+    The state and the facts of that turn are taken from the log, and all later turns are
+    compared. Raises `LogError` where the log has no such turn, or cannot be taken up
+    there.
     """
     now = start = run_after(log, setting, from_)
     trials: list[Trial] = []
@@ -108,18 +108,18 @@ def run_after(log: Log, setting: Setting, turn: int) -> Run:
 
 
 def continue_log(log: Log, setting: Setting) -> tuple[LogFile, Run]:
-    """A log to be gone on with, and the state and the model that it has come to.
+    """A log file to write on, and the state and the model at the log's end.
 
-    What there is of a turn that was cut off is taken away. Raises `LogError`.
+    The beginning of a turn that was cut off is removed. Raises `LogError`.
     """
     run = run_after(log, setting, len(log.entries))
     turns = len(log.entries)
-    file = LogFile.going_on(Path(log.file), setting, turns, run, log.declared)
+    file = LogFile.resume(Path(log.file), setting, turns, run, log.declared)
     return file, run
 
 
 def story_of(log: Log, setting: Setting, folder: Path | None = None) -> str:
-    """The story that a log tells, to be put into a folder: it plays as it was."""
+    """The text of the story that a log tells, as a file in a folder would have it."""
     if folder is not None:
         reference = setting.reference_from(folder)
         setting = replace(setting, reference=reference, folder=folder)
@@ -156,7 +156,7 @@ def _replay_turn(
 def _differences(
     log: Log, entry: Entry, now: Run, turn: Turn
 ) -> Iterator[tuple[str, str, str]]:
-    """What is different, as it is in the log and as it was found."""
+    """The differences in a turn: in what, as logged, and as found."""
     rules = [one["rule"] for one in entry.rules]
     ran = [step.rule.name for step in turn.trace]
     if rules != ran:
@@ -185,7 +185,7 @@ def _differences(
 def _step_differences(
     one: Mapping[str, Any], step: Step
 ) -> Iterator[tuple[str, str, str]]:
-    """What is different in what a rule did."""
+    """The differences in what a rule did."""
     name = step.rule.name
     event = "" if step.event is None else notation(step.event)
     if one["event"] != event:

@@ -1,4 +1,4 @@
-"""What became of stories, as a report in the format of JUnit, which CI systems read."""
+"""Results of stories: a line for people, JSON, or a JUnit report for CI systems."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ __all__ = ["Outcome", "facts", "junit", "summary"]
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a story: where it differs, or why it could not be played.
+    """The result of a story: where it differs, or why it could not be played.
 
-    With neither, it went as it is written.
+    With neither, it went as written.
     """
 
     file: str
@@ -30,17 +30,17 @@ class Outcome:
 
     @property
     def as_written(self) -> bool:
-        """Whether the story was played, and nothing differed."""
+        """Was the story played, and did nothing differ?"""
         return self.mismatch is None and self.error is None
 
     def __str__(self) -> str:
-        """What there is to say of it; empty where it went as written."""
+        """Where it differs or what is wrong; empty where it went as written."""
         told = self.mismatch or self.error
         return "" if told is None else str(told)
 
 
 def summary(file: str, outcomes: Sequence[Outcome]) -> str:
-    """A line on the stories of a file."""
+    """A line on the results of the stories of a file."""
     count = len(outcomes)
     told = f"{count} {'story' if count == 1 else 'stories'}"
     wrong = sum(not one.as_written for one in outcomes)
@@ -50,7 +50,7 @@ def summary(file: str, outcomes: Sequence[Outcome]) -> str:
 
 
 def facts(one: Outcome) -> dict[str, Any]:
-    """The same for machines, as an object of JSON."""
+    """The result of a story for machines, as a JSON object."""
     told: dict[str, Any] = {"file": one.file, "title": one.title, "difference": None}
     if one.error is not None:
         return {**told, "error": str(one.error)}

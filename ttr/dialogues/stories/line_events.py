@@ -1,4 +1,4 @@
-"""What the lines of a story stand for: values, and the events that they make happen."""
+"""What the lines of a story stand for: values and events."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ __all__ = [
 ]
 
 _Read = Callable[[Line, str, int], object]
-"""What a part of a line makes happen, which begins so far into its text."""
+"""Reads a part of a line, which begins at an index of its text, as an event."""
 
 _VERBS = ("game", "start", "event", "perhaps")
-"""What may stand after `@`."""
+"""The words that may stand after `@`."""
 
 
 def value_of_text(
     setting: Setting, now: Run, line: Line, text: str, begin: int
 ) -> Object:
-    """What a part of a line stands for, which begins so far into its text.
+    """The value of a part of a line, which begins at this index of the line's text.
 
     Raises `StoryError` with the place of the mistake.
     """
@@ -55,7 +55,7 @@ def value_of_text(
 def type_of_text(
     setting: Setting, now: Run, line: Line, text: str, begin: int
 ) -> TypeNode:
-    """The type that a part of a line stands for; raises `StoryError` for another."""
+    """The type of a part of a line; raises `StoryError` for another value."""
     T = value_of_text(setting, now, line, text, begin)
     if isinstance(T, TypeNode):
         return T
@@ -63,7 +63,7 @@ def type_of_text(
 
 
 def event_of_line(setting: Setting, now: Run, line: Line) -> object:
-    """What a line makes happen, in words if the game hears them; None for nothing."""
+    """The event that a line stands for, in words if the game hears them, or None."""
     hear = setting.game.hear
     in_notation: _Read = partial(value_of_text, setting, now)
     if line.mark == "@":
@@ -93,7 +93,7 @@ def _event_of_statement(line: Line, read: _Read) -> object:
 def _understand(
     hear: Callable[[str], object], line: Line, text: str, begin: int
 ) -> object:
-    """What a game understands of words; None if nothing."""
+    """The event that a game understands words as; None if it does not."""
     try:
         return hear(text)
     except TTRError as error:
@@ -104,9 +104,9 @@ def _understand(
 
 
 def _alternative_events(line: Line, begin: int, read: _Read) -> NBest | None:
-    """The alternatives of a line, each with the number after it.
+    """The alternatives of a line with their probabilities, as one uncertain event.
 
-    Those that are not understood are left out: it may have been something else.
+    Alternatives that the game does not understand are left out.
     """
     found = alternatives(line, begin)
     pairs = [(read(line, it.text, it.begin), it.p) for it in found]
@@ -121,7 +121,7 @@ def _alternative_events(line: Line, begin: int, read: _Read) -> NBest | None:
 
 
 class Alternative(NamedTuple):
-    """What was perhaps said or done: where it begins in its line, and how probable."""
+    """What was perhaps said or done, with its probability and place in the line."""
 
     text: str
     p: float
@@ -129,9 +129,9 @@ class Alternative(NamedTuple):
 
 
 def alternatives(line: Line, begin: int = 0) -> tuple[Alternative, ...]:
-    """The alternatives in a line: texts, each with its probability after it.
+    """The alternatives in a line: texts, each followed by its probability.
 
-    Raises `StoryError` for one without.
+    Raises `StoryError` for one without a probability.
     """
     parts = re.finditer(r"(?:(?!\s\|\s).)+", line.text[begin:])
     return tuple(_read_alternative(line, begin + it.start(), it[0]) for it in parts)

@@ -1,4 +1,4 @@
-"""Where a story and what was played differ, told so that it is seen at once."""
+"""Where a story and what was played differ, shown word by word."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ SILENCE = "silence"
 _EXPECTED, _FOUND = "  expected: ", "     found: "
 
 _WIDTH = 100
-"""How long a line of the trace is at most; logs and transcripts have all of it."""
+"""The longest line of a trace that is shown; logs and transcripts have it all."""
 
 
 @dataclass(frozen=True)
 class Mismatch:
-    """Where a story and the system differ: what the story has, what there was.
+    """A line of a story that differs from what was played: `expected` and `found`.
 
-    `trace` are the rules that ran in the turn before it.
+    `trace` has the rules that ran in the turn before.
     """
 
     line: Line
@@ -32,7 +32,7 @@ class Mismatch:
     trace: tuple[Step, ...] = ()
 
     def __str__(self) -> str:
-        """The place, both texts with the words that differ marked, and the trace."""
+        """The place, both texts with their different words marked, and the trace."""
         expected, found = self._marks()
         lines = [
             self.line.place,
@@ -48,7 +48,7 @@ class Mismatch:
         return "\n".join(lines)
 
     def _marks(self) -> tuple[str, str]:
-        """Carets under what only one side has, if they have a word in common."""
+        """Carets under the words of one side only, if the two share a word."""
         if self.line.mark != "S>" or SILENCE in (self.expected, self.found):
             return "", ""
         mine, others = _words(self.expected), _words(self.found)

@@ -1,4 +1,4 @@
-"""Before the first turn of a story: which game is played, and where it starts."""
+"""Opening a story: which game is played, and where it starts."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ __all__ = ["check_consent", "opening", "setting_of", "turns_of"]
 def setting_of(story: Story, consent: Consent = OWN_FOLDER) -> Setting:
     """The setting that a story names; raises `StoryError` and `NotAllowed`.
 
-    Python that it names is run if it lies in the folder of the story or below, or where
-    there is consent to that.
+    Python that it names runs if it lies in the story's folder or below, or where there
+    is consent.
     """
     check_consent(story, consent)
     if story.game is None:
@@ -43,7 +43,7 @@ def setting_of(story: Story, consent: Consent = OWN_FOLDER) -> Setting:
 
 
 def check_consent(story: Story, consent: Consent) -> None:
-    """Raises `NotAllowed` where a story names what there is no consent to use."""
+    """Raises `NotAllowed` where a story names something without consent."""
     if story.game is None:
         return
     try:
@@ -58,19 +58,19 @@ def check_consent(story: Story, consent: Consent) -> None:
 
 
 def _reference_of(line: Line) -> tuple[str, Path]:
-    """The reference to a game in a line, and the folder from which it is taken."""
+    """The reference to a game in a line, and the folder it is relative to."""
     return line.text.partition(" ")[2].strip(), Path(line.file).parent
 
 
 def _consent_beside(line: Line, consent: Consent) -> Consent:
-    """The consent, and to what lies in the folder of the story."""
+    """The consent, extended to the folder of the story."""
     return consent.adding(Path(line.file).parent)
 
 
 def opening(story: Story, setting: Setting) -> Setting:
-    """The setting, with the start that the story says, if it says one.
+    """The setting with the start of the story, if the story says one.
 
-    Raises `StoryError` for a start that no state of the game can be.
+    Raises `StoryError` for a start that is no state of the game.
     """
     first = story.lines[0]
     if not _says_start(first):
@@ -86,7 +86,7 @@ def opening(story: Story, setting: Setting) -> Setting:
 
 
 def turns_of(story: Story) -> tuple[Line, ...]:
-    """The lines of a story after the one that says where it starts."""
+    """The lines of a story without the one that says where it starts."""
     return story.lines[1:] if _says_start(story.lines[0]) else story.lines
 
 

@@ -1,4 +1,4 @@
-"""Playing a story with a game, and comparing what happens with what is written."""
+"""Playing a story with a game, and comparing what happens with the story."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def play(
 
 
 class _Playing:
-    """A story being played, and what was said that the story has not had."""
+    """A story being played; `_said` has the words that the story has not yet had."""
 
     def __init__(
         self, setting: Setting, echo: Echo, witness: Callable[[Trial], None]
@@ -129,7 +129,7 @@ class _Playing:
         return self._mismatch_at(line, words)
 
     def _fits(self, line: Line, move: Judgement, words: str) -> bool:
-        """Whether a move is as written: to the letter, or roughly."""
+        """Is a move as the line says: to the letter, or roughly?"""
         if self.setting.game.say is not None:
             return words == line.text if line.mark == "S>" else fits(line, words)
         T = type_of_text(self.setting, self._now, line, line.text, 0)
@@ -138,7 +138,7 @@ class _Playing:
         return below and (line.mark == "S~" or subtype(T, move.type, theory).yes)
 
     def _unexpected_words(self, line: Line) -> Mismatch | None:
-        """What the system said more than the story has, before this line."""
+        """The mismatch that the system said more before this line than the story."""
         if not self._said:
             return None
         _, words = self._said[0]
@@ -176,7 +176,7 @@ class _Playing:
 
 
 def fits(line: Line, words: str) -> bool:
-    """Whether words are as the regular expression of a line says.
+    """Do words match the regular expression of a line?
 
     Raises `StoryError` for what is no regular expression.
 

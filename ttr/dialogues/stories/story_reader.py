@@ -4,8 +4,8 @@ A line begins with what it is: `---` a title, `@` something that happens in the 
 a setting, `U>` what is said to the system, `U~` what was perhaps said, with
 probabilities, `S>` what the system says then, to the letter (nothing after it:
 silence), `S~` the same roughly, `=` a judgement that holds of the state, as in
-`= s : [shared : [latest : Learned]]`, `#` a comment. What the system says has to be in
-the story, and in that order.
+`= s : [shared : [latest : Learned]]`, `#` a comment. All that the system says has to be
+in the story, in that order.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ __all__ = ["Line", "Story", "line_of", "read_stories"]
 _MARKS = ("---", "@", "U>", "U~", "S>", "S~", "=")
 
 _OF_THE_FILE = "game"
-"""What is said by an `@` line of the stories after it, too."""
+"""The word of the `@` line that holds for the stories after it, too."""
 
 
 @dataclass(frozen=True)
 class Line:
     """A line of a story: its place, its mark and the text after it.
 
-    `column` is where the text begins in the line as it is `written`.
+    `column` is where the text begins in the line as `written` in the file.
     """
 
     file: str
@@ -49,17 +49,17 @@ class Line:
         return f"{self.file}:{self.number}"
 
     def span(self, start: int, length: int) -> Span:
-        """The place of a part of the text, which begins so far into it."""
+        """The place of a part of the text, which begins at the index `start`."""
         return Span(self.file, self.number, self.column + start, length, self.written)
 
     def wrong(self, message: str) -> StoryError:
-        """The error that there is something wrong with the line."""
+        """The error that says what is wrong with this line."""
         return StoryError(f"{self.place}: {message}")
 
 
 @dataclass(frozen=True)
 class Story:
-    """A titled dialogue; `game` is the line that says what is played, if one does."""
+    """A dialogue with a title; `game` is the line that names its game, if any."""
 
     title: str
     lines: tuple[Line, ...]
@@ -106,16 +106,16 @@ def _lines(path: Path, text: str) -> Iterator[Line]:
 
 
 def _content(text: str) -> str:
-    """The text of a line without the comment at its end; `#2` points and is none.
+    """The text of a line without the comment at its end; `#2` is no comment.
 
-    A `#` that stands alone, but begins no comment, has a backslash before it.
+    A backslash stands before a `#` that stands alone and begins no comment.
     """
     plain = re.split(r"\s#(?:\s|$)", f" {text}", maxsplit=1)[0].strip()
     return re.sub(r"(?<!\S)\\(\\*#)(?!\S)", r"\1", plain)
 
 
 def line_of(text: str) -> str:
-    """What is read as this text, as a line of a story; raises `StoryError`.
+    """The line of a story that is read as this text; raises `StoryError`.
 
     >>> line_of("U> no # comment")
     'U> no \\\\# comment'
