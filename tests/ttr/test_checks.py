@@ -637,7 +637,7 @@ def test_a_label_that_hides_what_it_should_be_set_to():
     assert fault.severity == "warning"
     assert fault.sort == "unbound"
     assert fault.message == "in the rule plan dish is set to itself: dish → dish"
-    assert fault.hint == "call what where binds differently from the label"
+    assert fault.hint == "give what where binds another name than the label"
     assert fault.span.text[fault.span.column - 1 :].startswith("dish = dish : Dish,")
 
 
@@ -1301,6 +1301,18 @@ def test_changes_that_are_written_as_keywords_of_a_dict():
     for one in (called, spread):
         assert messages(one) == [f"the rule {one} replaces s.m, but s has no m"]
     assert messages(open_ended) == []
+
+
+def test_an_effect_that_returns_a_changed_state_by_a_name_always_applies():
+    @rule(when=Board)
+    def changes(s):
+        after = replace(s, n=0)
+        return after
+
+    assert messages(first(changes, ALWAYS)) == [
+        "the rule always can never fire: the rule changes comes first, and applies "
+        "wherever always would"
+    ]
 
 
 def test_an_effect_that_returns_nothing():

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import Basic, Ind, ListOf, Model, NoState, Pred, record, rectype, this
-from ttr.updates.states import check_state, still_of
+from ttr.updates.states import check_state, is_still_of
 
 Number = Basic("Number")
 State = rectype(name=Ind, log=ListOf(Ind), inner=rectype(done=ListOf(Ind), n=Number))
@@ -46,7 +46,7 @@ def changes(draw):
 def test_a_changed_state_is_of_its_type_where_a_judgement_says_so(model, change):
     before, after = change
     expected = model.judge(after, State).holds
-    assert still_of(before, after, State, model) == expected
+    assert is_still_of(before, after, State, model) == expected
 
 
 def test_what_a_witness_function_looks_into_is_judged_again():
@@ -56,7 +56,7 @@ def test_what_a_witness_function_looks_into_is_judged_again():
     state = record(name="a", log=[], inner=record(done=[], n=number))
     check_state(state, State, model, "at first")
     number.append(0)
-    assert not still_of(state, state, State, model)
+    assert not is_still_of(state, state, State, model)
 
 
 def test_fields_that_depend_on_one_another_are_judged_whole():
@@ -65,7 +65,7 @@ def test_fields_that_depend_on_one_another_are_judged_whole():
     model = FACTS.given("s", calm("a"))
     before, after = (record(x=x, c="s") for x in "ab")
     check_state(before, T, model, "at first")
-    assert not still_of(before, after, T, model)
+    assert not is_still_of(before, after, T, model)
 
 
 def test_a_state_that_is_no_record_is_refused():

@@ -4,6 +4,10 @@ A rule has a precondition, a record type, and an effect, a pure function or a ty
 strategy combines rules: `first`, `all_`, `maybe`, `repeat`, `seq`, `by_class`, `ask`.
 `run` plays events through a strategy and checks the state against its declared type
 after every rule; a `Game` is what is needed to play whole dialogues.
+
+Read `rules`, `algorithms`, `running` and `games` first; `matching` finds what a rule
+binds, `effect_application` makes the next state, and `checks` finds faults in rules
+without running them. This room may use `judging` and what is below it.
 """
 
 from ttr.updates.algorithms import (

@@ -1,7 +1,7 @@
-"""Strategies of update, as values: which of several rules, in which order, how often.
+"""Update strategies as values: which of several rules apply, in which order, how often.
 
-Larsson and Traum 2000 leave to an update strategy which rules are applied: the first
-that does, each in turn, class by class, or the one that the developer chooses.
+In Larsson and Traum 2000 an update strategy decides which rules are applied: the first
+that can be, each in turn, class by class, or the one that somebody chooses.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ __all__ = [
     "by_class",
     "first",
     "maybe",
-    "places_of",
+    "rule_occurrences",
     "repeat",
     "replaced",
     "rules_of",
@@ -40,7 +40,7 @@ __all__ = [
 ]
 
 Choose: TypeAlias = Callable[[Sequence[str], Record], int | None]
-"""Picks one of the names, by its index, or None of them."""
+"""Picks one of the names by its index; None to pick none."""
 
 Measure: TypeAlias = str | Callable[[Record], object]
 """The path of a number or list of the state, or a function of the state."""
@@ -53,32 +53,32 @@ class First:
     parts: tuple[Algorithm, ...]
 
     def __str__(self) -> str:
-        return _written("first", self.parts)
+        return _format_call("first", self.parts)
 
     @cached_property
     def sieve(self) -> Sieve:
-        """What leaves out the parts that cannot apply: they need not be tried."""
-        return Sieve(map(_demands, self.parts))
+        """An index of the parts that excludes those that cannot apply to a state."""
+        return Sieve(map(_demands_of_strategy, self.parts))
 
 
 @dataclass(frozen=True)
 class All:
-    """Each of these that applies, in order; it applies where one does."""
+    """Each of these that applies, in order; it applies if any of them does."""
 
     parts: tuple[Algorithm, ...]
 
     def __str__(self) -> str:
-        return _written("all", self.parts)
+        return _format_call("all", self.parts)
 
 
 @dataclass(frozen=True)
 class Seq:
-    """All of these, one after the other; it applies where all do."""
+    """All of these, one after the other; it applies if all of them do."""
 
     parts: tuple[Algorithm, ...]
 
     def __str__(self) -> str:
-        return _written("seq", self.parts)
+        return _format_call("seq", self.parts)
 
 
 @dataclass(frozen=True)
@@ -93,9 +93,9 @@ class Maybe:
 
 @dataclass(frozen=True)
 class Repeat:
-    """This as long as it applies, once at least.
+    """This as long as it applies, at least once.
 
-    It applies at most so many `times`, and each time the `measure` gets smaller.
+    It applies at most so many `times`, and the `measure` becomes smaller each time.
     """
 
     part: Algorithm
@@ -105,20 +105,20 @@ class Repeat:
     def __str__(self) -> str:
         named = self.measure if isinstance(self.measure, str) else None
         bounds = [str(bound) for bound in (self.times, named) if bound is not None]
-        return _written("repeat", (self.part, *bounds))
+        return _format_call("repeat", (self.part, *bounds))
 
 
 @dataclass(frozen=True)
 class ByClass:
-    """Class after class, each rule of it that applies; it applies where one does.
+    """Class after class, each rule that applies; it applies if any rule does.
 
-    The order of the rules within a class is claimed not to matter.
+    The order of the rules within a class is meant not to matter.
     """
 
     classes: tuple[tuple[str, tuple[Rule, ...]], ...]
 
     def __str__(self) -> str:
-        return _written("by_class", [kind for kind, _ in self.classes])
+        return _format_call("by_class", [kind for kind, _ in self.classes])
 
 
 @dataclass(frozen=True)
@@ -129,47 +129,47 @@ class Ask:
     choose: Choose
 
     def __str__(self) -> str:
-        return _written("ask", self.parts)
+        return _format_call("ask", self.parts)
 
 
 Algorithm: TypeAlias = Rule | First | All | Seq | Maybe | Repeat | ByClass | Ask
 
 
-def _written(name: str, parts: Sequence[object]) -> str:
+def _format_call(name: str, parts: Sequence[object]) -> str:
     return f"{name}({', '.join(map(str, parts))})"
 
 
 def first(*parts: Algorithm) -> First:
     """The first of these rules or strategies that applies."""
-    return First(checked("first", parts))
+    return First(check_strategies("first", parts))
 
 
 def all_(*parts: Algorithm) -> All:
     """Each of these that applies, in order."""
-    return All(checked("all_", parts))
+    return All(check_strategies("all_", parts))
 
 
 def seq(*parts: Algorithm) -> Seq:
-    """All of these in order; where one does not apply, none does."""
-    return Seq(checked("seq", parts))
+    """All of these in order; if one does not apply, none does."""
+    return Seq(check_strategies("seq", parts))
 
 
 def maybe(part: Algorithm) -> Maybe:
     """This if it applies, else nothing."""
-    checked("maybe", (part,))
+    check_strategies("maybe", (part,))
     return Maybe(part)
 
 
 def repeat(
     part: Algorithm, *, times: int | None = None, measure: Measure | None = None
 ) -> Repeat:
-    """This again and again while it applies.
+    """This again and again as long as it applies.
 
-    To apply more than `times`, to come back to an earlier state, and not to make the
-    `measure` smaller are errors. The measure is the path of a list or of a number that
-    is not negative, or a function of the state that gives one.
+    It is an error to apply more than `times`, to return to an earlier state, or not to
+    make the `measure` smaller. The measure is the path of a list or of a non-negative
+    number, or a function from the state to one.
     """
-    checked("repeat", (part,))
+    check_strategies("repeat", (part,))
     if times is not None and (type(times) is not int or times < 1):
         raise UpdateError(f"repeat takes how often at most, found times={times!r}")
     if measure is not None and not isinstance(measure, str) and not callable(measure):
@@ -183,7 +183,7 @@ def repeat(
 def by_class(*rules: Rule, order: Sequence[str]) -> ByClass:
     """The rules class by class, in this order of the classes (their `kind`).
 
-    Raises `UpdateError` where a rule is of no class in the order, or a class has none.
+    Raises `UpdateError` if a rule is of no class in the order, or a class has no rule.
     """
     if isinstance(order, str):
         raise UpdateError(f"the order of classes is a list of words, found {order!r}")
@@ -208,18 +208,18 @@ def by_class(*rules: Rule, order: Sequence[str]) -> ByClass:
 
 
 def ask(*parts: Algorithm, choose: Choose) -> Ask:
-    """The one that `choose` picks: it is given the names of those that apply.
+    """The one that `choose` picks among those that apply.
 
-    It gives an index, or None for none of them. Raises `UpdateError` where it cannot be
-    called.
+    `choose` takes the names of those that apply and the state, and gives an index or
+    None. Raises `UpdateError` if it cannot be called.
     """
     if not callable(choose):
         raise UpdateError(f"what chooses is a function, found {choose!r}")
-    return Ask(checked("ask", parts), choose)
+    return Ask(check_strategies("ask", parts), choose)
 
 
-def checked(name: str, parts: tuple[object, ...]) -> tuple[Algorithm, ...]:
-    """The parts, if all of them are rules and strategies; else `UpdateError`."""
+def check_strategies(name: str, parts: tuple[object, ...]) -> tuple[Algorithm, ...]:
+    """The parts, which have to be rules or strategies. Raises `UpdateError`."""
     for part in parts:
         if not isinstance(part, Algorithm):
             raise UpdateError(f"{name} takes rules and strategies, found {part!r}")
@@ -228,26 +228,26 @@ def checked(name: str, parts: tuple[object, ...]) -> tuple[Algorithm, ...]:
 
 def rules_of(algorithm: Algorithm) -> tuple[Rule, ...]:
     """The rules in a strategy, each once, in the order in which they stand."""
-    return tuple(dict.fromkeys(places_of(algorithm)))
+    return tuple(dict.fromkeys(rule_occurrences(algorithm)))
 
 
-def places_of(algorithm: Algorithm) -> Iterator[Rule]:
-    """The rules in a strategy, as often as they stand in it."""
+def rule_occurrences(algorithm: Algorithm) -> Iterator[Rule]:
+    """The rules in a strategy, each as often as it occurs."""
     match algorithm:
         case Rule():
             yield algorithm
         case Maybe(part) | Repeat(part):
-            yield from places_of(part)
+            yield from rule_occurrences(part)
         case ByClass(classes):
             for _, members in classes:
                 yield from members
         case First(parts) | All(parts) | Seq(parts) | Ask(parts):
             for part in parts:
-                yield from places_of(part)
+                yield from rule_occurrences(part)
 
 
 def replaced(algorithm: Algorithm, rules: Mapping[str, Rule]) -> Algorithm:
-    """The strategy with these rules in place of those of their names."""
+    """The strategy with these rules in place of those with the same names."""
     match algorithm:
         case Rule():
             return rules.get(algorithm.name, algorithm)
@@ -260,15 +260,17 @@ def replaced(algorithm: Algorithm, rules: Mapping[str, Rule]) -> Algorithm:
     return replace(algorithm, parts=parts)
 
 
-def _demands(algorithm: Algorithm) -> Demands:
-    """What is demanded of every state to which a strategy applies."""
+def _demands_of_strategy(algorithm: Algorithm) -> Demands:
+    """What any state has to have for a strategy to apply to it."""
     match algorithm:
         case Rule(on=None):
             return demands_of(algorithm.when)
         case Repeat(part) | Seq((part, *_)):
-            return _demands(part)
+            return _demands_of_strategy(part)
         case ByClass(classes):
-            return any_of(_demands(one) for _, members in classes for one in members)
+            return any_of(
+                _demands_of_strategy(one) for _, members in classes for one in members
+            )
         case First(parts) | All(parts) | Ask(parts) if parts:
-            return any_of(map(_demands, parts))
+            return any_of(map(_demands_of_strategy, parts))
     return {}

@@ -1,8 +1,8 @@
-"""From what a rule gives to the next state.
+"""From the result of an effect to the next state.
 
-A rule gives a state, a state and a model, or a record type. Then the next state is of
-the asymmetric merge of the state's own type with it: what the type sets is set, what it
-only types is created, and everything else stays.
+An effect gives a state, a state and a model, or a record type. If it gives a type, the
+next state is of the asymmetric merge of the state's own type with it: manifest fields
+are set, witnesses of the other fields are created, and everything else stays.
 """
 
 from __future__ import annotations
@@ -17,29 +17,32 @@ from ttr.types.printing import notation
 from ttr.types.substitution import Around, grounded
 from ttr.types.syntax import Object, Record, RecordType, Singleton, TypeNode
 from ttr.updates.rules import Rule
-from ttr.updates.user_functions import in_short
+from ttr.updates.user_functions import excerpt
 
-__all__ = ["Settled", "settled"]
+__all__ = ["NextState", "apply_effect"]
 
 
-class Settled(NamedTuple):
-    """A next state, its model, and the paths of what had to be created."""
+class NextState(NamedTuple):
+    """The next state, its model, and the paths of what had to be created."""
 
     state: Record
     model: Model
     created: tuple[str, ...] = ()
 
 
-def settled(rule: Rule, effect: object, state: Record, model: Model) -> Settled:
-    """The next state, whatever of the three kinds the effect is; else `RuleFailed`."""
+def apply_effect(rule: Rule, effect: object, state: Record, model: Model) -> NextState:
+    """The next state, by the result of a rule's effect.
+
+    Raises `RuleFailed` for a result of another kind, or if no state can be made of it.
+    """
     match effect:
         case Record():
-            return Settled(effect, model)
+            return NextState(effect, model)
         case (Record() as after, Model() as extended):
-            return Settled(after, extended)
+            return NextState(after, extended)
         case RecordType():
             try:
-                return _realised(effect, state, model, (), "")
+                return _realise(effect, state, model, (), "")
             except TTRError as error:
                 raise RuleFailed(
                     f"no state can be made of what the rule {rule} gave: "
@@ -48,14 +51,14 @@ def settled(rule: Rule, effect: object, state: Record, model: Model) -> Settled:
                 ) from error
     raise RuleFailed(
         f"the rule {rule} gives a state, a state and a model, a record type or None, "
-        f"but it gave {in_short(effect)}"
+        f"but it gave {excerpt(effect)}"
     )
 
 
-def _realised(
+def _realise(
     T: RecordType, old: Record, model: Model, around: Around, path: str
-) -> Settled:
-    """The record with the fields of T as T has them, and its other fields as before."""
+) -> NextState:
+    """The old record with the fields of T set or created as T says."""
     kept = {label: value for label, value in old._fields.items() if label not in T}
     fields: dict[str, Object] = kept
     created: list[str] = []
@@ -64,19 +67,19 @@ def _realised(
         before = old._fields.get(label)
         scope = (fields, *around)
         if isinstance(field, RecordType) and isinstance(before, Record):
-            one = _realised(field, before, model, scope, inner)
+            one = _realise(field, before, model, scope, inner)
             fields[label], model = one.state, one.model
             created += one.created
             continue
-        fields[label], model, is_new = _made(field, model, scope, inner)
+        fields[label], model, is_new = _realise_field(field, model, scope, inner)
         created += [inner] * is_new
-    return Settled(Record({**old._fields, **fields}), model, tuple(created))
+    return NextState(Record({**old._fields, **fields}), model, tuple(created))
 
 
-def _made(
+def _realise_field(
     field: TypeNode, model: Model, around: Around, path: str
 ) -> tuple[Object, Model, bool]:
-    """What a field is set to, or something created for it; and whether it was."""
+    """The value of a field, set or created; the model; and was it created?"""
     T = reduced(model.facts, grounded(field, around))
     if not isinstance(T, Singleton):
         value, model = model.create(T)

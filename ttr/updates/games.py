@@ -1,8 +1,8 @@
-"""A game: an information-state type, its rules, where it starts, and how it is played.
+"""Games: a type of information states, its rules, a start, and how they are played.
 
 Each turn takes an event from outside and then makes the moves that the rules have put
-on the agenda, as in Cooper 2023: the first type on it is created, and the event of
-having made the move is taken by the rules like any other.
+on the agenda, as in Cooper 2023: an event of the first type on it is created, and the
+rules take that event like any other.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ from ttr.types.syntax import (
     freeze,
     kind_of,
 )
-from ttr.updates.algorithms import Algorithm, checked, rules_of
+from ttr.updates.algorithms import Algorithm, check_strategies, rules_of
 from ttr.updates.nbest import NBest
 from ttr.updates.rules import Rule
-from ttr.updates.running import Run, Step, continued
+from ttr.updates.running import Run, Step, continue_run
 from ttr.updates.states import check_state
-from ttr.updates.user_functions import failing, in_short
+from ttr.updates.user_functions import blame, excerpt
 
 if TYPE_CHECKING:
     from ttr.theories.theory import Theory
@@ -43,17 +43,17 @@ Act: TypeAlias = Callable[[TypeNode, Model], tuple[Object, Model]]
 """Makes a move of a type: the event, and the model that has it."""
 
 MOVES = 100
-"""How many moves of its own a turn may have."""
+"""How many moves of its own a game may make in a turn."""
 
 
 @dataclass(frozen=True, eq=False)
 class Turn:
-    """A turn: what happened, what was said in answer, and the run that it was.
+    """A turn: what happened, what the game said in answer, and the run.
 
-    `event` is what was given, `heard` the object that was played, None where nothing
-    happened; `said` are the own moves, in order, each as a judgement of the planned
-    type. The run has the state and the model after the turn, and its steps only;
-    `before` has those before it, and no steps.
+    `event` is what was given, `heard` the object that was played, None if nothing
+    happened; `said` are the game's own moves in order, each as a judgement that it is
+    of the planned type. The run has the state and the model after the turn, and the
+    steps of this turn only; `before` has those before it, and no steps.
     """
 
     event: object
@@ -78,7 +78,7 @@ class Turn:
         return self.run.trace
 
     def __str__(self) -> str:
-        happened = "nothing" if self.heard is None else _shown(self.heard)
+        happened = "nothing" if self.heard is None else _format_event(self.heard)
         lines = [f"> {happened}", *map(str, self.trace)]
         return "\n".join(
             [*lines, *(f"< {notation(move.sit)} : {move.type}" for move in self.said)]
@@ -87,13 +87,13 @@ class Turn:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Game:
-    """A dialogue theory that can be played: a state type, a start, and an algorithm.
+    """A dialogue theory that can be played: a type of states, a start, an algorithm.
 
     `agenda` is the path of the list of types of the moves to be made next, if the game
-    makes any. `hears` are the types of the events from outside; where it is empty they
-    are those that any rule takes. `act` makes a planned move; else an event of its type
-    is created. A game with a language reads texts by `hear` and words its moves by
-    `say`. Raises `UpdateError` where the start is no state.
+    makes any. `hears` are the types of the events from outside; by default, all that a
+    rule takes. `act` makes a planned move; by default, an event of its type is created.
+    A game with a language reads texts by `hear` and words its moves by `say`. Raises
+    `UpdateError` if the start is not of the type.
 
     >>> from ttr.theories.theory import Theory
     >>> from ttr.updates import first, update
@@ -132,15 +132,15 @@ class Game:
     theory: Theory | None = None
 
     def __post_init__(self) -> None:
-        checked("a game", (self.algorithm,))
+        check_strategies("a game", (self.algorithm,))
         as_model(self.model)
         if self.agenda is not None and not isinstance(self.agenda, str):
             raise UpdateError(
-                f"an agenda is named by its path, found {in_short(self.agenda)}"
+                f"an agenda is named by its path, found {excerpt(self.agenda)}"
             )
         if not isinstance(self.hears, tuple | list):
             raise UpdateError(
-                f"a game hears events of a list of types, found {in_short(self.hears)}"
+                f"a game hears events of a list of types, found {excerpt(self.hears)}"
             )
         object.__setattr__(self, "hears", tuple(map(as_type, self.hears)))
         object.__setattr__(self, "start", freeze(self.start))
@@ -164,30 +164,30 @@ class Game:
     def take(self, so_far: Run, event: object = None) -> Turn:
         """One turn: the event, then the moves on the agenda.
 
-        The event is an object, an `NBest`, or a type, of which one is created; None if
-        nothing happens. Raises `NotHeard` for an event of which no rule could take
-        anything, and as `run` does; then nothing is changed.
+        The event is an object, an `NBest`, or a type of which an event is created; None
+        if nothing happens. Raises `NotHeard` for an event that no rule could take, and
+        the errors of `run`; then nothing is changed.
         """
         if not isinstance(so_far, Run):
             raise UpdateError(
                 f"a turn goes on from a run, as begin() gives one, found "
-                f"{in_short(so_far)}"
+                f"{excerpt(so_far)}"
             )
         before = so_far._replace(trace=())
-        happened, model = self._event(event, so_far.model)
-        after = self._run(Run(so_far.state, model, ()), happened, None)
+        happened, model = self._realise_event(event, so_far.model)
+        after = self._play_event(Run(so_far.state, model, ()), happened, None)
         said: list[Judgement] = []
-        after = self._acted(after, said)
+        after = self._make_moves(after, said)
         return Turn(event, happened, tuple(said), after, before)
 
-    def _acted(self, after: Run, said: list[Judgement]) -> Run:
-        """The run after the moves on the agenda, which are added to those said."""
+    def _make_moves(self, after: Run, said: list[Judgement]) -> Run:
+        """The run after the moves on the agenda, which are appended to `said`."""
         while planned := self.planned(after.state):
             if len(said) >= MOVES:
                 raise _endless(after)
-            move, model = self._made(planned[0], after.model)
+            move, model = self._make_move(planned[0], after.model)
             ready = after._replace(model=model)
-            following = self._run(ready, move, after.model)
+            following = self._play_event(ready, move, after.model)
             if len(following.trace) == len(after.trace):
                 error = Endless(
                     f"no rule takes the move {planned[0]}, so it stays on the agenda",
@@ -195,7 +195,7 @@ class Game:
                 )
                 error.steps = after.trace
                 raise error
-            said.append(self._judged(move, planned[0], model))
+            said.append(self._judge_move(move, planned[0], model))
             after = following
         return after
 
@@ -204,7 +204,7 @@ class Game:
         if isinstance(
             events, str | bytes | Record | NBest | TypeNode
         ) or not isinstance(events, Iterable):
-            raise UpdateError(f"events are a list of them, found {in_short(events)}")
+            raise UpdateError(f"events are a list of them, found {excerpt(events)}")
         turns: list[Turn] = []
         so_far = self.begin()
         for event in events:
@@ -212,27 +212,34 @@ class Game:
             so_far = turns[-1].run
         return tuple(turns)
 
-    def _run(self, so_far: Run, event: Object | NBest, judged_in: Model | None) -> Run:
-        """The run after an event; its state may have been judged in the same facts."""
+    def _play_event(
+        self, so_far: Run, event: Object | NBest, judged_in: Model | None
+    ) -> Run:
+        """The run after an event.
+
+        The state is checked first, unless it was judged in a model with the same facts.
+        """
         state, model, _ = so_far
         if judged_in is None or model.facts is not judged_in.facts:
             check_state(state, self.type, model, "before the first rule")
-        return continued(self.algorithm, so_far, event, self.type)
+        return continue_run(self.algorithm, so_far, event, self.type)
 
     # --- events ---
 
-    def _event(self, event: object, model: Model) -> tuple[Object | NBest, Model]:
-        """What happens, as an object, in a model in which it does."""
+    def _realise_event(
+        self, event: object, model: Model
+    ) -> tuple[Object | NBest, Model]:
+        """The event as an object, and the model in which it happens."""
         if isinstance(event, NBest):
-            return self._alternatives(event, model)
+            return self._realise_alternatives(event, model)
         if isinstance(event, TypeNode):
             event, model = model.create(event)
         happened = freeze(event)
         self._check_heard(happened, model)
         return happened, model
 
-    def _alternatives(self, event: NBest, model: Model) -> tuple[NBest, Model]:
-        """The alternatives as objects; those given as types are created."""
+    def _realise_alternatives(self, event: NBest, model: Model) -> tuple[NBest, Model]:
+        """The alternatives as objects; events are created of those that are types."""
         made: list[tuple[Object, float]] = []
         for one, p in event:
             if isinstance(one, TypeNode):
@@ -242,7 +249,7 @@ class Game:
         return NBest(tuple(made)), model
 
     def _check_heard(self, event: Object, model: Model) -> None:
-        """Refuses an event that no rule could take anything of."""
+        """Refuse an event that no rule could take."""
         if event is None:
             return
         types = self.hears or tuple(
@@ -279,23 +286,24 @@ class Game:
             f"an agenda is a list of types, but {self.agenda} is {kind_of(planned)}"
         )
 
-    def _made(self, planned: TypeNode, model: Model) -> tuple[Object, Model]:
+    def _make_move(self, planned: TypeNode, model: Model) -> tuple[Object, Model]:
         if self.act is None:
             return model.create(planned)
-        with failing("to make the move", planned):
+        with blame("to make the move", planned):
             made = self.act(planned, model)
         match made:
             case (event, Model() as after):
                 return freeze(event), after
         raise UpdateError(
             f"the act of the game {self.name} gives an event and a model, but it gave "
-            f"{in_short(made)}"
+            f"{excerpt(made)}"
         )
 
-    def _judged(self, move: Object, T: TypeNode, model: Model) -> Judgement:
-        """The judgement that a move is of the planned type; why, is found when asked.
+    def _judge_move(self, move: Object, T: TypeNode, model: Model) -> Judgement:
+        """The judgement that a move is of the planned type.
 
-        What was created of a type is of it, but an act may have made something else.
+        Its reasons are found when they are asked for. What was created is of its type,
+        but an `act` may have made something else.
         """
         if self.act is not None and not certainly(model.facts, move, T):
             return model.judge(move, T)
@@ -303,8 +311,8 @@ class Game:
 
 
 def _endless(after: Run) -> Endless:
-    """That an agenda does not become empty, and which rules go round."""
-    circle = " → ".join(_circle([str(step.rule) for step in after.trace]))
+    """The error that an agenda does not become empty, and which rules repeat."""
+    circle = " → ".join(_repeating_names([str(step.rule) for step in after.trace]))
     error = Endless(
         f"the agenda is not empty after {MOVES} moves in a turn: {circle} → …",
         hint="let a rule take the last move off without planning another",
@@ -313,14 +321,14 @@ def _endless(after: Run) -> Endless:
     return error
 
 
-def _circle(names: Sequence[str]) -> Sequence[str]:
-    """The names that come again and again at the end; the last few, if none do.
+def _repeating_names(names: Sequence[str]) -> Sequence[str]:
+    """The names that are repeated at the end of a list; otherwise its last few.
 
-    >>> _circle(["a", "b", "c", "b", "c", "b", "c"])
+    >>> _repeating_names(["a", "b", "c", "b", "c", "b", "c"])
     ['b', 'c']
-    >>> _circle(["a", "b", "c"])
+    >>> _repeating_names(["a", "b", "c"])
     ['a', 'b', 'c']
-    >>> _circle(["a", "b", "c", "d"])
+    >>> _repeating_names(["a", "b", "c", "d"])
     ['b', 'c', 'd']
     """
     for size in range(1, len(names) // 2 + 1):
@@ -329,5 +337,5 @@ def _circle(names: Sequence[str]) -> Sequence[str]:
     return names[-3:]
 
 
-def _shown(event: Object | NBest) -> str:
+def _format_event(event: Object | NBest) -> str:
     return str(event) if isinstance(event, NBest) else notation(event)

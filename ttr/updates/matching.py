@@ -1,4 +1,4 @@
-"""Finding what a rule binds: what `where` asks of state, event and model."""
+"""Finding the bindings of a rule: what `where` asks of state, event and model."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from ttr.types.paths import escaping
 from ttr.types.substitution import grounded
 from ttr.types.syntax import Object, PType, RecordType, Singleton, TypeNode
 
-__all__ = ["Found", "found"]
+__all__ = ["find_bindings"]
 
-Found = tuple[Mapping[str, Object], Model]
-"""The bindings, and the model that has the situations seen for them."""
+_Bindings = tuple[Mapping[str, Object], Model]
+"""Bindings, and the model with the situations that were created for them."""
 
 
-def found(
+def find_bindings(
     where: RecordType, variables: Mapping[str, Object], model: Model
-) -> Found | None:
-    """What the fields of `where` are bound to, so that each is certainly of its type.
+) -> _Bindings | None:
+    """Bind the fields of `where` so that each is certainly of its type, if possible.
 
-    A manifest field is worked out; another one is the first known object of its type
-    with which the other fields come out, too. What a witness function says yes to, and
-    nothing is known to be, gets a fresh situation.
+    A manifest field is computed; any other is bound to the first known object of its
+    type for which the remaining fields can be bound as well. A ptype of which no
+    situation is known, but of which a witness function is certain, gets a new one.
     """
-    whole = _found(_in_order(where), {}, variables, model)
+    whole = _search(_in_order_of_need(where), {}, variables, model)
     if whole is None:
         return None
     bound, extended = whole
@@ -38,40 +38,41 @@ def found(
 
 
 @lru_cache
-def _in_order(where: RecordType) -> tuple[tuple[str, TypeNode], ...]:
-    """The fields, each claim as soon as what it is about is bound.
+def _in_order_of_need(where: RecordType) -> tuple[tuple[str, TypeNode], ...]:
+    """The fields in the order in which they are bound: claims as early as possible.
 
-    So what cannot be is seen before more objects are tried. What claims are about comes
-    before the rest, what the claim that needs least is about before that of others.
+    A claim, a ptype or a manifest field, comes as soon as what it mentions is bound, so
+    that it can fail before more objects are tried. What the claims mention comes before
+    the other fields, first what the claim mentions that needs the fewest bindings.
     """
     waiting, ordered = dict(where.fields), dict[str, TypeNode]()
     while waiting:
-        needs = {k: _needs(T) & waiting.keys() for k, T in waiting.items()}
+        needs = {k: _bindings_mentioned(T) & waiting.keys() for k, T in waiting.items()}
         claims = [k for k, T in waiting.items() if isinstance(T, Singleton | PType)]
         label = min(claims, key=lambda k: len(needs[k]), default=next(iter(waiting)))
-        for _ in waiting:  # more steps than there are would go round in a circle
+        for _ in waiting:  # more steps than there are labels would be a cycle
             label = min(needs[label], default=label)
         ordered[label] = waiting.pop(label)
     return tuple(ordered.items())
 
 
-def _needs(T: TypeNode) -> set[str]:
+def _bindings_mentioned(T: TypeNode) -> set[str]:
     """The labels of the bindings that a field mentions."""
     return {path.labels[0] for path in escaping(T) if path.up == 0}
 
 
-def _found(
+def _search(
     fields: tuple[tuple[str, TypeNode], ...],
     bound: Mapping[str, Object],
     variables: Mapping[str, Object],
     model: Model,
-) -> Found | None:
+) -> _Bindings | None:
     spend()
     if not fields:
         return bound, model
     (label, field), *rest = fields
     for value, extended in _candidates(field, bound, variables, model):
-        whole = _found(tuple(rest), {**bound, label: value}, variables, extended)
+        whole = _search(tuple(rest), {**bound, label: value}, variables, extended)
         if whole is not None:
             return whole
     return None
@@ -91,13 +92,13 @@ def _candidates(
             return [(value, model)] if certainly(model.facts, value, base) else []
         T = reduced(model.facts, grounded(field, around))
         known = [(one, model) for one in model.witnesses(T)]
-        return known or _seen(T, model)
+        return known or _situations_seen(T, model)
     except (Unresolved, Refused):
         return []
 
 
-def _seen(T: TypeNode, model: Model) -> Iterable[tuple[Object, Model]]:
-    """A fresh situation of a ptype that a witness function is certain of."""
+def _situations_seen(T: TypeNode, model: Model) -> Iterable[tuple[Object, Model]]:
+    """A new situation of a ptype of which a witness function is certain."""
     if not isinstance(T, PType) or T.pred not in model.facts.functions:
         return []
     try:

@@ -1,4 +1,4 @@
-"""Uncertain events: what may have been heard, with probabilities."""
+"""Uncertain events: alternatives with probabilities, as from a speech recogniser."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, Record, RecordType, Singleton, TypeNode, freeze
-from ttr.updates.user_functions import in_short
+from ttr.updates.user_functions import excerpt
 
-__all__ = ["Heard", "NBest", "heard", "nbest"]
+__all__ = ["MatchedEvent", "NBest", "match_event", "nbest"]
 
 TOLERANCE = 1e-9
-"""How far a sum of probabilities may be off by rounding."""
+"""The rounding error that a sum of probabilities may have."""
 
 
 @dataclass(frozen=True)
 class NBest:
     """Alternatives of which at most one happened, each with its probability.
 
-    What is missing to 1 is the probability that it was something else. Built by
-    `nbest`, which says what is refused.
+    They add up to at most 1; the rest is the probability of something else. Built by
+    `nbest`.
     """
 
     alternatives: tuple[tuple[Object, float], ...]
@@ -36,9 +36,9 @@ class NBest:
         if not isinstance(self.alternatives, tuple | list):
             raise UpdateError(
                 "an uncertain event is a list of alternatives, found "
-                f"{in_short(self.alternatives)}"
+                f"{excerpt(self.alternatives)}"
             )
-        pairs = [_pair(one) for one in self.alternatives]
+        pairs = [_check_alternative(one) for one in self.alternatives]
         total = math.fsum(p for _, p in pairs)
         if total > 1.0 + TOLERANCE:
             raise UpdateError(
@@ -57,9 +57,9 @@ class NBest:
 
 
 def nbest(*alternatives: tuple[object, float]) -> NBest:
-    """An uncertain event: pairs of an event and its probability, the best first.
+    """An uncertain event: pairs of an event and its probability, in any order.
 
-    Raises `UpdateError` where the probabilities are none, or come to more than 1.
+    Raises `UpdateError` for what is no probability, or if they add up to more than 1.
 
     >>> print(nbest(("e2", 0.3), ("e1", 0.6)))
     e1 0.6 | e2 0.3
@@ -70,52 +70,52 @@ def nbest(*alternatives: tuple[object, float]) -> NBest:
     return NBest(alternatives)
 
 
-def _pair(one: object) -> tuple[Object, float]:
+def _check_alternative(one: object) -> tuple[Object, float]:
     match one:
         case (event, float() | int() as p) if 0.0 < p <= 1.0:
             return freeze(event), float(p)
     raise UpdateError(
-        f"an alternative is an event and a probability above 0, found {in_short(one)}"
+        f"an alternative is an event and a probability above 0, found {excerpt(one)}"
     )
 
 
-class Heard(NamedTuple):
-    """What a rule takes of an event: the likeliest alternative of its type.
+class MatchedEvent(NamedTuple):
+    """What a rule takes of an event: the most probable alternative of its type.
 
-    `p` is how probable it is that the event is of the type.
+    `p` is the probability that the event is of the type.
     """
 
     event: Object
     p: Degree
 
 
-def heard(
+def match_event(
     event: Object | NBest, on: TypeNode, wanted: Degree, model: Model
-) -> Heard | None:
-    """The event as one of the type `on`, if it is one as probably as wanted."""
+) -> MatchedEvent | None:
+    """The event as one of the type `on`; None if that is not as probable as wanted."""
     if not isinstance(event, NBest):
         if certainly(model.facts, event, on):
-            found = Heard(event, CERTAIN)
-        elif wanted.lo == 1.0 or _is_other(event, on):
+            found = MatchedEvent(event, CERTAIN)
+        elif wanted.lo == 1.0 or _plainly_lacks_labels(event, on):
             return None
         else:
-            found = Heard(event, derivation(model.facts, event, on).p)
-        return found if _within(found.p, wanted) else None
-    if wanted.lo == 1.0 and any(_is_other(one, on) for one, _ in event):
+            found = MatchedEvent(event, derivation(model.facts, event, on).p)
+        return found if _is_within(found.p, wanted) else None
+    if wanted.lo == 1.0 and any(_plainly_lacks_labels(one, on) for one, _ in event):
         return None
-    judged = [(one, q, _degree(one, on, model)) for one, q in event]
+    judged = [(one, q, _degree_of(one, on, model)) for one, q in event]
     fitting = [(one, q, p) for one, q, p in judged if p != REFUTED]
     if not fitting:
         return None
     best = max(fitting, key=lambda one: one[1] * one[2].lo)
-    found = Heard(best[0], _total([(q, p) for _, q, p in fitting]))
-    return found if _within(found.p, wanted) else None
+    found = MatchedEvent(best[0], _total_degree([(q, p) for _, q, p in fitting]))
+    return found if _is_within(found.p, wanted) else None
 
 
-def _is_other(event: Object, on: TypeNode) -> bool:
-    """Whether an event plainly lacks labels, or names, that the type asks for.
+def _plainly_lacks_labels(event: Object, on: TypeNode) -> bool:
+    """Does an event plainly lack labels or names that the type asks for?
 
-    It is quick, and mostly tells what was said from what was seen.
+    This quick test excludes most events, as what is seen if something said is wanted.
     """
     if not isinstance(on, RecordType) or not isinstance(event, Record):
         return False
@@ -131,19 +131,19 @@ def _is_other(event: Object, on: TypeNode) -> bool:
     )
 
 
-def _total(weighted: list[tuple[float, Degree]]) -> Degree:
-    """The probability that one of several alternatives is so."""
+def _total_degree(weighted: list[tuple[float, Degree]]) -> Degree:
+    """The probability that any of several alternatives is the case."""
     lo, hi = (math.fsum(q * p[end] for q, p in weighted) for end in (0, 1))
     if lo > 1.0 - TOLERANCE:
         return CERTAIN
     return Degree(lo, min(1.0, hi))
 
 
-def _within(p: Degree, wanted: Degree) -> bool:
+def _is_within(p: Degree, wanted: Degree) -> bool:
     return wanted.lo - TOLERANCE <= p.lo and p.hi <= wanted.hi + TOLERANCE
 
 
-def _degree(event: Object, on: TypeNode, model: Model) -> Degree:
+def _degree_of(event: Object, on: TypeNode, model: Model) -> Degree:
     if certainly(model.facts, event, on):
         return CERTAIN
     return derivation(model.facts, event, on).p

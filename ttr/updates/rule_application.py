@@ -1,4 +1,4 @@
-"""One rule on one state: what it comes to, or why it does not apply."""
+"""Applying one rule to one state, or explaining why it does not apply."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from ttr.errors import UpdateError
 from ttr.judging.models import Model
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, Rec, Record, RecordType, TypeNode
-from ttr.updates.matching import found
-from ttr.updates.nbest import NBest, heard
+from ttr.updates.matching import find_bindings
+from ttr.updates.nbest import NBest, match_event
 from ttr.updates.rules import Rule
 from ttr.updates.running import Run, run
 
@@ -17,10 +17,10 @@ __all__ = ["stepped", "why_not"]
 
 
 def stepped(rule: Rule, args: Sequence[Object], model: Model) -> Run:
-    """What the rule makes of a state and, if it takes one, of an event.
+    """Apply a rule to a state and, if it takes one, an event.
 
-    The state may be of any type: of which, is a matter of the games that have the rule.
-    Raises `UpdateError` where the rule does not apply, and says why.
+    The state may be of any record type, as only a game says which one. Raises
+    `UpdateError` if the rule does not apply, and says why.
 
     >>> from ttr.theories.theory import Theory
     >>> from ttr.types.syntax import record
@@ -47,23 +47,27 @@ def stepped(rule: Rule, args: Sequence[Object], model: Model) -> Run:
 
 
 def why_not(rule: Rule, state: Record, event: Object | NBest, model: Model) -> str:
-    """Why a rule does not apply to a state and an event; empty where it may."""
+    """Why a rule does not apply to a state and an event; empty if it may apply."""
     if rule.on is not None:
         if event is None:
             return f"it waits for an event of {rule.on}"
-        if heard(event, rule.on, rule.p, model) is None:
-            return _unheard(event, rule, rule.on, model)
-    return _failed(state, rule.when, model) or _unbound(rule, state, event, model)
+        if match_event(event, rule.on, rule.p, model) is None:
+            return _why_not_taken(event, rule, rule.on, model)
+    return _why_not_of_type(state, rule.when, model) or _why_not_bound(
+        rule, state, event, model
+    )
 
 
-def _unheard(event: Object | NBest, rule: Rule, on: TypeNode, model: Model) -> str:
-    """Why an event is not taken: it is none of the type, or not as probably."""
-    failed = "" if isinstance(event, NBest) else _failed(event, on, model)
+def _why_not_taken(
+    event: Object | NBest, rule: Rule, on: TypeNode, model: Model
+) -> str:
+    """Why an event is not taken: it is not of the type, or not probably enough."""
+    failed = "" if isinstance(event, NBest) else _why_not_of_type(event, on, model)
     return failed or f"an event of {on} is not as probable as {rule.p}"
 
 
-def _failed(value: Object, T: TypeNode, model: Model) -> str:
-    """The step at which a judgement fails, or nothing where it is certain."""
+def _why_not_of_type(value: Object, T: TypeNode, model: Model) -> str:
+    """The step at which a judgement fails; empty if it is certain."""
     why = model.judge(value, T).why
     failed = why.failure()
     if failed is None:
@@ -72,17 +76,19 @@ def _failed(value: Object, T: TypeNode, model: Model) -> str:
     return f"{where}{notation(failed.sit)} : {failed.type}, {failed.because}"
 
 
-def _unbound(rule: Rule, state: Record, event: Object | NBest, model: Model) -> str:
-    """The first binding for which nothing is found with those before it."""
+def _why_not_bound(
+    rule: Rule, state: Record, event: Object | NBest, model: Model
+) -> str:
+    """The first field that cannot be bound together with those before it."""
     if rule.where is None:
         return ""
     if rule.on is not None:
-        taken = heard(event, rule.on, rule.p, model)
+        taken = match_event(event, rule.on, rule.p, model)
         event = taken.event if taken else None
     variables = dict(zip(rule.names, (state, event), strict=False))
     for count, (label, field) in enumerate(rule.where.fields, start=1):
         some = RecordType(rule.where.fields[:count])
-        if found(some, variables, model) is None:
+        if find_bindings(some, variables, model) is None:
             scope = (frozenset(rule.where), frozenset(rule.names))
             return f"nothing is found for {label} : {notation(field, scope)}"
     return ""

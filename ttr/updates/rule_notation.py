@@ -1,4 +1,4 @@
-"""Rules in the notation of theory files."""
+"""Printing rules, strategies and games in the notation of theory files."""
 
 from __future__ import annotations
 
@@ -20,15 +20,14 @@ if TYPE_CHECKING:
 __all__ = ["declaration", "written"]
 
 Fold = Callable[[Object], Object]
-"""Puts names for what they stand for (`ttr.display.abbreviations`)."""
+"""Replaces types by their names (`ttr.display.abbreviations`)."""
 
 
 def written(rule: Rule) -> str:
     r"""The statement that declares the rule.
 
-    Read where the names in it are declared, it gives the same rule. Raises
-    `Unsupported` for a rule whose effect is a Python function, or which has no
-    notation otherwise.
+    Where the names in it are declared, reading it gives the same rule. Raises
+    `Unsupported` for a rule that has no notation, as one whose effect is in Python.
 
     >>> from ttr.theories.theory import Theory
     >>> board = Theory.parse('''
@@ -49,46 +48,46 @@ def _lines(rule: Rule) -> Iterator[str]:
     if not isinstance(rule.effect, Body):
         raise Unsupported(f"the effect of {rule} is a Python function, not notation")
     if rule.gives is not None:
-        raise Unsupported(f"what {rule} gives is declared, which has no notation")
+        raise Unsupported(f"{rule} declares what it gives, which has no notation")
     for name in (rule.name, rule.kind or rule.name):
         if not name.isidentifier() or name in RESERVED:
             raise Unsupported(f"{name!r} is no name in the notation")
     names = rule.names[: 1 + (rule.on is not None)]
     kind = f" of {rule.kind}" if rule.kind else ""
     doc = f" {json_text(rule.doc)}" if rule.doc else ""
-    yield f"rule {rule.name}({', '.join(_parameters(rule, names))}){doc}{kind}"
+    yield f"rule {rule.name}({', '.join(_format_parameters(rule, names))}){doc}{kind}"
     if rule.where:
         yield f"where {notation(rule.where, (frozenset(names),))}"
     scope = (frozenset((*names, *(rule.where or ()))),)
     yield f":= {notation(as_object(rule.effect.value, scope), scope)}"
 
 
-def _parameters(rule: Rule, names: tuple[str, ...]) -> Iterator[str]:
+def _format_parameters(rule: Rule, names: tuple[str, ...]) -> Iterator[str]:
     yield f"{names[0]} : {notation(rule.when)}"
     if rule.on is None:
         return
-    certainty = "" if rule.p == CERTAIN else f" in {_interval(rule.p)}"
+    certainty = "" if rule.p == CERTAIN else f" in {_format_interval(rule.p)}"
     scope = (frozenset(names[:1]),)
     yield f"{names[1]} : {notation(rule.on, scope)}{certainty}"
 
 
-def _interval(p: Degree) -> str:
-    """The interval, its ends without a point where they are whole.
+def _format_interval(p: Degree) -> str:
+    """The interval, with whole numbers for its ends where possible.
 
-    >>> _interval(Degree(0.7, 1.0))
+    >>> _format_interval(Degree(0.7, 1.0))
     '[0.7, 1]'
     """
     ends = (int(end) if end == int(end) else end for end in p)
     return f"[{', '.join(map(repr, ends))}]"
 
 
-# --- whatever a theory declares ------------------------------------------------------
+# --- declarations of a theory --------------------------------------------------------
 
 
 def declaration(theory: Theory, name: str, fold: Fold = lambda value: value) -> str:
     """The statement that declares a rule, a strategy or a game of a theory.
 
-    Raises `KeyError` where the name is none of them.
+    Raises `KeyError` for any other name.
 
     >>> from ttr.theories.theory import Theory
     >>> theory = Theory.parse('''
@@ -101,13 +100,13 @@ def declaration(theory: Theory, name: str, fold: Fold = lambda value: value) -> 
     game oblivion({l = []} : [l : list(Ind)]) := maybe(forget)
     """
     if name in theory.rules:
-        return written(_folded(theory.rules[name], fold))
+        return written(_abbreviate(theory.rules[name], fold))
     if name in theory.strategies:
         return f"strategy {name} := {theory.strategies[name]}"
-    return _opening(theory.openings[name], fold)
+    return _declare_game(theory.openings[name], fold)
 
 
-def _opening(game: Opening, fold: Fold) -> str:
+def _declare_game(game: Opening, fold: Fold) -> str:
     start, state = notation(fold(game.start)), notation(fold(game.type))
     acts = f", acts on {game.agenda}" if game.agenda else ""
     types = ", ".join(notation(fold(T)) for T in game.hears)
@@ -115,8 +114,8 @@ def _opening(game: Opening, fold: Fold) -> str:
     return f"game {game.name}({start} : {state}{acts}{hears}) := {game.algorithm}"
 
 
-def _folded(rule: Rule, fold: Fold) -> Rule:
-    """The rule with names for what they stand for, to be shown only."""
+def _abbreviate(rule: Rule, fold: Fold) -> Rule:
+    """The rule with its types replaced by their names, only to be displayed."""
     effect = rule.effect
     if isinstance(effect, Body):
         effect = replace(effect, value=fold(effect.value))

@@ -29,20 +29,20 @@ __all__ = ["Body", "Effect", "Rule", "rule", "update"]
 Effect: TypeAlias = Callable[..., object]
 
 EXTRAS = ("model", "p", "nbest")
-"""What an effect may ask for by name besides the bindings."""
+"""What an effect may take as a parameter besides the bindings."""
 
 
 @dataclass(frozen=True, repr=False)
 class Rule:
-    """An update rule: where `when` holds of the state, `effect` gives the next one.
+    """An update rule: if the state is of `when`, `effect` gives the next state.
 
-    A rule with `on` takes an event of that type, as probable as `p` says; one without
-    is tacit. `where` binds names to what the state, the event and the model have, and
-    the rule applies only where all of it is found. `gives` is what the next state is
-    of, `kind` the rule's class, `doc` what the rule is for. `takes` are the bindings
-    and other things that the effect asks for by name, `names` what it calls the state
-    and the event; `text` is what was written, from the rule's name on, in a file. Built
-    by `rule`, `update` or a theory file.
+    A rule with `on` takes an event of that type, as probable as `p` says; a rule
+    without `on` is tacit. `where` binds names to what is in the state, the event and
+    the model; the rule applies only if everything in it can be bound. `gives` is the
+    type of the next state, `kind` the rule's class, `doc` what the rule is for. `takes`
+    are the bindings and extras that the effect has as parameters, `names` its names for
+    the state and the event; `text` is the text of a rule in a file, from its name on.
+    Built by `rule`, `update` or a theory file.
     """
 
     name: str
@@ -68,10 +68,10 @@ class Rule:
 
 @dataclass(frozen=True)
 class Body:
-    """An effect written in the notation: a type or a record, with paths to variables.
+    """An effect written in the notation: a type or a record with paths to variables.
 
-    In `value` the paths that lead out of it begin with the name of the state, of the
-    event or of a binding. It is called as a Python effect is, with all of them.
+    Paths that lead out of `value` start with the name of the state, the event or a
+    binding. It is called like an effect in Python, with all of them.
     """
 
     value: Object
@@ -92,18 +92,17 @@ def rule(
     kind: str = "",
     p: object = CERTAIN,
 ) -> Callable[[Effect], Rule]:
-    """Makes a rule of a function of the state, and of the event if the rule has one.
+    """Make a rule of a function of the state, and of the event if the rule has one.
 
-    The function may ask by name for what `where` binds, for the `model`, and for the
-    probability `p` of the event and its alternatives `nbest`. It gives the next state,
-    or a pair of state and model when it adds facts, or a record type, as in the
-    literature: then the next state is of the asymmetric merge of the state's own type
-    with it. It gives None where it does not apply after all. Raises `UpdateError` where
-    `when`, `on`, `where` or `gives` is no such type, or the function's parameters are
-    others.
+    The function may also have parameters for what `where` binds, for the `model`, and
+    for the probability `p` of the event and its alternatives `nbest`. It returns the
+    next state, or a pair of state and model if it adds facts, or a record type, as in
+    the literature: then the next state is of the asymmetric merge of the state's own
+    type with it. It returns None if it does not apply after all. Raises `UpdateError`
+    if `when`, `on`, `where` or `gives` is no such type, or for other parameters.
 
-    The fields of `where` lead to the function's parameters by their names, one record
-    further out: `outer.s.qud` where the state is called `s`.
+    Paths in `where` refer to the function's parameters one record further out:
+    `outer.s.qud` if the state is called `s`.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.records import replace
@@ -136,17 +135,17 @@ def rule(
             )
     if not isinstance(kind, str):
         raise UpdateError(f"the kind of a rule is a word, found {kind!r}")
-    certain = _certainty(p)
+    certain = _degree_asked_for(p)
 
     def made(effect: Effect) -> Rule:
         if not callable(effect):
             raise UpdateError(f"a rule is made of a function, found {effect!r}")
         name = getattr(effect, "__name__", "rule")
-        if any(kind(effect) for kind in _LATER):
+        if any(kind(effect) for kind in _ASYNCHRONOUS):
             raise UpdateError(
                 f"the rule {name} gives its state later: write a plain function"
             )
-        names, takes = _parameters(name, effect, on is not None, where)
+        names, takes = _read_parameters(name, effect, on is not None, where)
         return Rule(
             name,
             effect,
@@ -159,33 +158,33 @@ def rule(
             takes=takes,
             names=names,
             doc=inspect.getdoc(effect) or "",
-            span=_written_at(effect),
+            span=_span_of_function(effect),
         )
 
     return made
 
 
-def _bare(parameters: Iterable[inspect.Parameter]) -> inspect.Signature:
-    """The parameters without their defaults and types, for an error."""
+def _without_defaults(parameters: Iterable[inspect.Parameter]) -> inspect.Signature:
+    """The parameters without their defaults and annotations, for an error."""
     empty = inspect.Parameter.empty
     bare = [one.replace(default=empty, annotation=empty) for one in parameters]
     return inspect.Signature(bare)
 
 
-_LATER = (
+_ASYNCHRONOUS = (
     inspect.iscoroutinefunction,
     inspect.isgeneratorfunction,
     inspect.isasyncgenfunction,
 )
 
-_BY_PLACE = (
+_POSITIONAL = (
     inspect.Parameter.POSITIONAL_ONLY,
     inspect.Parameter.POSITIONAL_OR_KEYWORD,
 )
 
 
-def _certainty(p: object) -> Degree:
-    """A number as how probable at least, a pair as an interval."""
+def _degree_asked_for(p: object) -> Degree:
+    """The degree that an event needs: from a lower bound, or a pair of bounds."""
     try:
         found = degree(p, "the probability of a rule's event")
     except TTRError as error:
@@ -194,10 +193,10 @@ def _certainty(p: object) -> Degree:
     return Degree(found.lo, 1.0) if plain else found
 
 
-def _parameters(
+def _read_parameters(
     name: str, effect: Effect, has_event: bool, where: RecordType | None
 ) -> tuple[tuple[str, ...], frozenset[str]]:
-    """The names of state and event, and what the effect asks for besides."""
+    """The names of the state and the event, and the other parameters of an effect."""
     try:
         asked = inspect.signature(effect).parameters
     except ValueError:
@@ -207,17 +206,17 @@ def _parameters(
     extras = {*EXTRAS, *(where or ())}
     plain = tuple(parameter for parameter in asked if parameter not in extras)
     wanted = 1 + has_event
-    if len(plain) != wanted or any(asked[one].kind not in _BY_PLACE for one in plain):
+    if len(plain) != wanted or any(asked[one].kind not in _POSITIONAL for one in plain):
         roles = "the state and the event" if has_event else "the state"
         raise UpdateError(
             f"the rule {name} takes {roles}, and model by that name, "
-            f"but its parameters are {_bare(asked.values())}"
+            f"but its parameters are {_without_defaults(asked.values())}"
         )
     return plain, frozenset(asked).difference(plain)
 
 
-def _written_at(effect: Effect) -> Span | None:
-    """The line of the function's name, where its source can be had."""
+def _span_of_function(effect: Effect) -> Span | None:
+    """The place of the function's name, if its source is known."""
     code = getattr(effect, "__code__", None)
     if code is None:
         return None
@@ -249,7 +248,7 @@ def update(
     r"""The rule of an update function (S → (E → T)), or of a tacit one (S → T).
 
     If the state is of S and the event of E, the next state is of the asymmetric merge
-    of the state's own type with T. Raises `UpdateError` for what is no such function.
+    of the state's own type with T. Raises `UpdateError` for any other function.
     Source: Cooper 2023, chapter 2.
 
     >>> from ttr.theories.theory import Theory
@@ -288,7 +287,7 @@ def update(
         where=where,
         gives=gives,
         kind=kind,
-        p=_certainty(p),
+        p=_degree_asked_for(p),
         takes=frozenset(("model", *(where or ()))),
         names=tuple(names),
         doc=doc,

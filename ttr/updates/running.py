@@ -1,7 +1,7 @@
-"""Running an update algorithm: events through rules, each state checked, with a trace.
+"""Running an update algorithm: events through rules, with a trace.
 
-The state is checked against its declared type after every rule, so that a rule that
-fails, or a state that leaves its type, changes nothing.
+The state is checked against its declared type after every rule. If a rule fails, or a
+state is not of its type, nothing is changed.
 """
 
 from __future__ import annotations
@@ -40,28 +40,28 @@ from ttr.updates.algorithms import (
     Measure,
     Repeat,
     Seq,
-    checked,
+    check_strategies,
 )
-from ttr.updates.effect_application import settled
-from ttr.updates.matching import found
-from ttr.updates.nbest import Heard, NBest, heard
+from ttr.updates.effect_application import apply_effect
+from ttr.updates.matching import find_bindings
+from ttr.updates.nbest import MatchedEvent, NBest, match_event
 from ttr.updates.rules import Rule
-from ttr.updates.states import check_state, still_of
-from ttr.updates.user_functions import failing, in_short
+from ttr.updates.states import check_state, is_still_of
+from ttr.updates.user_functions import blame, excerpt
 
-__all__ = ["Run", "Step", "continued", "run"]
+__all__ = ["Run", "Step", "continue_run", "run"]
 
 ROUNDS = 1000
-"""How often anything is repeated at most, where neither times nor measure are given."""
+"""How often a repetition without times and measure is repeated at most."""
 
 
 @dataclass(frozen=True, eq=False)
 class Step:
     """One rule that was applied: to what, what it bound, and what it changed.
 
-    `event` is what the rule took of what happened, with probability `p`, and `given`
-    all that may have happened; `created` are the paths of what the rule only typed and
-    had to be made up; `seconds` is how long it took.
+    `event` is the event that the rule took, with probability `p`, and `given` the
+    uncertain event that it comes from. `created` are the paths of what had to be
+    created, as the rule gave only its type; `seconds` is how long the rule took.
     """
 
     rule: Rule
@@ -77,7 +77,7 @@ class Step:
 
     @cached_property
     def licence(self) -> Judgement:
-        """The judgement that allowed the rule: that the state was of its condition."""
+        """The judgement that the state was of the rule's condition."""
         return self.model.judge(self.before, self.rule.when)
 
     @cached_property
@@ -118,17 +118,17 @@ def run(
     model: Model,
     events: Iterable[object] = (),
 ) -> Run:
-    """Plays the events through the algorithm, or runs it once where there are none.
+    """Play events through an algorithm; if there are none, run it once.
 
-    An event that nothing applies to leaves the state as it is. Raises `UpdateError`:
-    `NoState` where the state is not of its type before the first or after any rule,
-    `RuleFailed` where a rule fails, `Endless` where a repetition does not end; the
-    caller's state and model stay what they were.
+    If no rule applies to an event, the state stays as it is. Raises `UpdateError`:
+    `NoState` if the state is not of its type before the first or after any rule,
+    `RuleFailed` if a rule fails, `Endless` if a repetition does not end. The state and
+    the model that are given never change.
     """
-    checked("run", (algorithm,))
+    check_strategies("run", (algorithm,))
     if isinstance(events, str | bytes | NBest | Record | Mapping | TypeNode):
         raise UpdateError(
-            f"events are a list of objects, found the one {in_short(events)}"
+            f"events are a list of objects, found the one {excerpt(events)}"
         )
     if not isinstance(events, Iterable):
         raise UpdateError(f"events are a list of objects, found {kind_of(events)}")
@@ -139,17 +139,17 @@ def run(
     check_state(state, type, model, "before the first rule")
     trace: list[Step] = []
     for event in played or (None,):
-        after = continued(algorithm, Run(state, model, ()), event, type)
+        after = continue_run(algorithm, Run(state, model, ()), event, type)
         state, model = after.state, after.model
         trace += after.trace
     return Run(state, model, tuple(trace))
 
 
 @within_budget
-def continued(
+def continue_run(
     algorithm: Algorithm, so_far: Run, event: Object | NBest, type: RecordType
 ) -> Run:
-    """The run after one more event, or the same run where nothing applies to it.
+    """The run after one more event, or the same run if no rule applies to it.
 
     The state so far has to be of the type; it is not checked again.
     """
@@ -159,15 +159,15 @@ def continued(
 # --- playing -------------------------------------------------------------------------
 
 
-class _Asked:
-    """Of which conditions one state was found to be or not, in one model."""
+class _ConditionCache:
+    """The conditions that hold, or do not hold, of one state in one model."""
 
     def __init__(self) -> None:
         self._about: tuple[Record, Model] | None = None
         self._answers: dict[TypeNode, bool] = {}
 
     def about(self, state: Record, model: Model) -> dict[TypeNode, bool]:
-        """The answers so far, none where it is another state or model."""
+        """The answers so far; none for another state or model."""
         known = self._about
         if known is None or known[0] is not state or known[1] is not model:
             self._about = (state, model)
@@ -177,11 +177,11 @@ class _Asked:
 
 @dataclass(frozen=True)
 class _Player:
-    """Plays one event; its methods give the run so far, or None if nothing applies."""
+    """Plays one event; its methods give the run so far, or None if no rule applies."""
 
     type: RecordType
     event: Object | NBest
-    asked: _Asked = field(default_factory=_Asked)
+    conditions: _ConditionCache = field(default_factory=_ConditionCache)
 
     def play(self, algorithm: Algorithm, so_far: Run) -> Run | None:
         match algorithm:
@@ -198,19 +198,21 @@ class _Player:
                         return after
                 return None
             case All(parts):
-                return self._each(parts, so_far)
+                return self._play_each(parts, so_far)
             case ByClass(classes):
-                return self._each([r for _, rules in classes for r in rules], so_far)
+                return self._play_each(
+                    [r for _, rules in classes for r in rules], so_far
+                )
             case Seq(parts):
-                return self._in_turn(parts, so_far)
+                return self._play_in_sequence(parts, so_far)
             case Maybe(part):
                 return self.play(part, so_far) or so_far
             case Repeat():
-                return self._again(algorithm, so_far)
+                return self._play_repeatedly(algorithm, so_far)
             case Ask():
-                return self._chosen(algorithm, so_far)
+                return self._play_chosen(algorithm, so_far)
 
-    def _each(self, parts: Sequence[Algorithm], so_far: Run) -> Run | None:
+    def _play_each(self, parts: Sequence[Algorithm], so_far: Run) -> Run | None:
         current, applied = so_far, False
         for part in parts:
             after = self.play(part, current)
@@ -218,7 +220,7 @@ class _Player:
                 current, applied = after, True
         return current if applied else None
 
-    def _in_turn(self, parts: Sequence[Algorithm], so_far: Run) -> Run | None:
+    def _play_in_sequence(self, parts: Sequence[Algorithm], so_far: Run) -> Run | None:
         current: Run | None = so_far
         for part in parts:
             if current is None:
@@ -226,23 +228,23 @@ class _Player:
             current = self.play(part, current)
         return current
 
-    def _chosen(self, asked: Ask, so_far: Run) -> Run | None:
+    def _play_chosen(self, asked: Ask, so_far: Run) -> Run | None:
         tried = [(part, self.play(part, so_far)) for part in asked.parts]
         able = [(str(part), after) for part, after in tried if after is not None]
         if not able:
             return None
-        with failing("what chooses"):
+        with blame("what chooses"):
             index = asked.choose([name for name, _ in able], so_far.state)
         if index is None:
             return None
         if type(index) is not int or not 0 <= index < len(able):
             raise UpdateError(
                 f"what chooses gives an index below {len(able)}, or None, but gave "
-                f"{in_short(index)}"
+                f"{excerpt(index)}"
             )
         return able[index][1]
 
-    def _again(self, repeat: Repeat, so_far: Run) -> Run | None:
+    def _play_repeatedly(self, repeat: Repeat, so_far: Run) -> Run | None:
         current, rounds = so_far, 0
         seen: dict[Record, int] = {}
         while True:
@@ -270,7 +272,7 @@ class _Player:
             )
         if repeat.measure is None:
             return
-        had, has = (_measured(repeat.measure, one.state) for one in (before, after))
+        had, has = (_measure_of(repeat.measure, one.state) for one in (before, after))
         if not 0 <= has < had:
             named = repeat.measure if isinstance(repeat.measure, str) else "the measure"
             raise _endless(
@@ -280,9 +282,9 @@ class _Player:
             )
 
     def _refuse_return(self, before: Run, after: Run, seen: dict[Record, int]) -> None:
-        """Notes a state with its place in the trace; refuses one met in this model.
+        """Refuse a state that occurred before in this model; otherwise remember it.
 
-        Where a measure gets smaller no state can come back, and this is not asked.
+        This is not needed with a measure, as no state can occur again then.
         """
         if after.model is not before.model:
             seen.clear()
@@ -312,17 +314,17 @@ class _Player:
     def _apply(self, rule: Rule, so_far: Run) -> Run | None:
         start = perf_counter()
         state, model, trace = so_far
-        event = self._heard(rule, model)
+        event = self._match_event(rule, model)
         if event is None or not self._holds(rule.when, state, model):
             return None
-        bound = self._bound(rule, state, event, model)
+        bound = self._find_bindings(rule, state, event, model)
         if bound is None:
             return None
         bindings, model = bound
-        effect = self._effect(rule, state, event, bindings, model)
+        effect = self._call_effect(rule, state, event, bindings, model)
         if effect is None:
             return None
-        after = settled(rule, effect, state, model)
+        after = apply_effect(rule, effect, state, model)
         self._check(rule, so_far, after.state, after.model)
         step = Step(
             rule,
@@ -338,40 +340,42 @@ class _Player:
         )
         return Run(after.state, after.model, (*trace, step))
 
-    def _heard(self, rule: Rule, model: Model) -> Heard | None:
+    def _match_event(self, rule: Rule, model: Model) -> MatchedEvent | None:
         if rule.on is None:
-            return self._in_passing
+            return self._event_in_passing
         if self.event is None:
             return None
-        return heard(self.event, rule.on, rule.p, model)
+        return match_event(self.event, rule.on, rule.p, model)
 
     @cached_property
-    def _in_passing(self) -> Heard:
-        """What a rule that takes no event is told of what happened."""
-        return Heard(None if isinstance(self.event, NBest) else self.event, CERTAIN)
+    def _event_in_passing(self) -> MatchedEvent:
+        """The event as it appears in the step of a rule that takes none."""
+        return MatchedEvent(
+            None if isinstance(self.event, NBest) else self.event, CERTAIN
+        )
 
     def _holds(self, when: TypeNode, state: Record, model: Model) -> bool:
-        """Whether the state is of a condition; several rules may have the same."""
-        answers = self.asked.about(state, model)
+        """Is the state of a condition? Several rules may have the same one."""
+        answers = self.conditions.about(state, model)
         known = answers.get(when)
         if known is None:
             known = answers[when] = certainly_also(model.facts, state, when, self.type)
         return known
 
-    def _bound(
-        self, rule: Rule, state: Record, event: Heard, model: Model
+    def _find_bindings(
+        self, rule: Rule, state: Record, event: MatchedEvent, model: Model
     ) -> tuple[Mapping[str, Object], Model] | None:
         if rule.where is None:
             return {}, model
         variables = dict(zip(rule.names, (state, event.event), strict=False))
-        with failing("the rule", rule):
-            return found(rule.where, variables, model)
+        with blame("the rule", rule):
+            return find_bindings(rule.where, variables, model)
 
-    def _effect(
+    def _call_effect(
         self,
         rule: Rule,
         state: Record,
-        event: Heard,
+        event: MatchedEvent,
         bindings: Mapping[str, Object],
         model: Model,
     ) -> object:
@@ -380,39 +384,39 @@ class _Player:
         if rule.takes:
             extras = {"model": model, "p": event.p, "nbest": self.event, **bindings}
             asked = {name: extras[name] for name in rule.takes}
-        with failing("the rule", rule):
+        with blame("the rule", rule):
             return rule.effect(*args, **asked)
 
     def _check(self, rule: Rule, so_far: Run, after: Record, model: Model) -> None:
         same = model is so_far.model
-        if not same or not still_of(so_far.state, after, self.type, model):
+        if not same or not is_still_of(so_far.state, after, self.type, model):
             check_state(after, self.type, model, f"after {rule}")
         if rule.gives is not None:
             check_state(after, rule.gives, model, f"after {rule}, by what it gives,")
 
 
 def _endless(message: str, run: Run, hint: str = "") -> Endless:
-    """That a repetition comes to no end, with the steps up to there."""
+    """The error that a repetition does not end, with the steps up to there."""
     error = Endless(message, hint=hint)
     error.steps = run.trace
     return error
 
 
-def _measured(measure: Measure, state: Record) -> int:
-    """The number that a measure is of a state: a list's length, or a whole number."""
+def _measure_of(measure: Measure, state: Record) -> int:
+    """The measure of a state as a number: a list's length, or a whole number."""
     value: object
     if isinstance(measure, str):
         try:
             value = state[measure]
         except KeyError:
             raise UpdateError(
-                f"the measure {measure} is no path of the state {in_short(state, str)}"
+                f"the measure {measure} is no path of the state {excerpt(state, str)}"
             ) from None
     else:
-        with failing("the measure"):
+        with blame("the measure"):
             value = measure(state)
     if isinstance(value, list | tuple | FiniteSet):
         return len(value)
     if type(value) is int:
         return value
-    raise UpdateError(f"a measure is a list or a whole number, found {in_short(value)}")
+    raise UpdateError(f"a measure is a list or a whole number, found {excerpt(value)}")

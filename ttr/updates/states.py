@@ -1,4 +1,4 @@
-"""Whether something is an information state, and still is one after a change."""
+"""Checking that something is an information state, and still is one after a change."""
 
 from __future__ import annotations
 
@@ -14,11 +14,15 @@ from ttr.types.paths import escaping
 from ttr.types.printing import notation
 from ttr.types.syntax import ListOf, Object, Record, RecordType, TypeNode
 
-__all__ = ["check_state", "still_of"]
+__all__ = ["check_state", "is_still_of"]
 
 
 def check_state(state: Object, type: RecordType, model: Model, when: str) -> None:
-    """Refuses what is not certainly a state of its type, and says where it fails."""
+    """Check that a state certainly is of its type.
+
+    Raises `NoState` if it is not, and says where it fails; `UpdateError` for what is no
+    record type.
+    """
     if not isinstance(type, RecordType):
         raise UpdateError(f"the type of a state is a record type, found {type!r}")
     if not isinstance(state, Record):
@@ -32,60 +36,66 @@ def check_state(state: Object, type: RecordType, model: Model, when: str) -> Non
         raise NoState(f"{when} the state is not of its type, at {why.path()}: {claim}")
 
 
-def still_of(before: Record, after: Record, T: RecordType, model: Model) -> bool:
-    """Whether a record is of T where another one is, in the same model.
+def is_still_of(before: Record, after: Record, T: RecordType, model: Model) -> bool:
+    """Is a record of T, given that another one is, in the same model?
 
-    What is the same object in both, cannot have changed inside, and is of a type that
-    mentions nothing else, need not be judged again.
+    A field need not be judged again if it has the same object in both records, the
+    object cannot have changed inside, and its type depends on no other field.
     """
-    if _depends(T):
+    if _has_dependent_fields(T):
         return False
     was, found = before._fields, after._fields
-    keeps = _keeps(before, model)
+    keeps = _cannot_change(before, model)
     for label, field in T.fields:
         had, has = was[label], found.get(label, _NOTHING)
         if had is has and keeps:
             continue
-        if has is _NOTHING or not _part_still_of(had, has, field, model):
+        if has is _NOTHING or not _is_part_still_of(had, has, field, model):
             return False
     note(model.facts, after, T)
     return True
 
 
 _NOTHING = object()
-"""What a record has at a label that it lacks."""
+"""The value of a label that a record lacks."""
 
 
 @lru_cache(4096)
-def _depends(T: RecordType) -> bool:
-    """Whether what is in one field depends on what is in another, or further out."""
+def _has_dependent_fields(T: RecordType) -> bool:
+    """Does the type of any field depend on another field, or on paths out of T?"""
     return any(escaping(field) for _, field in T.fields)
 
 
-def _part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> bool:
+def _is_part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> bool:
     if was is found:
-        return _keeps(found, model) or certainly(model.facts, found, T)
+        return _cannot_change(found, model) or certainly(model.facts, found, T)
     if isinstance(T, RecordType):
         if isinstance(was, Record) and isinstance(found, Record):
-            return still_of(was, found, T, model)
-    elif isinstance(T, ListOf) and isinstance(found, tuple) and _keeps(was, model):
-        new = _new_in(found, was)
+            return is_still_of(was, found, T, model)
+    elif (
+        isinstance(T, ListOf)
+        and isinstance(found, tuple)
+        and _cannot_change(was, model)
+    ):
+        new = _possibly_new_elements(found, was)
         return all(certainly(model.facts, element, T.item) for element in new)
     return certainly(model.facts, found, T)
 
 
-def _keeps(value: Object, model: Model) -> bool:
-    """Whether what a value is of cannot change while it is the same object.
+def _cannot_change(value: Object, model: Model) -> bool:
+    """Does the same object always stay of the same types?
 
-    Facts are about objects as such; only witness functions look into them.
+    Facts are about objects as such; only witness functions look inside them.
     """
     return not model.facts.functions or lasts(value)
 
 
-def _new_in(found: tuple[Object, ...], was: tuple[Object, ...]) -> Sequence[Object]:
-    """The elements of a list that another one does not have, and perhaps some more.
+def _possibly_new_elements(
+    found: tuple[Object, ...], was: tuple[Object, ...]
+) -> Sequence[Object]:
+    """The elements of a list that another one lacks, and perhaps some more.
 
-    A list is mostly longer or shorter at one end.
+    Most lists grow or shrink at one end.
     """
     if all(map(is_, found, was)):
         return found[len(was) :]

@@ -1,4 +1,4 @@
-"""What a user's own function did wrong, as one line that names it."""
+"""Reporting errors in a user's own functions as one line that names the function."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from types import TracebackType
 
 from ttr.errors import RuleFailed, TTRError
 
-__all__ = ["failing", "in_short"]
+__all__ = ["blame", "excerpt"]
 
 LONGEST = 200
-"""How many characters of a value or of somebody else's error a line repeats."""
+"""How many characters of a value, or of an error, a message repeats."""
 
 
-class failing:
-    """Turns what goes wrong inside into one line about what failed.
+class blame:
+    """A context that turns any error inside into one line that says what failed.
 
-    A class, as one made of a generator takes twice the time, and every rule is in one.
+    It is a class, as every rule runs in one, and a generator would take twice the time.
 
-    >>> with failing("the rule hear"):
+    >>> with blame("the rule hear"):
     ...     1 / 0
     Traceback (most recent call last):
     ttr.errors.RuleFailed: the rule hear failed: ZeroDivisionError: division by zero
@@ -43,15 +43,15 @@ class failing:
             return
         if isinstance(error, TTRError):
             raise RuleFailed(f"{self._what} failed: {error}") from error
-        told = in_short(error, str)
+        told = excerpt(error, str)
         fault = f"{type(error).__name__}: {told}" if told else type(error).__name__
         raise RuleFailed(f"{self._what} failed: {fault}") from error
 
 
-def in_short(value: object, shown: Callable[[object], str] = repr) -> str:
-    """A value on one line, cut where it is long, even if it cannot print itself.
+def excerpt(value: object, shown: Callable[[object], str] = repr) -> str:
+    """A value on one line, cut if it is long; its class, if it cannot print itself.
 
-    >>> in_short([1, 2]), in_short("a\\nb"), len(in_short("a" * 1000))
+    >>> excerpt([1, 2]), excerpt("a\\nb"), len(excerpt("a" * 1000))
     ('[1, 2]', "'a\\\\nb'", 201)
     """
     try:

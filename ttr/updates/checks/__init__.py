@@ -1,4 +1,9 @@
-"""Static checks of rules: what is wrong with a rule set before anything runs."""
+"""Static checks of rules: what is wrong with a rule set before anything runs.
+
+`rulesets` holds what all checks look at, `effect_summaries` what is known of effects;
+`notation_effects` and `python_effects` find that out. Each other module has the checks
+for one sort of faults. The checks may use the rest of `updates`, and what it may use.
+"""
 
 from __future__ import annotations
 
@@ -9,16 +14,23 @@ from ttr.errors import UpdateError
 from ttr.judging.models import Model, as_model
 from ttr.safety.budgets import within_budget
 from ttr.types.syntax import Record, RecordType, TypeNode, freeze
-from ttr.updates.algorithms import Algorithm, checked
-from ttr.updates.checks.bindings import circular, unlisted
-from ttr.updates.checks.conflicting_rules import disagreements
-from ttr.updates.checks.endless_loops import endless
+from ttr.updates.algorithms import Algorithm, check_strategies
+from ttr.updates.checks.bindings import find_circular_fields, find_unlistable_bindings
+from ttr.updates.checks.conflicting_rules import find_conflicts
+from ttr.updates.checks.endless_loops import find_endless_loops
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
-from ttr.updates.checks.unknown_paths import misread, missing, unbound
-from ttr.updates.checks.unreachable_rules import dead
-from ttr.updates.checks.untriggered_rules import unheard, unset
-from ttr.updates.checks.wrong_values import misfits
+from ttr.updates.checks.unknown_paths import (
+    find_misread_paths,
+    find_missing_paths,
+    find_unbound_names,
+)
+from ttr.updates.checks.unreachable_rules import find_unreachable_rules
+from ttr.updates.checks.untriggered_rules import (
+    find_untaken_events,
+    find_untriggered_rules,
+)
+from ttr.updates.checks.wrong_values import find_wrong_values
 from ttr.updates.rules import Rule
 
 if TYPE_CHECKING:
@@ -27,7 +39,7 @@ if TYPE_CHECKING:
 __all__ = ["Fault", "faults", "faults_alone", "faults_of"]
 
 Check: TypeAlias = Callable[[RuleSet], Iterator[Fault]]
-"""What looks for faults of some sort."""
+"""A function that finds faults of some sort."""
 
 
 def faults(
@@ -40,11 +52,11 @@ def faults(
 ) -> tuple[Fault, ...]:
     """What is wrong with the rules of a strategy, over states of this type.
 
-    Nothing is run. Where the `start` is known, rules that wait for what nothing brings
-    about are found, too; with a `model`, values that it says are of other types; where
-    events are of the types `hears` only, rules for other events. What cannot be
-    followed is left alone: what is found is wrong, but what is not found need not be
-    right. Raises `UpdateError` for what is no strategy, no type of states or no events.
+    Nothing is run. Given the `start`, rules that wait for what nothing brings about are
+    found, too; given a `model`, values that it judges to be of other types; and if all
+    events are of the types `hears`, rules for other events. What is found is certainly
+    wrong, but what cannot be analysed is passed over. Raises `UpdateError` for what is
+    no strategy, no type of states or no types of events.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.records import replace
@@ -58,7 +70,7 @@ def faults(
     >>> faults(reset, rectype(n=Count))[0].message
     'the rule reset asks for nn, but a state has no nn'
     """
-    checked("faults", (algorithm,))
+    check_strategies("faults", (algorithm,))
     if not isinstance(type, RecordType):
         raise UpdateError(f"the type of a state is a record type, found {type!r}")
     known = Model() if model is None else as_model(model)
@@ -74,7 +86,19 @@ def _events(hears: object) -> tuple[TypeNode, ...]:
 
 
 def faults_of(game: Game) -> tuple[Fault, ...]:
-    """What is wrong with the rules of a game, its start and the moves that it plans."""
+    """What is wrong with the rules of a game, its start and the moves that it plans.
+
+    >>> from ttr.theories.theory import Theory
+    >>> desk = Theory.parse('''
+    ...     basic Ind
+    ...     object a : Ind
+    ...     Desk := [open : list(Ind)]
+    ...     rule close(s : [open : nelist(Ind)]) := [opne = [] : list(Ind)]
+    ...     game desk({open = [a]} : Desk) := close
+    ... ''')
+    >>> print(faults_of(desk.games["desk"])[0].message)
+    the rule close writes opne, but a state has no opne
+    """
     agenda = None if game.agenda is None else tuple(game.agenda.split("."))
     rules = RuleSet(
         game.algorithm, game.type, game.start, game.model, game.hears, agenda
@@ -83,7 +107,7 @@ def faults_of(game: Game) -> tuple[Fault, ...]:
 
 
 def faults_alone(rule: Rule) -> tuple[Fault, ...]:
-    """What is wrong with a rule whatever the states are that it is meant for.
+    """What is wrong with a rule, whatever states it is meant for.
 
     Raises `UpdateError` for what is no rule.
     """
@@ -93,29 +117,35 @@ def faults_alone(rule: Rule) -> tuple[Fault, ...]:
 
 
 CHECKS = (
-    unbound,
-    unlisted,
-    missing,
-    circular,
-    misfits,
-    dead,
-    unset,
-    unheard,
-    disagreements,
-    endless,
+    find_unbound_names,
+    find_unlistable_bindings,
+    find_missing_paths,
+    find_circular_fields,
+    find_wrong_values,
+    find_unreachable_rules,
+    find_untriggered_rules,
+    find_untaken_events,
+    find_conflicts,
+    find_endless_loops,
 )
-"""What is looked for, in the order in which it is reported."""
+"""All checks, in the order in which their faults are reported."""
 
-ALONE = (unbound, unlisted, misread, circular, dead)
-"""What is looked for in a rule of which it is not known what its states are."""
+ALONE = (
+    find_unbound_names,
+    find_unlistable_bindings,
+    find_misread_paths,
+    find_circular_fields,
+    find_unreachable_rules,
+)
+"""The checks of a rule whose states are not known."""
 
 NEVER = ("dead", "unset")
-"""The sorts of faults that say that a rule never fires."""
+"""The sorts of faults that mean that a rule never fires."""
 
 
 @within_budget
 def _found(rules: RuleSet, checks: Iterable[Check] = CHECKS) -> tuple[Fault, ...]:
-    """The faults, but that a rule never fires where it has another that explains it."""
+    """The faults, except that a rule never fires if another fault explains it."""
     found: dict[object, Fault] = {}
     explained: set[Rule | None] = set()
     for check in checks:
@@ -128,7 +158,7 @@ def _found(rules: RuleSet, checks: Iterable[Check] = CHECKS) -> tuple[Fault, ...
 
 
 def _place(fault: Fault) -> object:
-    """What is told once: several rules may share what is written in one place."""
+    """What makes a fault the same: rules may share what is written in one place."""
     if fault.sort == "missing" and fault.span:
         return fault.span, fault.hint
     return fault

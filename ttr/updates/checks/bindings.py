@@ -10,41 +10,41 @@ from ttr.types.paths import occurring
 from ttr.types.syntax import Object, RecordType, Singleton
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
-from ttr.updates.checks.source_positions import place
+from ttr.updates.checks.source_positions import span_of_label
 from ttr.updates.rules import Body, Rule
 
-__all__ = ["circular", "unlisted"]
+__all__ = ["find_circular_fields", "find_unlistable_bindings"]
 
 
-def unlisted(rules: RuleSet) -> Iterator[Fault]:
-    """The bindings that are looked for among what is known of a type without end."""
+def find_unlistable_bindings(rules: RuleSet) -> Iterator[Fault]:
+    """The bindings whose witnesses cannot be listed, as their type may have no end."""
     for rule in rules.rules:
         for label, field in rule.where.fields if rule.where else ():
             if isinstance(field, Singleton) or can_be_listed(field):
                 continue
             message = (
                 f"the rule {rule} looks for {label}, but what is of its type cannot be "
-                "listed, as there may be no end of it"
+                "listed, as there may be infinitely many"
             )
             hint = f"say what {label} is, as in {label} = s.x : T, or leave it out"
-            span = place(rule, label, (label,), "where")
+            span = span_of_label(rule, label, (label,), "where")
             yield Fault(rule, "unbound", message, hint, span)
 
 
-def circular(rules: RuleSet) -> Iterator[Fault]:
+def find_circular_fields(rules: RuleSet) -> Iterator[Fault]:
     """The types in effects and bindings whose fields depend on themselves.
 
-    They can be judged, but nothing of them can be made; mostly a label hides the
+    Such types can be judged, but no witness can be created. Mostly a label hides the
     binding that is meant.
     """
     for rule in rules.rules:
         if isinstance(rule.effect, Body):
-            yield from _circles(rule, rule.effect.value, "")
+            yield from _find_cycle(rule, rule.effect.value, "")
         if rule.where is not None:
-            yield from _circles(rule, rule.where, "where")
+            yield from _find_cycle(rule, rule.where, "where")
 
 
-def _circles(rule: Rule, value: Object, role: str) -> Iterator[Fault]:
+def _find_cycle(rule: Rule, value: Object, role: str) -> Iterator[Fault]:
     types = (part for part in occurring([value]) if isinstance(part, RecordType))
     around = next(filter(None, map(round_about, types)), ())
     if not around:
@@ -52,9 +52,9 @@ def _circles(rule: Rule, value: Object, role: str) -> Iterator[Fault]:
     (first, *others), told = around, " → ".join(around)
     if others == [first]:
         message = f"in the rule {rule} {first} is set to itself: {told}"
-        hint = "call what where binds differently from the label"
+        hint = "give what where binds another name than the label"
     else:
         message = f"in the rule {rule} fields go in a circle: {told}"
-        hint = "no witness of such a type can be made: let one field not be manifest"
-    span = place(rule, first.rpartition(".")[2], (), role)
+        hint = "no witness of such a type can be created: leave one of them open"
+    span = span_of_label(rule, first.rpartition(".")[2], (), role)
     yield Fault(rule, "unbound", message, hint, span, "warning")

@@ -1,4 +1,4 @@
-"""Rules whose order is claimed not to matter, but that set one path differently."""
+"""Rules that set a path to different values, though their order should not matter."""
 
 from __future__ import annotations
 
@@ -14,68 +14,69 @@ from ttr.updates.checks.faults import Fault, Severity
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.rules import Rule
 
-__all__ = ["disagreements"]
+__all__ = ["find_conflicts"]
 
-Group = tuple[str, Severity, tuple[Rule, ...]]
-"""Rules that all may apply: what they are, how bad it is if they disagree, and they."""
+_Group = tuple[str, Severity, tuple[Rule, ...]]
+"""Rules whose order should not matter: their description, severity of a conflict, and
+the rules."""
 
 
-def disagreements(rules: RuleSet) -> Iterator[Fault]:
-    """The pairs of rules that may apply one after the other, but undo one another."""
-    for what, severity, members in _groups(rules.algorithm):
+def find_conflicts(rules: RuleSet) -> Iterator[Fault]:
+    """The pairs of rules that may both apply, but set a path to different values."""
+    for what, severity, members in _unordered_groups(rules.algorithm):
         for one, other in combinations(members, 2):
-            if _overlap(rules, one, other):
-                yield from _differently(rules, one, other, what, severity)
+            if _may_both_apply(rules, one, other):
+                yield from _conflicting_writes(rules, one, other, what, severity)
 
 
-def _groups(algorithm: Algorithm) -> Iterator[Group]:
+def _unordered_groups(algorithm: Algorithm) -> Iterator[_Group]:
     match algorithm:
         case ByClass(classes):
             for kind, members in classes:
                 yield f"the class {kind}", "error", members
         case Maybe(part) | Repeat(part):
-            yield from _groups(part)
+            yield from _unordered_groups(part)
         case All(parts):
             members = tuple(part for part in parts if isinstance(part, Rule))
             yield str(algorithm), "warning", members
             for part in parts:
-                yield from _groups(part)
+                yield from _unordered_groups(part)
         case _ if not isinstance(algorithm, Rule):
             for part in algorithm.parts:
-                yield from _groups(part)
+                yield from _unordered_groups(part)
 
 
-def _overlap(rules: RuleSet, one: Rule, other: Rule) -> bool:
-    """Whether both may apply to one state and one event."""
-    if not rules.alike(one.when, other.when):
+def _may_both_apply(rules: RuleSet, one: Rule, other: Rule) -> bool:
+    """May both rules apply to the same state and event?"""
+    if not rules.may_coincide(one.when, other.when):
         return False
     if (
         one.on is not None
         and other.on is not None
-        and not rules.alike(one.on, other.on)
+        and not rules.may_coincide(one.on, other.on)
     ):
         return False
-    return rules.together(rules.type, one.when, other.when)
+    return rules.are_compatible(rules.type, one.when, other.when)
 
 
-def _differently(
+def _conflicting_writes(
     rules: RuleSet, one: Rule, other: Rule, what: str, severity: Severity
 ) -> Iterator[Fault]:
     for mine in rules.summaries[one].writes:
         for theirs in rules.summaries[other].writes:
-            if mine.path == theirs.path and _differ(rules, mine, theirs):
+            if mine.path == theirs.path and _surely_differ(rules, mine, theirs):
                 path = ".".join(mine.path)
                 message = (
                     f"the rules {one} and {other} in {what} may both apply, but set "
-                    f"{path} to {_shown(mine)} and to {_shown(theirs)}"
+                    f"{path} to {_format_write(mine)} and to {_format_write(theirs)}"
                 )
                 hint = "make their conditions exclude each other, or put them in first"
                 span = theirs.span or other.span
                 yield Fault(other, "disagreement", message, hint, span, severity)
 
 
-def _differ(rules: RuleSet, one: Write, other: Write) -> bool:
-    """Whether what is set in two ways surely is not the same."""
+def _surely_differ(rules: RuleSet, one: Write, other: Write) -> bool:
+    """Do two writes surely set different values?"""
     if one.term is not None and other.term is not None:
         if escaping(one.term.value) or escaping(other.term.value):
             return False
@@ -83,10 +84,10 @@ def _differ(rules: RuleSet, one: Write, other: Write) -> bool:
     if one.type is None or other.type is None:
         return False
     closed = not escaping(one.type) and not escaping(other.type)
-    return closed and not rules.together(one.type, other.type)
+    return closed and not rules.are_compatible(one.type, other.type)
 
 
-def _shown(write: Write) -> str:
+def _format_write(write: Write) -> str:
     if write.term is not None and not escaping(write.term.value):
         return notation(write.term.value)
     return f"something of {write.type}"

@@ -23,14 +23,15 @@ Sort: TypeAlias = Literal[
 """What kind of fault it is: see the explanation *What the checker sees*."""
 
 Severity: TypeAlias = Literal["error", "warning"]
-"""A warning is of what may be meant, but rarely is."""
+"""A warning is about what may be meant, but rarely is."""
 
 
 @dataclass(frozen=True)
 class Fault:
-    """Something in a rule set that cannot be right, found without running it.
+    """Something wrong in a rule set, found without running it.
 
-    `rule` is the rule to change, None where the fault is in no single rule.
+    `rule` is the rule to change; None if the fault is in no single rule. `hint` is a
+    way out.
 
     >>> print(Fault(None, "endless", "repeat(go) need not end", "give it times="))
     repeat(go) need not end

@@ -14,7 +14,7 @@ from ttr.types.syntax import (
     TypeNode,
 )
 from ttr.updates.checks.effect_summaries import Access, EffectSummary, Write
-from ttr.updates.checks.source_positions import place
+from ttr.updates.checks.source_positions import span_of_label
 from ttr.updates.checks.state_layout import Labels, Term
 from ttr.updates.rules import Body, Rule
 
@@ -35,7 +35,8 @@ def _reads(rule: Rule, value: Object) -> Iterator[Access]:
     for path in sorted(escaping(value), key=lambda path: path.labels):
         variable, *labels = path.labels
         spans = [
-            place(rule, label, path.labels[: i + 2]) for i, label in enumerate(labels)
+            span_of_label(rule, label, path.labels[: i + 2])
+            for i, label in enumerate(labels)
         ]
         yield Access(variable, tuple(labels), tuple(spans))
 
@@ -48,9 +49,9 @@ def _writes(rule: Rule, value: Object, at: Labels = ()) -> Iterator[Write]:
                 yield from _writes(rule, field, (*at, label))
         case Singleton(base, term):
             outside = _seen_from_outside(term, len(at))
-            yield Write(at, outside, base, place(rule, at[-1], at))
+            yield Write(at, outside, base, span_of_label(rule, at[-1], at))
         case TypeNode():
-            yield Write(at, None, value, place(rule, at[-1], at))
+            yield Write(at, None, value, span_of_label(rule, at[-1], at))
         case Record() if not at:
             for label in value:
                 yield from _writes_of_state(rule, value[label], (label,))
@@ -62,7 +63,7 @@ def _writes_of_state(rule: Rule, value: Object, at: Labels) -> Iterator[Write]:
         for label in value:
             yield from _writes_of_state(rule, value[label], (*at, label))
         return
-    yield Write(at, Term(value), None, place(rule, at[-1], at))
+    yield Write(at, Term(value), None, span_of_label(rule, at[-1], at))
 
 
 def _seen_from_outside(term: Object, depth: int) -> Term | None:

@@ -37,7 +37,7 @@ from ttr.updates.checks.python_sources import (
     tested_expressions,
     walk_untried,
 )
-from ttr.updates.checks.state_layout import Labels, Term, leaves
+from ttr.updates.checks.state_layout import Labels, Term, leaf_fields
 from ttr.updates.rules import EXTRAS, Rule
 
 __all__ = ["summarise_python"]
@@ -413,7 +413,7 @@ def _results_of(
             yield from _results_of_replace(scope, node, depth)
         case ast.Call() if scope.is_rectype(node):
             built = _type_built_by(scope, node).type
-            yield tuple(Write(path) for path, _ in leaves(built))
+            yield tuple(Write(path) for path, _ in leaf_fields(built))
         case ast.Call() if helper := scope.helper(node):
             yield from _results(helper)
         case _:

@@ -1,4 +1,4 @@
-"""A rule set as it is checked: its rules, and what is known of states and events."""
+"""A rule set to be checked: its rules, and what is known of states and events."""
 
 from __future__ import annotations
 
@@ -41,16 +41,16 @@ from ttr.updates.checks.state_layout import (
     Term,
     View,
     Views,
-    along,
     descend,
-    leaves,
+    leaf_fields,
+    views_along,
 )
 from ttr.updates.rules import Body, Rule
 
 __all__ = ["Demand", "RuleSet"]
 
 Demand: TypeAlias = tuple[Labels, TypeNode]
-"""What a rule asks of a place of the state."""
+"""A path of the state, and the type of which a rule asks it to be."""
 
 
 @lru_cache(maxsize=1024)
@@ -64,10 +64,10 @@ def _summarise(rule: Rule) -> EffectSummary:
 
 @dataclass(frozen=True, eq=False)
 class RuleSet:
-    """The rules of a strategy, the type of its states, and what they start from.
+    """The rules of a strategy, the type of its states, and the state it starts from.
 
-    `hears` are the types of the events that come from outside, none where any may;
-    `agenda` is the path of the moves that are planned, where there is one.
+    `hears` are the types of the events from outside; if it is empty, any may come.
+    `agenda` is the path of the planned moves, if there is one.
     """
 
     algorithm: Algorithm
@@ -89,54 +89,54 @@ class RuleSet:
 
     @cached_property
     def demands(self) -> Mapping[Rule, tuple[Demand, ...]]:
-        """What each rule asks of places of the state that not every start has there."""
-        return {rule: tuple(self._demanded(rule)) for rule in self.rules}
+        """What each rule asks of the state that the start does not have."""
+        return {rule: tuple(self._demands_of(rule)) for rule in self.rules}
 
-    def _demanded(self, rule: Rule) -> Iterator[Demand]:
+    def _demands_of(self, rule: Rule) -> Iterator[Demand]:
         if self.start is None or rule.when is self.type:
             return
-        for path, T in leaves(rule.when):
-            if not path or escaping(T) or T in along(self.type, path):
+        for path, T in leaf_fields(rule.when):
+            if not path or escaping(T) or T in views_along(self.type, path):
                 continue
-            found = along(Term(self.start), path)
+            found = views_along(Term(self.start), path)
             if all(self.excludes(view, T) for view in found):
                 yield path, T
 
     @cached_property
-    def learns(self) -> bool:
-        """Whether a rule may add facts to the model."""
+    def may_learn(self) -> bool:
+        """May a rule add facts to the model?"""
         asking = (rule for rule in self.rules if "model" in rule.takes)
         return any(not isinstance(rule.effect, Body) for rule in asking)
 
     # --- where paths lead -------------------------------------------------------------
 
     @cached_property
-    def _placed(self) -> Mapping[Labels, Views]:
-        """What is set whole, at each path: of which types that is."""
+    def _views_written(self) -> Mapping[Labels, Views]:
+        """The views of what rules set, by its path."""
         placed: dict[Labels, Views] = {}
         for rule, told in self.summaries.items():
             for write in told.writes:
-                brought = self.brought(rule, write) or (Rec,)
+                brought = self.views_brought_by(rule, write) or (Rec,)
                 known = (*placed.get(write.path, ()), *brought)
                 placed[write.path] = tuple(dict.fromkeys(known))
         return placed
 
-    def brought(self, rule: Rule, write: Write) -> Views:
-        """What a write brings to where it sets; nothing where that may be anything."""
+    def views_brought_by(self, rule: Rule, write: Write) -> Views:
+        """The views of what a write sets; none if it may be anything."""
         if write.term is None or not isinstance(write.term.value, Path):
             if write.term is not None and not escaping(write.term.value):
                 return (write.term,)
             return () if write.type is None else (write.type,)
         variable, *labels = write.term.value.labels
-        found = self._led(rule, variable, tuple(labels))
+        found = self._types_at(rule, variable, tuple(labels))
         return () if isinstance(found, Missing) else found
 
-    def _led(self, rule: Rule, variable: str, path: Labels) -> Views | Missing:
-        """Where a path leads, by the types alone."""
-        return descend(self._roots(rule).get(variable, ()), path)
+    def _types_at(self, rule: Rule, variable: str, path: Labels) -> Views | Missing:
+        """The views at a path by the types alone."""
+        return descend(self._views_of_variables(rule).get(variable, ()), path)
 
-    def _roots(self, rule: Rule) -> Mapping[str, Views]:
-        """What each variable of a rule is of."""
+    def _views_of_variables(self, rule: Rule) -> Mapping[str, Views]:
+        """The views of each variable of a rule."""
         state, *event = rule.names
         roots: dict[str, Views] = {state: (self.type, rule.when)}
         if rule.on is not None:
@@ -145,47 +145,47 @@ class RuleSet:
             roots[label] = (field,)
         return roots
 
-    def led(self, rule: Rule, variable: str, path: Labels) -> Views | Missing:
-        """What is known of where a path leads that begins with a variable of a rule.
+    def views_at(self, rule: Rule, variable: str, path: Labels) -> Views | Missing:
+        """The views at a path that starts at a variable of a rule, or what is missing.
 
-        An event may be of what other rules take, too, as where one follows another.
+        An event may also be of the types that other rules take, as they see it, too.
         """
-        roots = self._roots(rule).get(variable, ())
+        roots = self._views_of_variables(rule).get(variable, ())
         if variable == rule.names[0]:
-            return descend((*roots, *self._started), path, self._placed)
+            return descend((*roots, *self._views_of_start), path, self._views_written)
         if variable in rule.names:
-            return descend((*roots, *self._events), path)
+            return descend((*roots, *self._views_of_events), path)
         return descend(roots, path)
 
     @cached_property
-    def _events(self) -> Views:
-        """The types of the events that any rule takes, or that are heard."""
+    def _views_of_events(self) -> Views:
+        """The types of the events that rules take, or that are heard."""
         taken = (rule.on for rule in self.rules if rule.on is not None)
         return tuple(dict.fromkeys((*taken, *self.hears)))
 
-    def leads(self, path: Labels) -> Views | Missing:
-        """What is known of where a path leads in a state of no rule in particular."""
-        return descend((self.type, *self._started), path, self._placed)
+    def views_in_state(self, path: Labels) -> Views | Missing:
+        """The views at a path of a state, or what is missing."""
+        return descend((self.type, *self._views_of_start), path, self._views_written)
 
     @property
-    def _started(self) -> Views:
+    def _views_of_start(self) -> Views:
         return () if self.start is None else (Term(self.start),)
 
     # --- what excludes what -----------------------------------------------------------
 
     @cached_property
-    def opened(self) -> Model:
-        """The model in which anything that was not said may still be so."""
+    def open_model(self) -> Model:
+        """The model in which whatever is not known may still be the case."""
         facts = self.model.facts
         heads = dict.fromkeys(
             part.pred if isinstance(part, PType) else part
-            for part in occurring(self._types())
+            for part in occurring(self._all_types())
             if isinstance(part, Basic | PType | Pred)
         )
         opened = facts.opened.update(Map(dict.fromkeys(heads, True)))
         return Model.of(replace(facts, opened=opened))
 
-    def _types(self) -> Iterator[Object]:
+    def _all_types(self) -> Iterator[Object]:
         yield self.type
         yield from self.hears
         for rule in self.rules:
@@ -195,44 +195,44 @@ class RuleSet:
                 yield from (write.term.value,) if write.term else ()
 
     @cached_property
-    def _answers(self) -> dict[object, bool]:
+    def _memory(self) -> dict[object, bool]:
         return {}
 
     def excludes(self, found: View, T: TypeNode) -> bool:
-        """Whether a type or an object surely has nothing to do with a type."""
+        """Is something with this view surely not of a type?"""
         if escaping(T) or found is T:
             return False
         if isinstance(found, Term):
-            return self._refuted(found.value, T)
-        return not escaping(found) and not self.together(found, T)
+            return self._is_refuted(found.value, T)
+        return not escaping(found) and not self.are_compatible(found, T)
 
-    def _refuted(self, value: Object, T: TypeNode) -> bool:
-        """Whether an object is not of a type, whatever else may become known."""
+    def _is_refuted(self, value: Object, T: TypeNode) -> bool:
+        """Is an object not of a type, whatever else may become known?"""
         try:
-            return self.opened.judge(value, T).p == REFUTED
+            return self.open_model.judge(value, T).p == REFUTED
         except TTRError:
             return False
 
-    def together(self, *types: TypeNode) -> bool:
-        """Whether something may be of all of the types, as far as is known."""
-        return not self.remembered(
-            frozenset(types), lambda: _impossible(meet(*types), self.model.theory)
+    def are_compatible(self, *types: TypeNode) -> bool:
+        """May something be of all of these types, as far as is known?"""
+        return not self.remember(
+            frozenset(types), lambda: _is_impossible(meet(*types), self.model.theory)
         )
 
-    def alike(self, S: TypeNode, T: TypeNode) -> bool:
-        """Whether what is made to be of one type may well be of the other.
+    def may_coincide(self, S: TypeNode, T: TypeNode) -> bool:
+        """May something that is meant to be of S well be of T?
 
-        That something is of two basic types, or of two predications, is thought of only
-        where the theory says so.
+        This is stricter than `are_compatible`: something is of two basic types, or two
+        ptypes, only if one is a subtype of the other.
         """
         match S, T:
             case Singleton(base, _), _:
-                return self.alike(base, T) and self.together(S, T)
+                return self.may_coincide(base, T) and self.are_compatible(S, T)
             case _, Singleton(base, _):
-                return self.alike(S, base) and self.together(S, T)
+                return self.may_coincide(S, base) and self.are_compatible(S, T)
             case RecordType(), RecordType():
                 shared = [label for label in S if label in T]
-                return all(self.alike(S[label], T[label]) for label in shared)
+                return all(self.may_coincide(S[label], T[label]) for label in shared)
             case PType(one, _), PType(other, _) if one is other:
                 return True
             case Basic() | PType(), Basic() | PType():
@@ -240,20 +240,20 @@ class RuleSet:
         return True
 
     def covers(self, wide: TypeNode, narrow: TypeNode) -> bool:
-        """Whether what is of one type is surely of another."""
-        return self.remembered(
+        """Is everything of the narrow type surely of the wide one?"""
+        return self.remember(
             (wide, narrow), lambda: subtype(narrow, wide, self.model.theory).yes
         )
 
-    def remembered(self, question: object, answer: Callable[[], bool]) -> bool:
-        """The answer to a question, worked out when it is asked for the first time."""
-        if question not in self._answers:
-            self._answers[question] = answer()
-        return self._answers[question]
+    def remember(self, question: object, answer: Callable[[], bool]) -> bool:
+        """The answer to a question, computed when it is asked for the first time."""
+        if question not in self._memory:
+            self._memory[question] = answer()
+        return self._memory[question]
 
 
-def _impossible(T: TypeNode, theory: Signature) -> bool:
-    """Whether surely nothing is of a type, under any assignment."""
+def _is_impossible(T: TypeNode, theory: Signature) -> bool:
+    """Is surely nothing of a type, under any assignment?"""
     try:
         every = cases(T) or (T,)
         return all(Prover.for_type(case, theory).is_impossible for case in every)

@@ -1,4 +1,4 @@
-"""Where in the text of a rule a label stands."""
+"""Positions of labels in the text of a rule."""
 
 from __future__ import annotations
 
@@ -11,52 +11,55 @@ from ttr.updates.checks.python_sources import Source, source_of
 from ttr.updates.checks.state_layout import Labels
 from ttr.updates.rules import Body, Rule
 
-__all__ = ["place"]
+__all__ = ["span_of_label"]
 
 
-def place(rule: Rule, label: str, path: Labels = (), role: str = "") -> Span | None:
-    """The place of a label in a rule, as part of a path if it is written so.
+def span_of_label(
+    rule: Rule, label: str, path: Labels = (), role: str = ""
+) -> Span | None:
+    """The place of a label in a rule, as part of a path if it is written that way.
 
-    In Python it is looked for where the `role` is given to the decorator; in a file,
-    without a role, in the body first. Where it is not written in the rule itself, it is
-    the place of the rule.
+    In Python it is searched for in the argument `role` of the decorator; in a file,
+    if there is no role, in the body first. Otherwise it is the place of the rule.
     """
     if isinstance(rule.effect, Body):
-        return _in_text(rule, label, path, role) or rule.span
+        return _span_in_text(rule, label, path, role) or rule.span
     source = source_of(rule.effect)
-    found = None if source is None else _in_decorator(source, label, role)
+    found = None if source is None else _span_in_decorator(source, label, role)
     return found or rule.span
 
 
 # --- in files of rules ---------------------------------------------------------------
 
 
-def _in_text(rule: Rule, label: str, path: Labels, role: str) -> Span | None:
-    """The label in the text of the rule: as the end of the path, as a field, or so."""
+def _span_in_text(rule: Rule, label: str, path: Labels, role: str) -> Span | None:
+    """The label in the text of a rule: at the end of the path, of a field, or alone."""
     if rule.span is None:
         return None
     dotted = r"\s*\.\s*".join(map(re.escape, path))
     field, word = rf"\b{label}(?=\s*[:=])", rf"\b{label}\b"
-    plain = _QUOTED.sub(_blank, rule.text)
+    plain = _QUOTED.sub(_blanks, rule.text)
     starts = (0,) if role else (plain.rindex(":="), 0)
     for pattern in (rf"(?<![\w.]){dotted}\b", field, word)[not path :]:
         for start in starts:
             found = re.compile(pattern).search(plain, start)
             if found:
-                return _within(rule, rule.span, found.end() - len(label), found.end())
+                return _span_within(
+                    rule, rule.span, found.end() - len(label), found.end()
+                )
     return None
 
 
 _QUOTED = re.compile(r"""(["'])(?:\\.|(?!\1)[^\\\n])*\1|#.*""")
-"""What says nothing of the state: words in quotes, and comments."""
+"""Quoted text and comments, which say nothing about the state."""
 
 
-def _blank(found: re.Match[str]) -> str:
+def _blanks(found: re.Match[str]) -> str:
     return " " * len(found[0])
 
 
-def _within(rule: Rule, start: Span, first: int, last: int) -> Span:
-    """The place of some characters of a rule's text, which starts at a place."""
+def _span_within(rule: Rule, start: Span, first: int, last: int) -> Span:
+    """The place of the characters `first` to `last` of a rule's text."""
     indented = " " * (start.column - 1) + rule.text
     shift = start.column - 1
     inner = Span.of(start.source, indented, first + shift, last + shift)
@@ -68,19 +71,19 @@ def _within(rule: Rule, start: Span, first: int, last: int) -> Span:
 # --- in Python -----------------------------------------------------------------------
 
 
-def _in_decorator(source: Source, label: str, role: str) -> Span | None:
-    """The label in what the decorator is given, or where a name there is defined."""
+def _span_in_decorator(source: Source, label: str, role: str) -> Span | None:
+    """The label in an argument of the decorator, or where a name in it is defined."""
     for decorator in getattr(source.node, "decorator_list", ()):
         keywords = decorator.keywords if isinstance(decorator, ast.Call) else ()
         for keyword in keywords:
             if keyword.arg == role:
-                return _labelled(source, keyword.value, label)
+                return _span_in_expression(source, keyword.value, label)
     return None
 
 
-def _labelled(source: Source, node: ast.expr, label: str) -> Span | None:
+def _span_in_expression(source: Source, node: ast.expr, label: str) -> Span | None:
     if isinstance(node, ast.Name):
-        return next(_definitions(source, node.id, label), None)
+        return next(_spans_in_definitions(source, node.id, label), None)
     for inner in ast.walk(node):
         match inner:
             case ast.keyword(arg) if arg == label:
@@ -90,13 +93,13 @@ def _labelled(source: Source, node: ast.expr, label: str) -> Span | None:
     return None
 
 
-def _definitions(source: Source, name: str, label: str) -> Iterator[Span]:
-    """The label where a name is given its value in the same file."""
+def _spans_in_definitions(source: Source, name: str, label: str) -> Iterator[Span]:
+    """The label in the definitions of a name in the same file."""
     for statement in source.module.body:
         match statement:
             case ast.Assign([ast.Name(target)], value) if target == name:
                 found = None
                 if not isinstance(value, ast.Name):
-                    found = _labelled(source, value, label)
+                    found = _span_in_expression(source, value, label)
                 if found:
                     yield found

@@ -1,7 +1,7 @@
-"""Layouts: which labels there are below a place, by all that is known of it.
+"""The layout of states: which labels there are at a path, by all that is known of it.
 
-What is known of a place are its *views*: types that it is of, and objects that it may
-be. A label is missing if none of them has it, and nothing speaks for more labels.
+What is known of the value at a path are its *views*: types that it is of, and objects
+that it may be. A label is missing if no view has it and none allows any label.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ __all__ = [
     "Term",
     "View",
     "Views",
-    "along",
-    "below",
-    "closed_labels",
+    "views_along",
+    "views_below",
+    "declared_labels",
     "descend",
-    "leaves",
+    "leaf_fields",
 ]
 
 
@@ -42,10 +42,10 @@ class Term:
 
 
 View: TypeAlias = TypeNode | Term
-"""A type that a place is of, or an object that it may be."""
+"""A type that a value is of, or an object that it may be."""
 
 Views: TypeAlias = tuple[View, ...]
-"""All that is known of a place."""
+"""All that is known of the value at a path."""
 
 Labels: TypeAlias = tuple[str, ...]
 """A path, label by label."""
@@ -55,54 +55,55 @@ _NOWHERE: Mapping[Labels, Views] = {}
 
 @dataclass(frozen=True)
 class Missing:
-    """That a path leads nowhere: how far it goes, and what could be written there."""
+    """That a path leads nowhere: its part up to the label that is missing, and the
+    labels that there are instead."""
 
     path: Labels
     known: Labels
 
     @property
     def label(self) -> str:
-        """The first label that is not there."""
+        """The label that is missing."""
         return self.path[-1]
 
     @property
     def place(self) -> str:
-        """The place that lacks the label, or the empty string at the top."""
+        """The path that lacks the label; empty for the state itself."""
         return ".".join(self.path[:-1])
 
 
-def below(view: View, label: str) -> Views:
-    """What is known of a label of something of which this is known."""
+def views_below(view: View, label: str) -> Views:
+    """The views of a label, by one view of the record that has it."""
     match view:
         case RecordType():
             found = view.get(label)
             return () if found is None else (found,)
         case Singleton(base, value):
-            return (*below(base, label), *below(Term(value), label))
+            return (*views_below(base, label), *views_below(Term(value), label))
         case Meet(parts) | Join(parts):
-            return tuple(one for part in parts for one in below(part, label))
+            return tuple(one for part in parts for one in views_below(part, label))
         case Term(Record() as r):
             return (Term(r[label]),) if label in r else ()
     return ()
 
 
-def closed_labels(view: View) -> Labels | None:
-    """The labels that something is declared to have; None where it may have any.
+def declared_labels(view: View) -> Labels | None:
+    """The labels that a value is declared to have; None if it may have any.
 
-    A record type is taken to say which labels there are, if it names any at all.
+    A record type is taken to name all labels that there are, if it names any.
     """
     match view:
         case RecordType(fields):
             return view.labels if fields else None
         case Singleton(base, _):
-            return closed_labels(base)
+            return declared_labels(base)
         case Meet(parts) | Join(parts):
-            return _joined(map(closed_labels, parts))
+            return _union_of_labels(map(declared_labels, parts))
     return None
 
 
-def _joined(several: Iterable[Labels | None]) -> Labels | None:
-    """The labels in any of several; None where one of these may have any label."""
+def _union_of_labels(several: Iterable[Labels | None]) -> Labels | None:
+    """The labels in any of several; None if one of them may have any label."""
     joined: dict[str, None] = {}
     for labels in several:
         if labels is None:
@@ -114,38 +115,38 @@ def _joined(several: Iterable[Labels | None]) -> Labels | None:
 def descend(
     views: Views, path: Labels, placed: Mapping[Labels, Views] = _NOWHERE
 ) -> Views | Missing:
-    """What is known of where a path leads; nothing where that cannot be followed.
+    """The views at a path, or what is missing; no views if the path cannot be followed.
 
-    `placed` are more views of places that there are. Only a place of which a type is
-    known, and closed types only, lacks a label.
+    `placed` are more views, by their paths. A label is only missing if a type of the
+    record is known and all its types are closed.
     """
     for i, label in enumerate(path, 1):
-        further = tuple(one for view in views for one in below(view, label))
+        further = tuple(one for view in views for one in views_below(view, label))
         if not further:
-            return _missing(views, path[:i])
+            return _missing_label(views, path[:i])
         views = further + placed.get(path[:i], ())
     return views
 
 
-def _missing(views: Views, path: Labels) -> Views | Missing:
+def _missing_label(views: Views, path: Labels) -> Views | Missing:
     types = [view for view in views if isinstance(view, TypeNode)]
-    closed = _joined(map(closed_labels, types))
+    closed = _union_of_labels(map(declared_labels, types))
     return Missing(path, closed) if types and closed is not None else ()
 
 
-def along(view: View, path: Labels) -> Views:
-    """What one view says of where a path leads."""
+def views_along(view: View, path: Labels) -> Views:
+    """What one view says of the value at a path."""
     views: Views = (view,)
     for label in path:
-        views = tuple(one for view in views for one in below(view, label))
+        views = tuple(one for view in views for one in views_below(view, label))
     return views
 
 
-def leaves(T: TypeNode, at: Labels = ()) -> Iterator[tuple[Labels, TypeNode]]:
-    """The fields of a record type that are of no record type with fields, by path."""
+def leaf_fields(T: TypeNode, at: Labels = ()) -> Iterator[tuple[Labels, TypeNode]]:
+    """The paths and types of the innermost fields of a record type."""
     match T:
         case RecordType(fields) if fields:
             for label, field in fields:
-                yield from leaves(field, (*at, label))
+                yield from leaf_fields(field, (*at, label))
         case _:
             yield at, T

@@ -1,4 +1,4 @@
-"""Rules that can never fire: impossible conditions, and cases that come too late."""
+"""Rules that can never fire: their conditions are impossible, or they come too late."""
 
 from __future__ import annotations
 
@@ -19,72 +19,72 @@ from ttr.updates.algorithms import (
     Maybe,
     Repeat,
     Seq,
-    places_of,
+    rule_occurrences,
 )
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
-from ttr.updates.checks.source_positions import place
-from ttr.updates.checks.state_layout import Labels, Missing, Term, leaves
-from ttr.updates.checks.wrong_values import declared, misfit, views_of
+from ttr.updates.checks.source_positions import span_of_label
+from ttr.updates.checks.state_layout import Labels, Missing, Term, leaf_fields
+from ttr.updates.checks.wrong_values import declared_type, is_misfit, views_of
 from ttr.updates.rules import Rule
 
-__all__ = ["dead"]
+__all__ = ["find_unreachable_rules"]
 
 
-def dead(rules: RuleSet) -> Iterator[Fault]:
-    """The rules that no state or event lets fire, and those that others forestall."""
-    impossible = {rule: _impossible(rules, rule) for rule in rules.rules}
+def find_unreachable_rules(rules: RuleSet) -> Iterator[Fault]:
+    """The rules with impossible conditions, and those that earlier ones forestall."""
+    impossible = {rule: _why_impossible(rules, rule) for rule in rules.rules}
     yield from (fault for fault in impossible.values() if fault is not None)
     late: dict[Rule, list[Fault]] = {}
-    for rule, fault in _forestalled(rules, rules.algorithm):
+    for rule, fault in _forestalled_rules(rules, rules.algorithm):
         late.setdefault(rule, []).append(fault)
-    places = Counter(places_of(rules.algorithm))
+    places = Counter(rule_occurrences(rules.algorithm))
     for rule, told in late.items():
         if impossible[rule] is None and len(told) == places[rule]:
             yield told[0]
 
 
-# --- conditions that nothing meets ---------------------------------------------------
+# --- impossible conditions -----------------------------------------------------------
 
 
-def _impossible(rules: RuleSet, rule: Rule) -> Fault | None:
-    """That nothing can be what a rule asks of state, event or bindings."""
+def _why_impossible(rules: RuleSet, rule: Rule) -> Fault | None:
+    """That no state, event or binding can be what a rule asks for, if so."""
     ways = (
-        _of_state(rules, rule),
-        _of_event(rules, rule),
-        _of_bindings(rules, rule),
-        _of_effect(rules, rule),
+        _impossible_states(rules, rule),
+        _impossible_events(rules, rule),
+        _impossible_bindings(rules, rule),
+        _empty_effects(rules, rule),
     )
     return next(chain(*ways), None)
 
 
-def _of_state(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
-    for path, T in leaves(rule.when):
-        wanted = declared(rules, path)
+def _impossible_states(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
+    for path, T in leaf_fields(rule.when):
+        wanted = declared_type(rules, path)
         if wanted is None or not path:
             continue
         for view in views_of(T):
-            if misfit(rules, view, wanted):
+            if is_misfit(rules, view, wanted):
                 at = ".".join(path)
                 found = notation(view.value) if isinstance(view, Term) else view
                 asked = "be" if isinstance(view, Term) else "be of"
                 why = f"it asks that {at} {asked} {found}, but {at} is of {wanted}"
-                yield _never(rule, why, path)
-    if not rules.together(rules.type, rule.when):
-        yield _never(rule, f"nothing can be a state and of {rule.when}")
+                yield _never_fires(rule, why, path)
+    if not rules.are_compatible(rules.type, rule.when):
+        yield _never_fires(rule, f"nothing can be a state and of {rule.when}")
 
 
-def _of_event(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
-    if rule.on is not None and not rules.together(rule.on):
-        yield _never(rule, f"no event can be of {rule.on}")
+def _impossible_events(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
+    if rule.on is not None and not rules.are_compatible(rule.on):
+        yield _never_fires(rule, f"no event can be of {rule.on}")
 
 
-def _of_bindings(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
-    """Bindings that are set to what cannot be of their types."""
+def _impossible_bindings(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
+    """Bindings that are set to something that cannot be of their types."""
     for label, field in rule.where.fields if rule.where else ():
         match field:
             case Singleton(base, Path(1, (variable, *labels))) if not escaping(base):
-                found = rules.led(rule, variable, tuple(labels))
+                found = rules.views_at(rule, variable, tuple(labels))
             case _:
                 continue
         if isinstance(found, Missing) or not found:
@@ -93,49 +93,51 @@ def _of_bindings(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
         if types and all(rules.excludes(T, base) for T in types):
             source = ".".join((variable, *labels))
             why = f"it takes {source} to be of {base}, but that is of {types[0]}"
-            yield _never(rule, why, (label,), "where")
+            yield _never_fires(rule, why, (label,), "where")
 
 
-def _of_effect(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
-    """That the effect gives nothing in any case, as where a `return` is forgotten."""
+def _empty_effects(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
+    """Effects that never return a state, for example if `return` was forgotten."""
     told = rules.summaries[rule]
     if told.complete and not told.outcomes:
-        yield _never(rule, "it gives no next state, as nothing is returned")
+        yield _never_fires(rule, "it gives no next state, as nothing is returned")
 
 
-def _never(rule: Rule, why: str, path: Labels = (), role: str = "when") -> Fault:
-    span = place(rule, path[-1], path, role) if path else rule.span
+def _never_fires(rule: Rule, why: str, path: Labels = (), role: str = "when") -> Fault:
+    span = span_of_label(rule, path[-1], path, role) if path else rule.span
     return Fault(rule, "dead", f"the rule {rule} can never fire: {why}", "", span)
 
 
-# --- cases that come too late ---------------------------------------------------------
+# --- rules that come too late --------------------------------------------------------
 
 
-Late = tuple[Rule, Fault]
-"""A rule that comes too late in one of the places where it stands, and why."""
+_Late = tuple[Rule, Fault]
+"""A rule that comes too late at one of its places in the strategy, and why."""
 
 
-def _forestalled(rules: RuleSet, algorithm: Algorithm) -> Iterator[Late]:
+def _forestalled_rules(rules: RuleSet, algorithm: Algorithm) -> Iterator[_Late]:
     match algorithm:
         case Rule() | ByClass():
             return
         case Maybe(part) | Repeat(part):
-            yield from _forestalled(rules, part)
+            yield from _forestalled_rules(rules, part)
         case First(parts):
             for i, part in enumerate(parts):
-                yield from _covered(rules, algorithm, parts[:i], part)
-                yield from _forestalled(rules, part)
+                yield from _rules_covered_by(rules, algorithm, parts[:i], part)
+                yield from _forestalled_rules(rules, part)
         case Seq(parts) | All(parts) | Ask(parts):
             for part in parts:
-                yield from _forestalled(rules, part)
+                yield from _forestalled_rules(rules, part)
 
 
-def _covered(
+def _rules_covered_by(
     rules: RuleSet, among: First, earlier: tuple[Algorithm, ...], part: Algorithm
-) -> Iterator[Late]:
-    """The rules that begin a part of `first`, where an earlier part always applies."""
-    sure = [(one, case) for one in earlier for case in _sure(rules, one)]
-    for rule in _beginning(part):
+) -> Iterator[_Late]:
+    """The rules at the start of a part of `first` that an earlier part forestalls."""
+    sure = [
+        (one, case) for one in earlier for case in _rules_surely_applied(rules, one)
+    ]
+    for rule in _first_rules(part):
         for one, case in sure:
             if _is_covered(rules, rule, case):
                 before = f"the rule {one}" if isinstance(one, Rule) else str(one)
@@ -146,10 +148,10 @@ def _covered(
                 break
 
 
-def _sure(rules: RuleSet, part: Algorithm) -> Iterator[Rule | None]:
-    """Rules of which each makes a part apply whenever its condition holds.
+def _rules_surely_applied(rules: RuleSet, part: Algorithm) -> Iterator[Rule | None]:
+    """The rules that make a part apply whenever their condition holds.
 
-    None says that the part applies always.
+    None means that the part always applies.
     """
     match part:
         case Rule():
@@ -159,39 +161,41 @@ def _sure(rules: RuleSet, part: Algorithm) -> Iterator[Rule | None]:
             yield None
         case First(parts) | All(parts):
             for one in parts:
-                yield from _sure(rules, one)
+                yield from _rules_surely_applied(rules, one)
         case Repeat(one):
-            yield from _sure(rules, one)
+            yield from _rules_surely_applied(rules, one)
         case Seq((one, *others)) if all(isinstance(p, Maybe) for p in others):
-            yield from _sure(rules, one)
+            yield from _rules_surely_applied(rules, one)
         case ByClass(classes):
             for _, members in classes:
                 for rule in members:
-                    yield from _sure(rules, rule)
+                    yield from _rules_surely_applied(rules, rule)
 
 
-def _beginning(part: Algorithm) -> Iterator[Rule]:
-    """The rules that are tried first in a part, in the state that it is tried in."""
+def _first_rules(part: Algorithm) -> Iterator[Rule]:
+    """The rules of a part that are tried in the same state as the part itself."""
     match part:
         case Rule():
             yield part
         case First(parts) | Ask(parts):
             for one in parts:
-                yield from _beginning(one)
+                yield from _first_rules(one)
         case Seq((one, *_)) | All((one, *_)) | Repeat(one) | Maybe(one):
-            yield from _beginning(one)
+            yield from _first_rules(one)
 
 
 def _is_covered(rules: RuleSet, rule: Rule, case: Rule | None) -> bool:
-    """Whether wherever a rule is tried with success, a case applies, too."""
+    """Does the case apply wherever the rule would?"""
     if case is None:
         return True
-    if not _event_covered(rules, rule, case) or not rules.alike(case.when, rule.when):
+    if not _is_event_covered(rules, rule, case) or not rules.may_coincide(
+        case.when, rule.when
+    ):
         return False
     return rules.covers(case.when, meet(rules.type, rule.when))
 
 
-def _event_covered(rules: RuleSet, rule: Rule, case: Rule) -> bool:
+def _is_event_covered(rules: RuleSet, rule: Rule, case: Rule) -> bool:
     if case.on is None:
         return True
     if rule.on is None or not case.p.lo <= rule.p.lo:

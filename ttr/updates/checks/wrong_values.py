@@ -1,4 +1,4 @@
-"""Values that are not of the type of the place that they are set to."""
+"""Values that are not of the type of the field that they are set to."""
 
 from __future__ import annotations
 
@@ -26,26 +26,26 @@ from ttr.types.syntax import (
 from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
-from ttr.updates.checks.source_positions import place
-from ttr.updates.checks.state_layout import Labels, Term, View, leaves
+from ttr.updates.checks.source_positions import span_of_label
+from ttr.updates.checks.state_layout import Labels, Term, View, leaf_fields
 from ttr.updates.rules import Body, Rule
 
-__all__ = ["misfits"]
+__all__ = ["find_wrong_values"]
 
 
-def misfits(rules: RuleSet) -> Iterator[Fault]:
-    """What rules set, or promise to set, and what states start with, of wrong types."""
-    yield from _start(rules)
+def find_wrong_values(rules: RuleSet) -> Iterator[Fault]:
+    """Values of wrong types that rules set or promise, or that the start has."""
+    yield from _wrong_start(rules)
     for rule in rules.rules:
-        yield from _written(rules, rule)
-        yield from _promised(rules, rule)
-        yield from _left_out(rules, rule)
+        yield from _wrong_writes(rules, rule)
+        yield from _wrong_promises(rules, rule)
+        yield from _missing_fields(rules, rule)
 
 
-def _start(rules: RuleSet) -> Iterator[Fault]:
+def _wrong_start(rules: RuleSet) -> Iterator[Fault]:
     if rules.start is None:
         return
-    why = rules.opened.judge(rules.start, rules.type).why
+    why = rules.open_model.judge(rules.start, rules.type).why
     failed = why.failure()
     if why.p != REFUTED or failed is None:
         return
@@ -55,22 +55,25 @@ def _start(rules: RuleSet) -> Iterator[Fault]:
     yield Fault(None, "misfit", message)
 
 
-def _written(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
+def _wrong_writes(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
     for write in rules.summaries[rule].writes:
-        wanted = declared(rules, write.path)
-        brought = rules.brought(rule, write)
+        wanted = declared_type(rules, write.path)
+        brought = rules.views_brought_by(rule, write)
         if wanted is None or not brought:
             continue
-        if all(misfit(rules, view, wanted) for view in brought):
-            found = _told(write.term, brought[0])
+        if all(is_misfit(rules, view, wanted) for view in brought):
+            found = _format_value(write.term, brought[0])
             fault = _misfit(rule, "sets", write.path, found, wanted, write.span)
-            yield replace(fault, hint=_way_out(rules, brought[0], wanted))
-        elif all(_is_odd(rules, view, wanted) for view in brought):
-            yield _odd(rule, write, brought[0], wanted)
+            yield replace(fault, hint=_hint_to_merge(rules, brought[0], wanted))
+        elif all(_lacks_brackets(rules, view, wanted) for view in brought):
+            yield _bracket_warning(rule, write, brought[0], wanted)
 
 
-def _is_odd(rules: RuleSet, view: View, wanted: TypeNode) -> bool:
-    """Whether a list would have to be of a basic type that nobody can see it is of."""
+def _lacks_brackets(rules: RuleSet, view: View, wanted: TypeNode) -> bool:
+    """Is a list set to something of a basic type, or the other way round?
+
+    A witness function of the basic type may judge lists; then nothing is known.
+    """
     match view, wanted:
         case (Basic() as T, ListOf() | NonEmpty() | SetOf()):
             return T not in rules.model.facts.functions
@@ -79,7 +82,7 @@ def _is_odd(rules: RuleSet, view: View, wanted: TypeNode) -> bool:
     return False
 
 
-def _odd(rule: Rule, write: Write, found: View, wanted: TypeNode) -> Fault:
+def _bracket_warning(rule: Rule, write: Write, found: View, wanted: TypeNode) -> Fault:
     path = ".".join(write.path)
     message = (
         f"the rule {rule} sets {path} to something of {found}, where {wanted} is due"
@@ -90,15 +93,15 @@ def _odd(rule: Rule, write: Write, found: View, wanted: TypeNode) -> Fault:
     return Fault(rule, "misfit", message, hint, write.span, "warning")
 
 
-def _promised(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
-    for path, T in leaves(rule.gives) if rule.gives else ():
-        wanted = declared(rules, path)
+def _wrong_promises(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
+    for path, T in leaf_fields(rule.gives) if rule.gives else ():
+        wanted = declared_type(rules, path)
         if wanted is None or not path:
             continue
         for view in views_of(T):
-            if misfit(rules, view, wanted):
-                span = place(rule, path[-1], path, "gives")
-                found = _told(None, view)
+            if is_misfit(rules, view, wanted):
+                span = span_of_label(rule, path[-1], path, "gives")
+                found = _format_value(None, view)
                 yield _misfit(rule, "promises to set", path, found, wanted, span)
                 break
 
@@ -117,7 +120,7 @@ def _misfit(
     return Fault(rule, "misfit", message, "", span)
 
 
-def _told(term: Term | None, view: View) -> str:
+def _format_value(term: Term | None, view: View) -> str:
     if term is not None and not escaping(term.value):
         return notation(term.value)
     if isinstance(view, Term):
@@ -125,47 +128,47 @@ def _told(term: Term | None, view: View) -> str:
     return f"something of {view}"
 
 
-def _way_out(rules: RuleSet, found: View, wanted: TypeNode) -> str:
-    """What to do about a value that would fit if its meets were merged."""
-    merged = Term(_merged(found.value)) if isinstance(found, Term) else found
-    if misfit(rules, merged, wanted):
+def _hint_to_merge(rules: RuleSet, found: View, wanted: TypeNode) -> str:
+    """A hint for a value that would fit if its meets were merged."""
+    merged = Term(_with_meets_merged(found.value)) if isinstance(found, Term) else found
+    if is_misfit(rules, merged, wanted):
         return ""
     return "a meet of record types is none itself, merge(S, T) is"
 
 
-def _merged(value: Object) -> Object:
-    """The value with the merge of record types in place of their meet."""
+def _with_meets_merged(value: Object) -> Object:
+    """The value with record types merged in place of their meet."""
     match value:
         case tuple():
-            return tuple(map(_merged, value))
+            return tuple(map(_with_meets_merged, value))
         case Meet(parts) if all(isinstance(part, RecordType) for part in parts):
             return reduce(merge, parts)
     return value
 
 
-def _left_out(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
-    """The fields that a record which is to be the next state lacks."""
+def _missing_fields(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
+    """The fields that are missing in a record that is to be the next state."""
     if not isinstance(rule.effect, Body) or not isinstance(rule.effect.value, Record):
         return
-    for path in _lacking(rule.effect.value, rules.type):
+    for path in _paths_lacking(rule.effect.value, rules.type):
         message = f"the state that the rule {rule} gives has no {'.'.join(path)}"
         hint = "give a record type of what changes, and all else stays as it is"
         yield Fault(rule, "misfit", message, hint, rule.span)
 
 
-def _lacking(r: Record, T: RecordType, at: Labels = ()) -> Iterator[Labels]:
+def _paths_lacking(r: Record, T: RecordType, at: Labels = ()) -> Iterator[Labels]:
     for label, field in T.fields:
         if label not in r:
             yield (*at, label)
         elif isinstance(r[label], Record) and isinstance(field, RecordType):
-            yield from _lacking(r[label], field, (*at, label))
+            yield from _paths_lacking(r[label], field, (*at, label))
 
 
 # --- what is of which type -----------------------------------------------------------
 
 
-def declared(rules: RuleSet, path: Labels) -> TypeNode | None:
-    """What the type of states says of a place."""
+def declared_type(rules: RuleSet, path: Labels) -> TypeNode | None:
+    """The type of a path by the type of states; None if that does not say."""
     T: TypeNode | None = rules.type
     for label in path:
         T = T.get(label) if isinstance(T, RecordType) else None
@@ -173,25 +176,25 @@ def declared(rules: RuleSet, path: Labels) -> TypeNode | None:
 
 
 def views_of(T: TypeNode) -> tuple[View, ...]:
-    """What a field says of its place: an object and a type, or the type alone."""
+    """What a field says of its value: which object it is, and of which type."""
     if isinstance(T, Singleton):
         own = () if escaping(T.value) else (Term(T.value),)
         return (*own, T.base)
     return (T,)
 
 
-def misfit(rules: RuleSet, view: View, wanted: TypeNode) -> bool:
-    """Whether what is known of a place cannot be of a type, as far as is known now.
+def is_misfit(rules: RuleSet, view: View, wanted: TypeNode) -> bool:
+    """Can something with this view not be of a type, by what is known now?
 
-    An object that is known to be of basic types is of no others, where no rule learns.
+    An object that is known to be of basic types is of no others, if no rule adds facts.
     """
     if rules.excludes(view, wanted):
         return True
-    if not isinstance(view, Term) or rules.learns:
+    if not isinstance(view, Term) or rules.may_learn:
         return False
     match view.value, wanted:
         case tuple(elements), ListOf(T) | NonEmpty(T):
-            return any(misfit(rules, Term(one), T) for one in elements)
+            return any(is_misfit(rules, Term(one), T) for one in elements)
     return isinstance(wanted, Basic) and _is_of_others(rules, view.value, wanted)
 
 
