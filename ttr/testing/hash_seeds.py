@@ -54,8 +54,8 @@ def _digests_in_process(
         check=False,
     )
     if run.returncode:
-        told = run.stderr.strip().splitlines() or ["it was stopped"]
-        raise TTRError(f"a process that plays {place.reference} failed: {told[-1]}")
+        lines = run.stderr.strip().splitlines() or ["it was stopped"]
+        raise TTRError(f"a process that plays {place.reference} failed: {lines[-1]}")
     return run.stdout.splitlines()
 
 

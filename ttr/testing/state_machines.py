@@ -75,9 +75,9 @@ def machine(
             __tracebackhide__ = True
             for one in asked:
                 if breach := one.breach(self.dialogue, who):
-                    shown = story(self.dialogue, str(one))
-                    told = terminal_text(f"{breach}\n\n{shown}")
-                    raise AssertionError(told) from None
+                    text = story(self.dialogue, str(one))
+                    message = terminal_text(f"{breach}\n\n{text}")
+                    raise AssertionError(message) from None
 
     for number, T in enumerate(heard_by(game), start=1):
         setattr(Machine, f"event_{number}", rule(data=st.data())(_rule_for_events(T)))

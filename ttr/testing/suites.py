@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from hypothesis import strategies as st
 
+from ttr.aliases import Alias
 from ttr.building.merging import merge
 from ttr.dialogues.dialogue import Dialogue
 from ttr.dialogues.stories import Setting
@@ -61,6 +62,8 @@ class Report:
     def __str__(self) -> str:
         """What went wrong; if nothing did, what was covered."""
         return self.explain_failure() or self.coverage.table()
+
+    told = Alias("explain_failure")
 
     def explain_failure(self, place: Setting | None = None) -> str:
         """What went wrong, with the story that shows it; empty if nothing did."""

@@ -137,7 +137,7 @@ def rule(
         raise UpdateError(f"the kind of a rule is a word, found {kind!r}")
     certain = _degree_asked_for(p)
 
-    def made(effect: Effect) -> Rule:
+    def make_rule(effect: Effect) -> Rule:
         if not callable(effect):
             raise UpdateError(f"a rule is made of a function, found {effect!r}")
         name = getattr(effect, "__name__", "rule")
@@ -161,7 +161,7 @@ def rule(
             span=_span_of_function(effect),
         )
 
-    return made
+    return make_rule
 
 
 def _without_defaults(parameters: Iterable[inspect.Parameter]) -> inspect.Signature:

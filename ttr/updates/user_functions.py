@@ -24,14 +24,14 @@ class blame:
     ttr.errors.RuleFailed: the rule hear failed: ZeroDivisionError: division by zero
     """
 
-    __slots__ = ("_told",)
+    __slots__ = ("_parts",)
 
     def __init__(self, *what: object) -> None:
-        self._told = what
+        self._parts = what
 
     @property
     def _what(self) -> str:
-        return " ".join(map(str, self._told))
+        return " ".join(map(str, self._parts))
 
     def __enter__(self) -> None:
         return None
@@ -43,8 +43,8 @@ class blame:
             return
         if isinstance(error, TTRError):
             raise RuleFailed(f"{self._what} failed: {error}") from error
-        told = excerpt(error, str)
-        fault = f"{type(error).__name__}: {told}" if told else type(error).__name__
+        text = excerpt(error, str)
+        fault = f"{type(error).__name__}: {text}" if text else type(error).__name__
         raise RuleFailed(f"{self._what} failed: {fault}") from error
 
 

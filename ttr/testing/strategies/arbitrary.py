@@ -1,7 +1,7 @@
-"""Arbitrary types and objects, drawn with hypothesis from few names.
+"""Arbitrary types and objects, drawn with Hypothesis from few names.
 
-They are drawn from outside in: what stands in a scope is drawn with the paths that lead
-somewhere from there, and with what they lead to, so that all of it is well-formed.
+They are drawn from outside in: whoever draws in a scope knows the paths that lead out
+of it, and the types of what they lead to, so that everything drawn is well-formed.
 """
 
 from __future__ import annotations
@@ -63,8 +63,7 @@ NAMES = ("a", "b", "s", "t", "x")
 
 @dataclass(frozen=True)
 class Words:
-    """What to draw from: basic types, predicates, names of objects, types that have
-    names."""
+    """The vocabulary: basic types, predicates, names of objects, and defined types."""
 
     basics: tuple[Basic, ...]
     predicates: tuple[Pred, ...]
@@ -73,7 +72,7 @@ class Words:
 
     @classmethod
     def of(cls, theory: Theory | None) -> Words:
-        """What a theory declares, or a few types and predicates without one.
+        """The vocabulary of a theory; a small one of our own if there is none.
 
         >>> Words.of(None).basics
         (Basic('A'), Basic('B'), Basic('C'))
@@ -107,7 +106,7 @@ _FEW = Words(
 # --- what paths can lead to ----------------------------------------------------------
 
 Scopes: TypeAlias = tuple[Mapping[tuple[str, ...], TypeNode], ...]
-"""For each scope around, innermost first, what its paths lead to: closed types."""
+"""For each enclosing scope, innermost first: its paths and the types they lead to."""
 
 
 def _visible(scopes: Scopes) -> list[tuple[Path, TypeNode]]:
@@ -119,7 +118,7 @@ def _visible(scopes: Scopes) -> list[tuple[Path, TypeNode]]:
 
 
 def _inside(label: str, T: TypeNode) -> dict[tuple[str, ...], TypeNode]:
-    """What paths that start with the label of a field, or with a variable, lead to."""
+    """The paths that start at a label or a variable, and the types they lead to."""
     found: dict[tuple[str, ...], TypeNode] = {}
     if not escaping(T):
         found[label,] = T
@@ -131,7 +130,7 @@ def _inside(label: str, T: TypeNode) -> dict[tuple[str, ...], TypeNode]:
 
 
 def _fitting(scopes: Scopes, wanted: TypeNode) -> list[Object]:
-    """Paths to what is of a type by its form, and the first of a list of it."""
+    """Paths to what has the form of a type, and the first elements of lists of it."""
     found: list[Object] = []
     for path, T in _visible(scopes):
         if _fits(T, wanted):
@@ -157,7 +156,7 @@ _Kind: TypeAlias = Callable[[Words, Scopes, int], st.SearchStrategy[Any]]
 
 @st.composite
 def types(draw: st.DrawFn, words: Words, scopes: Scopes, depth: int) -> TypeNode:
-    """Types of every constructor, nested so deep at most."""
+    """Types of every constructor, nested at most `depth` deep."""
     kind = draw(_ANY_KIND if depth > 0 else _LEAF_KIND)
     found: TypeNode = draw(kind(words, scopes, depth - 1))
     return found
@@ -169,7 +168,7 @@ def _atoms(words: Words, scopes: Scopes, depth: int) -> st.SearchStrategy[TypeNo
 
 @st.composite
 def ptypes(draw: st.DrawFn, words: Words, scopes: Scopes, depth: int) -> TypeNode:
-    """Ptypes of names and paths; basic types where there are no predicates."""
+    """Ptypes of names and paths; basic types if there are no predicates."""
     if not words.predicates:
         return draw(_atoms(words, scopes, depth))
     pred = draw(st.sampled_from(words.predicates))
@@ -178,7 +177,7 @@ def ptypes(draw: st.DrawFn, words: Words, scopes: Scopes, depth: int) -> TypeNod
 
 
 def _arguments(words: Words, scopes: Scopes, T: TypeNode) -> st.SearchStrategy[Object]:
-    """Names, but mostly paths where there are some."""
+    """Names, but mostly paths if there are any."""
     found = _fitting(scopes, T)
     mostly = 3 * len(words.names) // max(1, len(found)) + 1
     return st.sampled_from([*words.names, *found * mostly])
@@ -200,7 +199,7 @@ def _singletons(draw: st.DrawFn, words: Words, scopes: Scopes, depth: int) -> Ty
 
 
 def _of_several(make: Callable[..., TypeNode], least: int, most: int) -> _Kind:
-    """Types made of several: meets, joins, strings, and what is made of just one."""
+    """Types made of other types, such as meets, joins and strings."""
 
     def kind(words: Words, scopes: Scopes, depth: int) -> st.SearchStrategy[TypeNode]:
         parts = st.lists(types(words, scopes, depth), min_size=least, max_size=most)
@@ -221,7 +220,7 @@ def _function_types(
 
 @st.composite
 def _domains(draw: st.DrawFn, words: Words, scopes: Scopes, depth: int) -> TypeNode:
-    """Mostly basic types and record types, as paths from such a variable are of use."""
+    """Mostly basic types and record types: paths from such a variable are of use."""
     kind = draw(_DOMAIN_KIND) if depth > 0 else _atoms
     found: TypeNode = draw(kind(words, scopes, depth - 1))
     return found
@@ -231,7 +230,7 @@ def _domains(draw: st.DrawFn, words: Words, scopes: Scopes, depth: int) -> TypeN
 def _applications(
     draw: st.DrawFn, words: Words, scopes: Scopes, depth: int
 ) -> TypeNode:
-    """Applied functions that give types: paths to some if there are any."""
+    """Applications of functions that give types; of paths to some, if there are any."""
     heads: list[tuple[Object, TypeNode]] = [
         (path, T.domain) for path, T in _visible(scopes) if isinstance(T, FunType)
     ]
@@ -246,7 +245,7 @@ def _applications(
 def record_types(
     draw: st.DrawFn, words: Words, scopes: Scopes, depth: int
 ) -> RecordType:
-    """Record types: plain fields, which may be set, and any that depend on them."""
+    """Record types: simple fields, perhaps manifest, and fields that depend on them."""
     labels = draw(_SOME_LABELS)
     plain = labels[: draw(st.integers(0, len(labels)))]
     bases = {label: draw(_plain(words)) for label in plain}
@@ -273,7 +272,7 @@ def _plain(draw: st.DrawFn, words: Words) -> TypeNode:
 def _set_or_not(
     draw: st.DrawFn, words: Words, scopes: Scopes, base: TypeNode
 ) -> TypeNode:
-    """A field that may be set to an object or to another field, even in a circle."""
+    """A field that may be manifest: an object or another field, even in a circle."""
     match draw(_SETTING):
         case "value":
             return Singleton(base, draw(forms(words, scopes, 0, base)))
@@ -325,7 +324,7 @@ _ANY_KIND = st.sampled_from(
 
 @st.composite
 def objects(draw: st.DrawFn, words: Words, scopes: Scopes, depth: int) -> Object:
-    """Objects of every kind that has a notation, nested so deep at most."""
+    """Objects of every kind that has a notation, nested at most `depth` deep."""
     kind = draw(_ANY_OBJECT if depth > 0 else _SIMPLE_OBJECT)
     return draw(kind(words, scopes, depth - 1))
 
@@ -383,7 +382,7 @@ def _functions(
 def _values(
     draw: st.DrawFn, words: Words, scopes: Scopes, depth: int, T: TypeNode
 ) -> Object:
-    """Objects of the form that a type asks for, and now and then any."""
+    """Objects of the form that a type asks for, and sometimes others."""
     if draw(_NOW_AND_THEN):
         return draw(objects(words, scopes, depth - 1))
     return draw(_of_form(words, scopes, depth, T))
@@ -395,7 +394,7 @@ _NOW_AND_THEN = st.sampled_from([False, False, False, True])
 def _of_form(
     words: Words, scopes: Scopes, depth: int, T: TypeNode
 ) -> st.SearchStrategy[Object]:
-    """Objects of the form that a type asks for, half of them paths if there are any."""
+    """Objects of the form that a type asks for; half of them paths if there are any."""
     written = forms(words, scopes, depth, T)
     found = _fitting(scopes, T)
     return st.one_of(written, st.sampled_from(found)) if found else written
@@ -404,7 +403,7 @@ def _of_form(
 def forms(
     words: Words, scopes: Scopes, depth: int, T: TypeNode
 ) -> st.SearchStrategy[Object]:
-    """Objects of the form that a type asks for, not always of the type."""
+    """Objects of the form that a type asks for, though not always of the type."""
     match T:
         case Singleton(_, value):
             return st.just(value)
@@ -429,13 +428,13 @@ def forms(
 
 
 _NUMBERED = (0, 1, 0.5)
-"""Objects that are no names."""
+"""Objects that are not names."""
 
 
 def _record_forms(
     words: Words, scopes: Scopes, depth: int, T: RecordType
 ) -> st.SearchStrategy[Object]:
-    """Records with the labels of a type, whose paths do not lead into it."""
+    """Records with the labels of a type; their paths do not lead into the record."""
     closed = {k: field for k, field in T.fields if not escaping(field)}
     parts = {k: forms(words, scopes, depth, field) for k, field in closed.items()}
     others = dict.fromkeys(T.labels, st.sampled_from(words.names))
@@ -446,7 +445,7 @@ def _record_forms(
 def _lists(
     draw: st.DrawFn, words: Words, scopes: Scopes, depth: int, item: TypeNode
 ) -> Object:
-    """Lists as written, and what is computed of those that paths lead to."""
+    """Lists, and operations on the lists that paths lead to."""
     written = tuple(draw(st.lists(_values(words, scopes, 0, item), max_size=2)))
     paths = [p for p, T in _visible(scopes) if isinstance(T, ListOf | NonEmpty)]
     if not paths:

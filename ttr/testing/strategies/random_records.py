@@ -85,13 +85,13 @@ def has_only_records(T: TypeNode) -> bool:
 def _witnesses(draw: st.DrawFn, T: TypeNode) -> tuple[Object, Model]:
     """A record of the shape of T in a model that says it is of T; or one created."""
     M = draw(facts(Words.of(Theory.of(T)), None, st.just(1.0)))
-    told = with_fact(M, draw(objects_of_shape(T, M)), T)
-    if told is not None and draw(st.booleans()):
-        return told
+    witness = with_fact(M, draw(objects_of_shape(T, M)), T)
+    if witness is not None and draw(st.booleans()):
+        return witness
     for model in (M, Model()):
         with suppress(Refused):
             return model.create(T)
-    return told or Model().create(T)
+    return witness or Model().create(T)
 
 
 def with_fact(M: Model, r: Object, T: TypeNode) -> tuple[Object, Model] | None:

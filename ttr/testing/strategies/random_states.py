@@ -65,8 +65,8 @@ def _states_over_model(
     draw: st.DrawFn, T: RecordType, M: Model
 ) -> tuple[Object, Model]:
     """A state with what the model knows; one that is created if that is of no use."""
-    told = with_fact(M, draw(objects_of_shape(T, M)), T)
-    return told if told is not None else M.create(T)
+    state = with_fact(M, draw(objects_of_shape(T, M)), T)
+    return state if state is not None else M.create(T)
 
 
 # --- events --------------------------------------------------------------------------

@@ -149,11 +149,11 @@ def _found(rules: RuleSet, checks: Iterable[Check] = CHECKS) -> tuple[Fault, ...
     found: dict[object, Fault] = {}
     explained: set[Rule | None] = set()
     for check in checks:
-        told = list(check(rules))
-        for fault in told:
+        new = list(check(rules))
+        for fault in new:
             if fault.sort not in NEVER or fault.rule not in explained:
                 found.setdefault(_place(fault), fault)
-        explained |= {fault.rule for fault in told}
+        explained |= {fault.rule for fault in new}
     return tuple(found.values())
 
 

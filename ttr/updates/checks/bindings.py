@@ -49,12 +49,12 @@ def _find_cycle(rule: Rule, value: Object, role: str) -> Iterator[Fault]:
     around = next(filter(None, map(round_about, types)), ())
     if not around:
         return
-    (first, *others), told = around, " → ".join(around)
+    (first, *others), cycle = around, " → ".join(around)
     if others == [first]:
-        message = f"in the rule {rule} {first} is set to itself: {told}"
+        message = f"in the rule {rule} {first} is set to itself: {cycle}"
         hint = "give what where binds another name than the label"
     else:
-        message = f"in the rule {rule} fields go in a circle: {told}"
+        message = f"in the rule {rule} fields go in a circle: {cycle}"
         hint = "no witness of such a type can be created: leave one of them open"
     span = span_of_label(rule, first.rpartition(".")[2], (), role)
     yield Fault(rule, "unbound", message, hint, span, "warning")

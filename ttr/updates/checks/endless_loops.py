@@ -134,10 +134,10 @@ def _is_rest(rule: Rule, write: Write, path: Labels) -> bool:
 
 def _touches(rules: RuleSet, rule: Rule, path: Labels) -> bool:
     """May a rule set a list to anything other than its rest?"""
-    told = rules.summaries[rule]
-    if not told.complete:
+    summary = rules.summaries[rule]
+    if not summary.complete:
         return True
     shared = (
-        write.path[: len(path)] == path[: len(write.path)] for write in told.writes
+        write.path[: len(path)] == path[: len(write.path)] for write in summary.writes
     )
     return any(shared) and path not in _shortened_lists(rules, rule)

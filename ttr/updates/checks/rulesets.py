@@ -114,8 +114,8 @@ class RuleSet:
     def _views_written(self) -> Mapping[Labels, Views]:
         """The views of what rules set, by its path."""
         placed: dict[Labels, Views] = {}
-        for rule, told in self.summaries.items():
-            for write in told.writes:
+        for rule, summary in self.summaries.items():
+            for write in summary.writes:
                 brought = self.views_brought_by(rule, write) or (Rec,)
                 known = (*placed.get(write.path, ()), *brought)
                 placed[write.path] = tuple(dict.fromkeys(known))

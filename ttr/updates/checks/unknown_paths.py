@@ -165,12 +165,12 @@ def find_unbound_names(rules: RuleSet) -> Iterator[Fault]:
     """The names in rules that are not their variables and that nothing else binds."""
     for rule in rules.rules:
         bound = (*rule.names[: 1 + (rule.on is not None)], *(rule.where or ()))
-        told = rules.summaries[rule]
-        for access in (*_paths_in_bindings(rule), *told.reads):
+        summary = rules.summaries[rule]
+        for access in (*_paths_in_bindings(rule), *summary.reads):
             if access.variable not in bound:
                 span = span_of_label(rule, access.variable, (), "where")
                 yield _unbound_name(rule, access.variable, bound, span)
-        for name, span in told.undefined:
+        for name, span in summary.undefined:
             yield _unbound_name(rule, name, bound, span)
 
 

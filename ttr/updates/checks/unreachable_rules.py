@@ -39,9 +39,9 @@ def find_unreachable_rules(rules: RuleSet) -> Iterator[Fault]:
     for rule, fault in _forestalled_rules(rules, rules.algorithm):
         late.setdefault(rule, []).append(fault)
     places = Counter(rule_occurrences(rules.algorithm))
-    for rule, told in late.items():
-        if impossible[rule] is None and len(told) == places[rule]:
-            yield told[0]
+    for rule, faults in late.items():
+        if impossible[rule] is None and len(faults) == places[rule]:
+            yield faults[0]
 
 
 # --- impossible conditions -----------------------------------------------------------
@@ -98,8 +98,8 @@ def _impossible_bindings(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
 
 def _empty_effects(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
     """Effects that never return a state, for example if `return` was forgotten."""
-    told = rules.summaries[rule]
-    if told.complete and not told.outcomes:
+    summary = rules.summaries[rule]
+    if summary.complete and not summary.outcomes:
         yield _never_fires(rule, "it gives no next state, as nothing is returned")
 
 

@@ -28,9 +28,9 @@ def find_untriggered_rules(rules: RuleSet) -> Iterator[Fault]:
     while waiting:
         more = [rule for rule in waiting if _first_unmet(rules, rule, firing) is None]
         if not more:
-            told = _stuck_rules(rules, list(waiting), firing)
-            yield from told.values()
-            more = list(told)
+            stuck = _stuck_rules(rules, list(waiting), firing)
+            yield from stuck.values()
+            more = list(stuck)
         firing += more
         for rule in more:
             del waiting[rule]
@@ -92,14 +92,14 @@ def may_set(rules: RuleSet, rule: Rule, path: Labels, T: TypeNode) -> bool:
 
 
 def _may_set_place(rules: RuleSet, rule: Rule, path: Labels, T: TypeNode) -> bool:
-    told = rules.summaries[rule]
+    summary = rules.summaries[rule]
     if rule.gives is not None:
         promised = views_along(rule.gives, path)
         if promised and all(rules.excludes(view, T) for view in promised):
             return False
-    if not told.complete:
+    if not summary.complete:
         return True
-    return any(_may_bring(rules, rule, write, path, T) for write in told.writes)
+    return any(_may_bring(rules, rule, write, path, T) for write in summary.writes)
 
 
 def _may_bring(
@@ -156,10 +156,10 @@ def _planned_moves(
     start = views_along(Term(rules.start), agenda)
     values = [view.value for view in start if isinstance(view, Term)]
     for rule in firing:
-        told = rules.summaries[rule]
-        if not told.complete:
+        summary = rules.summaries[rule]
+        if not summary.complete:
             return None
-        for write in told.writes:
+        for write in summary.writes:
             shared = min(len(write.path), len(agenda))
             if write.path[:shared] != agenda[:shared]:
                 continue
