@@ -21,7 +21,6 @@ __all__ = [
     "All",
     "Ask",
     "ByClass",
-    "Choose",
     "First",
     "Maybe",
     "Measure",

@@ -19,7 +19,7 @@ from ttr.types.syntax import Object, Record, RecordType, Singleton, TypeNode
 from ttr.updates.rules import Rule
 from ttr.updates.user_functions import excerpt
 
-__all__ = ["NextState", "apply_effect"]
+__all__ = ["apply_effect"]
 
 
 class NextState(NamedTuple):

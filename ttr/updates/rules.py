@@ -24,7 +24,7 @@ from ttr.types.syntax import (
     kind_of,
 )
 
-__all__ = ["Body", "Effect", "Rule", "rule", "update"]
+__all__ = ["EXTRAS", "Body", "Rule", "rule", "update"]
 
 Effect: TypeAlias = Callable[..., object]
 

@@ -22,7 +22,7 @@ from ttr.types.syntax import (
     Universe,
 )
 
-__all__ = ["PATHS", "Acts", "Roles", "acts_in", "at"]
+__all__ = ["Acts", "Roles", "acts_in", "at"]
 
 Test: TypeAlias = Callable[[Object, Object], bool]
 

@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 from ttr.errors import Span
 from ttr.updates.rules import Rule
 
-__all__ = ["Fault", "Severity", "Sort"]
+__all__ = ["Fault", "Severity"]
 
 Sort: TypeAlias = Literal[
     "missing",

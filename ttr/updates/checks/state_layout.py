@@ -27,8 +27,6 @@ __all__ = [
     "View",
     "Views",
     "views_along",
-    "views_below",
-    "declared_labels",
     "descend",
     "leaf_fields",
 ]
@@ -72,22 +70,22 @@ class Missing:
         return ".".join(self.path[:-1])
 
 
-def views_below(view: View, label: str) -> Views:
+def _views_below(view: View, label: str) -> Views:
     """The views of a label, by one view of the record that has it."""
     match view:
         case RecordType():
             found = view.get(label)
             return () if found is None else (found,)
         case Singleton(base, value):
-            return (*views_below(base, label), *views_below(Term(value), label))
+            return (*_views_below(base, label), *_views_below(Term(value), label))
         case Meet(parts) | Join(parts):
-            return tuple(one for part in parts for one in views_below(part, label))
+            return tuple(one for part in parts for one in _views_below(part, label))
         case Term(Record() as r):
             return (Term(r[label]),) if label in r else ()
     return ()
 
 
-def declared_labels(view: View) -> Labels | None:
+def _declared_labels(view: View) -> Labels | None:
     """The labels that a value is declared to have; None if it may have any.
 
     A record type is taken to name all labels that there are, if it names any.
@@ -96,9 +94,9 @@ def declared_labels(view: View) -> Labels | None:
         case RecordType(fields):
             return view.labels if fields else None
         case Singleton(base, _):
-            return declared_labels(base)
+            return _declared_labels(base)
         case Meet(parts) | Join(parts):
-            return _union_of_labels(map(declared_labels, parts))
+            return _union_of_labels(map(_declared_labels, parts))
     return None
 
 
@@ -121,7 +119,7 @@ def descend(
     record is known and all its types are closed.
     """
     for i, label in enumerate(path, 1):
-        further = tuple(one for view in views for one in views_below(view, label))
+        further = tuple(one for view in views for one in _views_below(view, label))
         if not further:
             return _missing_label(views, path[:i])
         views = further + placed.get(path[:i], ())
@@ -130,7 +128,7 @@ def descend(
 
 def _missing_label(views: Views, path: Labels) -> Views | Missing:
     types = [view for view in views if isinstance(view, TypeNode)]
-    closed = _union_of_labels(map(declared_labels, types))
+    closed = _union_of_labels(map(_declared_labels, types))
     return Missing(path, closed) if types and closed is not None else ()
 
 
@@ -138,7 +136,7 @@ def views_along(view: View, path: Labels) -> Views:
     """What one view says of the value at a path."""
     views: Views = (view,)
     for label in path:
-        views = tuple(one for view in views for one in views_below(view, label))
+        views = tuple(one for view in views for one in _views_below(view, label))
     return views
 
 
