@@ -4,7 +4,7 @@ Run it with `python examples/07_most_dogs.py`, and read along.
 """
 
 from ttr import Ind, Model, Pred, fun, outer, record, rectype, this
-from ttr.semantics.fragment import english, follows, picked_up, understand
+from ttr.semantics.fragment import english, follows, pronoun_antecedents, understand
 from ttr.semantics.parametric_content import content, strong, weak
 from ttr.semantics.quantifiers import (
     Thresholds,
@@ -75,7 +75,7 @@ print(sentence.judge(M).why)
 
 # The witness sets are what a pronoun can pick up.
 
-dogs, boys = picked_up(M, sentence)
+dogs, boys = pronoun_antecedents(M, sentence)
 print("\nthey, the dogs:", dogs)
 print("they, the boys:", boys)
 sets = antecedents(settle(M, few(dog, boy)))

@@ -5,7 +5,7 @@ Run it with `python examples/08_what_comes_next.py`, and read along.
 
 from ttr import Basic, EventString, Model, Plus, Pred, Str, subtype
 from ttr.errors import Unexpected
-from ttr.semantics.string_prediction import begun, star
+from ttr.semantics.string_prediction import star, start_course
 
 Ind = Basic("Ind")
 pick_up, throw = Pred("pick_up", Ind, Ind), Pred("throw", Ind, Ind)
@@ -33,7 +33,7 @@ M = Model()
 for number, kind in enumerate((*Round.items, pick_up("h", "s")), start=1):
     M = M.given(f"e{number}", kind)
 
-game = begun(Fetch, M)
+game = start_course(Fetch, M)
 print("\nat first:  ", game.expected)
 for event in ("e1", "e2", "e3"):
     game = game.seen(event)

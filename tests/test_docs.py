@@ -307,7 +307,7 @@ def property_tests() -> dict[str, set[str]]:
 def strings() -> dict[str, set[str]]:
     """The public names of courses of strings of events."""
     courses = importlib.import_module("ttr.semantics.string_prediction")
-    begun = courses.begun(ttr.Plus(ttr.Ind), ttr.Model())
+    begun = courses.start_course(ttr.Plus(ttr.Ind), ttr.Model())
     return {
         "ttr.semantics.string_prediction": set(courses.__all__),
         "ttr.semantics.string_prediction.Course": public(begun),

@@ -89,8 +89,17 @@ FORMER_NAMES: Mapping[str, Mapping[str, str]] = {
     },
     "ttr.errors": _ERRORS | _errors(" Mistakes"),
     "ttr.probability": _errors("Contradiction Impossible"),
-    "ttr.semantics.fragment": _errors(" OutsideFragment"),
+    "ttr.semantics.fragment": _errors(" OutsideFragment")
+    | {"picked_up": "pronoun_antecedents"},
+    "ttr.semantics.gameboards.kos": {"said": "utterance"},
+    "ttr.semantics.perceptual": {
+        "detected": "detections",
+        "individuated": "individuate",
+    },
     "ttr.semantics.quantifiers": _errors(" Undefined"),
+    "ttr.semantics.questions": {"resolving": "find_answer"},
+    "ttr.semantics.string_prediction": {"begun": "start_course"},
+    "ttr.semantics.topoi": {"combined": "combine_topoi", "expected": "expectation"},
 }
 """What was renamed in a module: its name there now, or where it is instead."""
 

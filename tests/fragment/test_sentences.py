@@ -10,7 +10,7 @@ from ttr.semantics.fragment import (
     english,
     follows,
     lexicon,
-    picked_up,
+    pronoun_antecedents,
     understand,
 )
 from ttr.semantics.quantifiers import Undefined, every
@@ -112,14 +112,14 @@ def test_most_of_nothing_is_neither(M):
 
 
 def test_every_dog_hugs_a_boy_and_what_a_pronoun_picks_up(M):
-    dogs, boys = picked_up(M, understand("Every dog hugs a boy."))
+    dogs, boys = pronoun_antecedents(M, understand("Every dog hugs a boy."))
     assert dogs is FiniteSet("fido", "rex")
     assert boys is FiniteSet("kim", "sam")
     about_boys = understand("They smile.", picked=[boys])
     assert about_boys.judge(M).p == (0, 0)
-    one = picked_up(M, understand("Exactly one boy smiles."))
+    one = pronoun_antecedents(M, understand("Exactly one boy smiles."))
     assert understand("He smiles.", picked=one).judge(M).p == (1, 1)
-    assert picked_up(M, understand("Kim hugs a boy.")) == ()
+    assert pronoun_antecedents(M, understand("Kim hugs a boy.")) == ()
 
 
 def test_a_donkey_pronoun_is_strong_after_every(M):

@@ -128,7 +128,7 @@ def test_gameboards_go_on_as_without_sieves(moves):
     for name in ("a", "b", "kim"):
         model = model.given(name, Ind)
     board = kos.game(model, "a", "b")
-    events = list(map(kos.said, moves))
+    events = list(map(kos.utterance, moves))
     with without_sieves():
         expected = traced(board, events)
     assert traced(board, events) == expected

@@ -20,7 +20,7 @@ from ttr import (
     subtype,
 )
 from ttr.computing.strings.pieces import is_of_strings
-from ttr.semantics.string_prediction import begun
+from ttr.semantics.string_prediction import start_course
 from ttr.types.forms import star
 
 A, B = Basic("A"), Basic("B")
@@ -204,7 +204,7 @@ def test_repetition_keeps_the_order(S, T):
 
 @given(strings, words)
 def test_following_agrees_with_judging(T, word):
-    course = begun(T, M)
+    course = start_course(T, M)
     try:
         for event in word:
             course = course.seen(event)
@@ -216,7 +216,7 @@ def test_following_agrees_with_judging(T, word):
 
 @given(strings, st.sampled_from(sorted(EVENTS)), words)
 def test_the_rest_is_of_what_was_left(T, event, word):
-    course = begun(T, M)
+    course = start_course(T, M)
     if course.expects(event) == (0, 0):
         assert not is_of((event, *word), T, EVENTS)
         return
@@ -226,7 +226,7 @@ def test_the_rest_is_of_what_was_left(T, event, word):
 
 @given(strings, st.sampled_from(sorted(EVENTS)))
 def test_what_is_expected_is_what_fits(T, event):
-    course = begun(T, M)
+    course = start_course(T, M)
     expected = course.expected
     fits = expected is not None and M.judge(event, expected).holds
     assert (course.expects(event) == (1, 1)) == fits
@@ -249,7 +249,7 @@ def test_degrees_hold_what_the_cases_come_to(T, word, data):
     total = chance_of(tuple(word), T, points)
     found = [model.judge(EventString(*word), T).p]
     try:
-        course = begun(T, model)
+        course = start_course(T, model)
         for event in word:
             course = course.seen(event)
         found.append(course.may_end)
@@ -277,7 +277,7 @@ def chance_of(word, T, points) -> float:
 def test_degrees_of_different_events_are_exact(T, word, chances):
     keys = list(product("xyz", (A, B)))
     points = dict(zip(keys, chances, strict=True))
-    model, course = Model(), begun(T, Model())
+    model, course = Model(), start_course(T, Model())
     for (event, kind), p in points.items():
         model = model.given(event, kind, p)
     course = course.judged_in(model)

@@ -75,7 +75,7 @@ def test_contents_of_parts_are_composed():
     ("make", "why"),
     [
         (lambda: content(Ind, bray("a")), "a background is a record type"),
-        (lambda: content(rectype(y=Ind), BEATS.fg), "does not take what is of"),
+        (lambda: content(rectype(y=Ind), BEATS.fg), "does not take the contexts of"),
         (lambda: weak(record(x="a")), "a parametric content is a record"),
         (lambda: strong("a"), "a parametric content is a record"),
     ],

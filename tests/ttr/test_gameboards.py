@@ -25,7 +25,7 @@ BOARD = kos.game(M, "a", "b")
 
 
 def talk(*moves, board=BOARD):
-    return board.play(map(kos.said, moves))[-1]
+    return board.play(map(kos.utterance, moves))[-1]
 
 
 def rules(turn):
@@ -170,7 +170,7 @@ MOVES = st.one_of(
 @given(st.lists(MOVES, max_size=8))
 def test_whatever_is_said_the_board_is_a_board(moves):
     facts, said = (), 0
-    for turn in BOARD.play(map(kos.said, moves)):
+    for turn in BOARD.play(map(kos.utterance, moves)):
         s, said = turn.state, said + 1
         assert turn.run.model.judge(s, kos.DGB).holds
         assert len(set(s.qud)) == len(s.qud)

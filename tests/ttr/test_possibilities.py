@@ -294,7 +294,7 @@ def test_of_what_is_unknown_the_box_is_unknown():
 def test_what_is_no_system():
     with pytest.raises(IllFormed, match="at least one possibility"):
         modal_system()
-    with pytest.raises(IllFormed, match="the possibility w is a model, found 3"):
+    with pytest.raises(IllFormed, match="the possibility w must be a model, found 3"):
         modal_system(w=3)
     with pytest.raises(IllFormed, match="w1 and w2 are of different theories"):
         modal_system(w1=Model(), w2=Model(Signature(opened=frozenset([A]))))

@@ -24,13 +24,13 @@ from ttr.semantics.questions import (
     asked_of,
     combine,
     downdate,
+    find_answer,
     is_polar,
     is_question,
     pop,
     push,
     relevant,
     resolves,
-    resolving,
     top,
     whether,
     which,
@@ -172,8 +172,8 @@ def test_one_object_for_one_variable():
 
 def test_the_first_that_resolves():
     known = [BACK, ~TO_LONDON, TO_PARIS]
-    assert resolving(TO, known, M) is TO_PARIS
-    assert resolving(FROM, known, M) is None
+    assert find_answer(TO, known, M) is TO_PARIS
+    assert find_answer(FROM, known, M) is None
 
 
 propositions = st.sampled_from(
@@ -236,7 +236,7 @@ def test_what_was_under_discussion_keeps_its_order(before, asked):
 def test_downdating_leaves_just_what_is_open(asked, facts):
     qud = tuple(dict.fromkeys(asked))
     left = downdate(qud, facts, M)
-    assert left == tuple(q for q in qud if resolving(q, facts, M) is None)
+    assert left == tuple(q for q in qud if find_answer(q, facts, M) is None)
     assert downdate(left, facts, M) == left
 
 
@@ -284,7 +284,7 @@ def test_what_is_no_list_of_questions_is_refused(junk: object) -> None:
         lambda: push(junk, question),
         lambda: downdate(junk, [], Model()),
         lambda: downdate([question], junk, Model()),
-        lambda: resolving(question, junk, Model()),
+        lambda: find_answer(question, junk, Model()),
     ):
         with pytest.raises(TTRError, match=r"a list of (questions|prop)"):
             wrong()

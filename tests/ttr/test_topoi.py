@@ -20,9 +20,9 @@ from ttr import (
 )
 from ttr.semantics.topoi import (
     Topos,
-    combined,
+    combine_topoi,
     compatible,
-    expected,
+    expectation,
     necessary,
     possible,
     topos,
@@ -42,12 +42,12 @@ M = Model().given("tweety", Ind).given("s1", bird("tweety"))
 
 
 def test_what_a_topos_lets_expect():
-    assert expected(M, tweety, birds_fly) is rectype(e=fly("tweety"))
+    assert expectation(M, tweety, birds_fly) is rectype(e=fly("tweety"))
 
 
 def test_of_what_is_no_bird_nothing_is_expected():
     with pytest.raises(Refused, match="takes objects of"):
-        expected(M, record(x="fido", c="s1"), birds_fly)
+        expectation(M, record(x="fido", c="s1"), birds_fly)
 
 
 def test_a_topos_is_parametric_content():
@@ -83,10 +83,10 @@ def test_axioms_help():
 
 
 def test_topoi_combine():
-    both = combined(birds_fly, penguins_swim)
+    both = combine_topoi(birds_fly, penguins_swim)
     assert both.bg is merge(Bird, Penguin)
     here = M.given("s2", penguin("tweety"))
-    follows = expected(here, record(x="tweety", c="s1", p="s2"), both)
+    follows = expectation(here, record(x="tweety", c="s1", p="s2"), both)
     assert follows is rectype(e=fly("tweety"), f=swim("tweety"))
 
 
@@ -96,11 +96,11 @@ def test_topoi_that_contradict_each_other_are_both_held():
 
 
 def test_what_follows_by_a_combination_follows_by_each():
-    both = combined(birds_fly, penguins_swim)
+    both = combine_topoi(birds_fly, penguins_swim)
     here = M.given("s2", penguin("tweety"))
     s = record(x="tweety", c="s1", p="s2")
     for one in (birds_fly, penguins_swim):
-        assert subtype(expected(here, s, both), expected(here, s, one)).yes
+        assert subtype(expectation(here, s, both), expectation(here, s, one)).yes
 
 
 def test_an_enthymeme_and_its_topos():
@@ -121,16 +121,16 @@ def test_what_is_no_topos():
     with pytest.raises(IllFormed, match="paths that lead nowhere"):
         topos(fun(x=Ind)(fly(outer.y)))
     with pytest.raises(IllFormed, match="a topos is a function from situations"):
-        expected(M, tweety, "fly")
+        expectation(M, tweety, "fly")
     assert topos(fun(x=Ind)(Basic("A"))).bg is Ind
 
 
 def test_a_function_will_do_for_a_topos():
     assert topos(birds_fly) is birds_fly
-    assert expected(M, tweety, birds_fly.fg) is rectype(e=fly("tweety"))
+    assert expectation(M, tweety, birds_fly.fg) is rectype(e=fly("tweety"))
     assert necessary(M, tweety, rectype(e=fly("tweety")), birds_fly.fg).yes
     assert underpins(birds_fly.fg, birds_fly.fg).yes
-    assert combined(birds_fly.fg, birds_fly.fg) == birds_fly
+    assert combine_topoi(birds_fly.fg, birds_fly.fg) == birds_fly
 
 
 @pytest.mark.parametrize("model", [None, Model, "M"])
@@ -139,7 +139,7 @@ def test_a_topos_is_applied_in_a_model(ask, model):
     with pytest.raises(TTRError, match="a model to judge in"):
         ask(model, tweety, Bird, birds_fly)
     with pytest.raises(TTRError, match="a model to judge in"):
-        expected(model, tweety, birds_fly)
+        expectation(model, tweety, birds_fly)
 
 
 @pytest.mark.parametrize("fg", [None, Bird, fun(r=Bird)(outer.r.x)])

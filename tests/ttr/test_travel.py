@@ -17,7 +17,7 @@ from ttr.errors import NotHeard
 from ttr.semantics.gameboards.ibis import Domain, PhraseBook, utterance
 from ttr.semantics.gameboards.ibis import moves as moves
 from ttr.semantics.gameboards.ibis.domains import asked_in, size
-from ttr.semantics.questions import resolves, resolving, whether, which
+from ttr.semantics.questions import find_answer, resolves, whether, which
 from ttr.updates.checks import faults_of
 
 FOLDER = Path(__file__).resolve().parents[2] / "examples" / "travel"
@@ -130,13 +130,13 @@ def test_a_plan_depends_on_what_is_agreed_on():
 
 def test_a_correction_takes_back_what_rests_on_it_and_nothing_else():
     before = talk("price", "plane to paris from london in may, economy", "no")
-    assert resolving(COST, before.state.shared.com, M) is not None
+    assert find_answer(COST, before.state.shared.com, M) is not None
     after = GAME.take(before.run, GAME.hear("no, by train"))
     gone = set(before.state.shared.com) - set(after.state.shared.com)
     named = rectype(e=THEORY["means"]("plane"))
-    assert gone == {named, resolving(COST, before.state.shared.com, M)}
+    assert gone == {named, find_answer(COST, before.state.shared.com, M)}
     assert words(after) == ["It costs 700 crowns."]
-    assert resolving(COST, after.state.shared.com, M) is not None
+    assert find_answer(COST, after.state.shared.com, M) is not None
 
 
 def test_what_is_said_again_changes_nothing_that_is_agreed_on():
@@ -207,7 +207,7 @@ def check_turn(before, turn):
     assert s.next_moves == s.output == s.private.nim == ()
     assert len(set(s.shared.qud)) == len(s.shared.qud)
     assert len(set(s.shared.com)) == len(s.shared.com)
-    assert all(resolving(q, s.shared.com, M) is None for q in s.shared.qud)
+    assert all(find_answer(q, s.shared.com, M) is None for q in s.shared.qud)
     if before.program == "run":
         assert turn.said
         assert all(words(turn))

@@ -1,9 +1,9 @@
 """Parametric contents {bg, fg}: what is said, given what is presupposed.
 
-The background bg is a record type, of the contexts in which the content makes sense;
-the foreground fg is a function from these contexts to types. Purification does away
-with the context: in the weak way some context will do, in the strong way it must be
-all. For "Every farmer who owns a donkey beats it" these are its two readings. Source:
+The background bg is a record type: that of the contexts in which the content makes
+sense. The foreground fg is a function from these contexts to types. Purification
+eliminates the context: weak purification asks for some context, strong purification for
+all. These are the two readings of "Every farmer who owns a donkey beats it". Sources:
 Cooper 2023; Kanazawa 1994 for the readings.
 """
 
@@ -37,9 +37,9 @@ __all__ = ["apply", "content", "in_context", "strong", "weak"]
 def content(
     bg: TypeNode, fg: Function | TypeNode, theory: Signature | None = None, /
 ) -> Record:
-    """The parametric content {bg, fg}; a type as fg does not depend on the context.
+    """The parametric content {bg, fg}; a type as fg is the same in all contexts.
 
-    Raises `IllFormed` where bg is no record type, or fg does not take its records.
+    Raises `IllFormed` where bg is no record type, or not below the domain of fg.
 
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> donkey, bray = Pred("donkey", Ind), Pred("bray", Ind)
@@ -54,14 +54,14 @@ def content(
     covered = subtype(bg, as_type(fg.domain), theory)
     if not covered.yes:
         raise IllFormed(
-            f"the foreground {fg} does not take what is of the background {bg}: "
+            f"the foreground {fg} does not take the contexts of the background {bg}: "
             f"{covered.why}"
         )
     return record(bg=bg, fg=fg)
 
 
 def weak(of: Record, /) -> RecordType:
-    """The weak purification: there is a context, and the foreground is true of it.
+    """The weak purification: there is a context of which the foreground is true.
 
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> Donkey = rectype(x=Ind, c=Pred("donkey", Ind)(this.x))
@@ -70,11 +70,11 @@ def weak(of: Record, /) -> RecordType:
     [bg : [x : Ind, c : donkey(x)], fg : bray(bg.x)]
     """
     bg, fg = _parts(of)
-    return rectype(bg=as_type(moved(bg, 1)), fg=as_type(_at(fg, "bg")))
+    return rectype(bg=as_type(moved(bg, 1)), fg=as_type(_body_at(fg, "bg")))
 
 
 def strong(of: Record, /) -> FunType:
-    """The strong purification: of whatever is a context, the foreground is true.
+    """The strong purification: the foreground is true of every context.
 
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> Donkey = rectype(x=Ind, c=Pred("donkey", Ind)(this.x))
@@ -83,26 +83,26 @@ def strong(of: Record, /) -> FunType:
     ((bg : [x : Ind, c : donkey(x)]) -> bray(bg.x))
     """
     bg, fg = _parts(of)
-    return Pi(bg=bg)(as_type(_at(fg, "bg")))
+    return Pi(bg=bg)(as_type(_body_at(fg, "bg")))
 
 
 def apply(function: Record, argument: Record, /) -> Record:
-    """The content of a phrase whose parts have contents, one a function of the other.
+    """The content of a phrase made of a function and its argument.
 
-    Its context has a context for each part, under the labels f and a:
+    A context for it has a context for each part, under the labels f and a:
     {bg = [f : bg₁, a : bg₂], fg = λr. fg₁(r.f)(fg₂(r.a))}.
     """
     bg_f, fg_f = _parts(function)
     bg_a, fg_a = _parts(argument)
     bg = rectype(f=as_type(moved(bg_f, 1)), a=as_type(moved(bg_a, 1)))
-    body = Application(_at(fg_f, "r", "f"), _at(fg_a, "r", "a"))
+    body = Application(_body_at(fg_f, "r", "f"), _body_at(fg_a, "r", "a"))
     return record(bg=bg, fg=fun(r=bg)(body))
 
 
 def in_context(
     M: Model, of: Record, r: object, thresholds: Thresholds | None = None, /
 ) -> Truth:
-    """How certainly a content is true in one context.
+    """How certain a content is in one context.
 
     Raises `Refused` where r is not certainly of the background.
     """
@@ -121,8 +121,8 @@ def _parts(of: object) -> tuple[RecordType, Function]:
     )
 
 
-def _at(f: Function, *labels: str) -> Object:
-    """The body of a function, where its variable is what these labels lead to."""
+def _body_at(f: Function, *labels: str) -> Object:
+    """The body of a function with the path of these labels for its variable."""
 
     def at(path: Path) -> Object:
         if path.up > 0 or path.labels[0] != BOUND:

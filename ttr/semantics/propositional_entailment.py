@@ -1,4 +1,4 @@
-"""What follows from propositions."""
+"""Entailment between propositions: types, and Austinian propositions."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ def entails(
 ) -> Answer:
     """Is the second proposition true wherever the first is?
 
-    Of types, and of Austinian propositions of one situation: is the first type below
-    the second? A type is true as well where something is certainly of it. From p(s : S)
-    in [lo, hi] follows that p(s : T) is at least lo where S ⊑ T, at most hi where
-    T ⊑ S, at least 1 − hi where ¬S ⊑ T, and at most 1 − lo where S ⊑ ¬T. Raises
-    `IllFormed` for what is no proposition.
+    For types, and for Austinian propositions of one situation: is the first type below
+    the second? An Austinian proposition that is certain entails its type. If p(s : S)
+    is in [lo, hi], then p(s : T) is at least lo where S ⊑ T, at most hi where T ⊑ S, at
+    least 1 − hi where ¬S ⊑ T, and at most 1 − lo where S ⊑ ¬T. Raises `IllFormed` for
+    what is no proposition.
 
     >>> from ttr.judging.propositions import probabilistic, proposition
     >>> from ttr.types.syntax import Basic
@@ -36,11 +36,11 @@ def entails(
     """
     P, Q = freeze(first), freeze(second)
     if isinstance(Q, TypeNode):
-        return _some(P, Q, theory)
+        return _entails_type(P, Q, theory)
     sit, _ = claim(Q)
     if isinstance(P, TypeNode):
         return Answer("unknown", f"what is of {P} may be other than {notation(sit)}")
-    return _austinian(P, Q, theory)
+    return _entails_austinian(P, Q, theory)
 
 
 def equivalent(
@@ -54,8 +54,8 @@ def equivalent(
 _WORST_FIRST = ("no", "unknown", "yes")
 
 
-def _some(P: Object, T: TypeNode, theory: Signature | None) -> Answer:
-    """Does it follow that something is of T?"""
+def _entails_type(P: Object, T: TypeNode, theory: Signature | None) -> Answer:
+    """Does P entail that something is of T?"""
     if isinstance(P, TypeNode):
         return subtype(P, T, theory)
     sit, S, claimed = probabilistic_claim(P)
@@ -64,7 +64,7 @@ def _some(P: Object, T: TypeNode, theory: Signature | None) -> Answer:
     return Answer("unknown", f"{notation(sit)} is not said to be certainly of {S}")
 
 
-def _austinian(P: Object, Q: Object, theory: Signature | None) -> Answer:
+def _entails_austinian(P: Object, Q: Object, theory: Signature | None) -> Answer:
     sit, S, claimed = probabilistic_claim(P)
     other, T, wanted = probabilistic_claim(Q)
     if identity(sit) != identity(other):
@@ -72,7 +72,7 @@ def _austinian(P: Object, Q: Object, theory: Signature | None) -> Answer:
         return Answer("unknown", apart)
     if claimed == wanted == CERTAIN:
         return subtype(S, T, theory)
-    follows = _follows(claimed, S, T, theory)
+    follows = _bounds(claimed, S, T, theory)
     why = f"p({notation(sit)} : {T}) is in {follows}"
     if borne_out(wanted, follows) == CERTAIN:
         return Answer("yes", why)
@@ -80,8 +80,8 @@ def _austinian(P: Object, Q: Object, theory: Signature | None) -> Answer:
     return Answer("no" if refuted else "unknown", why)
 
 
-def _follows(p: Degree, S: TypeNode, T: TypeNode, theory: Signature | None) -> Degree:
-    """How probable it is that a situation is of T, where p says so for S."""
+def _bounds(p: Degree, S: TypeNode, T: TypeNode, theory: Signature | None) -> Degree:
+    """The bounds of p(s : T) that follow from p = p(s : S)."""
     least, most = [0.0], [1.0]
     if subtype(S, T, theory).yes:
         least.append(p.lo)

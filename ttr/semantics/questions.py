@@ -15,8 +15,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from functools import lru_cache, reduce
-from typing import TypeGuard
+from typing import TYPE_CHECKING, TypeGuard
 
+from ttr.aliases import former_names
 from ttr.building.constructors import fun, rectype
 from ttr.building.merging import merge
 from ttr.errors import TTRError
@@ -61,13 +62,16 @@ __all__ = [
     "push",
     "relevant",
     "resolves",
-    "resolving",
+    "find_answer",
     "top",
     "whether",
     "which",
     "which_of",
     "with_questions",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)
 
 MATCHES = 4096
 """Of how many propositions it is kept which argument of a question they are about."""
@@ -216,14 +220,14 @@ def combine(question: Object, answer: Object, model: Model) -> TypeNode:
     return found
 
 
-def resolving(
+def find_answer(
     question: Object, propositions: Iterable[Object], model: Model
 ) -> TypeNode | None:
     """The first of these propositions that resolves a question, or None.
 
     >>> back = Pred("return_trip", ())
     >>> known = [~rectype(e=back())]
-    >>> print(resolving(whether(rectype(e=back())), known, Model()))
+    >>> print(find_answer(whether(rectype(e=back())), known, Model()))
     ~[e : return_trip()]
     """
     for one in as_tuple(propositions, "propositions"):
@@ -417,7 +421,7 @@ def downdate(
     """
     known = as_tuple(facts, "propositions")
     return tuple(
-        q for q in as_tuple(qud, "questions") if resolving(q, known, model) is None
+        q for q in as_tuple(qud, "questions") if find_answer(q, known, model) is None
     )
 
 

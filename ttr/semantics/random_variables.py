@@ -1,8 +1,8 @@
-"""Random variables: types that exclude one another, of which just one is the case.
+"""Random variables: mutually exclusive types, of which exactly one is the case.
 
-For a variable V over A₁, …, Aₙ, p_V(a : Aᵢ) = p(a : Aᵢ) / Σⱼ p(a : Aⱼ); with intervals
-it is lowest where Aᵢ is lowest and all others highest (Cooper, Dobnik, Lappin and
-Larsson 2015). Every value is below the type of the variable, their join.
+For a variable V over A₁, …, Aₙ, p_V(a : Aᵢ) = p(a : Aᵢ) / Σⱼ p(a : Aⱼ). With intervals,
+that is lowest where p(a : Aᵢ) is lowest and all others are highest. The type of V is
+the join of its values. Source: Cooper, Dobnik, Lappin and Larsson 2015.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ Values = frozenset[TypeNode]
 
 @dataclass(frozen=True, init=False)
 class RandomVariable:
-    """A name and the types of which one, and only one, an object is taken to be.
+    """A name, and types of which an object is taken to be of exactly one.
 
-    That they exclude one another is how the variable sees it, not a fact of the model.
+    That they exclude one another is assumed by the variable, not a fact of the model.
 
     >>> from ttr.types.syntax import Basic
     >>> A, B = Basic("A"), Basic("B")
@@ -64,7 +64,7 @@ class RandomVariable:
 
     @property
     def type(self) -> TypeNode:
-        """The type of the variable: V is A₁ ∨ … ∨ Aₙ.
+        """The type of the variable, A₁ ∨ … ∨ Aₙ.
 
         >>> from ttr.types.syntax import Basic
         >>> A, B = Basic("A"), Basic("B")
@@ -76,11 +76,12 @@ class RandomVariable:
     def judge(
         self, M: Model, sit: object, T: TypeNode, /, *, when: Conditions = ()
     ) -> Judgement:
-        """p_V(sit : T), or p_V(sit : T | b : S, …), of values and what is made of them.
+        """p_V(sit : T), or p_V(sit : T | b : S, …), where T is made of values.
 
-        A condition on the same object is about the variable too, if it is of values.
-        Raises `IllFormed` where T is not made of values, and `Refused` where the object
-        is of none of them.
+        T is a value, or a meet, join or negation of such types.
+
+        A condition on the same object with such a type limits the values, too. Raises
+        `IllFormed` for other types, and `Refused` where no value is possible.
 
         >>> from ttr.types.syntax import Basic
         >>> A, B, C = Basic("A"), Basic("B"), Basic("C")
@@ -90,9 +91,9 @@ class RandomVariable:
         0 0.5
         """
         M, sit, T = as_model(M), freeze(sit), as_type(T)
-        mine, others = self._parted(sit, conditions(when))
+        mine, others = self._split_conditions(sit, conditions(when))
         whys = self._weights(M, sit, others)
-        wanted = self._meant(T)
+        wanted = self._covered_values(T)
         p, said = _share(whys, wanted & mine, mine - wanted)
         if p is None:
             raise Refused(
@@ -106,7 +107,7 @@ class RandomVariable:
     def distribution(
         self, M: Model, sit: object, /, *, when: Conditions = ()
     ) -> dict[TypeNode, Degree]:
-        """How probable each value is; numbers add up to 1.
+        """The probability of each value; they add up to 1 where they are numbers.
 
         >>> from ttr.types.syntax import Basic
         >>> A, B = Basic("A"), Basic("B")
@@ -119,14 +120,14 @@ class RandomVariable:
         given = conditions(when)
         return {value: self.judge(M, sit, value, when=given).p for value in self.values}
 
-    def _parted(
+    def _split_conditions(
         self, sit: Object, when: list[tuple[Object, TypeNode]]
     ) -> tuple[Values, list[tuple[Object, TypeNode]]]:
         """The values that conditions on the object leave, and the other conditions."""
         mine, others = frozenset(self.values), []
         for one, S in when:
             if identity(freeze(one)) == identity(sit) and self._is_of_values(S):
-                mine &= self._meant(S)
+                mine &= self._covered_values(S)
             else:
                 others.append((one, S))
         return mine, others
@@ -138,22 +139,24 @@ class RandomVariable:
 
     def _is_of_values(self, T: TypeNode) -> bool:
         try:
-            self._meant(T)
+            self._covered_values(T)
         except IllFormed:
             return False
         return True
 
-    def _meant(self, T: TypeNode) -> Values:
-        """The values that are among what T says."""
+    def _covered_values(self, T: TypeNode) -> Values:
+        """The values that a Boolean combination T of values covers."""
         if T in self.values:
             return frozenset((T,))
         match T:
             case Meet(parts):
-                return frozenset(self.values).intersection(*map(self._meant, parts))
+                return frozenset(self.values).intersection(
+                    *map(self._covered_values, parts)
+                )
             case Join(parts):
-                return frozenset[TypeNode]().union(*map(self._meant, parts))
+                return frozenset[TypeNode]().union(*map(self._covered_values, parts))
             case Negation(body):
-                return frozenset(self.values) - self._meant(body)
+                return frozenset(self.values) - self._covered_values(body)
         raise IllFormed(
             f"{T} is no value of {self.name}, nor made of its values",
             hint=f"the values are {', '.join(map(str, self.values))}",
@@ -163,9 +166,9 @@ class RandomVariable:
 def _share(
     whys: Mapping[TypeNode, Why], wanted: Values, others: Values
 ) -> tuple[Degree | None, str]:
-    """The share of some values among these and others, and how it is reckoned.
+    """The share of the values wanted among these and the others, and its arithmetic.
 
-    None where all of them have no probability.
+    None where all of them have probability 0.
     """
     mine, rest = _sums(whys, wanted), _sums(whys, others)
     if mine.hi + rest.hi == 0.0:

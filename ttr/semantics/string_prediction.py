@@ -1,16 +1,18 @@
-"""Following a string event by event: what may come next, and how sure it is so far.
+"""Prediction: given the beginning of a string, which events may come next?
 
-A course is what a type of strings says of a string of which only the beginning is
-there. Each event gives a new course, at a cost that does not grow with what was seen.
+A course is a string of a type of which only the beginning is known. Each event gives a
+new course, in a time that does not grow with the number of events so far.
 
-Source: Fernando 2007 and Cooper 2023, chapter 2, for types of strings of events as
+Sources: Fernando 2007 and Cooper 2023, chapter 2, for types of strings of events as
 what agents expect, as in the game of fetch.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
+from ttr.aliases import former_names
 from ttr.computing.strings.automata import automaton
 from ttr.computing.strings.pieces import is_of_strings
 from ttr.errors import Unexpected, Unsupported
@@ -24,20 +26,23 @@ from ttr.types.paths import escaping
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, TypeNode, as_type, freeze, join
 
-__all__ = ["Course", "begun", "star"]
+__all__ = ["Course", "start_course", "star"]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)
 
 
 @within_budget
-def begun(T: TypeNode, model: Model, /) -> Course:
-    """The course of a string of T of which nothing has happened yet.
+def start_course(T: TypeNode, model: Model, /) -> Course:
+    """The course of a string of T before its first event.
 
-    Raises `Unsupported` for a type that is not of strings, or that says of a string as
-    a whole what its events do not tell.
+    Raises `Unsupported` for a type that is not of strings, or that says something of a
+    string as a whole.
 
     >>> from ttr.types.syntax import Ind, Plus, Pred, Str
     >>> throw, fetch = Pred("throw", Ind)("stick"), Pred("fetch", Ind)("stick")
     >>> M = Model().given("e1", throw).given("e2", fetch)
-    >>> game = begun(Plus(Str(throw, fetch)), M)
+    >>> game = start_course(Plus(Str(throw, fetch)), M)
     >>> print(game.expected)
     throw(stick)
     >>> game = game.seen("e1")
@@ -54,13 +59,13 @@ def begun(T: TypeNode, model: Model, /) -> Course:
     as_model(model)
     if not is_of_strings(T) or escaping(T):
         raise Unsupported(
-            f"{T} is no type of strings that can be followed",
+            f"{T} is no type of strings that can be predicted",
             hint="write one with str(…), plus(…) or star(…), without paths outwards",
         )
     found = automaton(T)
     if any(found.wholes.values()):
         raise Unsupported(
-            f"{T} says of a string as a whole what its events do not tell",
+            f"{T} says something of a string as a whole, which no single event shows",
             hint="judge the string when it is complete",
         )
     return Course(T, model, followed_from(found, bool(model.facts.links)))
@@ -68,22 +73,23 @@ def begun(T: TypeNode, model: Model, /) -> Course:
 
 @dataclass(frozen=True, eq=False)
 class Course:
-    """How far a string of a type has come, and what may come next. Made by `begun`.
+    """How far a string of a type has come, and what may come next. See `start_course`.
 
-    Events may be uncertain: then the states that the string may be in have degrees,
-    exact where all that is uncertain is independent and given in numbers, else bounds.
+    If events are uncertain, so is the state that the string is in: its probabilities
+    are exact where uncertain judgements are independent and given as numbers, else
+    bounds.
     """
 
     type: TypeNode
     model: Model
-    _following: Following = field(repr=False)
+    _filter: Following = field(repr=False)
     length: int = 0
 
     @within_budget
     def seen(self, event: object, /) -> Course:
         """The course after one more event.
 
-        Raises `Unexpected` where no string of the type goes on so.
+        Raises `Unexpected` where no string of the type goes on with it.
         """
         event = freeze(event)
         after = self._after(event)
@@ -93,64 +99,63 @@ class Course:
 
     @within_budget
     def expects(self, event: object, /) -> Degree:
-        """How probable it is that some string of the type goes on so."""
+        """The probability that a string of the type goes on with this event."""
         return self._after(freeze(event)).on_course
 
     def judged_in(self, model: Model, /) -> Course:
-        """The same course, where from now on events are judged in another model.
+        """The same course, with later events judged in another model.
 
-        A model that has new facts is such a one: what came before is not asked again.
+        That may be a model with new facts; earlier events are not judged again.
         """
         as_model(model)
-        linked = self._following.linked or bool(model.facts.links)
-        following = replace(self._following, linked=linked)
-        return replace(self, model=model, _following=following)
+        linked = self._filter.linked or bool(model.facts.links)
+        return replace(self, model=model, _filter=replace(self._filter, linked=linked))
 
     @property
     def on_course(self) -> Degree:
-        """How probable it is that what was seen begins a string of the type."""
-        return self._following.goes_on
+        """The probability that the events so far begin a string of the type."""
+        return self._filter.goes_on
 
     @property
     def may_end(self) -> Degree:
-        """How probable it is that what was seen is a string of the type."""
-        return self._following.may_end
+        """The probability that the events so far are a whole string of the type."""
+        return self._filter.may_end
 
     @property
     @within_budget
     def expected(self) -> TypeNode | None:
-        """The type of the events that may come next; None if none may.
+        """The type of the events that may come next; None where none may.
 
         >>> from ttr.types.syntax import Basic, Plus, Str
         >>> A, B = Basic("A"), Basic("B")
-        >>> print(begun(Str(A, B) | Plus(B), Model()).expected)
+        >>> print(start_course(Str(A, B) | Plus(B), Model()).expected)
         A \\/ B
         """
         labels = [
             label
-            for state in self._following.beliefs.states()
-            for label in self._following.automaton.labels(state)
+            for state in self._filter.beliefs.states()
+            for label in self._filter.automaton.labels(state)
         ]
         return join(*labels) if labels else None
 
     @property
     @within_budget
     def rest(self) -> TypeNode:
-        """The type of the strings that may follow: what is left of the type to come.
+        """The type of the strings that may still follow.
 
         >>> from ttr.types.syntax import Basic, Plus, Str
         >>> A, B = Basic("A"), Basic("B")
-        >>> course = begun(Str(A, Plus(B)), Model().given("a", A))
+        >>> course = start_course(Str(A, Plus(B)), Model().given("a", A))
         >>> print(course.seen("a").rest)
         plus(B)
         """
-        following = self._following
-        if following.automaton.empty:
+        automaton = self._filter.automaton
+        if automaton.empty:
             return self.type
-        return join(*map(following.automaton.rest_of, following.beliefs.states()))
+        return join(*map(automaton.rest_of, self._filter.beliefs.states()))
 
     def __str__(self) -> str:
-        if self._following.automaton.empty:
+        if self._filter.automaton.empty:
             return f"a string of {self.type}, of which there is none"
         what = f"a string of {self.type} after {events_in_words(self.length)}"
         if self.expected is None:
@@ -158,9 +163,9 @@ class Course:
         return f"{what}; expected: {self.expected}"
 
     def _after(self, event: Object) -> Course:
-        """The course after an event, which may be off course."""
-        after = self._following.after(lambda T: self.model.judge(event, T).why)
-        return replace(self, _following=after, length=self.length + 1)
+        """The course after an event, even one that fits nothing."""
+        after = self._filter.after(lambda T: self.model.judge(event, T).why)
+        return replace(self, _filter=after, length=self.length + 1)
 
     def _unexpected(self, event: Object) -> Unexpected:
         kinds = sorted(str(kind) for kind in self.model.facts.types_of(event))

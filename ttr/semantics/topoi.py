@@ -1,14 +1,16 @@
 """Topoi: warrants that say what to expect of a situation (Breitholtz 2020).
 
-A topos is a function from situations of a background type to a type that may then be
-expected: λr:[x : Ind, c : bird(x)]. [e : fly(r.x)]. An enthymeme, an argument that
-leaves its warrant unsaid, is a function of the same kind, and a topos may underpin it.
+A topos is a function from situations of a background type to the type to be expected:
+λr:[x : Ind, c : bird(x)]. [e : fly(r.x)]. An enthymeme, an argument whose warrant is
+left unsaid, is such a function, too; a topos may underpin it.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
+from ttr.aliases import former_names
 from ttr.building.functions import fix, restrict
 from ttr.building.merging import merge
 from ttr.computing.subtyping import Answer, consistent, subtype
@@ -36,19 +38,22 @@ from ttr.types.syntax import (
 
 __all__ = [
     "Topos",
-    "combined",
+    "combine_topoi",
     "compatible",
-    "expected",
+    "expectation",
     "necessary",
     "possible",
     "topos",
     "underpins",
 ]
 
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)
+
 
 @dataclass(frozen=True)
 class Topos:
-    """A topos: `bg` is its background type, `fg` the function to what is expected."""
+    """A topos: `bg` is its background type, `fg` the function to what to expect."""
 
     fg: Function
 
@@ -69,7 +74,7 @@ class Topos:
 
     @property
     def content(self) -> Record:
-        """The topos as parametric content, {bg = type, fg = function}."""
+        """The topos as a parametric content {bg, fg}."""
         return record(bg=self.bg, fg=self.fg)
 
     def __str__(self) -> str:
@@ -77,7 +82,7 @@ class Topos:
 
 
 def topos(fg: Function | Topos, /) -> Topos:
-    r"""A function to types as a topos; a topos itself. Else it raises `IllFormed`.
+    r"""A function from situations to types as a topos; `IllFormed` for anything else.
 
     >>> from ttr.notation.reader import parse
     >>> from ttr.types.syntax import Ind, Pred
@@ -93,10 +98,10 @@ def topos(fg: Function | Topos, /) -> Topos:
 
 
 @within_budget
-def expected(model: Model, sit: object, warrant: Topos, /) -> TypeNode:
-    """t(s), what the topos lets expect of a situation.
+def expectation(model: Model, sit: object, warrant: Topos, /) -> TypeNode:
+    """t(s): what to expect of a situation s by a topos t.
 
-    Raises `Refused` where the situation is not certainly of the background type.
+    Raises `Refused` where s is not certainly of the background type.
     """
     return as_type(as_model(model).apply(topos(warrant).fg, sit))
 
@@ -105,34 +110,34 @@ def expected(model: Model, sit: object, warrant: Topos, /) -> TypeNode:
 def necessary(model: Model, sit: object, T: TypeNode, warrant: Topos, /) -> ModalAnswer:
     """s : nec(T, B, t): is s of the background B, and t(s) ⊑ T?
 
-    It is as certain as s : B where t(s) ⊑ T is derivable, refuted where that is, and
-    else somewhere below. Source: Cooper 2023, on modality relative to a background.
+    As certain as s : B where t(s) ⊑ T is derivable; not so where that is refuted; else
+    between the two. Source: Cooper 2023, on modality relative to a background.
     """
-    told = _applied(model, sit, warrant)
-    if isinstance(told, ModalAnswer):
-        return told
-    background, follows = told
+    found = _apply_to_situation(model, sit, warrant)
+    if isinstance(found, ModalAnswer):
+        return found
+    background, follows = found
     answer = subtype(follows, as_type(T), model.theory)
-    return _as_far(background, answer, f"{follows} follows; is it below {T}?")
+    return _limited(background, answer, f"{follows} follows; is it below {T}?")
 
 
 @within_budget
 def possible(model: Model, sit: object, T: TypeNode, warrant: Topos, /) -> ModalAnswer:
     """s : poss(T, B, t): is s of the background B, and T compatible with t(s)?"""
-    told = _applied(model, sit, warrant)
-    if isinstance(told, ModalAnswer):
-        return told
-    background, follows = told
+    found = _apply_to_situation(model, sit, warrant)
+    if isinstance(found, ModalAnswer):
+        return found
+    background, follows = found
     answer = consistent(follows, as_type(T), theory=model.theory)
-    return _as_far(background, answer, f"{follows} follows; can it be with {T}?")
+    return _limited(background, answer, f"{follows} follows; can it be with {T}?")
 
 
-def _applied(
+def _apply_to_situation(
     model: Model, sit: object, warrant: Topos
 ) -> tuple[Judgement, TypeNode] | ModalAnswer:
-    """The situation judged to be of the background, and what then follows of it.
+    """The judgement that the situation is of the background, and what then follows.
 
-    The answer no, where it is not of the background or lacks what is spoken of.
+    The answer no where it is not. Raises `Refused` where the topos cannot be applied.
     """
     warrant = topos(warrant)
     background = as_model(model).judge(sit, warrant.bg)
@@ -146,8 +151,8 @@ def _applied(
         raise Refused(f"the topos {warrant} fails there: {wrong.message}") from None
 
 
-def _as_far(background: Judgement, answer: Answer, question: str) -> ModalAnswer:
-    """The answer, as far as the situation is of the background at all."""
+def _limited(background: Judgement, answer: Answer, question: str) -> ModalAnswer:
+    """The answer, limited by how certainly the situation is of the background."""
     low = background.p.lo if answer.yes else 0.0
     high = 0.0 if answer.no else background.p.hi
     return ModalAnswer(Degree(low, high), f"{question} {answer}")
@@ -157,10 +162,12 @@ def _as_far(background: Judgement, answer: Answer, question: str) -> ModalAnswer
 
 
 @within_budget
-def combined(first: Topos, second: Topos, theory: Signature | None = None, /) -> Topos:
-    r"""The topos about situations of both backgrounds, which lets expect both.
+def combine_topoi(
+    first: Topos, second: Topos, theory: Signature | None = None, /
+) -> Topos:
+    r"""The merge of two topoi: of situations of both backgrounds, both can be expected.
 
-    Law: what follows by it of a situation is of what follows by each of the two.
+    Law: what follows by it is below what follows by each of the two.
 
     >>> from ttr.building.constructors import fun, rectype
     >>> from ttr.types.syntax import Ind, Pred, outer, this
@@ -168,7 +175,7 @@ def combined(first: Topos, second: Topos, theory: Signature | None = None, /) ->
     >>> Rain = rectype(x=Ind, c=rain(this.x))
     >>> one = topos(fun(r=Rain)(rectype(e=wet(outer.r.x))))
     >>> two = topos(fun(s=rectype(x=Ind))(rectype(f=cold(outer.s.x))))
-    >>> print(combined(one, two))
+    >>> print(combine_topoi(one, two))
     \r:[x : Ind, c : rain(x)]. [e : wet(r.x), f : cold(r.x)]
     """
     first, second = topos(first), topos(second)
@@ -180,22 +187,23 @@ def combined(first: Topos, second: Topos, theory: Signature | None = None, /) ->
 def compatible(
     first: Topos, second: Topos, theory: Signature | None = None, /
 ) -> Answer:
-    """Can what the two topoi let expect of one situation be the case together?
+    """Can what two topoi let expect of one situation be the case together?
 
-    Topoi need not agree: a rhetorical resource may hold "birds fly" and "penguins do
-    not", and no situation is of what both let expect. Raises `IllFormed` where they are
-    no functions from record types to record types.
+    Topoi need not be consistent: somebody may hold "birds fly" and "penguins do not".
+    Raises `IllFormed` where they are not functions from record types to record types.
     """
-    return consistent(fix(combined(first, second, theory).fg, theory), theory=theory)
+    return consistent(
+        fix(combine_topoi(first, second, theory).fg, theory), theory=theory
+    )
 
 
 def underpins(
     warrant: Topos, enthymeme: Topos, theory: Signature | None = None, /
 ) -> Answer:
-    r"""Does the topos underpin the enthymeme: is its conclusion drawn by the topos?
+    r"""Does the topos underpin the enthymeme, that is, draw its conclusion?
 
-    The premise must be below the background, and what the topos lets expect of any
-    situation of the premise below the conclusion. Source: Breitholtz 2020.
+    The premise must be below the background; and what the topos lets expect of any
+    situation of the premise must be below the conclusion. Source: Breitholtz 2020.
 
     >>> from ttr.building.constructors import fun, rectype
     >>> from ttr.types.syntax import Ind, Pred, outer, this

@@ -17,8 +17,8 @@ from ttr.semantics.perceptual import (
     blank,
     clusters,
     coordinates,
-    detected,
-    individuated,
+    detections,
+    individuate,
     interpretation,
     intrinsic,
     meaning,
@@ -83,11 +83,11 @@ def test_many_points_in_one_region_are_no_matter():
 
 
 def test_a_detector_finds_what_words_say():
-    small, wide = detected(clusters(SCENE, 0.5), CUP, BOOK)
+    small, wide = detections(clusters(SCENE, 0.5), CUP, BOOK)
     assert str(small) == r"{p = 1.0, pfun = \x:Ind. cup(x), reg = <PointMap 9>}"
     assert wide.pfun is fun(x=Ind)(book(this.x))
-    assert detected(clusters(SCENE, 0.5), CUP) == (small,)
-    assert detected(clusters(SCENE, 0.5)) == ()
+    assert detections(clusters(SCENE, 0.5), CUP) == (small,)
+    assert detections(clusters(SCENE, 0.5)) == ()
 
 
 def test_individuation_is_a_function_of_the_theory():
@@ -100,8 +100,8 @@ def test_individuation_is_a_function_of_the_theory():
 def test_individuals_are_assumed_for_regions():
     M = Model()
     found = []
-    for region in detected(clusters(SCENE, 0.5), CUP, BOOK):
-        sit, T, M = individuated(M, region)
+    for region in detections(clusters(SCENE, 0.5), CUP, BOOK):
+        sit, T, M = individuate(M, region)
         found.append((sit, T))
     (one, Cup), (two, Book) = found
     assert one.a != two.a
@@ -114,14 +114,14 @@ def test_individuals_are_assumed_for_regions():
 
 def test_what_is_no_region():
     with pytest.raises(Refused, match="takes objects of"):
-        individuated(Model(), record(reg="here", pfun=fun(x=Ind)(cup(this.x))))
+        individuate(Model(), record(reg="here", pfun=fun(x=Ind)(cup(this.x))))
     with pytest.raises(Refused, match="takes objects of"):
-        individuated(Model(), record(reg=SCENE))
+        individuate(Model(), record(reg=SCENE))
 
 
 def test_a_property_with_more_to_it_is_kept_as_it_is():
     whole = fun(x=Ind)(cup(this.x) & book(this.x))
-    sit, T, M = individuated(Model(), record(reg=SCENE, pfun=whole))
+    sit, T, M = individuate(Model(), record(reg=SCENE, pfun=whole))
     assert M.judge(sit, T).holds
     assert M.judge(sit.c, cup(sit.a)).holds
 
@@ -188,9 +188,9 @@ def test_a_spatial_word_is_judged_over_two_regions_in_a_frame():
         through=coordinates,
     )
     M = Model()
-    small, wide = detected(clusters(SCENE, 0.5), CUP, BOOK)
-    one, _, M = individuated(M, small)
-    two, _, M = individuated(M, wide)
+    small, wide = detections(clusters(SCENE, 0.5), CUP, BOOK)
+    one, _, M = individuate(M, small)
+    two, _, M = individuate(M, wide)
     for viewer, is_right in (([0, -9], True), ([0, 9], False)):
         frame = relative(one.loc, viewer)
         r = record(

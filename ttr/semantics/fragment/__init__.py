@@ -19,7 +19,7 @@ from ttr.aliases import former_names
 from ttr.semantics.fragment.inference import Inference, follows
 from ttr.semantics.fragment.lexicon import Lexicon, english, lexicon
 from ttr.semantics.fragment.sentence_parsing import OutsideFragment
-from ttr.semantics.fragment.sentences import Sentence, picked_up, understand
+from ttr.semantics.fragment.sentences import Sentence, pronoun_antecedents, understand
 
 __all__ = [
     "Inference",
@@ -29,7 +29,7 @@ __all__ = [
     "english",
     "follows",
     "lexicon",
-    "picked_up",
+    "pronoun_antecedents",
     "understand",
 ]
 

@@ -24,7 +24,7 @@ from ttr.semantics.quantifiers import (
 from ttr.types.objects import FiniteSet, Object, Record
 from ttr.types.syntax import PType, TypeNode
 
-__all__ = ["Sentence", "picked_up", "understand"]
+__all__ = ["Sentence", "pronoun_antecedents", "understand"]
 
 
 @dataclass(frozen=True)
@@ -72,12 +72,12 @@ def _check_antecedents(picked: object) -> tuple[Antecedent, ...]:
         if not isinstance(things, FiniteSet | frozenset | set):
             raise TTRError(
                 f"pronouns stand for sets of things, found {things!r}",
-                hint="write picked=[{'fido'}], or picked=picked_up(M, sentence)",
+                hint="write picked=[{'fido'}], or use pronoun_antecedents(M, sentence)",
             )
     return tuple([FiniteSet(*things) for things in found])
 
 
-def picked_up(
+def pronoun_antecedents(
     M: Model, sentence: Sentence, thresholds: Thresholds | None = None
 ) -> tuple[Antecedent, ...]:
     """What pronouns can stand for after a sentence, by its witnesses in a model.
@@ -90,7 +90,7 @@ def picked_up(
     >>> from ttr.semantics.fragment import english
     >>> dog = english().meaning("NOUN", "dog")
     >>> M = Model(english().theory).given("s1", dog("fido")).given("fido", Ind)
-    >>> picked_up(M, understand("There is a dog."))
+    >>> pronoun_antecedents(M, understand("There is a dog."))
     (FiniteSet('fido'),)
     """
     if sentence.judge(M, thresholds).p != CERTAIN:

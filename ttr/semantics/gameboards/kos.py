@@ -12,7 +12,9 @@ first, and the order of the questions is linear.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
 
+from ttr.aliases import former_names
 from ttr.building.constructors import rectype
 from ttr.judging.models import Model
 from ttr.semantics.questions import (
@@ -59,9 +61,12 @@ __all__ = [
     "game",
     "greet",
     "part",
-    "said",
+    "utterance",
     "with_moves",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)
 
 # --- moves ---------------------------------------------------------------------------
 # A move is a ptype: of the situations in which somebody greets, or asks, somebody.
@@ -141,10 +146,10 @@ UTTERANCE: RecordType = rectype(spkr=Ind, addr=Ind, move=Move)
 """The type of utterances: who says it to whom, and what move it is."""
 
 
-def said(move: PType) -> Record:
+def utterance(move: PType) -> Record:
     """The utterance of a move.
 
-    >>> print(said(greet("a", "b")))
+    >>> print(utterance(greet("a", "b")))
     {addr = b, move = greet(a, b), spkr = a}
     """
     return record(spkr=move.args[0], addr=move.args[1], move=move)
@@ -302,10 +307,10 @@ def game(model: Model, spkr: str, addr: str) -> Game:
     >>> from ttr.semantics.questions import which
     >>> left = rectype(e=leave("kim"))
     >>> moves = [ask("a", "b", which(leave)), answer("b", "a", "kim")]
-    >>> _, answered = board.play(map(said, moves))
+    >>> _, answered = board.play(map(utterance, moves))
     >>> print(answered.state.moves[0], len(answered.state.qud), answered.state.facts)
     assert(b, a, [e : leave(kim)]) 2 ()
-    >>> accepted = board.take(answered.run, said(accept("a", "b", left)))
+    >>> accepted = board.take(answered.run, utterance(accept("a", "b", left)))
     >>> print(len(accepted.state.qud), *accepted.state.facts)
     0 [e : leave(kim)]
     """

@@ -1,8 +1,8 @@
-"""Modal type systems: possibilities that share their types and differ in witnesses.
+"""Modal type systems: named possibilities over one theory, each a model.
 
-A possibility is a model. As types and models are immutable values, what is judged in
-one possibility never shows in another. What is necessary or possible is asked of the
-system as a whole, by the restrictive or the inclusive notion (`notions`).
+Models are immutable, so what is judged in one possibility never affects another.
+Whether something is necessary or possible is asked of the whole system, by the
+restrictive or the inclusive notion (`notions`).
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model
 from ttr.safety.budgets import within_budget
 from ttr.semantics.argument_checks import in_notation
-from ttr.semantics.modality.necessity import claims_of, nec
+from ttr.semantics.modality.necessity import modal_claims, nec
 from ttr.semantics.modality.notions import Notion, everywhere, where_they_exist
 from ttr.types.objects import labelled
 from ttr.types.paths import occurring
@@ -34,7 +34,7 @@ from ttr.types.syntax import (
 __all__ = ["ModalSystem", "modal_system"]
 
 Head = Basic | Pred
-"""What a possibility may lack: a basic type, or a predicate with its ptypes."""
+"""What a possibility may lack: a basic type, or a predicate and so its ptypes."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -60,11 +60,11 @@ class ModalSystem:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the possibilities, in the order they were given."""
+        """The names of the possibilities, in the order in which they were given."""
         return tuple(name for name, _ in self.models)
 
     def __getitem__(self, name: str) -> Model:
-        """The model of a possibility; raises `IllFormed` where there is none so named.
+        """The model of a possibility; raises `IllFormed` for an unknown name.
 
         >>> modal_system(w1=Model())["w2"]
         Traceback (most recent call last):
@@ -82,11 +82,11 @@ class ModalSystem:
     def given(
         self, name: str, sit: object, T: TypeNode, /, p: object = 1.0
     ) -> ModalSystem:
-        """The system in which also sit : T in one possibility, and in no other.
+        """The system in which also sit : T, in this possibility and in no other.
 
         Raises what `Model.given` raises, and `IllFormed` where T does not exist there.
         """
-        self._check(name, T)
+        self._check_exists(name, T)
         changed = self[name].given(sit, T, p)
         models = [(known, model) for known, model in self.models]
         models[self.names.index(name)] = (name, changed)
@@ -115,7 +115,7 @@ class ModalSystem:
         return replace(self, lacking={**self.lacking, name: lacked})
 
     def has(self, name: str, value: Object, /) -> bool:
-        """Whether a type, and all types in a proposition, exist in a possibility."""
+        """Do the types that occur in a type or proposition exist in a possibility?"""
         self[name]
         lacked = self.lacking.get(name)
         if not lacked:
@@ -128,8 +128,8 @@ class ModalSystem:
     def judge(self, name: str, sit: object, T: TypeNode, /) -> Judgement:
         """Is sit of T in this possibility? Box and diamond types ask the whole system.
 
-        Any situation of the possibility is of nec(T) as far as T is necessary, by the
-        restrictive notion.
+        Any situation of the possibility is of nec(T) to the degree to which T is
+        necessary by the restrictive notion.
 
         >>> from ttr.semantics.modality import necessarily, possibly
         >>> Rain = Basic("Rain")
@@ -137,17 +137,17 @@ class ModalSystem:
         >>> w.judge("w1", "s", possibly(Rain) & ~necessarily(Rain)).holds
         True
         """
-        self._check(name, T)
+        self._check_exists(name, T)
         model, asked = self[name], freeze(sit)
-        for part, kind in claims_of(asked, T):
+        for part, kind in modal_claims(asked, T):
             with suppress(Refused):
-                model = self._told(model, part, kind)
+                model = self._with_modal_judgement(model, part, kind)
         return model.judge(asked, T)
 
-    def _told(self, model: Model, sit: Object, box: PType) -> Model:
-        """The model in which a box or diamond type is judged.
+    def _with_modal_judgement(self, model: Model, sit: Object, box: PType) -> Model:
+        """The model with a judgement of a box or diamond type.
 
-        What it is about is worked out first; raises `Refused` where that cannot be.
+        Its argument is reduced first; raises `Refused` where that cannot be done.
         """
         kind = PType(box.pred, (model.reduced(box.args[0]),))
         notion = self.restrictive
@@ -156,15 +156,15 @@ class ModalSystem:
 
     @property
     def restrictive(self) -> Notion:
-        """What holds in all possibilities, of types that exist in all of them."""
+        """The notion that looks at types which exist in every possibility."""
         return Notion(self, everywhere)
 
     @property
     def inclusive(self) -> Notion:
-        """What holds in all possibilities in which the types exist."""
+        """The notion that looks at the possibilities in which the types exist."""
         return Notion(self, where_they_exist)
 
-    def _check(self, name: str, T: TypeNode) -> None:
+    def _check_exists(self, name: str, T: TypeNode) -> None:
         self[name]
         if not self.has(name, as_type(T)):
             raise IllFormed(f"{T} does not exist in {name}")
@@ -173,20 +173,20 @@ class ModalSystem:
 def modal_system(
     models: Mapping[str, Model] | None = None, /, **named: Model
 ) -> ModalSystem:
-    """The modal system of these possibilities, as keywords or as one mapping.
+    """The modal system of some possibilities, given as keywords or as a mapping.
 
-    Raises `IllFormed` where there is none, and where they are not of one theory: they
-    must share axioms, exclusions and open types.
+    Raises `IllFormed` where there is none, and where they are of different theories:
+    they must share axioms, exclusions and open types.
     """
     found = labelled("modal_system", models, named)
     if not found:
         raise IllFormed("a modal system has at least one possibility, found none")
     for name, model in found.items():
         if not isinstance(model, Model):
-            raise IllFormed(f"the possibility {name} is a model, found {model!r}")
+            raise IllFormed(f"the possibility {name} must be a model, found {model!r}")
     first, *rest = found
     for name in rest:
-        if _shared(found[name]) != _shared(found[first]):
+        if _assumptions(found[name]) != _assumptions(found[first]):
             raise IllFormed(
                 f"the possibilities {first} and {name} are of different theories",
                 hint="build their models with the same Model(theory)",
@@ -194,6 +194,6 @@ def modal_system(
     return ModalSystem(tuple(found.items()), {})
 
 
-def _shared(model: Model) -> tuple[object, ...]:
+def _assumptions(model: Model) -> tuple[object, ...]:
     theory = model.theory
     return theory.axioms, theory.exclusions, theory.opened

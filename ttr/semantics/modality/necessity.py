@@ -1,7 +1,7 @@
-"""What is necessary and what is possible: types that say so, and answers.
+"""Box and diamond types, and the answers that a modal system gives.
 
-Box and diamond types are ptypes, nec(T) and poss(T), so that they can stand in record
-types, meets and negations, and be written in the notation as any predicate of types.
+Box and diamond types are ptypes, nec(T) and poss(T). So they can stand in record types,
+meets and negations, and the notation writes them as it writes any predicate of types.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from ttr.types.syntax import (
 
 __all__ = [
     "ModalAnswer",
-    "claims_of",
+    "modal_claims",
     "is_modal",
     "mentions_modal",
     "nec",
@@ -46,10 +46,9 @@ nec, poss = Pred("nec", Type), Pred("poss", Type)
 
 
 def necessarily(T: TypeNode, /) -> PType:
-    """□T, the type of situations of a system in which T is necessary: nec(T).
+    """The box type □T = nec(T), of the situations in a system in which T is necessary.
 
-    It is a ptype like others, so it can stand in record types, meets and negations.
-    `ModalSystem.judge` knows what is of it.
+    `ModalSystem.judge` judges what is of it.
 
     >>> from ttr.types.syntax import Basic
     >>> print(necessarily(Basic("Rain")))
@@ -59,7 +58,7 @@ def necessarily(T: TypeNode, /) -> PType:
 
 
 def possibly(T: TypeNode, /) -> PType:
-    """◇T, the type of situations of a system in which T is possible: poss(T).
+    """The diamond type ◇T = poss(T), of the situations in which T is possible.
 
     >>> from ttr.types.syntax import Basic
     >>> print(~possibly(Basic("Rain")))
@@ -69,7 +68,7 @@ def possibly(T: TypeNode, /) -> PType:
 
 
 def is_modal(T: TypeNode) -> bool:
-    """Whether a type is made of nec and poss by meets, joins and negations alone.
+    """Is a type made of box and diamond types by meets, joins and negations alone?
 
     Then what is of it does not depend on the situation.
     """
@@ -83,20 +82,20 @@ def is_modal(T: TypeNode) -> bool:
 
 
 def mentions_modal(T: Object) -> bool:
-    """Whether nec or poss occurs in a type."""
+    """Does nec or poss occur in a type?"""
     return any(one is nec or one is poss for one in occurring([T]))
 
 
-def claims_of(
+def modal_claims(
     sit: Object, T: TypeNode, around: Around = ()
 ) -> Iterator[tuple[Object, PType]]:
-    """The box and diamond types that a judgement sit : T asks for, and of what.
+    """The box and diamond types that sit : T depends on, each with its object.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Basic, record, this
     >>> dog = Pred("dog", Basic("Ind"))
     >>> T = rectype(x=Basic("Ind"), c=possibly(dog(this.x)))
-    >>> [(sit, str(kind)) for sit, kind in claims_of(record(x="fido", c="s1"), T)]
+    >>> [(sit, str(kind)) for sit, kind in modal_claims(record(x="fido", c="s1"), T)]
     [('s1', 'poss(dog(fido))')]
     """
     spend()
@@ -106,23 +105,23 @@ def claims_of(
                 yield sit, grounded(T, around)
         case Meet(parts) | Join(parts):
             for part in parts:
-                yield from claims_of(sit, part, around)
+                yield from modal_claims(sit, part, around)
         case Negation(part) | Singleton(part, _):
-            yield from claims_of(sit, part, around)
+            yield from modal_claims(sit, part, around)
         case RecordType(fields) if isinstance(sit, Record):
             inside = (sit._fields, *around)
             for label, field in fields:
                 if label in sit:
-                    yield from claims_of(sit[label], field, inside)
+                    yield from modal_claims(sit[label], field, inside)
 
 
 @dataclass(frozen=True)
 class ModalAnswer:
     """How certain something is of a modal system, and why.
 
-    `possibility` is the name of the one that decides: where it is so, for what is
-    possible, or where it is not, for what is not necessary. `counter` is the judgement
-    there of a witness of S that is not of T, for subtyping and equivalence.
+    `possibility` is the name of the possibility that decides: in which what is possible
+    is so, or what is not necessary is not so. For subtyping and equivalence, `counter`
+    is the judgement there of a witness of S that is not of T.
     """
 
     p: Degree
@@ -142,7 +141,7 @@ class ModalAnswer:
 
     @property
     def unknown(self) -> bool:
-        """Neither: `p` says how far it is known."""
+        """Neither; `p` has the bounds."""
         return not self.yes and not self.no
 
     def __bool__(self) -> bool:

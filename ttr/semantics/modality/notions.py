@@ -1,7 +1,7 @@
 """Two notions of what is necessary and possible in a modal system (Cooper 2023).
 
-The restrictive notion looks at the types that exist in every possibility; the inclusive
-one at every type, but only in the possibilities where it exists.
+The restrictive notion looks at types that exist in every possibility. The inclusive
+notion looks at every type, but only in the possibilities where it exists.
 """
 
 from __future__ import annotations
@@ -50,14 +50,13 @@ __all__ = ["Notion", "everywhere", "where_they_exist"]
 Scope: TypeAlias = (
     "Callable[[ModalSystem, tuple[Object, ...]], tuple[str, ...] | ModalAnswer]"
 )
-"""Which possibilities a question about values is asked of, or the answer where the
-question has none."""
+"""Gives the possibilities that a question about values looks at, or its answer."""
 
 
 def everywhere(
     system: ModalSystem, values: tuple[Object, ...]
 ) -> tuple[str, ...] | ModalAnswer:
-    """Every possibility; or the answer no, where a value does not exist in one."""
+    """Every possibility; the answer no where a value does not exist in one of them."""
     for name in system.names:
         for value in values:
             if not system.has(name, value):
@@ -69,7 +68,7 @@ def everywhere(
 def where_they_exist(
     system: ModalSystem, values: tuple[Object, ...]
 ) -> tuple[str, ...]:
-    """The possibilities in which all the values exist; raises `IllFormed` for none."""
+    """The possibilities in which all values exist; raises `IllFormed` for none."""
     found = tuple(
         name
         for name in system.names
@@ -83,11 +82,11 @@ def where_they_exist(
 
 @dataclass(frozen=True, eq=False)
 class Notion:
-    """Necessity, possibility, subtyping and equivalence, in some of the possibilities.
+    """Necessity, possibility, subtyping and equivalence over possibilities in scope.
 
-    A proposition is a type, true in a possibility where something is of it, or an
-    Austinian one. Where it is uncertain, the answer has the bounds that hold whatever
-    depends on what.
+    A proposition is Austinian, or a type, which is true in a possibility where
+    something is of it. Where propositions are uncertain, the bounds hold whatever the
+    dependence between possibilities.
     """
 
     system: ModalSystem
@@ -103,13 +102,13 @@ class Notion:
         names = self.scope(self.system, (P,))
         if isinstance(names, ModalAnswer):
             return names
-        found = {name: self._truth(name, P) for name in names}
+        found = {name: self._degree_or_unknown(name, P) for name in names}
         lows = sum(p.lo for p in found.values()) - (len(found) - 1)
         worst = min(found, key=lambda name: found[name])
         p = ordered(max(0.0, lows), min(p.hi for p in found.values()))
         if p == CERTAIN:
-            return ModalAnswer(p, _so(P, names))
-        return ModalAnswer(p, _not_so(P, worst, found[worst]), worst)
+            return ModalAnswer(p, _describe_success(P, names))
+        return ModalAnswer(p, _describe_failure(P, worst, found[worst]), worst)
 
     @within_budget
     def possible(self, proposition: object, /) -> ModalAnswer:
@@ -121,22 +120,22 @@ class Notion:
         names = self.scope(self.system, (P,))
         if isinstance(names, ModalAnswer):
             return names
-        found = {name: self._truth(name, P) for name in names}
+        found = {name: self._degree_or_unknown(name, P) for name in names}
         best = max(found, key=lambda name: found[name])
         highs = sum(p.hi for p in found.values())
         p = ordered(max(p.lo for p in found.values()), min(1.0, highs))
         if p == REFUTED:
-            return ModalAnswer(p, _not_so(P, " or ".join(names), p))
+            return ModalAnswer(p, _describe_failure(P, " or ".join(names), p))
         if p == CERTAIN:
-            return ModalAnswer(p, _so(P, (best,)), best)
-        return ModalAnswer(p, _not_so(P, best, found[best]), best)
+            return ModalAnswer(p, _describe_success(P, (best,)), best)
+        return ModalAnswer(p, _describe_failure(P, best, found[best]), best)
 
     @within_budget
     def subtype(self, S: TypeNode, T: TypeNode, /) -> ModalAnswer:
         """Is every witness of S one of T, in every possibility?
 
-        Law: where S ⊑ T by structure, yes. Unknown where more may be of S than is
-        known, and where what is of S cannot be listed.
+        Law: yes where S ⊑ T. Unknown where there may be more witnesses of S than are
+        known, and where they cannot be listed.
 
         >>> from ttr.judging.models import Model
         >>> from ttr.semantics.modality import modal_system
@@ -161,7 +160,7 @@ class Notion:
         found = [self._below(name, S, T) for name in names]
         decided = [answer for answer in found if not answer.yes]
         refuting = [answer for answer in decided if answer.no]
-        all_of = f"all that is of {S} is of {T} in {_listed(names)}"
+        all_of = f"all that is of {S} is of {T} in {_names_in_words(names)}"
         return next(iter([*refuting, *decided]), ModalAnswer(CERTAIN, all_of))
 
     def equivalent(self, S: TypeNode, T: TypeNode, /) -> ModalAnswer:
@@ -172,16 +171,16 @@ class Notion:
         same = f"the same is of {S} and of {T}"
         return next(iter([*refuting, *failing]), ModalAnswer(CERTAIN, same))
 
-    def _truth(self, name: str, P: Object) -> Degree:
-        """How certain a proposition is in a possibility."""
+    def _degree_or_unknown(self, name: str, P: Object) -> Degree:
+        """The degree of a proposition in a possibility; [0, 1] if it is undefined."""
         spend()
         try:
-            return self._asked(name, P)
+            return self._degree(name, P)
         except Refused:
             return UNKNOWN
 
-    def _asked(self, name: str, P: Object) -> Degree:
-        """The same; raises `Refused` where a function in P is not defined there."""
+    def _degree(self, name: str, P: Object) -> Degree:
+        """The same, but raises `Refused` where a function in P is undefined there."""
         match P:
             case PType(pred, (TypeNode() as inner,)) if pred in (nec, poss):
                 asks = self.necessary if pred is nec else self.possible
@@ -190,7 +189,7 @@ class Notion:
                 return self.system.judge(name, (), P).p
             case TypeNode():
                 _refuse_modal(P)
-                return self.system[name].true(_simplest(P))
+                return self.system[name].true(_merged(P))
         sit, T, claimed = probabilistic_claim(P)
         found = self.system.judge(name, sit, T).p
         return borne_out(claimed, found) if "prob" in P else found
@@ -200,7 +199,7 @@ class Notion:
         model = self.system[name]
         try:
             _refuse_modal(S)
-            known = model.witnesses(_simplest(S))
+            known = model.witnesses(_merged(S))
         except (Refused, Unsupported) as error:
             return ModalAnswer(UNKNOWN, f"in {name}, {error.message}", name)
         judged = [self.system.judge(name, sit, T) for sit in known]
@@ -219,7 +218,7 @@ class Notion:
 
 
 def _refuse_modal(T: TypeNode) -> None:
-    """Says that what is of a type with nec or poss in it cannot be listed."""
+    """Raise `Unsupported` for a type with nec or poss; it has no list of witnesses."""
     if mentions_modal(T):
         raise Unsupported(
             f"what is of {T} cannot be listed, as nec and poss are asked of the system",
@@ -227,25 +226,25 @@ def _refuse_modal(T: TypeNode) -> None:
         )
 
 
-def _simplest(T: TypeNode) -> TypeNode:
-    """The type with its record types merged, so that what is of it can be listed."""
+def _merged(T: TypeNode) -> TypeNode:
+    """A meet as the merge of its parts, whose witnesses can be listed."""
     return reduce(merge, T.parts) if isinstance(T, Meet) else T
 
 
 def _leaves_open(facts: Assignment, T: TypeNode) -> bool:
-    """Whether more may be of T than was told, also by an axiom."""
+    """May there be more witnesses of T than are known, also by an axiom?"""
     atoms = [part for part in occurring([T]) if isinstance(part, Basic | PType)]
     lower = [kind for atom in atoms for _, kind in below(atom, facts.theory.axioms)]
     return any(map(facts.leaves_open, (T, *lower)))
 
 
 def _lists_all(S: TypeNode, T: TypeNode) -> bool:
-    """Whether the records of S that are listed stand for all of them, as far as T goes.
+    """Are the listed records of S all there are, as far as T is concerned?
 
-    Records may have further fields, so there is no end of them; but a flat record type
-    asks of each field by itself.
+    Records may have further fields, so there are infinitely many of S; but a flat
+    record type says something of each field by itself.
     """
-    return not _mentions_records(S) or (_is_flat(_simplest(S)) and _is_flat(T))
+    return not _mentions_records(S) or (_is_flat(_merged(S)) and _is_flat(T))
 
 
 def _is_flat(T: TypeNode) -> bool:
@@ -262,14 +261,14 @@ def _mentions_records(T: TypeNode) -> bool:
     return any(isinstance(part, RecordType) for part in occurring([T]))
 
 
-def _so(P: Object, names: tuple[str, ...]) -> str:
+def _describe_success(P: Object, names: tuple[str, ...]) -> str:
     if isinstance(P, Record):
         sit, T = claim(P)
-        return f"{notation(sit)} is of {T} in {_listed(names)}"
-    return f"something is of {P} in {_listed(names)}"
+        return f"{notation(sit)} is of {T} in {_names_in_words(names)}"
+    return f"something is of {P} in {_names_in_words(names)}"
 
 
-def _not_so(P: Object, name: str, p: Degree) -> str:
+def _describe_failure(P: Object, name: str, p: Degree) -> str:
     if isinstance(P, Record):
         sit, T = claim(P)
         fails = f"{notation(sit)} is not of {T}"
@@ -279,6 +278,6 @@ def _not_so(P: Object, name: str, p: Degree) -> str:
     return f"{fails} in {name}" if p == REFUTED else f"{doubt} in {name} (p = {p})"
 
 
-def _listed(names: tuple[str, ...]) -> str:
+def _names_in_words(names: tuple[str, ...]) -> str:
     *most, last = names
     return f"{', '.join(most)} and {last}" if most else last

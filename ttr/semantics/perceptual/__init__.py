@@ -14,6 +14,9 @@ logistic_regression, judging and all below.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+from ttr.aliases import former_names
 from ttr.semantics.perceptual.classifiers import Classifier, Method
 from ttr.semantics.perceptual.composition import combined_type, in_model, perceive
 from ttr.semantics.perceptual.estimators import as_learner
@@ -36,8 +39,8 @@ from ttr.semantics.perceptual.regions import (
     Points,
     Region,
     clusters,
-    detected,
-    individuated,
+    detections,
+    individuate,
 )
 from ttr.semantics.perceptual.similarity import (
     Agreement,
@@ -76,12 +79,12 @@ __all__ = [
     "combined_type",
     "convergence",
     "coordinates",
-    "detected",
+    "detections",
     "difference",
     "exchange",
     "history",
     "in_model",
-    "individuated",
+    "individuate",
     "interpretation",
     "intrinsic",
     "learner_params",
@@ -90,3 +93,6 @@ __all__ = [
     "relative",
     "says",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)

@@ -42,8 +42,8 @@ __all__ = [
     "Points",
     "Region",
     "clusters",
-    "detected",
-    "individuated",
+    "detections",
+    "individuate",
 ]
 
 Points = Basic("PointMap")
@@ -170,7 +170,7 @@ def _neighbours(cell: Cell, cells: Iterable[Cell]) -> Iterator[Cell]:
 # --- what is in the regions ----------------------------------------------------------
 
 
-def detected(regions: Iterable[PointMap], *words: Meaning) -> tuple[Record, ...]:
+def detections(regions: Iterable[PointMap], *words: Meaning) -> tuple[Record, ...]:
     r"""The regions in which something is detected, as records {reg, pfun, p}.
 
     The words are meanings that classify `reg`. A region gets the predicate of the word
@@ -197,7 +197,7 @@ class Individual(NamedTuple):
     model: Model
 
 
-def individuated(M: Model, region: Record) -> Individual:
+def individuate(M: Model, region: Record) -> Individual:
     r"""A new individual for a region {reg, pfun, p}, by `INDIVIDUATE`.
 
     It certainly exists; that it has the property is as probable as p of the region, or
@@ -206,7 +206,7 @@ def individuated(M: Model, region: Record) -> Individual:
     >>> from ttr.types.syntax import Pred
     >>> seen = record(reg=PointMap([[0, 1], [1, 0]]), pfun=fun(x=Ind)(
     ...     Pred("dog", Ind)(this.x)), p=0.8)
-    >>> found = individuated(Model(), seen)
+    >>> found = individuate(Model(), seen)
     >>> print(found.sit)
     {a = a1, c = s2, loc = <PointMap 2>}
     >>> print(found.type)

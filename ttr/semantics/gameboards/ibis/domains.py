@@ -20,7 +20,13 @@ from ttr.semantics.gameboards.ibis.moves import (
     raise_,
     with_terms,
 )
-from ttr.semantics.questions import combine, is_question, relevant, resolves, resolving
+from ttr.semantics.questions import (
+    combine,
+    find_answer,
+    is_question,
+    relevant,
+    resolves,
+)
 from ttr.types.printing import notation
 from ttr.types.syntax import Negation, Object, TypeNode, freeze, kind_of
 
@@ -84,7 +90,7 @@ class Domain:
 
     def answers(self, question: Object, known: Iterable[Object]) -> TypeNode | None:
         """What of this resolves a question, or None."""
-        return resolving(question, known, self.model)
+        return find_answer(question, known, self.model)
 
     def open(
         self, questions: Iterable[Object], known: Sequence[Object]
