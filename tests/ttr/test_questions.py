@@ -91,7 +91,7 @@ def test_only_questions_whether_are_polar():
 def test_what_asks_for_nothing_is_refused():
     with pytest.raises(TTRError, match="fly has no place that a question could ask"):
         which(fly)
-    with pytest.raises(TTRError, match="two alternatives at least"):
+    with pytest.raises(TTRError, match="at least two alternatives"):
         which_of(BACK)
     with pytest.raises(TTRError, match="this is no question: the object 'paris'"):
         relevant("yes", "paris", M)
@@ -299,6 +299,6 @@ def test_which_asks_for_a_predicate() -> None:
 
 @pytest.mark.parametrize("junk", [[1], {"a": 1}, bytearray(b"x")])
 def test_what_python_cannot_hash_is_no_question_and_no_answer(junk: object) -> None:
-    with pytest.raises(TTRError, match="nothing is asked for by"):
+    with pytest.raises(TTRError, match="this is no question"):
         asked_of(junk, Rec, Model())
     assert asked_of(TO, junk, M) is None

@@ -1,13 +1,13 @@
 """Questions, what answers them, and the questions under discussion.
 
 A question is a propositional abstract: a function from situations to types. *Whether
-she left* is `\\r:Rec. [e : leave(she)]`, *who left* `\\r:[x : Ind]. [e : leave(r.x)]`.
-An alternative question is the set of some questions whether. What is about a question,
-and what resolves it, follows from these functions: an answer is about a question if the
-question can be applied to it.
+she left* is `\\r:Rec. [e : leave(she)]`, *who left* is `\\r:[x : Ind]. [e :
+leave(r.x)]`. An alternative question is a set of questions whether. Which answers are
+about a question and which resolve it follows from these functions: an answer is about a
+question that can be applied to it.
 
-Source: Ginzburg 2012, chapters 3 and 4; Larsson 2002, chapter 2, who gives the three
-relations between questions and answers their names.
+Sources: Ginzburg 2012, chapters 3 and 4; Larsson 2002, chapter 2, for the names of the
+three relations between questions and answers.
 """
 
 from __future__ import annotations
@@ -73,14 +73,14 @@ __all__ = [
 if not TYPE_CHECKING:
     __getattr__ = former_names(__name__)
 
-MATCHES = 4096
-"""Of how many propositions it is kept which argument of a question they are about."""
+_MATCHES = 4096
+"""The number of propositions whose arguments in a question are cached."""
 
 YES, NO = "yes", "no"
 """The short answers to questions whether."""
 
 Question = Basic("Question")
-"""The type of questions; `with_questions` makes a model know what is one."""
+"""The type of questions; `with_questions` gives a model its witnesses."""
 
 
 # --- questions -----------------------------------------------------------------------
@@ -99,7 +99,7 @@ def whether(T: TypeNode) -> Function:
 def which(pred: Pred) -> Function:
     r"""The question which object a predicate holds of: λr:[x : S]. [e : p(r.x)].
 
-    Raises `TTRError` for a predicate that takes no single object.
+    Raises `TTRError` for a predicate that cannot be said of a single object.
 
     >>> print(which(Pred("leave", Basic("Ind"))))
     \r:[x : Ind]. [e : leave(r.x)]
@@ -116,21 +116,21 @@ def which(pred: Pred) -> Function:
 
 
 def which_of(*types: TypeNode) -> FiniteSet:
-    """The alternative question which of these is the case: the questions whether.
+    """The alternative question which of some types is the case: a set of questions.
 
-    Raises `TTRError` for less than two alternatives.
+    Raises `TTRError` for fewer than two alternatives.
 
     >>> leave = Pred("leave", Basic("Ind"))
     >>> len(which_of(rectype(e=leave("kim")), rectype(e=leave("sam"))))
     2
     """
     if len(types) < 2:
-        raise TTRError("an alternative question has two alternatives at least")
+        raise TTRError("an alternative question has at least two alternatives")
     return FiniteSet(*map(whether, types))
 
 
 def is_question(value: Object) -> bool:
-    """Whether an object is a question: a function from records to types, or a set.
+    """Is an object a question: a function from records to types, or a set of such?
 
     >>> is_question(whether(Rec)), is_question(Rec)
     (True, False)
@@ -146,13 +146,13 @@ def is_question(value: Object) -> bool:
 
 
 def is_polar(value: Object) -> TypeGuard[Function]:
-    """Whether an object is a question whether: one that asks for no object."""
+    """Is an object a question whether, that is, one that asks for no object?"""
     spend()
     return is_question(value) and isinstance(value, Function) and value.domain is Rec
 
 
 def with_questions(model: Model) -> Model:
-    """The model in which questions are of the type `Question`, by their form."""
+    """The model in which questions are of the type `Question` by their form."""
     return model.witnessed(Question, by=is_question)
 
 
@@ -160,12 +160,12 @@ def with_questions(model: Model) -> Model:
 
 
 def relevant(answer: Object, question: Object, model: Model) -> bool:
-    """Whether an answer is about a question.
+    """Is an answer about a question?
 
-    Of a question whether T these are yes, no, T and ¬T; of a question which, an object
-    that it can be applied to, what it then gives, and the negation of that; of an
-    alternative question, what is about one of the alternatives but yes and no.
-    Propositions may be more specific than what was asked for.
+    About a question whether T are yes, no, T and ¬T. About a question which are an
+    object that it can be applied to, the type that it then gives, and the negation of
+    that. About an alternative question is what is about one of the alternatives, except
+    yes and no. Propositions may be more specific than what was asked for.
 
     >>> City = Basic("City")
     >>> dest = Pred("dest_city", City)
@@ -176,14 +176,14 @@ def relevant(answer: Object, question: Object, model: Model) -> bool:
     >>> relevant(~rectype(e=dest("paris")), where_to, M)
     True
     """
-    return _combined(answer, question, model) is not None
+    return _conveyed(answer, question, model) is not None
 
 
 def resolves(answer: Object, question: Object, model: Model) -> bool:
-    """Whether an answer settles a question.
+    """Does an answer resolve a question?
 
-    What is about a question whether resolves it; of the others it is only what is not
-    negative: that it is not Paris does not settle where it is to go.
+    Whatever is about a question whether resolves it. Other questions are resolved only
+    by what is not negative: "not Paris" does not resolve where somebody wants to go.
 
     >>> City = Basic("City")
     >>> dest = Pred("dest_city", City)
@@ -193,18 +193,20 @@ def resolves(answer: Object, question: Object, model: Model) -> bool:
     >>> resolves(~rectype(e=dest("paris")), which(dest), M)
     False
     """
-    found = _combined(answer, question, model)
+    found = _conveyed(answer, question, model)
     if found is None:
         return False
-    return is_polar(question) or not isinstance(_affirmed(found), Negation)
+    return is_polar(question) or not isinstance(
+        _without_double_negation(found), Negation
+    )
 
 
 def combine(question: Object, answer: Object, model: Model) -> TypeNode:
     """The proposition that an answer conveys as an answer to a question.
 
-    A short answer to a question which is what the question is applied to; yes and no
-    give T and ¬T; a proposition is what it is. Raises `TTRError` for an answer that is
-    not about the question.
+    A question which is applied to its short answer. To a question whether T, yes and no
+    convey T and ¬T. A proposition conveys itself. Raises `TTRError` for an answer that
+    is not about the question.
 
     >>> City = Basic("City")
     >>> dest, back = Pred("dest_city", City), Pred("return_trip", ())
@@ -214,7 +216,7 @@ def combine(question: Object, answer: Object, model: Model) -> TypeNode:
     >>> print(combine(whether(rectype(e=back())), "no", M))
     ~[e : return_trip()]
     """
-    found = _combined(answer, question, model)
+    found = _conveyed(answer, question, model)
     if found is None:
         raise TTRError(f"{kind_of(answer)} is no answer to the question {question}")
     return found
@@ -223,7 +225,7 @@ def combine(question: Object, answer: Object, model: Model) -> TypeNode:
 def find_answer(
     question: Object, propositions: Iterable[Object], model: Model
 ) -> TypeNode | None:
-    """The first of these propositions that resolves a question, or None.
+    """The first of some propositions that resolves a question, or None.
 
     >>> back = Pred("return_trip", ())
     >>> known = [~rectype(e=back())]
@@ -237,7 +239,7 @@ def find_answer(
 
 
 def asked_of(question: Function, P: TypeNode, model: Model) -> Record | None:
-    """The r that a question q can be applied to so that P ⊑ q(r), or None.
+    """An r that a question q can be applied to with P ⊑ q(r), or None.
 
     Raises `TTRError` for what is no question.
 
@@ -249,34 +251,38 @@ def asked_of(question: Function, P: TypeNode, model: Model) -> Record | None:
     """
     if not isinstance(question, Function):
         raise _no_question(question)
-    found = _argument_of(question, P) if isinstance(P, TypeNode) else None
+    found = _matching_argument(question, P) if isinstance(P, TypeNode) else None
     if found is None or not certainly(model.facts, found, question.domain):
         return None
     return found
 
 
-@lru_cache(MATCHES)
-def _argument_of(question: Function, P: TypeNode) -> Record | None:
-    """The r with P ⊑ q(r), by their forms alone; `TTRError` for no question."""
+@lru_cache(_MATCHES)
+def _matching_argument(question: Function, P: TypeNode) -> Record | None:
+    """The r with P ⊑ q(r) by their forms alone, or None."""
     if not is_question(question):
         raise _no_question(question)
     bound: dict[str, Object] = {}
-    return Record(bound) if _matches(question.body, _plain(P), 0, bound) else None
+    return (
+        Record(bound)
+        if _matches(question.body, _with_values_inlined(P), 0, bound)
+        else None
+    )
 
 
 def _no_question(found: Object) -> TTRError:
-    return TTRError(f"nothing is asked for by {kind_of(found)}")
+    return TTRError(f"this is no question: {kind_of(found)}")
 
 
-def _combined(answer: Object, question: Object, model: Model) -> TypeNode | None:
-    """What an answer comes to, or None where it is not about the question."""
+def _conveyed(answer: Object, question: Object, model: Model) -> TypeNode | None:
+    """The proposition that an answer conveys; None if it is not about the question."""
     spend()
     if isinstance(question, FiniteSet):
-        found = (_combined(answer, one, model) for one in question)
+        found = (_conveyed(answer, one, model) for one in question)
         plain = isinstance(answer, TypeNode)
         return next((one for one in found if one is not None), None) if plain else None
     if not isinstance(question, Function) or not is_question(question):
-        raise TTRError(f"this is no question: {kind_of(question)}")
+        raise _no_question(question)
     if isinstance(answer, TypeNode):
         return answer if _is_instance(answer, question, model) else None
     if question.domain is Rec:
@@ -287,43 +293,43 @@ def _combined(answer: Object, question: Object, model: Model) -> TypeNode | None
     given = _as_argument(answer, question.domain)
     if given is None or not certainly(model.facts, given, question.domain):
         return None
-    return _applied(question, given)
+    return _apply(question, given)
 
 
 def _as_argument(answer: Object, domain: TypeNode) -> Record | None:
-    """The record that a question is applied to: {x = a} where [x : S] is asked for."""
+    """The record to apply a question to: {x = a} for a where it asks for [x : S]."""
     if isinstance(answer, Record):
         return answer
     labels = domain.labels if isinstance(domain, RecordType) else ()
     return Record({labels[0]: answer}) if len(labels) == 1 else None
 
 
-def _applied(question: Function, argument: Record) -> TypeNode:
+def _apply(question: Function, argument: Record) -> TypeNode:
     found: TypeNode = grounded(question.body, ({BOUND: argument},))
     return found
 
 
 def _is_instance(P: TypeNode, question: Function, model: Model) -> bool:
-    """Whether P ⊑ q(r), or P is ¬q(r), for an r that the question can be applied to."""
-    P = _affirmed(P)
+    """Is P ⊑ q(r), or P = ¬q(r), for some r that the question can be applied to?"""
+    P = _without_double_negation(P)
     if asked_of(question, P, model) is not None:
         return True
     denied = P.body if isinstance(P, Negation) else ~P
     about = asked_of(question, denied, model)
-    return about is not None and _applied(question, about) is denied
+    return about is not None and _apply(question, about) is denied
 
 
-def _affirmed(P: TypeNode) -> TypeNode:
-    """The type without negations that cancel one another: ¬¬T is T."""
+def _without_double_negation(P: TypeNode) -> TypeNode:
+    """The type without double negations: T for ¬¬T."""
     while isinstance(P, Negation) and isinstance(P.body, Negation):
         P = P.body.body
     return P
 
 
-def _plain(P: TypeNode) -> TypeNode:
-    """A record type with what its manifest fields are set to in place of paths there.
+def _with_values_inlined(P: TypeNode) -> TypeNode:
+    """A record type with the values of its manifest fields for the paths to them.
 
-    So [x = paris : City, e : dest_city(x)] is matched as [e : dest_city(paris)] is.
+    So [x = paris : City, e : dest_city(x)] matches like [e : dest_city(paris)].
     """
     P = _merged(P)
     if not isinstance(P, RecordType):
@@ -340,7 +346,7 @@ def _plain(P: TypeNode) -> TypeNode:
 
 
 def _merged(P: TypeNode) -> TypeNode:
-    """The one record type that a meet of record types is."""
+    """A meet of record types as one record type."""
     if isinstance(P, Meet) and all(isinstance(part, RecordType) for part in P.parts):
         return reduce(merge, P.parts)
     return P
@@ -349,9 +355,9 @@ def _merged(P: TypeNode) -> TypeNode:
 def _matches(
     pattern: Object, found: Object, out: int, bound: dict[str, Object]
 ) -> bool:
-    """Whether `found` is below the pattern, with objects for the question's variable.
+    """Is `found` below the pattern, with the objects `bound` for the variable?
 
-    `out` is how many record types further in than the variable the pattern stands.
+    `out` is the number of record types between the variable and the pattern.
     """
     spend()
     if isinstance(pattern, RecordType):
@@ -387,7 +393,7 @@ def _matches(
 
 
 def push(qud: Iterable[Object], question: Object) -> tuple[Object, ...]:
-    """The questions with this one on top; one that was there is moved, not doubled.
+    """The questions with this one on top; if it was there already, it is moved.
 
     Raises `TTRError` for what is no question.
 
@@ -406,7 +412,7 @@ def top(qud: Iterable[Object]) -> Object | None:
 
 
 def pop(qud: Iterable[Object], question: Object) -> tuple[Object, ...]:
-    """The questions without this one, which was dropped or resolved."""
+    """The questions without one that was dropped or resolved."""
     return tuple(_without(as_tuple(qud, "questions"), question))
 
 

@@ -1,8 +1,8 @@
 """The gameboard of Cooper: what is private, an agenda, and what is shared.
 
-What is to be done next is a list of types of events on the agenda; what has been agreed
-on is one record type, the commitments, which becomes more specific by merging. An
-assertion is not agreed on before it is acknowledged. Source: Cooper 2023, chapter 2.
+The agenda is a list of types of events to be brought about. The shared commitments are
+one record type, which becomes more specific by merging. An assertion is agreed on once
+it is acknowledged. Source: Cooper 2023, chapter 2.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ assert_that = Pred("assert", Ind, Ind, RecType)
 acknowledge = Pred("acknowledge", Ind, Ind, RecType)
 
 MOVE: RecordType = rectype(spkr=Ind, addr=Ind, content=RecType)
-"""Moves: somebody says something to somebody."""
+"""The type of moves: somebody says something to somebody."""
 
 ASSERTION: RecordType = rectype(
     spkr=Ind,
@@ -70,8 +70,8 @@ BOARD: RecordType = rectype(
 )
 """The type of every gameboard; `self` is whose board it is.
 
-The types on the agenda mention types, those of what is to be said: so they are record
-types of level 1. Where nothing has been said yet, `latest` is the empty record.
+The types on the agenda mention types, namely what is to be said, so they are record
+types of level 1. Before anything has been said, `latest` is the empty record.
 """
 
 MINE = rectype(me=(Ind @ outer.s.private.self) @ outer.e.spkr)
@@ -80,14 +80,14 @@ TO_ME = rectype(me=(Ind @ outer.s.private.self) @ outer.e.addr)
 
 @rule(when=BOARD, on=MOVE, where=MINE, kind="grounding")
 def make_move(s: Record, e: Record) -> Record:
-    """A move of one's own is off the agenda when it has been made."""
+    """A move of one's own is taken off the agenda when it has been made."""
     changes = {"private.agenda": s.private.agenda[1:], "shared.latest": e}
     return replace(s, changes)
 
 
 @rule(when=BOARD, on=MOVE, where=TO_ME, kind="grounding")
 def hear_move(s: Record, e: Record) -> Record:
-    """What one is told is the latest move."""
+    """A move that is addressed to one is the latest move."""
     return replace(s, {"shared.latest": e})
 
 
@@ -98,7 +98,7 @@ def hear_move(s: Record, e: Record) -> Record:
     kind="integrate",
 )
 def integrate_acknowledgement(s: Record, e: Record, said: RecordType) -> Record:
-    """What was asserted and is acknowledged is agreed on from now on."""
+    """What was asserted is agreed on when it is acknowledged."""
     return replace(s, {"shared.commitments": merge(s.shared.commitments, said)})
 
 
@@ -108,7 +108,7 @@ def integrate_acknowledgement(s: Record, e: Record, said: RecordType) -> Record:
     kind="plan",
 )
 def plan_acknowledgement(s: Record) -> Record:
-    """Something was asserted to one: acknowledging it is on the agenda."""
+    """Acknowledging what was asserted to one is put on the agenda."""
     said = s.shared.latest
     planned = acknowledging(said.addr, said.spkr, said.content)
     return replace(s, {"private.agenda": (planned,)})
@@ -117,26 +117,26 @@ def plan_acknowledgement(s: Record) -> Record:
 ALGORITHM: Algorithm = all_(
     integrate_acknowledgement, first(make_move, hear_move), plan_acknowledgement
 )
-"""What is acknowledged is agreed on; what was said is the latest move; then plan."""
+"""Integrate an acknowledgement, record the latest move, then plan."""
 
 
 def asserting(spkr: str, addr: str, content: TypeNode) -> RecordType:
-    """The type of the assertions in which spkr tells addr that this is so.
+    """The type of assertions by spkr to addr with this content.
 
     >>> print(asserting("a", "b", rectype(e=Pred("run", Ind)("sam"))))
     ... # doctest: +NORMALIZE_WHITESPACE
     [addr = b : Ind, content = [e : run(sam)] : RecType, spkr = a : Ind,
      e : assert(spkr, addr, content)]
     """
-    return _said(assert_that, spkr, addr, content)
+    return _move_type(assert_that, spkr, addr, content)
 
 
 def acknowledging(spkr: str, addr: str, content: TypeNode) -> RecordType:
-    """The type of the acknowledgements of this by spkr."""
-    return _said(acknowledge, spkr, addr, content)
+    """The type of acknowledgements by spkr to addr of this content."""
+    return _move_type(acknowledge, spkr, addr, content)
 
 
-def _said(act: Pred, spkr: str, addr: str, content: TypeNode) -> RecordType:
+def _move_type(act: Pred, spkr: str, addr: str, content: TypeNode) -> RecordType:
     return rectype(
         spkr=Ind @ spkr,
         addr=Ind @ addr,
@@ -146,7 +146,7 @@ def _said(act: Pred, spkr: str, addr: str, content: TypeNode) -> RecordType:
 
 
 def game(me: str, model: Model, agenda: Iterable[RecordType] = ()) -> Game:
-    """The game by the board of one participant, who is going to make these moves.
+    """The game on the board of one participant, whose agenda has these moves.
 
     >>> from ttr.dialogues.encounters import Participant, meeting
     >>> M = Model().given("a", Ind).given("b", Ind)

@@ -1,12 +1,12 @@
 """The dialogue gameboard of KoS: who speaks to whom, facts, moves, and questions.
 
-What is said is pending until it is grounded; then it is the latest move, and the
-conversational rules say what comes of it: what is asked is under discussion, and so is
-whether what is asserted is so; what is accepted is a fact, and what it resolves is no
-longer discussed. Each participant has a board; they may differ.
+A move is pending until it is grounded; then it is the latest move, and the
+conversational rules integrate it. What is asked is put under discussion, and so is
+whether what is asserted holds. What is accepted becomes a fact, and the questions that
+it resolves are dropped. Each participant has their own board, and boards may differ.
 
 Source: Ginzburg 2012, chapters 4 and 6. Facts and moves are lists here, the latest
-first, and the order of the questions is linear.
+first, and questions are in a linear order.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ if not TYPE_CHECKING:
     __getattr__ = former_names(__name__)
 
 # --- moves ---------------------------------------------------------------------------
-# A move is a ptype: of the situations in which somebody greets, or asks, somebody.
+# A move is a ptype, of the situations in which somebody greets, or asks, somebody.
 
 Move = Basic("Move")
 """The types of moves."""
@@ -113,7 +113,7 @@ def _is_move(value: Object) -> bool:
 
 
 def with_moves(model: Model) -> Model:
-    """The model in which moves, and questions, are of their types by their form."""
+    """The model in which moves and questions are of their types by their form."""
     model = with_questions(model)
     model = model.witnessed(Move, by=_is_move)
     for T, pred in _KINDS.items():
@@ -137,13 +137,12 @@ DGB: RecordType = rectype(
 )
 """The type of dialogue gameboards.
 
-The facts are what is agreed on; `pending` has what was said and is not yet grounded.
-The first of the moves, pending or not, is the latest, and the first of the questions
-the maximal one.
+The facts are agreed on; `pending` has the moves that are not yet grounded. The first of
+the moves, pending or not, is the latest; the first of the questions is the maximal one.
 """
 
 UTTERANCE: RecordType = rectype(spkr=Ind, addr=Ind, move=Move)
-"""The type of utterances: who says it to whom, and what move it is."""
+"""The type of utterances: speaker, addressee and move."""
 
 
 def utterance(move: PType) -> Record:
@@ -165,29 +164,29 @@ def utterance(move: PType) -> Record:
     kind="turn",
 )
 def take_turn(s: Record, e: Record) -> RecordType:
-    """Who was spoken to speaks now."""
+    """The addressee becomes the speaker when they say something."""
     return rectype(spkr=Ind @ s.addr, addr=Ind @ s.spkr)
 
 
 @rule(when=DGB, on=UTTERANCE, kind="pending")
 def hear(s: Record, e: Record) -> Record:
-    """What was said is to be grounded."""
+    """What was said is pending."""
     return replace(s, pending=(e.move, *s.pending))
 
 
 # --- conversational rules ------------------------------------------------------------
-# Each grounds the first pending move, if it is of its kind and makes sense there.
+# Each grounds the first pending move if it is of the right kind and makes sense there.
 
 PENDING = rectype(pending=NonEmpty(Move))
 
 
-def pending(T: TypeNode) -> RecordType:
-    """Binds the first pending move, if it is of this type."""
+def bind_pending(T: TypeNode) -> RecordType:
+    """Binds the first pending move if it is of this type."""
     return rectype(m=T @ fst(outer.s.pending))
 
 
-def _grounded(s: Record, m: PType, **changes: object) -> Record:
-    """The board with these changes on which the move is the latest."""
+def _ground(s: Record, m: PType, **changes: object) -> Record:
+    """The board with these changes, and the pending move as the latest move."""
     return replace(s, pending=s.pending[1:], moves=(m, *s.moves), **changes)
 
 
@@ -197,12 +196,12 @@ def _grounded(s: Record, m: PType, **changes: object) -> Record:
         moves=ListOf(Move) @ (),
         qud=ListOf(Question) @ (),
     ),
-    where=pending(Greeting),
+    where=bind_pending(Greeting),
     kind="ground",
 )
 def open_with_greeting(s: Record, m: PType) -> Record:
     """A conversation may begin with a greeting."""
-    return _grounded(s, m)
+    return _ground(s, m)
 
 
 @rule(
@@ -213,46 +212,46 @@ def open_with_greeting(s: Record, m: PType) -> Record:
     kind="ground",
 )
 def greet_back(s: Record, m: PType, latest: PType) -> Record | None:
-    """Who was greeted may greet back."""
-    return _grounded(s, m) if latest.args == m.args[::-1] else None
+    """Somebody who was greeted may greet back."""
+    return _ground(s, m) if latest.args == m.args[::-1] else None
 
 
-@rule(when=PENDING, where=pending(Asking), kind="ground")
+@rule(when=PENDING, where=bind_pending(Asking), kind="ground")
 def ask_qud(s: Record, m: PType) -> Record:
-    """What is asked is the maximal question under discussion."""
-    return _grounded(s, m, qud=push(s.qud, m.args[-1]))
+    """What is asked becomes the maximal question under discussion."""
+    return _ground(s, m, qud=push(s.qud, m.args[-1]))
 
 
-@rule(when=PENDING, where=pending(Assertion), kind="ground")
+@rule(when=PENDING, where=bind_pending(Assertion), kind="ground")
 def assert_qud(s: Record, m: PType) -> Record:
-    """Of what is asserted it is under discussion whether it is so."""
-    return _grounded(s, m, qud=push(s.qud, whether(m.args[-1])))
+    """Whether what is asserted holds becomes the maximal question."""
+    return _ground(s, m, qud=push(s.qud, whether(m.args[-1])))
 
 
 @rule(
     when=rectype(pending=NonEmpty(Move), qud=NonEmpty(Question)),
-    where=pending(Answering),
+    where=bind_pending(Answering),
     kind="ground",
 )
 def answer_qud(s: Record, m: PType, *, model: Model) -> Record | None:
-    """A short answer asserts what it comes to as an answer to the maximal question."""
+    """A short answer asserts what it conveys as an answer to the maximal question."""
     question, short = top(s.qud), m.args[-1]
     if not relevant(short, question, model):
         return None
     proposition = combine(question, short, model)
     asserted = assert_that(*m.args[:2], proposition)
-    return _grounded(s, asserted, qud=push(s.qud, whether(proposition)))
+    return _ground(s, asserted, qud=push(s.qud, whether(proposition)))
 
 
 @rule(
     when=rectype(pending=NonEmpty(Move), qud=NonEmpty(Question)),
-    where=pending(Acceptance),
+    where=bind_pending(Acceptance),
     kind="ground",
 )
 def accept_fact(s: Record, m: PType, *, model: Model) -> Record | None:
-    """What somebody else asserted and one accepts is a fact.
+    """What somebody else asserted becomes a fact when it is accepted.
 
-    All questions that it resolves are no longer under discussion.
+    The questions that it resolves are no longer under discussion.
     """
     accepter, _, proposition = m.args
     by_others = (
@@ -263,17 +262,17 @@ def accept_fact(s: Record, m: PType, *, model: Model) -> Record | None:
     if not any(move.args[-1] is proposition for move in by_others):
         return None
     facts = (proposition, *(fact for fact in s.facts if fact is not proposition))
-    return _grounded(s, m, facts=facts, qud=downdate(s.qud, facts, model))
+    return _ground(s, m, facts=facts, qud=downdate(s.qud, facts, model))
 
 
 @rule(
     when=rectype(pending=NonEmpty(Move), qud=ListOf(Question) @ ()),
-    where=pending(Parting),
+    where=bind_pending(Parting),
     kind="ground",
 )
 def close_with_parting(s: Record, m: PType) -> Record:
     """A conversation may end when nothing is under discussion."""
-    return _grounded(s, m)
+    return _ground(s, m)
 
 
 ALGORITHM: Algorithm = all_(
@@ -292,14 +291,14 @@ ALGORITHM: Algorithm = all_(
         measure="pending",
     ),
 )
-"""Turn, pending, and then grounding of what can be grounded.
+"""Take the turn, hear, then ground all that can be grounded.
 
-What cannot stays pending: a reason to ask what was meant.
+What cannot be grounded stays pending: a reason to ask for clarification.
 """
 
 
 def game(model: Model, spkr: str, addr: str) -> Game:
-    """The game by the board of one participant, at the start of a conversation.
+    """The game on the board of one participant, at the start of a conversation.
 
     >>> leave = Pred("leave", Ind)
     >>> M = Model().given("a", Ind).given("b", Ind).given("kim", Ind)
