@@ -16,7 +16,7 @@ from ttr.dialogues.stories import play, read_stories, setting
 from ttr.errors import NotHeard
 from ttr.semantics.gameboards.ibis import Domain, PhraseBook, utterance
 from ttr.semantics.gameboards.ibis import moves as moves
-from ttr.semantics.gameboards.ibis.domains import asked_in, size
+from ttr.semantics.gameboards.ibis.domains import plan_size, questions_in
 from ttr.semantics.questions import find_answer, resolves, whether, which
 from ttr.updates.checks import faults_of
 
@@ -282,8 +282,8 @@ def test_what_is_no_utterance_of_the_user_is_not_heard(event):
 
 def test_the_questions_in_a_plan():
     plan = THEORY["PricePlan"]
-    assert list(asked_in(plan))[-1] is THEORY["ReturnMonth"]
-    assert size(plan) == len(plan) + 1
+    assert list(questions_in(plan))[-1] is THEORY["ReturnMonth"]
+    assert plan_size(plan) == len(plan) + 1
 
 
 @pytest.mark.parametrize(
@@ -303,16 +303,16 @@ def test_what_is_no_domain(plans, message):
 def test_a_database_that_answers_otherwise_is_named():
     domain = Domain({}, lambda *_: "700", Model())
     with pytest.raises(TTRError, match="or None, but it gave '700'"):
-        domain.found(COST, ())
+        domain.look_up(COST, ())
 
 
 def test_what_opposes_an_answer():
     domain = Domain({}, lambda *_: None, M)
     paris, london = (rectype(e=THEORY["dest_city"](c)) for c in ("paris", "london"))
-    assert domain.opposed(london, DEST, [paris]) == (paris,)
-    assert domain.opposed(paris, DEST, [paris, ~london]) == ()
-    assert domain.opposed(~paris, DEST, [paris]) == (paris,)
-    assert domain.opposed(paris, DEST, [~paris]) == (~paris,)
+    assert domain.incompatible(london, DEST, [paris]) == (paris,)
+    assert domain.incompatible(paris, DEST, [paris, ~london]) == ()
+    assert domain.incompatible(~paris, DEST, [paris]) == (paris,)
+    assert domain.incompatible(paris, DEST, [~paris]) == (~paris,)
 
 
 def test_the_longest_phrase_is_heard():
@@ -339,6 +339,6 @@ def test_a_phrase_stands_for_a_move():
 
 def test_what_has_no_wording_is_said_in_the_notation():
     bare = PhraseBook.of(THEORY, M, phrases={}, wordings={}, answers={})
-    assert bare.worded(moves.greet("sys")) == "greet(sys)."
+    assert bare.word_move(moves.greet("sys")) == "greet(sys)."
     assert GAME.model.judge(which(THEORY["price"]), moves.Question).holds
     assert whether(Rec) not in BOOK.answers

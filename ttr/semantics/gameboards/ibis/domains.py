@@ -1,4 +1,4 @@
-"""A domain: what can be asked in it, how that is found out, and who knows the answers.
+"""A domain: what can be asked in it, how the answer is found, and the database.
 
 Source: Larsson 2002, chapter 2.
 """
@@ -30,19 +30,19 @@ from ttr.semantics.questions import (
 from ttr.types.printing import notation
 from ttr.types.syntax import Negation, Object, TypeNode, freeze, kind_of
 
-__all__ = ["Domain", "Lookup", "asked_in", "size"]
+__all__ = ["Domain", "Lookup", "questions_in", "plan_size"]
 
 Lookup: TypeAlias = Callable[[Object, Sequence[TypeNode], Model], TypeNode | None]
-"""The answer to a question, by what is agreed on; None where there is none."""
+"""The answer to a question, given what is agreed on; None where there is none."""
 
 
 @dataclass(frozen=True, eq=False)
 class Domain:
-    """The plans by which questions are dealt with, the sorts of objects, the database.
+    """Plans for questions, the sorts of objects, and a database.
 
-    `plans` takes a question that users ask, an issue, to the list of actions by which
-    the system comes to an answer; `model` says which objects are of which sorts. Raises
-    `TTRError` where an issue is no question, or a plan has something else than actions.
+    `plans` maps issues, which are questions that users ask, to the actions by which the
+    system finds an answer; `model` says which objects are of which sorts. Raises
+    `TTRError` where an issue is no question, or something in a plan is no action.
     """
 
     plans: Mapping[Object, Sequence[Object]]
@@ -63,79 +63,86 @@ class Domain:
                     )
 
     def issues(self) -> Iterator[Object]:
-        """The questions that there is a plan for."""
+        """The questions that have a plan."""
         return iter(self.plans)
 
     def plan(self, issue: Object) -> tuple[Object, ...]:
-        """How to find the answer to a question; empty where that is not known."""
+        """The plan for a question; empty where there is none."""
         return tuple(self.plans.get(issue, ()))
 
     @cached_property
     def questions(self) -> tuple[Object, ...]:
-        """What the system may want to know from the user, each question once."""
-        asked = [q for plan in self.plans.values() for q in asked_in(plan)]
+        """The questions that the system may ask the user, each once."""
+        asked = [q for plan in self.plans.values() for q in questions_in(plan)]
         return tuple(dict.fromkeys(asked))
 
-    def resting_on(self, question: Object) -> tuple[Object, ...]:
-        """The issues whose answers depend on what the answer to this question is."""
+    def dependent_issues(self, question: Object) -> tuple[Object, ...]:
+        """The issues that depend on this question, as it is asked in their plans."""
         return tuple(
-            issue for issue, plan in self.plans.items() if question in asked_in(plan)
+            issue
+            for issue, plan in self.plans.items()
+            if question in questions_in(plan)
         )
 
     # --- answers ---
 
-    def about(self, answer: Object, questions: Iterable[Object]) -> list[Object]:
-        """Those of the questions that an answer is about."""
+    def questions_about(
+        self, answer: Object, questions: Iterable[Object]
+    ) -> list[Object]:
+        """The questions among these that an answer is about."""
         return [q for q in questions if relevant(answer, q, self.model)]
 
-    def answers(self, question: Object, known: Iterable[Object]) -> TypeNode | None:
-        """What of this resolves a question, or None."""
+    def find_answer(self, question: Object, known: Iterable[Object]) -> TypeNode | None:
+        """The first proposition known that resolves a question, or None."""
         return find_answer(question, known, self.model)
 
-    def open(
+    def open_questions(
         self, questions: Iterable[Object], known: Sequence[Object]
     ) -> tuple[Object, ...]:
-        """Those of the questions that nothing known resolves."""
-        return tuple(q for q in questions if self.answers(q, known) is None)
+        """The questions among these that nothing known resolves."""
+        return tuple(q for q in questions if self.find_answer(q, known) is None)
 
-    def concerned(self, answer: Object) -> list[Object]:
-        """The issues in whose plans there is a question that an answer is about."""
+    def issues_about(self, answer: Object) -> list[Object]:
+        """The issues whose plans ask a question that an answer is about."""
         return [
             issue
             for issue, plan in self.plans.items()
-            if self.about(answer, asked_in(plan))
+            if self.questions_about(answer, questions_in(plan))
         ]
 
-    def said_before(
+    def answered_again(
         self, answer: Object, agreed: Sequence[TypeNode]
     ) -> list[tuple[Object, TypeNode]]:
-        """The questions an answer is about that are agreed on, and what it says."""
+        """The questions that an answer is about again, each with what it conveys.
+
+        Something about each of them is agreed on already.
+        """
         return [
             (q, combine(q, answer, self.model))
-            for q in self.about(answer, self.questions)
+            for q in self.questions_about(answer, self.questions)
             if any(relevant(P, q, self.model) for P in agreed)
         ]
 
-    def opposed(
+    def incompatible(
         self, P: TypeNode, question: Object, agreed: Sequence[TypeNode]
     ) -> tuple[TypeNode, ...]:
-        """What is agreed on and cannot be, if this is the answer to the question.
+        """The propositions agreed on that are incompatible with P as the answer.
 
-        A question which has one answer at most.
+        A question which has at most one answer.
         """
-        settled = resolves(P, question, self.model)
+        is_resolved = resolves(P, question, self.model)
         return tuple(
             Q
             for Q in agreed
             if Q is not P
             and relevant(Q, question, self.model)
-            and (_denies(P, Q) or (settled and resolves(Q, question, self.model)))
+            and (_denies(P, Q) or (is_resolved and resolves(Q, question, self.model)))
         )
 
     # --- the database ---
 
-    def found(self, question: Object, agreed: Sequence[TypeNode]) -> TypeNode | None:
-        """The answer to a question in the database, by what is agreed on."""
+    def look_up(self, question: Object, agreed: Sequence[TypeNode]) -> TypeNode | None:
+        """The answer to a question in the database, given what is agreed on."""
         answer = self.lookup(question, agreed, self.model)
         if answer is None or self.model.judge(answer, Proposition).holds:
             return answer
@@ -145,26 +152,26 @@ class Domain:
 
 
 def _denies(P: TypeNode, Q: TypeNode) -> bool:
-    """Whether one is the negation of the other."""
+    """Is one of two propositions the negation of the other?"""
     return (isinstance(P, Negation) and P.body is Q) or (
         isinstance(Q, Negation) and Q.body is P
     )
 
 
-def asked_in(plan: Sequence[Object]) -> Iterator[Object]:
-    """The questions to the user in a plan, in order, whatever is chosen in it."""
+def questions_in(plan: Sequence[Object]) -> Iterator[Object]:
+    """The questions to the user in a plan, in order, in all of its alternatives."""
     for item in plan:
         if item.pred in (findout, raise_):
             yield item.args[0]
         elif item.pred is if_then:
             _, chosen, other = item.args
-            yield from asked_in(chosen)
-            yield from asked_in(other)
+            yield from questions_in(chosen)
+            yield from questions_in(other)
 
 
-def size(plan: Sequence[Object]) -> int:
-    """How many actions a plan has, those to choose between included."""
+def plan_size(plan: Sequence[Object]) -> int:
+    """The number of actions in a plan, in all of its alternatives."""
     return sum(
-        1 + sum(map(size, item.args[1:])) if item.pred is if_then else 1
+        1 + sum(map(plan_size, item.args[1:])) if item.pred is if_then else 1
         for item in plan
     )

@@ -1,8 +1,8 @@
-"""Taking in the moves of an utterance, one after the other, and dropping questions.
+"""Integration: rules that take in the moves of an utterance and drop questions.
 
 Each rule takes the first move that is not yet integrated. Source: Larsson 2002, chapter
-2, for all but the rules of the kinds `accommodate` and `correct`: those are after his
-account of unraised issues and of answers that are revised, chapter 4.
+2; chapter 4 for the rules of the kinds `accommodate` and `correct`, on unraised issues
+and on answers that are revised.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ttr.building.constructors import rectype
-from ttr.semantics.gameboards.ibis.domains import Domain, asked_in
+from ttr.semantics.gameboards.ibis.domains import Domain, questions_in
 from ttr.semantics.gameboards.ibis.moves import (
     SYS,
     USR,
@@ -30,10 +30,10 @@ from ttr.semantics.gameboards.ibis.moves import (
     say,
 )
 from ttr.semantics.gameboards.ibis.planning import (
+    known_answer,
     load,
-    settled,
-    unanswered,
-    without_answer,
+    no_answer_to,
+    question_without_answer,
 )
 from ttr.semantics.questions import NO, YES, Question, combine, downdate, pop, push, top
 from ttr.types.objects import fst
@@ -56,10 +56,10 @@ _NOTHING: Mapping[str, object] = {}
 
 
 DISCUSSED = rectype(shared=rectype(com=NonEmpty(Proposition), qud=NonEmpty(Question)))
-"""The states in which there are facts that may resolve a question."""
+"""The states with facts and questions, so that a fact may resolve a question."""
 
 
-def heard_from(speaker: str) -> RecordType:
+def integrating_from(speaker: str) -> RecordType:
     """The states in which a move of this speaker is to be integrated."""
     return rectype(
         private=rectype(nim=NonEmpty(Move)),
@@ -67,18 +67,18 @@ def heard_from(speaker: str) -> RecordType:
     )
 
 
-def move_of(T: TypeNode) -> RecordType:
-    """Binds the first move that is to be integrated, if it is of this type."""
+def bind_move(T: TypeNode) -> RecordType:
+    """Binds the first move that is to be integrated if it is of this type."""
     return rectype(m=T @ fst(outer.s.private.nim))
 
 
-def _taken(s: Record, changes: Mapping[str, object] = _NOTHING) -> Record:
-    """The state with these changes, the first move integrated."""
+def _integrate(s: Record, changes: Mapping[str, object] = _NOTHING) -> Record:
+    """The state with these changes, in which the first move is integrated."""
     return replace(s, {"private.nim": s.private.nim[1:], **changes})
 
 
-def _planned(s: Record, *actions: PType) -> tuple[Object, ...]:
-    """The agenda with these actions at the end, each only once."""
+def _agenda_with(s: Record, *actions: PType) -> tuple[Object, ...]:
+    """The agenda with these actions at its end, each once."""
     new = tuple(action for action in actions if action not in s.private.agenda)
     return (*s.private.agenda, *new)
 
@@ -86,85 +86,85 @@ def _planned(s: Record, *actions: PType) -> tuple[Object, ...]:
 # --- asking, greeting, quitting ------------------------------------------------------
 
 
-@rule(when=heard_from(USR), where=move_of(Ask), kind="integrate")
+@rule(when=integrating_from(USR), where=bind_move(Ask), kind="integrate")
 def integrate_usr_ask(s: Record, m: PType) -> Record:
-    """A question of the user's is under discussion, and to be responded to."""
+    """The user's question is put under discussion; the system is to respond to it."""
     question = content_of(m)
-    agenda = _planned(s, respond(question))
+    agenda = _agenda_with(s, respond(question))
     qud = push(s.shared.qud, question)
-    return _taken(s, {"shared.qud": qud, "private.agenda": agenda})
+    return _integrate(s, {"shared.qud": qud, "private.agenda": agenda})
 
 
-@rule(when=heard_from(SYS), where=move_of(Ask), kind="integrate")
+@rule(when=integrating_from(SYS), where=bind_move(Ask), kind="integrate")
 def integrate_sys_ask(s: Record, m: PType) -> Record:
-    """What the system has asked is the maximal question under discussion."""
-    return _taken(s, {"shared.qud": push(s.shared.qud, content_of(m))})
+    """What the system has asked becomes the maximal question under discussion."""
+    return _integrate(s, {"shared.qud": push(s.shared.qud, content_of(m))})
 
 
-@rule(when=heard_from(SYS), where=move_of(Answer), kind="integrate")
+@rule(when=integrating_from(SYS), where=bind_move(Answer), kind="integrate")
 def integrate_sys_answer(s: Record, m: PType) -> Record:
     """What the system has answered is agreed on.
 
-    Where it had no answer, it is agreed that the question is not to be discussed.
+    Where it had no answer, the question is no longer under discussion.
     """
     content = content_of(m)
-    missing = unanswered(content)
+    missing = question_without_answer(content)
     if missing is None:
-        return _taken(s, {"shared.com": _agreed(s, content)})
-    return _taken(s, {"shared.qud": pop(s.shared.qud, missing)})
+        return _integrate(s, {"shared.com": _commitments_with(s, content)})
+    return _integrate(s, {"shared.qud": pop(s.shared.qud, missing)})
 
 
-def _agreed(s: Record, *propositions: Object) -> tuple[Object, ...]:
-    """What is agreed on with these, each only once."""
+def _commitments_with(s: Record, *propositions: Object) -> tuple[Object, ...]:
+    """The shared commitments with these propositions, each once."""
     return tuple(dict.fromkeys((*s.shared.com, *propositions)))
 
 
-@rule(when=heard_from(USR), where=move_of(Greet), kind="integrate")
+@rule(when=integrating_from(USR), where=bind_move(Greet), kind="integrate")
 def integrate_usr_greet(s: Record) -> Record:
-    """The user greets: the system is going to greet, too."""
-    return _taken(s, {"private.agenda": _planned(s, say(greet(SYS)))})
+    """The user greets: the system is to greet, too."""
+    return _integrate(s, {"private.agenda": _agenda_with(s, say(greet(SYS)))})
 
 
-@rule(when=heard_from(USR), where=move_of(Quit), kind="integrate")
+@rule(when=integrating_from(USR), where=bind_move(Quit), kind="integrate")
 def integrate_usr_quit(s: Record) -> Record:
-    """The user leaves: the system is going to say good-bye, and nothing else."""
+    """The user leaves: the system is to say good-bye, and nothing else."""
     over = {"private.agenda": (say(quit(SYS)),), "private.plan": (), "shared.qud": ()}
     return replace(s, {"private.nim": (), **over})
 
 
-@rule(when=heard_from(SYS), where=move_of(Quit), kind="integrate")
+@rule(when=integrating_from(SYS), where=bind_move(Quit), kind="integrate")
 def integrate_sys_quit(s: Record) -> Record:
     """The system has said good-bye: the dialogue is over."""
-    return _taken(s, {"program": "quit"})
+    return _integrate(s, {"program": "quit"})
 
 
-@rule(when=heard_from(USR), where=move_of(Unclear), kind="integrate")
+@rule(when=integrating_from(USR), where=bind_move(Unclear), kind="integrate")
 def integrate_unclear(s: Record) -> Record:
-    """What the user said is no move: the system is going to say so."""
-    return _taken(s, {"private.agenda": _planned(s, say(icm(SYS, "per_neg")))})
+    """What the user said is no known move: the system is to say so."""
+    return _integrate(s, {"private.agenda": _agenda_with(s, say(icm(SYS, "per_neg")))})
 
 
-@rule(when=heard_from(USR), kind="integrate")
+@rule(when=integrating_from(USR), kind="integrate")
 def integrate_useless(s: Record) -> Record:
-    """The move is about nothing under discussion: the system is going to say so."""
-    return _taken(s, {"private.agenda": _planned(s, say(icm(SYS, "und_neg")))})
+    """The move is about nothing under discussion: the system is to say so."""
+    return _integrate(s, {"private.agenda": _agenda_with(s, say(icm(SYS, "und_neg")))})
 
 
-@rule(when=heard_from(SYS), kind="integrate")
+@rule(when=integrating_from(SYS), kind="integrate")
 def integrate_other(s: Record) -> Record:
-    """A move of the system that changes nothing else, as a greeting."""
-    return _taken(s)
+    """A move of the system that changes nothing else, such as a greeting."""
+    return _integrate(s)
 
 
 # --- answers -------------------------------------------------------------------------
 
 
-def downdating(domain: Domain) -> Rule:
-    """Drops what is resolved."""
+def downdate_rule(domain: Domain) -> Rule:
+    """The rule that drops questions which are resolved."""
 
     @rule(when=DISCUSSED, kind="downdate")
     def downdate_qud(s: Record) -> Record | None:
-        """A question that something agreed on resolves is no longer discussed."""
+        """A question that is resolved by what is agreed on is no longer discussed."""
         qud = downdate(s.shared.qud, s.shared.com, domain.model)
         return replace(s, {"shared.qud": qud}) if qud != s.shared.qud else None
 
@@ -172,93 +172,95 @@ def downdating(domain: Domain) -> Rule:
 
 
 def own_integration(domain: Domain) -> Algorithm:
-    """Takes in every move of the system's own."""
+    """The algorithm that integrates all moves of the system's own utterance."""
     integrate = first(
         integrate_sys_ask, integrate_sys_answer, integrate_sys_quit, integrate_other
     )
-    return seq(repeat(integrate, measure="private.nim"), maybe(downdating(domain)))
+    return seq(repeat(integrate, measure="private.nim"), maybe(downdate_rule(domain)))
 
 
 def integration(domain: Domain) -> Algorithm:
-    """Takes in every move of the user's: drops what it resolves, loads its plan."""
+    """The algorithm that integrates the user's moves, drops questions, loads plans."""
 
-    def _said(s: Record, m: PType) -> list[tuple[Object, TypeNode]]:
-        """What a move says as an answer to a question answered before, and to which."""
+    def _answered_again(s: Record, m: PType) -> list[tuple[Object, TypeNode]]:
+        """The questions that a move answers again, each with what it conveys."""
         content = content_of(m)
-        return [] if _is_short(m) else domain.said_before(content, s.shared.com)
+        return [] if _is_short(m) else domain.answered_again(content, s.shared.com)
 
-    @rule(when=heard_from(USR), where=move_of(Answer), kind="accommodate")
+    @rule(when=integrating_from(USR), where=bind_move(Answer), kind="accommodate")
     def accommodate_issue(s: Record, m: PType) -> Record | None:
-        """What the user says is about one issue only, which nobody raised: it is now.
+        """The user's answer is about just one issue, unraised so far: it is raised.
 
         Larsson 2002, chapter 4: issue accommodation.
         """
-        if s.private.plan or _is_short(m) or _said(s, m):
+        if s.private.plan or _is_short(m) or _answered_again(s, m):
             return None
-        issues = domain.concerned(content_of(m))
+        issues = domain.issues_about(content_of(m))
         if len(issues) != 1 or issues[0] in s.shared.qud:
             return None
         (issue,) = issues
         qud = (*s.shared.qud, issue)
         return replace(s, {"shared.qud": qud, "private.plan": domain.plan(issue)})
 
-    @rule(when=heard_from(USR), where=move_of(Answer), kind="accommodate")
+    @rule(when=integrating_from(USR), where=bind_move(Answer), kind="accommodate")
     def accommodate_question(s: Record, m: PType) -> Record | None:
-        """What the user says answers one question in the plan: that is raised now.
+        """The user's answer is about just one question in the plan: it is raised.
 
         Larsson 2002, chapter 4: question accommodation.
         """
-        if _is_short(m) or domain.about(content_of(m), s.shared.qud[:1]):
+        if _is_short(m) or domain.questions_about(content_of(m), s.shared.qud[:1]):
             return None
-        asked = domain.open(asked_in(s.private.plan), s.shared.com)
-        concerned = domain.about(content_of(m), asked)
+        asked = domain.open_questions(questions_in(s.private.plan), s.shared.com)
+        concerned = domain.questions_about(content_of(m), asked)
         if len(concerned) != 1:
             return None
         return replace(s, {"shared.qud": push(s.shared.qud, concerned[0])})
 
-    @rule(when=heard_from(USR), where=move_of(Answer), kind="integrate")
+    @rule(when=integrating_from(USR), where=bind_move(Answer), kind="integrate")
     def integrate_usr_answer(s: Record, m: PType) -> Record | None:
         """What answers the maximal question under discussion is agreed on."""
         question = top(s.shared.qud)
-        if question is None or not domain.about(content_of(m), [question]):
+        if question is None or not domain.questions_about(content_of(m), [question]):
             return None
         P = combine(question, content_of(m), domain.model)
-        if domain.opposed(P, question, s.shared.com):
+        if domain.incompatible(P, question, s.shared.com):
             return None
-        return _taken(s, {"shared.com": _agreed(s, P)})
+        return _integrate(s, {"shared.com": _commitments_with(s, P)})
 
-    @rule(when=heard_from(USR), where=move_of(Answer), kind="integrate")
+    @rule(when=integrating_from(USR), where=bind_move(Answer), kind="integrate")
     def integrate_known(s: Record, m: PType) -> Record | None:
         """What the user says is agreed on already: nothing changes.
 
-        Unless it answers the question just asked, and in another way than before.
+        Not so where it answers the question just asked differently than before.
         """
-        said, asked = _said(s, m), top(s.shared.qud)
-        if any(q is asked and domain.opposed(P, q, s.shared.com) for q, P in said):
+        said, asked = _answered_again(s, m), top(s.shared.qud)
+        if any(q is asked and domain.incompatible(P, q, s.shared.com) for q, P in said):
             return None
-        return _taken(s) if any(P in s.shared.com for _, P in said) else None
+        return _integrate(s) if any(P in s.shared.com for _, P in said) else None
 
-    @rule(when=heard_from(USR), where=move_of(Answer), kind="correct")
+    @rule(when=integrating_from(USR), where=bind_move(Answer), kind="correct")
     def correct_answer(s: Record, m: PType) -> Record | None:
-        """The user answers a question in another way than before: that holds now.
+        """The user answers a question differently than before: the new answer holds.
 
-        What could correct several answers corrects that to the question just asked.
-        What was agreed on because of the earlier answer is open again.
-        Larsson 2002, chapter 4: reaccommodation.
+        If it could correct several answers, it corrects that to the question just
+        asked. What was agreed on because of the old answer is open again. Larsson 2002,
+        chapter 4: reaccommodation.
         """
         corrected = [
             (question, P, opposed)
-            for question, P in _said(s, m)
-            if (opposed := domain.opposed(P, question, s.shared.com))
+            for question, P in _answered_again(s, m)
+            if (opposed := domain.incompatible(P, question, s.shared.com))
         ]
         asked = [one for one in corrected if one[0] is top(s.shared.qud)]
         if len(asked or corrected) != 1:
             return None
         ((question, P, opposed),) = asked or corrected
-        issues = domain.resting_on(question)
-        answered = [Q for Q in _held(s) for q in issues if domain.about(Q, [q])]
-        stale = [*answered, *map(without_answer, issues)]
-        reopened = [q for q in issues if settled(s, q, domain) is not None]
+        issues = domain.dependent_issues(question)
+        answered = [
+            Q for Q in _known(s) for q in issues if domain.questions_about(Q, [q])
+        ]
+        stale = [*answered, *map(no_answer_to, issues)]
+        reopened = [q for q in issues if known_answer(s, q, domain) is not None]
         gone = {*opposed, *stale}
         com = tuple(Q for Q in s.shared.com if Q not in gone)
         changes = {
@@ -267,9 +269,9 @@ def integration(domain: Domain) -> Algorithm:
             "private.bel": tuple(Q for Q in s.private.bel if Q not in gone),
             "private.plan": (),
         }
-        return _taken(s, changes)
+        return _integrate(s, changes)
 
-    downdate_qud = downdating(domain)
+    downdate_qud = downdate_rule(domain)
     accommodate = all_(accommodate_issue, accommodate_question)
     integrate = first(
         integrate_usr_answer,
@@ -286,10 +288,10 @@ def integration(domain: Domain) -> Algorithm:
 
 
 def _is_short(m: PType) -> bool:
-    """Whether a move says yes or no, which is about the latest question only."""
+    """Is a move a yes or no, which is about the latest question only?"""
     return isinstance(content_of(m), str) and content_of(m) in (YES, NO)
 
 
-def _held(s: Record) -> tuple[Object, ...]:
+def _known(s: Record) -> tuple[Object, ...]:
     """All that is agreed on or believed."""
     return (*s.shared.com, *s.private.bel)

@@ -1,8 +1,8 @@
 """IBiS1 for a domain, as a game that can be played.
 
-The update algorithm and the selection of moves are those of Larsson 2002, chapter 2;
-the system's moves are said as one utterance, which is then grounded and integrated as
-the user's are.
+The update algorithm and the selection of moves are those of Larsson 2002, chapter 2.
+The system's moves are made as one utterance, which is grounded and integrated as the
+user's are.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ __all__ = ["algorithm", "game"]
 
 
 def algorithm(domain: Domain) -> Algorithm:
-    """What comes of an utterance of the system's own, and what of one of the user's.
+    """The update algorithm for utterances of the system and of the user.
 
-    Both are grounded, integrated move by move, and the plan is carried out; after the
-    user's turn the system selects what to say, and after its own whether to go on.
+    Both are grounded and integrated move by move, then the plan is carried out. After
+    the user's turn the system selects what to say; after its own, whether to go on.
     """
     carry_out, select = maybe(planning(domain)), selection(domain)
     integrated = maybe(own_integration(domain))
@@ -45,8 +45,8 @@ def game(
 ) -> Game:
     """The game in which a system answers questions about this domain.
 
-    `hear` reads the user's texts, and `say` words the system's utterances; `theory` has
-    the names that stories may use.
+    `hear` reads the user's texts, and `say` puts the system's utterances into words;
+    `theory` has the names that stories may use.
     """
     return Game(
         name,

@@ -1,7 +1,7 @@
-"""What is said and done in IBiS1: moves, actions and propositions, as ptypes.
+"""Moves, actions and propositions of IBiS1, as ptypes.
 
-A move is of the type of situations in which it is made: `ask(usr, q)`. What is on the
-agenda or in a plan is the type of what is to be done: `findout(q)`.
+A move is the type of the situations in which it is made: `ask(usr, q)`. An action on
+the agenda or in a plan is the type of what is to be done: `findout(q)`.
 
 Source: Larsson 2002, chapter 2.
 """
@@ -58,33 +58,34 @@ USR, SYS = "usr", "sys"
 """The two participants."""
 
 Participant = Basic("Participant")
-"""Who takes part: `usr` and `sys`."""
+"""The type of participants: `usr` and `sys`."""
 
 Proposition = Basic("Proposition")
-"""What is believed or agreed on: record types, and negations of them."""
+"""The type of what is believed or agreed on: record types and their negations."""
 
 Content = Basic("Content")
-"""What an answer says: a proposition, or the name of an object, or yes or no."""
+"""The type of what an answer says: a proposition, the name of an object, yes or no."""
 
 Feedback = Basic("Feedback")
-"""What may be wrong with what was said: `per_neg` not heard, `und_neg` no use of it."""
+"""The type of problems with what was said: `per_neg` not perceived, `und_neg` not
+understood."""
 
 Program = Basic("Program")
-"""Whether the dialogue goes on: `run` or `quit`."""
+"""The type of whether the dialogue goes on: `run` or `quit`."""
 
 # --- moves ---------------------------------------------------------------------------
 
 Move = Basic("Move")
-"""Types of moves: of asking, answering, greeting and so on."""
+"""The type of moves: asking, answering, greeting and so on."""
 
 ask, answer = Pred("ask", Participant, Question), Pred("answer", Participant, Content)
 greet, quit = Pred("greet", Participant), Pred("quit", Participant)
 icm = Pred("icm", Participant, Feedback)
-"""Interactive communication management: the system says that it did not understand."""
+"""Interactive communication management: the system says that there is a problem."""
 unclear = Pred("unclear", Participant)
-"""Something was said, but it is no move that the system knows."""
+"""Something was said that is no move known to the system."""
 prompt = Pred("prompt", Participant)
-"""The system asks to be asked."""
+"""The system invites a question."""
 
 Ask, Answer, Greet, Quit = Basic("Ask"), Basic("Answer"), Basic("Greet"), Basic("Quit")
 Unclear = Basic("Unclear")
@@ -92,23 +93,23 @@ Unclear = Basic("Unclear")
 # --- actions -------------------------------------------------------------------------
 
 Action = Basic("Action")
-"""Types of what is to be done: of finding out, responding and so on."""
+"""The type of actions: finding out, responding and so on."""
 
 findout = Pred("findout", Question)
-"""To get an answer to a question from the user."""
+"""Get an answer to a question from the user."""
 raise_ = Pred("raise", Question)
-"""To ask a question once, whether or not it is answered."""
+"""Ask a question once, whether or not it is answered."""
 consult = Pred("consult", Question)
-"""To look up the answer to a question in the database."""
+"""Look up the answer to a question in the database."""
 respond = Pred("respond", Question)
-"""To answer a question of the user's."""
+"""Answer a question of the user."""
 if_then = Pred("if_then", Proposition, ListOf(Action), ListOf(Action))
-"""To do the first list where the proposition is agreed on, else the second."""
+"""Do the first list of actions if the proposition is known, else the second."""
 say = Pred("say", Move)
-"""To make a move."""
+"""Make a move."""
 
 no_answer = Pred("no_answer", Question)
-"""That a question has no answer that the system could find."""
+"""The system could find no answer to a question."""
 
 
 # --- what is one ----------------------------------------------------------------------
@@ -146,7 +147,7 @@ def _is_move(value: Object) -> bool:
 
 
 def _is_of(value: Object, forms: Mapping[Pred, tuple[Check, ...]]) -> bool:
-    """Whether a value is a ptype of one of these predicates with right arguments."""
+    """Is a value a ptype of these predicates with arguments of the right form?"""
     if not isinstance(value, PType) or value.pred not in forms:
         return False
     checks = forms[value.pred]
@@ -207,7 +208,7 @@ _FORMS: Mapping[Basic, Check] = {
 
 
 def with_terms(model: Model) -> Model:
-    """The model in which what is of these types is so by its form.
+    """The model in which moves, actions and so on are of their types by their form.
 
     >>> M = with_terms(Model())
     >>> M.judge(ask(USR, "paris"), Move).holds

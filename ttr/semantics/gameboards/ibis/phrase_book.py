@@ -1,7 +1,7 @@
-"""A phrase book: which moves some words stand for, and how moves are put into words.
+"""A phrase book: a table from phrases to moves, and one from moves to wordings.
 
-That is a toy language, but it is data: a table of phrases and one of wordings, both
-with terms of the notation. What is between the phrases of a text is passed over.
+It is a toy language, but it is data: both tables have terms of the notation. What
+stands between the phrases of a text is ignored.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ _MOVES = re.compile(r"\s*(\w+\(.*\)|\[.*\])\s*", re.DOTALL)
 class PhraseBook:
     """Reads texts as utterances of the user, and words utterances of the system.
 
-    `phrases` takes words to moves. `wordings` takes moves, what they are about and
-    their predicates to texts, the first of these that it has; `answers` takes questions
-    to texts for the positive answers to them, with what is asked for in braces.
+    `phrases` maps words to moves. `wordings` maps moves, their contents and their
+    predicates to texts; it is tried in this order. `answers` maps questions to texts
+    for positive answers to them, with what is asked for in braces.
     """
 
     theory: Theory
@@ -58,35 +58,35 @@ class PhraseBook:
         wordings: Mapping[str, str],
         answers: Mapping[str, str],
     ) -> Self:
-        """The phrase book of tables of texts, with what they mean in the notation.
+        """The phrase book of tables of texts, whose meanings are in the notation.
 
-        In a phrase the name of a sort in braces, "to {City}", stands for each object of
-        it. Raises `TTRError` where a phrase stands for no move.
+        A sort in braces in a phrase, as in "to {City}", stands for each object of that
+        sort. Raises `TTRError` for a phrase that stands for no move.
         """
         meant = {
             tuple(_words(said)): _move(move, theory, model)
             for pattern, term in phrases.items()
-            for said, move in _filled(pattern, term, theory, model)
+            for said, move in _instances(pattern, term, theory, model)
         }
-        worded = {_term(term, theory): text for term, text in wordings.items()}
+        texts = {_term(term, theory): text for term, text in wordings.items()}
         answered = {_term(term, theory): text for term, text in answers.items()}
-        return cls(theory, with_terms(model), meant, worded, answered)
+        return cls(theory, with_terms(model), meant, texts, answered)
 
     # --- reading ---
 
     def hear(self, text: str) -> Record:
-        """The utterance that a text is; moves may be written in the notation, too.
+        """The utterance that a text is; its moves may also be written in the notation.
 
-        A text with nothing known in it is the move `unclear`, an empty one no move.
+        A text without known phrases is the move `unclear`; an empty text is no move.
         """
         if _MOVES.fullmatch(text):
-            moves = self._written(text)
+            moves = self._moves_in_notation(text)
         else:
-            moves = tuple(self._found(_words(text)))
+            moves = tuple(self._moves_of_phrases(_words(text)))
         return utterance(USR, moves or (unclear(USR),) * bool(text.strip()))
 
-    def _written(self, text: str) -> tuple[Object, ...]:
-        """The moves that a text writes in the notation; none where it does not."""
+    def _moves_in_notation(self, text: str) -> tuple[Object, ...]:
+        """The moves of a text in the notation; none where it is no such text."""
         try:
             found = self.theory.parse(text)
         except TTRError:
@@ -95,8 +95,8 @@ class PhraseBook:
         right = all(self.model.judge(move, Move).holds for move in moves)
         return moves if right else ()
 
-    def _found(self, words: Sequence[str]) -> Iterator[Object]:
-        """The moves of the phrases in a text, from left to right, the longest first."""
+    def _moves_of_phrases(self, words: Sequence[str]) -> Iterator[Object]:
+        """The moves of the phrases in a text, left to right, longest phrases first."""
         longest = max(map(len, self.phrases), default=0)
         start = 0
         while start < len(words):
@@ -112,11 +112,11 @@ class PhraseBook:
     # --- wording ---
 
     def say(self, said: Judgement) -> str:
-        """The text of an utterance of the system."""
-        return " ".join(map(self.worded, said.sit.moves))
+        """The words for an utterance of the system."""
+        return " ".join(map(self.word_move, said.sit.moves))
 
-    def worded(self, move: PType) -> str:
-        """The wording of a move: its own, or that of what it is about."""
+    def word_move(self, move: PType) -> str:
+        """The words for a move: its own, or those of its content or predicate."""
         content = content_of(move)
         own = self.wordings.get(move) or self.wordings.get(content)
         if own is not None:
@@ -135,7 +135,7 @@ def _words(text: str) -> list[str]:
 
 
 def _term(text: str, theory: Theory) -> Object:
-    """What a text stands for: a predicate too, by its name."""
+    """The term or, by its name, the predicate that a text stands for."""
     return theory[text] if text in theory.names else theory.parse(text)
 
 
@@ -146,10 +146,10 @@ def _move(text: str, theory: Theory, model: Model) -> Object:
     raise TTRError(f"a phrase stands for a move, but {text} is none")
 
 
-def _filled(
+def _instances(
     words: str, term: str, theory: Theory, model: Model
 ) -> Iterator[tuple[str, str]]:
-    """Both texts with each object of the sort that they have in braces, if any."""
+    """A phrase and its term, for each object of the sort in braces if there is one."""
     slot = _SORT.search(words)
     if slot is None:
         yield words, term

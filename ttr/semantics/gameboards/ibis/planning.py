@@ -1,4 +1,4 @@
-"""Loading plans and carrying them out, as far as nothing has to be said for it.
+"""Planning: rules that load plans, and carry them out as far as nobody need be asked.
 
 Source: Larsson 2002, chapter 2.
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ttr.building.constructors import rectype
-from ttr.semantics.gameboards.ibis.domains import Domain, size
+from ttr.semantics.gameboards.ibis.domains import Domain, plan_size
 from ttr.semantics.gameboards.ibis.moves import (
     Action,
     consult,
@@ -32,7 +32,13 @@ from ttr.types.syntax import (
 )
 from ttr.updates import Algorithm, all_, first, repeat, rule
 
-__all__ = ["load", "planning", "settled", "unanswered", "without_answer"]
+__all__ = [
+    "load",
+    "planning",
+    "known_answer",
+    "question_without_answer",
+    "no_answer_to",
+]
 
 WITH_PLAN = rectype(private=rectype(plan=NonEmpty(Action)))
 WITHOUT_PLAN = rectype(
@@ -40,32 +46,34 @@ WITHOUT_PLAN = rectype(
 )
 
 
-def without_answer(question: Object) -> TypeNode:
-    """The proposition that a question has no answer that could be found."""
+def no_answer_to(question: Object) -> TypeNode:
+    """The proposition that no answer to a question could be found."""
     return rectype(e=no_answer(question))
 
 
-def unanswered(P: Object) -> Object | None:
-    """The question that a proposition says to have no answer, if it does."""
+def question_without_answer(P: Object) -> Object | None:
+    """The question that has no answer by this proposition, or None."""
     fact = P.get("e") if isinstance(P, RecordType) else None
     return fact.args[0] if isinstance(fact, PType) and fact.pred is no_answer else None
 
 
-def settled(s: Record, question: Object, domain: Domain) -> TypeNode | None:
+def known_answer(s: Record, question: Object, domain: Domain) -> TypeNode | None:
     """What the system knows that resolves a question, or that there is no answer."""
-    answer = domain.answers(question, (*s.private.bel, *s.shared.com))
-    if answer is None and any(unanswered(P) is question for P in s.private.bel):
-        return without_answer(question)
+    answer = domain.find_answer(question, (*s.private.bel, *s.shared.com))
+    if answer is None and any(
+        question_without_answer(P) is question for P in s.private.bel
+    ):
+        return no_answer_to(question)
     return answer
 
 
 def load(domain: Domain) -> Algorithm:
-    """Finds out how the user's question is dealt with."""
+    """The algorithm that finds a plan for the user's question, or its answer."""
 
     @rule(when=TO_DO, kind="load")
     def find_plan(s: Record) -> Record | None:
-        """The user's question is dealt with by the plan that the domain has for it."""
-        for action in _to_settle(s):
+        """The domain's plan for the user's question is loaded."""
+        for action in _unresolved_responses(s):
             plan = domain.plan(action.args[0])
             if plan:
                 agenda = tuple(one for one in s.private.agenda if one is not action)
@@ -74,64 +82,67 @@ def load(domain: Domain) -> Algorithm:
 
     @rule(when=TO_DO, kind="load")
     def look_up(s: Record) -> Record | None:
-        """There is no plan for the user's question: it is looked up at once."""
-        for action in _to_settle(s):
-            return _believing(s, _looked_up(s, action.args[0], domain))
+        """There is no plan for the user's question: its answer is looked up at once."""
+        for action in _unresolved_responses(s):
+            return _believe(s, _look_up(s, action.args[0], domain))
         return None
 
-    def _to_settle(s: Record) -> Iterator[PType]:
+    def _unresolved_responses(s: Record) -> Iterator[PType]:
         """The responses on the agenda that the system cannot give yet."""
         for action in s.private.agenda:
-            if action.pred is respond and settled(s, action.args[0], domain) is None:
+            if (
+                action.pred is respond
+                and known_answer(s, action.args[0], domain) is None
+            ):
                 yield action
 
     return first(find_plan, look_up)
 
 
-def _looked_up(s: Record, question: Object, domain: Domain) -> TypeNode:
-    """What the database says about a question, or that it has no answer."""
-    return domain.found(question, s.shared.com) or without_answer(question)
+def _look_up(s: Record, question: Object, domain: Domain) -> TypeNode:
+    """The database's answer to a question, or that there is none."""
+    return domain.look_up(question, s.shared.com) or no_answer_to(question)
 
 
-def _believing(s: Record, P: TypeNode) -> Record:
+def _believe(s: Record, P: TypeNode) -> Record:
     return replace(s, {"private.bel": tuple(dict.fromkeys((*s.private.bel, P)))})
 
 
 def planning(domain: Domain) -> Algorithm:
-    """Carries out the plan as far as nobody has to be asked for it."""
+    """The algorithm that carries out the plan as far as nobody need be asked."""
 
     @rule(when=WITHOUT_PLAN, kind="load")
     def recover_plan(s: Record) -> Record | None:
-        """A question is still under discussion: go on with its plan."""
+        """A question is still under discussion: its plan is loaded again."""
         for question in s.shared.qud:
             plan = domain.plan(question)
-            if plan and settled(s, question, domain) is None:
+            if plan and known_answer(s, question, domain) is None:
                 return replace(s, {"private.plan": plan})
         return None
 
     @rule(when=WITH_PLAN, kind="exec_plan")
     def remove_answered(s: Record) -> Record | None:
-        """What was to be found out or raised is answered."""
+        """What was to be found out or raised is answered: it leaves the plan."""
         action, *rest = s.private.plan
         if action.pred not in (findout, raise_):
             return None
-        if domain.answers(action.args[0], s.shared.com) is None:
+        if domain.find_answer(action.args[0], s.shared.com) is None:
             return None
         return replace(s, {"private.plan": rest})
 
     @rule(when=WITH_PLAN, kind="exec_plan")
     def exec_consult(s: Record) -> Record | None:
-        """What the database says is believed, or that it has no answer."""
+        """The database's answer is believed, or that there is none."""
         action, *rest = s.private.plan
         if action.pred is not consult:
             return None
         (question,) = action.args
-        found = _believing(s, _looked_up(s, question, domain))
+        found = _believe(s, _look_up(s, question, domain))
         return replace(found, {"private.plan": rest})
 
     @rule(when=WITH_PLAN, kind="exec_plan")
     def exec_if_then(s: Record) -> Record | None:
-        """What is agreed on decides how the plan goes on."""
+        """What is known decides how the plan goes on."""
         action, *rest = s.private.plan
         if action.pred is not if_then:
             return None
@@ -140,8 +151,8 @@ def planning(domain: Domain) -> Algorithm:
         return replace(s, {"private.plan": (*(chosen if holds else other), *rest)})
 
     execute = first(remove_answered, exec_consult, exec_if_then)
-    return all_(recover_plan, repeat(execute, measure=_plan_size))
+    return all_(recover_plan, repeat(execute, measure=_size_of_plan))
 
 
-def _plan_size(s: Record) -> int:
-    return size(s.private.plan)
+def _size_of_plan(s: Record) -> int:
+    return plan_size(s.private.plan)

@@ -1,4 +1,4 @@
-"""What the system does next, and the moves by which it does it.
+"""Selection: rules for what the system does next, and by which moves.
 
 Source: Larsson 2002, chapter 2: the selection module.
 """
@@ -23,7 +23,7 @@ from ttr.semantics.gameboards.ibis.moves import (
     respond,
     say,
 )
-from ttr.semantics.gameboards.ibis.planning import settled
+from ttr.semantics.gameboards.ibis.planning import known_answer
 from ttr.semantics.gameboards.ibis.state import TO_DO, utterance_type
 from ttr.semantics.questions import Question
 from ttr.types.records import replace
@@ -52,7 +52,7 @@ NOTHING_TO_SAY = rectype(
 
 
 def _select(s: Record, move: PType) -> Record:
-    """The state in which the first thing on the agenda is done by a move."""
+    """The state in which the first action on the agenda is done by a move."""
     changes = {
         "private.agenda": s.private.agenda[1:],
         "next_moves": (*s.next_moves, move),
@@ -66,14 +66,14 @@ def _has(moves: tuple[PType, ...], pred: Pred) -> bool:
 
 @rule(when=TO_DO, kind="select_move")
 def select_other(s: Record) -> Record | None:
-    """What is to be done is to make a move: the system makes it."""
+    """The first action is to make a move: the system makes it."""
     action = s.private.agenda[0]
     return _select(s, action.args[0]) if action.pred is say else None
 
 
 @rule(when=TO_DO, kind="select_move")
 def select_ask(s: Record) -> Record | None:
-    """What is to be found out or raised, the system asks; it raises it once only."""
+    """The system asks what is to be found out or raised; it raises a question once."""
     action = s.private.agenda[0]
     if action.pred not in (findout, raise_):
         return None
@@ -86,13 +86,13 @@ def select_ask(s: Record) -> Record | None:
 
 @rule(when=WITH_PLAN, kind="select_action")
 def select_from_plan(s: Record) -> Record | None:
-    """There is a plan: its first action is to be done, if nothing is asked yet."""
+    """There is a plan: its first action is done unless something is being asked."""
     return None if _has(s.next_moves, ask) else _next_action(s)
 
 
 @rule(when=AFTER_OWN, kind="select_action")
 def resume_plan(s: Record) -> Record | None:
-    """The system has answered, and asked nothing: it goes on with an open plan."""
+    """The system has answered and asked nothing: it goes on with its plan."""
     said = s.shared.lu.moves
     goes_on = _has(said, answer) and not _has((*said, *s.next_moves), ask)
     return _next_action(s) if goes_on else None
@@ -104,32 +104,32 @@ def _next_action(s: Record) -> Record:
 
 @rule(when=NOTHING_TO_SAY, kind="select_move")
 def select_prompt(s: Record) -> Record:
-    """There is nothing to be done: the user is asked to ask."""
+    """There is nothing to be done: the user is invited to ask."""
     return replace(s, {"next_moves": (prompt(SYS),)})
 
 
 @rule(when=rectype(next_moves=NonEmpty(Move)), kind="generate")
 def utter(s: Record) -> Record:
-    """The moves that were selected are one utterance, which is about to be made."""
+    """The moves that were selected become one utterance, which is to be made."""
     said = utterance_type(SYS, s.next_moves)
     return replace(s, {"next_moves": (), "output": (*s.output, said)})
 
 
-SELECTIONS = 100_000
-"""How many actions and moves are selected in a turn at most: more than anybody asks."""
+_SELECTIONS = 100_000
+"""The most actions and moves that are selected in a turn: more than anybody needs."""
 
 
 class Selection(NamedTuple):
-    """What the system does after a turn of the user's, and after one of its own."""
+    """The selection after a turn of the user, and after one of the system."""
 
     answering: Algorithm
     going_on: Algorithm
 
 
 def selection(domain: Domain) -> Selection:
-    """Selects what to do and the moves for it, and makes an utterance of them.
+    """The algorithms that select actions and moves, and make an utterance of them.
 
-    After an utterance of its own the system goes on where that answered a question.
+    After an utterance of its own, the system goes on if that answered a question.
     """
 
     @rule(when=TO_DO, kind="select_move")
@@ -138,14 +138,14 @@ def selection(domain: Domain) -> Selection:
         action = s.private.agenda[0]
         if action.pred is not respond:
             return None
-        known = settled(s, action.args[0], domain)
+        known = known_answer(s, action.args[0], domain)
         return None if known is None else _select(s, answer(SYS, known))
 
     @rule(when=AFTER_PLAN, kind="select_action")
     def select_respond(s: Record) -> Record | None:
-        """The plan is done, and a question discussed has an answer: respond to it."""
+        """The plan is done and a question under discussion has an answer: respond."""
         for question in s.shared.qud:
-            known = settled(s, question, domain)
+            known = known_answer(s, question, domain)
             if known is not None and answer(SYS, known) not in s.next_moves:
                 return replace(s, {"private.agenda": (respond(question),)})
         return None
@@ -154,7 +154,7 @@ def selection(domain: Domain) -> Selection:
         select_other, select_answer, select_ask, select_from_plan, select_respond
     )
     return Selection(
-        all_(repeat(select, times=SELECTIONS), select_prompt, utter),
+        all_(repeat(select, times=_SELECTIONS), select_prompt, utter),
         seq(
             first(resume_plan, select_respond), first(select_ask, select_answer), utter
         ),

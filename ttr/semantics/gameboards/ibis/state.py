@@ -1,8 +1,8 @@
 """The information state of IBiS1, and the utterances that change it.
 
-Source: Larsson 2002, chapter 2, for `private` and `shared`; the fields beside them are
-what he calls module interface variables. `nim`, the moves of the latest utterance that
-are still to be integrated, is from IBiS2, chapter 3.
+Source: Larsson 2002, chapter 2, for `private` and `shared`; he calls the other fields
+module interface variables. `nim`, the moves of the latest utterance that are still to
+be integrated, is from IBiS2, chapter 3.
 """
 
 from __future__ import annotations
@@ -53,11 +53,11 @@ STATE: RecordType = rectype(
 )
 """The type of every information state.
 
-What is on the agenda is to be done next, and the plan is how to get there; `bel` is
-what only the system holds to be so. Agreed on are the propositions in `com`; `qud` are
-the questions under discussion, the maximal one first; `lu` is the latest utterance.
-`next_moves` are the moves that the system has selected, and `output` the type of the
-utterance that it will make of them.
+`agenda` has what is to be done next, `plan` what is to be done in the long run, and
+`bel` what only the system believes. `com` has the propositions agreed on, `qud` the
+questions under discussion, the maximal one first, and `lu` the latest utterance.
+`next_moves` are the moves that the system has selected, and `output` has the type of
+the utterance that it will make of them.
 """
 
 START: Record = record(
@@ -67,20 +67,20 @@ START: Record = record(
     output=[],
     program="run",
 )
-"""The state in which a dialogue begins: the system is going to greet."""
+"""The state in which a dialogue begins: the system is to greet."""
 
 USER: RecordType = rectype(spkr=Participant @ USR, moves=ListOf(Move))
-"""Utterances of the user."""
+"""The type of utterances of the user."""
 
 OWN: RecordType = rectype(spkr=Participant @ SYS, moves=ListOf(Move))
-"""Utterances of the system."""
+"""The type of utterances of the system."""
 
 TO_DO: RecordType = rectype(private=rectype(agenda=NonEmpty(Action)))
 """The states in which something is to be done next."""
 
 
 def utterance(speaker: str, moves: Iterable[Object]) -> Record:
-    """An utterance of these moves.
+    """The utterance of some moves by a speaker.
 
     >>> print(utterance(USR, [greet(USR)]))
     {moves = [greet(usr)], spkr = usr}
@@ -89,7 +89,7 @@ def utterance(speaker: str, moves: Iterable[Object]) -> Record:
 
 
 def utterance_type(speaker: str, moves: Iterable[PType]) -> RecordType:
-    """The type of the utterances of just these moves.
+    """The type of utterances of exactly these moves by a speaker.
 
     >>> print(utterance_type(SYS, [greet(SYS)]))
     [moves = [greet(sys)] : list(Move), spkr = sys : Participant]

@@ -1,6 +1,6 @@
-"""Whose turn it was, and what was said: the first rules of every update.
+"""Grounding: whose turn it was and what was said, the first rules of every update.
 
-Grounding is optimistic: what is likely enough to have been said was understood by both.
+Grounding is optimistic: what was probably said is taken to be understood by both.
 Source: Larsson 2002, chapter 2.
 """
 
@@ -16,21 +16,21 @@ from ttr.updates import Algorithm, first, rule
 __all__ = ["GROUNDING", "get_own_moves"]
 
 LIKELY, HARDLY = 0.5, 0.001
-"""How probable what the user said must be to be heard; and to be anything at all."""
+"""The probabilities from which an utterance is understood, and from which heard."""
 
 RUNNING = rectype(program=Program @ "run")
 
 
 @rule(when=RUNNING, on=USER, p=LIKELY, kind="grounding")
 def get_user_moves(s: Record, e: Record) -> Record:
-    """The user's utterance is the latest, and its moves are to be integrated."""
+    """The user's utterance becomes the latest; its moves are to be integrated."""
     latest = record(speaker=e.spkr, moves=e.moves)
     return replace(s, {"shared.lu": latest, "private.nim": e.moves})
 
 
 @rule(when=RUNNING, on=USER, p=(HARDLY, LIKELY), kind="grounding")
 def hear_badly(s: Record, e: Record) -> Record:
-    """The user said something, but what is too uncertain: it is unclear."""
+    """The user said something, but it is too uncertain what: it is unclear."""
     unheard = (unclear(USR),)
     latest = record(speaker=e.spkr, moves=unheard)
     return replace(s, {"shared.lu": latest, "private.nim": unheard})
@@ -38,7 +38,7 @@ def hear_badly(s: Record, e: Record) -> Record:
 
 @rule(when=rectype(output=NonEmpty(RecType)), on=OWN, kind="grounding")
 def get_own_moves(s: Record, e: Record) -> Record:
-    """The system has said what it was about to say; so it is the latest utterance."""
+    """The system's utterance has been made; it becomes the latest."""
     latest = record(speaker=e.spkr, moves=e.moves)
     changes = {"shared.lu": latest, "private.nim": e.moves, "output": s.output[1:]}
     return replace(s, changes)
@@ -49,7 +49,7 @@ def get_own_moves(s: Record, e: Record) -> Record:
     kind="grounding",
 )
 def hear_nothing(s: Record) -> Record:
-    """The user says nothing, and leaves the turn to the system."""
+    """The user says nothing and leaves the turn to the system."""
     return replace(s, {"shared.lu": record(speaker=USR, moves=[]), "private.nim": ()})
 
 
