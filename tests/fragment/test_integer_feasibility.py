@@ -36,6 +36,6 @@ def test_there_are_both_kinds_of_answers():
 def test_what_takes_too_many_branches_is_undecided(monkeypatch):
     odd = [((2, 1), 3), ((-2, -1), -3), ((0, -1), 0), ((0, 1), 0)]
     assert integer_solution(odd, 2) is None
-    monkeypatch.setattr(integer_feasibility, "NODES", 1)
+    monkeypatch.setattr(integer_feasibility, "_NODES", 1)
     with pytest.raises(UndecidedError):
         integer_solution(odd, 2)

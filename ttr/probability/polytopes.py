@@ -19,10 +19,10 @@ from ttr.safety.budgets import spend
 
 __all__ = ["Polytope", "feasible", "polytope"]
 
-WORLDS = 64
+_WORLDS = 64
 """The most worlds that a polytope has."""
 
-ATOMS = 33
+_ATOMS = 33
 """The most atoms that its worlds are about."""
 
 
@@ -98,8 +98,8 @@ def polytope(component: Component, needed: Sequence[Hashable]) -> Polytope | Non
     cases: list[dict[Hashable, bool]] = [{}]
     kept: list[Hashable] = []
     for atom in component.closest(needed):
-        more = list(_extend(component, cases, atom)) if len(kept) < ATOMS else None
-        if more is not None and len(more) <= WORLDS:
+        more = list(_extend(component, cases, atom)) if len(kept) < _ATOMS else None
+        if more is not None and len(more) <= _WORLDS:
             cases = more
             kept.append(atom)
         elif atom in needed:

@@ -31,7 +31,7 @@ from ttr.types.syntax import (
 
 __all__ = ["RandomVariable"]
 
-Values = frozenset[TypeNode]
+_Values = frozenset[TypeNode]
 
 
 @dataclass(frozen=True, init=False)
@@ -122,7 +122,7 @@ class RandomVariable:
 
     def _split_conditions(
         self, sit: Object, when: list[tuple[Object, TypeNode]]
-    ) -> tuple[Values, list[tuple[Object, TypeNode]]]:
+    ) -> tuple[_Values, list[tuple[Object, TypeNode]]]:
         """The values that conditions on the object leave, and the other conditions."""
         mine, others = frozenset(self.values), []
         for one, S in when:
@@ -144,7 +144,7 @@ class RandomVariable:
             return False
         return True
 
-    def _covered_values(self, T: TypeNode) -> Values:
+    def _covered_values(self, T: TypeNode) -> _Values:
         """The values that a Boolean combination T of values covers."""
         if T in self.values:
             return frozenset((T,))
@@ -164,7 +164,7 @@ class RandomVariable:
 
 
 def _share(
-    whys: Mapping[TypeNode, Why], wanted: Values, others: Values
+    whys: Mapping[TypeNode, Why], wanted: _Values, others: _Values
 ) -> tuple[Degree | None, str]:
     """The share of the values wanted among these and the others, and its arithmetic.
 

@@ -36,16 +36,16 @@ from ttr.types.syntax import (
 
 __all__ = ["Antecedent", "compose_content"]
 
-NounPhrase: TypeAlias = Callable[[Property], TypeNode]
+_NounPhrase: TypeAlias = Callable[[Property], TypeNode]
 """The meaning of a noun phrase: a function from properties to types."""
 
 Antecedent: TypeAlias = FiniteSet
 """A set of things that a pronoun can stand for."""
 
-MODIFIERS = 8
+_MODIFIERS = 8
 """The most modifiers of the kinds below that a sentence may have."""
 
-REPEATING = (
+_REPEATING = (
     *("INTENSIFIER", "MODADJ", "NEGADJ", "ADVERB", "vp_pp"),
     *("the", "both", "neither"),
 )
@@ -60,9 +60,9 @@ def compose_content(
     A pronoun stands for the first of `picked` that agrees with it in number. Raises
     `OutsideFragment` for a construction that is read but has no meaning here.
     """
-    if sum(1 for kind in REPEATING for _ in tree.below(kind)) > MODIFIERS:
+    if sum(1 for kind in _REPEATING for _ in tree.below(kind)) > _MODIFIERS:
         raise OutsideFragment(
-            f"a sentence has at most {MODIFIERS} adverbs, words like very, "
+            f"a sentence has at most {_MODIFIERS} adverbs, words like very, "
             "prepositions after a verb, adjectives that need a noun, the, both and "
             "neither, counted together"
         )
@@ -159,7 +159,7 @@ class _Composer:
 
     # --- noun phrases --------------------------------------------------------------
 
-    def _np(self, tree: Phrase) -> NounPhrase:
+    def _np(self, tree: Phrase) -> _NounPhrase:
         match tree.kind, tree.parts:
             case "name", [token]:
                 name = str(self._words.word("NAME", token.word).meaning)
@@ -174,7 +174,7 @@ class _Composer:
                 return lambda said: self._by_determiner(det, restriction, said)
         raise _without_meaning(tree)
 
-    def _pronoun(self, form: str) -> NounPhrase:
+    def _pronoun(self, form: str) -> _NounPhrase:
         if self._bound and form.lower() == "it":
             bound = self._bound[-1]
             return lambda said: said(bound)

@@ -24,7 +24,6 @@ from ttr.semantics.fragment.sentence_parsing import OutsideFragment
 from ttr.semantics.quantifiers import Thresholds
 
 __all__ = [
-    "LAST",
     "Answered",
     "Outcome",
     "Problem",
@@ -33,13 +32,13 @@ __all__ = [
     "problems",
 ]
 
-LAST = 80
+_LAST = 80
 """The last problem of section 1."""
 
-DIGITS = 9
+_DIGITS = 9
 """The most digits that the number of a problem may have."""
 
-ANSWERS = ("yes", "no", "unknown")
+_ANSWERS = ("yes", "no", "unknown")
 
 Outcome: TypeAlias = Literal["right", "wrong", "outside", "open"]
 """How a problem came out; open if the set has no plain answer to compare with."""
@@ -78,9 +77,9 @@ def problems(path: str | os.PathLike[str]) -> tuple[Problem, ...]:
             f"found <{root.tag}>"
         )
     found = [_read_problem(path, it) for it in root.iter("problem")]
-    section = tuple(it for it in found if 1 <= it.number <= LAST)
+    section = tuple(it for it in found if 1 <= it.number <= _LAST)
     if not section:
-        raise Unreadable(f"{path} has none of the problems 1 to {LAST}")
+        raise Unreadable(f"{path} has none of the problems 1 to {_LAST}")
     return section
 
 
@@ -109,7 +108,7 @@ def _refuse_entities(path: str | os.PathLike[str], data: bytes) -> None:
 
 def _read_problem(path: str | os.PathLike[str], it: ET.Element) -> Problem:
     name = it.get("id", "")
-    if not name.isdecimal() or len(name) > DIGITS:
+    if not name.isdecimal() or len(name) > _DIGITS:
         raise Unreadable(f"{path} has a problem whose id is no number: {name!r}")
     premises = tuple(_text(p) for p in it.findall("p"))
     return Problem(
@@ -139,7 +138,7 @@ def _answer_problem(
     except OutsideFragment as outside:
         why = "; ".join(filter(None, (outside.message, outside.hint)))
         return Answered(problem, "outside", "", why)
-    if problem.answer not in ANSWERS:
+    if problem.answer not in _ANSWERS:
         return Answered(problem, "open", found.verdict, found.why)
     right = found.verdict == problem.answer
     return Answered(problem, "right" if right else "wrong", found.verdict, found.why)

@@ -18,7 +18,7 @@ __all__ = ["Demand", "UndecidedError", "integer_solution"]
 Demand: TypeAlias = tuple[Sequence[int], int]
 """The weights w, and the bound b."""
 
-NODES = 40
+_NODES = 40
 """How many linear programs are solved before giving up."""
 
 
@@ -37,7 +37,7 @@ def integer_solution(demands: Sequence[Demand], size: int) -> tuple[int, ...] | 
     True
     """
     waiting: list[list[Demand]] = [[_tighten(one) for one in demands]]
-    for _ in range(NODES):
+    for _ in range(_NODES):
         if not waiting:
             return None
         some = waiting.pop()

@@ -15,9 +15,9 @@ from ttr.semantics.fragment.lexicon import Lexicon
 if TYPE_CHECKING:
     from lark import Lark, Token, Tree
 
-__all__ = ["LONGEST", "OutsideFragment", "Phrase", "parse_sentence"]
+__all__ = ["OutsideFragment", "Phrase", "parse_sentence"]
 
-LONGEST = 300
+_LONGEST = 300
 """The most characters that a sentence may have."""
 
 
@@ -52,8 +52,8 @@ def parse_sentence(text: str, words: Lexicon) -> Phrase:
         raise OutsideFragment(f"a sentence is a text, found {text!r}")
     if not text.strip(" .,!?\t\r\n"):
         raise OutsideFragment("a sentence has words, but this text is empty")
-    if len(text) > LONGEST:
-        raise OutsideFragment(f"a sentence has at most {LONGEST} characters")
+    if len(text) > _LONGEST:
+        raise OutsideFragment(f"a sentence has at most {_LONGEST} characters")
     plain = " ".join(text.replace("’", "'").split())
     grammar = _grammar(words)
     _check_words(plain, words)

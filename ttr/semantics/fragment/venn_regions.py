@@ -57,16 +57,16 @@ _DEPTH = 3
 _BRANCHES = 512
 """The most ways to make the formulas true that are tried."""
 
-Literal = tuple[Count | OpaqueSentence, bool]
-Simple = OpaqueProperty | Is
-Region = Mapping[Simple, bool]
+_Literal = tuple[Count | OpaqueSentence, bool]
+_Simple = OpaqueProperty | Is
+_Region = Mapping[_Simple, bool]
 
 
 @dataclass(frozen=True)
 class World:
     """How many things of each kind there are; unmentioned things are left out."""
 
-    kinds: tuple[tuple[int, Region], ...]
+    kinds: tuple[tuple[int, _Region], ...]
 
     def __str__(self) -> str:
         return ", ".join(
@@ -74,12 +74,12 @@ class World:
         )
 
 
-def _properties_in_words(kind: Region) -> str:
+def _properties_in_words(kind: _Region) -> str:
     has = [_name(one) for one, true in kind.items() if true]
     return ", ".join(has) or "none of these"
 
 
-def _name(one: Simple) -> str:
+def _name(one: _Simple) -> str:
     return one.name if isinstance(one, Is) else str(apply_property(one.function, "it"))
 
 
@@ -94,7 +94,7 @@ class WorldFinder:
     ) -> None:
         self._words, self._thresholds, self._held = words, thresholds, held
         self._theory = words.theory
-        self._implied: dict[tuple[Simple, Simple], bool] = {}
+        self._implied: dict[tuple[_Simple, _Simple], bool] = {}
         self._possible: dict[tuple[Formula, ...], bool] = {}
         monotone = ("ADVERB", "MODAL", "PREP")
         found = (it for kind in monotone for it in words.words[kind].values())
@@ -130,7 +130,7 @@ class WorldFinder:
                 self._possible[asked] = True
         return self._possible[asked]
 
-    def _world_of_branch(self, branch: tuple[Literal, ...]) -> World | None:
+    def _world_of_branch(self, branch: tuple[_Literal, ...]) -> World | None:
         """A world in which these counts and sentences are so, or are not so."""
         stated = [
             (leaf.type, true)
@@ -143,7 +143,7 @@ class WorldFinder:
         simple = _simple_properties(counts)
         names = [one for one in simple if isinstance(one, Is)]
         counts += [(Count(it, it, one), True) for it in names for one in _ONE]
-        kinds: dict[tuple[int, ...], Region] = {}
+        kinds: dict[tuple[int, ...], _Region] = {}
         for region in self._possible_regions(simple, counts):
             column = tuple(_weight(it, true, region) for it, true in counts)
             if any(weight > 0 for weight in column):
@@ -161,8 +161,8 @@ class WorldFinder:
     # --- which regions there can be --------------------------------------------------
 
     def _possible_regions(
-        self, simple: Sequence[Simple], counts: Sequence[tuple[Count, bool]]
-    ) -> Iterator[Region]:
+        self, simple: Sequence[_Simple], counts: Sequence[tuple[Count, bool]]
+    ) -> Iterator[_Region]:
         if len(simple) > (_INSIDE if self._held else _PROPERTIES):
             raise UndecidedError
         plain = [one for one in simple if self._formula_inside(one) is None]
@@ -180,7 +180,7 @@ class WorldFinder:
                 if not any(region[a] and region[b] for a, b in apart):
                     yield region
 
-    def _formula_inside(self, one: Simple) -> Formula | None:
+    def _formula_inside(self, one: _Simple) -> Formula | None:
         """A relational property, as a formula about the other things; else None."""
         if isinstance(one, Is) or len(self._held) >= _DEPTH:
             return None
@@ -194,8 +194,8 @@ class WorldFinder:
         return f"·{len(self._held)}"
 
     def _ways_to_be_related(
-        self, related: Sequence[Simple], facts: Sequence[Formula]
-    ) -> Iterator[Region]:
+        self, related: Sequence[_Simple], facts: Sequence[Formula]
+    ) -> Iterator[_Region]:
         """The regions of relational properties that one thing can be in."""
         if not related:
             yield {}
@@ -215,7 +215,7 @@ class WorldFinder:
         return WorldFinder(self._words, self._thresholds, (*self._held, self._thing))
 
     def _plain_counts(
-        self, counts: Sequence[tuple[Count, bool]], plain: set[Simple]
+        self, counts: Sequence[tuple[Count, bool]], plain: set[_Simple]
     ) -> list[Formula]:
         """The counts of properties without relations, which hold around each thing."""
         return [
@@ -226,13 +226,13 @@ class WorldFinder:
 
     # --- what follows by the lexicon alone -------------------------------------------
 
-    def _implies(self, a: Simple, b: Simple) -> bool:
+    def _implies(self, a: _Simple, b: _Simple) -> bool:
         """Does a imply b, by the axioms and by what words mean?"""
         if (a, b) not in self._implied:
             self._implied[a, b] = self._axioms_imply(a, b)
         return self._implied[a, b]
 
-    def _axioms_imply(self, a: Simple, b: Simple) -> bool:
+    def _axioms_imply(self, a: _Simple, b: _Simple) -> bool:
         if isinstance(a, Is) or isinstance(b, Is):
             return False
         S, T = apply_property(a.function, "·"), apply_property(b.function, "·")
@@ -245,7 +245,7 @@ class WorldFinder:
         P, Q = S.args[-1], T.args[-1]
         return isinstance(P, Function) and isinstance(Q, Function) and self._below(P, Q)
 
-    def _excludes(self, a: Simple, b: Simple) -> bool:
+    def _excludes(self, a: _Simple, b: _Simple) -> bool:
         """Do a and b exclude one another, by the lexicon?"""
         if isinstance(a, Is) or isinstance(b, Is) or not self._theory.exclusions:
             return False
@@ -276,9 +276,9 @@ def _undominated(columns: Iterable[tuple[int, ...]]) -> list[tuple[int, ...]]:
 # --- formulas as demands -------------------------------------------------------------
 
 
-def _branches(formulas: Sequence[Formula]) -> Iterator[tuple[Literal, ...]]:
+def _branches(formulas: Sequence[Formula]) -> Iterator[tuple[_Literal, ...]]:
     """The ways to make all formulas true, each as leaves that are so or are not so."""
-    waiting: list[tuple[tuple[tuple[Formula, bool], ...], tuple[Literal, ...]]] = [
+    waiting: list[tuple[tuple[tuple[Formula, bool], ...], tuple[_Literal, ...]]] = [
         (tuple((formula, True) for formula in formulas), ())
     ]
     while waiting:
@@ -305,7 +305,7 @@ def _branches(formulas: Sequence[Formula]) -> Iterator[tuple[Literal, ...]]:
                 raise TypeError(f"{first} is said of a thing, not of the world")
 
 
-def _simple_properties(counts: Iterable[tuple[Count, bool]]) -> list[Simple]:
+def _simple_properties(counts: Iterable[tuple[Count, bool]]) -> list[_Simple]:
     """The simple properties in some counts, each once, in their order."""
     found = (one for it, _ in counts for side in (it.P, it.Q) for one in leaves(side))
     return list(
@@ -313,7 +313,7 @@ def _simple_properties(counts: Iterable[tuple[Count, bool]]) -> list[Simple]:
     )
 
 
-def _weight(count: Count, true: bool, region: Region) -> int:
+def _weight(count: Count, true: bool, region: _Region) -> int:
     """The weight of one thing of a region in the demand that a count makes."""
     inside, outside = count.threshold.weights
     if not _holds(count.P, region):
@@ -328,7 +328,7 @@ def _bound(count: Count, true: bool) -> int:
     return bound if count.threshold.rising == true else 1 - bound
 
 
-def _holds(formula: Formula, region: Region) -> bool:
+def _holds(formula: Formula, region: _Region) -> bool:
     match formula:
         case Conjunction(parts):
             return all(_holds(part, region) for part in parts)

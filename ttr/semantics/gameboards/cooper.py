@@ -62,10 +62,10 @@ ACKNOWLEDGEMENT: RecordType = rectype(
     e=acknowledge(this.spkr, this.addr, this.content),
 )
 
-AGENDA = ListOf(Universe("RecType", 1))
+_AGENDA = ListOf(Universe("RecType", 1))
 
 BOARD: RecordType = rectype(
-    private=rectype(self=Ind, agenda=AGENDA),
+    private=rectype(self=Ind, agenda=_AGENDA),
     shared=rectype(latest=Rec, commitments=RecType),
 )
 """The type of every gameboard; `self` is whose board it is.
@@ -74,18 +74,18 @@ The types on the agenda mention types, namely what is to be said, so they are re
 types of level 1. Before anything has been said, `latest` is the empty record.
 """
 
-MINE = rectype(me=(Ind @ outer.s.private.self) @ outer.e.spkr)
-TO_ME = rectype(me=(Ind @ outer.s.private.self) @ outer.e.addr)
+_MINE = rectype(me=(Ind @ outer.s.private.self) @ outer.e.spkr)
+_TO_ME = rectype(me=(Ind @ outer.s.private.self) @ outer.e.addr)
 
 
-@rule(when=BOARD, on=MOVE, where=MINE, kind="grounding")
+@rule(when=BOARD, on=MOVE, where=_MINE, kind="grounding")
 def make_move(s: Record, e: Record) -> Record:
     """A move of one's own is taken off the agenda when it has been made."""
     changes = {"private.agenda": s.private.agenda[1:], "shared.latest": e}
     return replace(s, changes)
 
 
-@rule(when=BOARD, on=MOVE, where=TO_ME, kind="grounding")
+@rule(when=BOARD, on=MOVE, where=_TO_ME, kind="grounding")
 def hear_move(s: Record, e: Record) -> Record:
     """A move that is addressed to one is the latest move."""
     return replace(s, {"shared.latest": e})
@@ -103,7 +103,9 @@ def integrate_acknowledgement(s: Record, e: Record, said: RecordType) -> Record:
 
 
 @rule(
-    when=rectype(private=rectype(agenda=AGENDA @ ()), shared=rectype(latest=ASSERTION)),
+    when=rectype(
+        private=rectype(agenda=_AGENDA @ ()), shared=rectype(latest=ASSERTION)
+    ),
     where=rectype(me=(Ind @ outer.s.private.self) @ outer.s.shared.latest.addr),
     kind="plan",
 )

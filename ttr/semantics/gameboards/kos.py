@@ -177,7 +177,7 @@ def hear(s: Record, e: Record) -> Record:
 # --- conversational rules ------------------------------------------------------------
 # Each grounds the first pending move if it is of the right kind and makes sense there.
 
-PENDING = rectype(pending=NonEmpty(Move))
+_PENDING = rectype(pending=NonEmpty(Move))
 
 
 def bind_pending(T: TypeNode) -> RecordType:
@@ -216,13 +216,13 @@ def greet_back(s: Record, m: PType, latest: PType) -> Record | None:
     return _ground(s, m) if latest.args == m.args[::-1] else None
 
 
-@rule(when=PENDING, where=bind_pending(Asking), kind="ground")
+@rule(when=_PENDING, where=bind_pending(Asking), kind="ground")
 def ask_qud(s: Record, m: PType) -> Record:
     """What is asked becomes the maximal question under discussion."""
     return _ground(s, m, qud=push(s.qud, m.args[-1]))
 
 
-@rule(when=PENDING, where=bind_pending(Assertion), kind="ground")
+@rule(when=_PENDING, where=bind_pending(Assertion), kind="ground")
 def assert_qud(s: Record, m: PType) -> Record:
     """Whether what is asserted holds becomes the maximal question."""
     return _ground(s, m, qud=push(s.qud, whether(m.args[-1])))

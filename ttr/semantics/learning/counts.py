@@ -65,7 +65,7 @@ _EMPTY: Map[Any, Any] = Map()
 _ZERO = Fraction(0)
 _NO_SUM = _Sum(0, _ZERO, _ZERO)
 
-CertainTypes = Map[object, Map[TypeNode, int]]
+_CertainTypes = Map[object, Map[TypeNode, int]]
 """The types that each situation is certain to be of, and how often that was learned."""
 
 
@@ -89,7 +89,7 @@ class Counts:
     theory: Signature = NO_THEORY
     held: Map[object, tuple[Record, int]] = _EMPTY
     sums: Map[TypeNode, _Sum] = _EMPTY
-    certain: CertainTypes = _EMPTY
+    certain: _CertainTypes = _EMPTY
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "theory", signature_of(self.theory))
@@ -251,7 +251,7 @@ class Counts:
 
     def _certain_after(
         self, sit: Object, T: TypeNode, p: Degree, by: int
-    ) -> CertainTypes:
+    ) -> _CertainTypes:
         kind = _certain_type(T, p)
         if kind is None:
             return self.certain

@@ -18,7 +18,7 @@ _STEPS = 100
 _FLAT = 1e-10
 """The gradient for each example below which the maximum is reached."""
 
-Matrix = list[list[float]]
+_Matrix = list[list[float]]
 
 
 class Example(NamedTuple):
@@ -103,7 +103,7 @@ def _log_odds(examples: list[Example], weights: list[float]) -> list[float]:
 
 def _derivatives(
     examples: list[Example], weights: list[float], variance: float
-) -> tuple[list[float], Matrix]:
+) -> tuple[list[float], _Matrix]:
     """The gradient of the loss, and its Hessian."""
     size = len(weights)
     gradient = [w / variance for w in weights]
@@ -123,13 +123,13 @@ def _derivatives(
     return gradient, hessian
 
 
-def _solve(matrix: Matrix, values: list[float]) -> list[float]:
+def _solve(matrix: _Matrix, values: list[float]) -> list[float]:
     """The x with Ax = values, for a symmetric positive definite A.
 
     By Cholesky's decomposition A = LLᵀ.
     """
     size = len(values)
-    lower: Matrix = []
+    lower: _Matrix = []
     for i in range(size):
         row: list[float] = []
         for j in range(i):

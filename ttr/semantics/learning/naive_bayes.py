@@ -69,11 +69,11 @@ def posterior(
     return _normalise(scores)
 
 
-Score = tuple[float, float]
+_Score = tuple[float, float]
 """The logarithms of the least and the greatest product of some degrees."""
 
 
-def _score(prior: Degree, likelihoods: Iterable[Degree]) -> Score:
+def _score(prior: Degree, likelihoods: Iterable[Degree]) -> _Score:
     degrees = [prior, *likelihoods]
     return sum(_log(p.lo) for p in degrees), sum(_log(p.hi) for p in degrees)
 
@@ -85,7 +85,7 @@ def _log(p: float) -> float:
 C = TypeVar("C")
 
 
-def _normalise(scores: Mapping[C, Score]) -> dict[C, Degree]:
+def _normalise(scores: Mapping[C, _Score]) -> dict[C, Degree]:
     """Each score as a share of all: the least and the greatest."""
     top = max(hi for _, hi in scores.values())
     if top == -math.inf:
@@ -97,7 +97,7 @@ def _normalise(scores: Mapping[C, Score]) -> dict[C, Degree]:
     return {one: _share(one, scaled) for one in scaled}
 
 
-def _share(one: C, scaled: Mapping[C, Score]) -> Degree:
+def _share(one: C, scaled: Mapping[C, _Score]) -> Degree:
     lo, hi = scaled[one]
     others = [score for other, score in scaled.items() if other != one]
     least = lo / (lo + sum(score[1] for score in others)) if lo else 0.0
@@ -144,7 +144,7 @@ class NaiveBayes(EvidenceBased):
         shares = _normalise(scores) if scores else {}
         return {label: 0.0 if p == UNKNOWN else p.lo for label, p in shares.items()}
 
-    def _score(self, label: str, found: Features, total: int) -> Score:
+    def _score(self, label: str, found: Features, total: int) -> _Score:
         """log p(label) + Σ log p(feature | label), over the features that hold."""
         mine = [(f, n) for f, one, n in self.evidence.rows() if one == label]
         whole, extra = sum(n for _, n in mine), self.smoothing.pseudocount

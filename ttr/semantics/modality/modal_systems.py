@@ -33,7 +33,7 @@ from ttr.types.syntax import (
 
 __all__ = ["ModalSystem", "modal_system"]
 
-Head = Basic | Pred
+_Head = Basic | Pred
 """What a possibility may lack: a basic type, or a predicate and so its ptypes."""
 
 
@@ -53,7 +53,7 @@ class ModalSystem:
     """
 
     models: tuple[tuple[str, Model], ...]
-    lacking: Mapping[str, frozenset[Head]]
+    lacking: Mapping[str, frozenset[_Head]]
 
     def __repr__(self) -> str:
         return f"<ModalSystem of {', '.join(self.names)}>"
@@ -92,7 +92,7 @@ class ModalSystem:
         models[self.names.index(name)] = (name, changed)
         return replace(self, models=tuple(models))
 
-    def without(self, name: str, /, *heads: Head) -> ModalSystem:
+    def without(self, name: str, /, *heads: _Head) -> ModalSystem:
         """The system in which a possibility lacks basic types or predicates.
 
         A type exists in a possibility that lacks nothing of what occurs in it.

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Notion", "everywhere", "where_they_exist"]
 
-Scope: TypeAlias = (
+_Scope: TypeAlias = (
     "Callable[[ModalSystem, tuple[Object, ...]], tuple[str, ...] | ModalAnswer]"
 )
 """Gives the possibilities that a question about values looks at, or its answer."""
@@ -90,7 +90,7 @@ class Notion:
     """
 
     system: ModalSystem
-    scope: Scope
+    scope: _Scope
 
     @within_budget
     def necessary(self, proposition: object, /) -> ModalAnswer:

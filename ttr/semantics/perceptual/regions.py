@@ -104,7 +104,7 @@ def clusters(points: PointMap | Iterable[object], reach: float) -> tuple[PointMa
     if not finite_number(reach, "the reach") > 0.0:
         raise TTRError(f"the reach of a step is above 0, found {reach!r}")
     points = points if isinstance(points, PointMap) else PointMap(points)
-    cells: dict[Cell, list[int]] = {}
+    cells: dict[_Cell, list[int]] = {}
     for i, point in enumerate(points.points):
         cells.setdefault(_cell(point, reach), []).append(i)
     found: list[PointMap] = []
@@ -121,11 +121,11 @@ def clusters(points: PointMap | Iterable[object], reach: float) -> tuple[PointMa
 _FEW_DIMENSIONS = 3
 """Up to how many dimensions all 3ⁿ cells around one are visited."""
 
-Cell = tuple[int, ...]
+_Cell = tuple[int, ...]
 """A cube of the grid, by its number along each axis."""
 
 
-def _cell(point: Vector, reach: float) -> Cell:
+def _cell(point: Vector, reach: float) -> _Cell:
     try:
         return tuple([math.floor(x / reach) for x in point])
     except OverflowError:
@@ -135,7 +135,7 @@ def _cell(point: Vector, reach: float) -> Cell:
 
 
 def _reachable_points(
-    points: tuple[Vector, ...], start: int, cells: dict[Cell, list[int]], reach: float
+    points: tuple[Vector, ...], start: int, cells: dict[_Cell, list[int]], reach: float
 ) -> list[int]:
     """The points that steps lead to from one; they are taken out of their cells."""
     region = [start]
@@ -151,7 +151,7 @@ def _reachable_points(
     return region
 
 
-def _neighbours(cell: Cell, cells: Iterable[Cell]) -> Iterator[Cell]:
+def _neighbours(cell: _Cell, cells: Iterable[_Cell]) -> Iterator[_Cell]:
     """The cells next to one, and itself.
 
     In many dimensions only cells with points are tried, as 3ⁿ soon is more than these.

@@ -13,7 +13,7 @@ from ttr.semantics.perceptual.learners import Handle
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
 from ttr.types.syntax import Record
 
-__all__ = ["Speaker", "exchange", "history", "says"]
+__all__ = ["Speaker", "as_speaker", "exchange", "history", "says"]
 
 
 def says(meaning: Meaning, r: Record) -> bool:

@@ -10,7 +10,7 @@ from ttr.errors import TTRError
 from ttr.semantics.argument_checks import in_notation
 from ttr.types.syntax import Basic, Object
 
-__all__ = ["RealVector", "dot", "is_vector", "finite_number", "vector"]
+__all__ = ["RealVector", "Vector", "dot", "is_vector", "finite_number", "vector"]
 
 RealVector = Basic("RealVector")
 """The type of lists of numbers, and of arrays with one axis."""

@@ -55,7 +55,7 @@ __all__ = ["integration", "own_integration"]
 _NOTHING: Mapping[str, object] = {}
 
 
-DISCUSSED = rectype(shared=rectype(com=NonEmpty(Proposition), qud=NonEmpty(Question)))
+_DISCUSSED = rectype(shared=rectype(com=NonEmpty(Proposition), qud=NonEmpty(Question)))
 """The states with facts and questions, so that a fact may resolve a question."""
 
 
@@ -162,7 +162,7 @@ def integrate_other(s: Record) -> Record:
 def downdate_rule(domain: Domain) -> Rule:
     """The rule that drops questions which are resolved."""
 
-    @rule(when=DISCUSSED, kind="downdate")
+    @rule(when=_DISCUSSED, kind="downdate")
     def downdate_qud(s: Record) -> Record | None:
         """A question that is resolved by what is agreed on is no longer discussed."""
         qud = downdate(s.shared.qud, s.shared.com, domain.model)

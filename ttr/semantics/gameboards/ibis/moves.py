@@ -50,6 +50,7 @@ __all__ = [
     "quit",
     "raise_",
     "respond",
+    "say",
     "unclear",
     "with_terms",
 ]
@@ -146,7 +147,7 @@ def _is_move(value: Object) -> bool:
     return _is_of(value, _MOVES)
 
 
-def _is_of(value: Object, forms: Mapping[Pred, tuple[Check, ...]]) -> bool:
+def _is_of(value: Object, forms: Mapping[Pred, tuple[_Check, ...]]) -> bool:
     """Is a value a ptype of these predicates with arguments of the right form?"""
     if not isinstance(value, PType) or value.pred not in forms:
         return False
@@ -154,19 +155,19 @@ def _is_of(value: Object, forms: Mapping[Pred, tuple[Check, ...]]) -> bool:
     return all(check(arg) for check, arg in zip(checks, value.args, strict=True))
 
 
-Check = Callable[[Object], bool]
+_Check = Callable[[Object], bool]
 
 _PARTICIPANTS = (USR, SYS)
 _FEEDBACK = ("per_neg", "und_neg")
 
 
-def _among(*words: str) -> Check:
+def _among(*words: str) -> _Check:
     return lambda value: isinstance(value, str) and value in words
 
 
 _is_participant, _is_feedback = _among(*_PARTICIPANTS), _among(*_FEEDBACK)
 
-_MOVES: Mapping[Pred, tuple[Check, ...]] = {
+_MOVES: Mapping[Pred, tuple[_Check, ...]] = {
     ask: (_is_participant, is_question),
     answer: (_is_participant, _is_content),
     greet: (_is_participant,),
@@ -176,7 +177,7 @@ _MOVES: Mapping[Pred, tuple[Check, ...]] = {
     prompt: (_is_participant,),
 }
 
-_ACTIONS: Mapping[Pred, tuple[Check, ...]] = {
+_ACTIONS: Mapping[Pred, tuple[_Check, ...]] = {
     findout: (is_question,),
     raise_: (is_question,),
     consult: (is_question,),
@@ -186,12 +187,12 @@ _ACTIONS: Mapping[Pred, tuple[Check, ...]] = {
 }
 
 
-def _moves_of(pred: Pred) -> Check:
+def _moves_of(pred: Pred) -> _Check:
     forms = {pred: _MOVES[pred]}
     return lambda value: _is_of(value, forms)
 
 
-_FORMS: Mapping[Basic, Check] = {
+_FORMS: Mapping[Basic, _Check] = {
     Participant: _is_participant,
     Proposition: _is_proposition,
     Content: _is_content,

@@ -40,8 +40,8 @@ __all__ = [
     "no_answer_to",
 ]
 
-WITH_PLAN = rectype(private=rectype(plan=NonEmpty(Action)))
-WITHOUT_PLAN = rectype(
+_WITH_PLAN = rectype(private=rectype(plan=NonEmpty(Action)))
+_WITHOUT_PLAN = rectype(
     private=rectype(plan=ListOf(Action) @ ()), shared=rectype(qud=NonEmpty(Question))
 )
 
@@ -111,7 +111,7 @@ def _believe(s: Record, P: TypeNode) -> Record:
 def planning(domain: Domain) -> Algorithm:
     """The algorithm that carries out the plan as far as nobody need be asked."""
 
-    @rule(when=WITHOUT_PLAN, kind="load")
+    @rule(when=_WITHOUT_PLAN, kind="load")
     def recover_plan(s: Record) -> Record | None:
         """A question is still under discussion: its plan is loaded again."""
         for question in s.shared.qud:
@@ -120,7 +120,7 @@ def planning(domain: Domain) -> Algorithm:
                 return replace(s, {"private.plan": plan})
         return None
 
-    @rule(when=WITH_PLAN, kind="exec_plan")
+    @rule(when=_WITH_PLAN, kind="exec_plan")
     def remove_answered(s: Record) -> Record | None:
         """What was to be found out or raised is answered: it leaves the plan."""
         action, *rest = s.private.plan
@@ -130,7 +130,7 @@ def planning(domain: Domain) -> Algorithm:
             return None
         return replace(s, {"private.plan": rest})
 
-    @rule(when=WITH_PLAN, kind="exec_plan")
+    @rule(when=_WITH_PLAN, kind="exec_plan")
     def exec_consult(s: Record) -> Record | None:
         """The database's answer is believed, or that there is none."""
         action, *rest = s.private.plan
@@ -140,7 +140,7 @@ def planning(domain: Domain) -> Algorithm:
         found = _believe(s, _look_up(s, question, domain))
         return replace(found, {"private.plan": rest})
 
-    @rule(when=WITH_PLAN, kind="exec_plan")
+    @rule(when=_WITH_PLAN, kind="exec_plan")
     def exec_if_then(s: Record) -> Record | None:
         """What is known decides how the plan goes on."""
         action, *rest = s.private.plan

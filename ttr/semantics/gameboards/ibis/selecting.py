@@ -32,19 +32,19 @@ from ttr.updates import Algorithm, all_, first, repeat, rule, seq
 
 __all__ = ["Selection", "selection"]
 
-WITH_PLAN = rectype(
+_WITH_PLAN = rectype(
     private=rectype(agenda=ListOf(Action) @ (), plan=NonEmpty(Action)),
     shared=rectype(lu=rectype(speaker=Participant @ USR)),
 )
-AFTER_OWN = rectype(
+_AFTER_OWN = rectype(
     private=rectype(agenda=ListOf(Action) @ (), plan=NonEmpty(Action)),
     shared=rectype(lu=rectype(speaker=Participant @ SYS)),
 )
-AFTER_PLAN = rectype(
+_AFTER_PLAN = rectype(
     private=rectype(agenda=ListOf(Action) @ (), plan=ListOf(Action) @ ()),
     shared=rectype(qud=NonEmpty(Question)),
 )
-NOTHING_TO_SAY = rectype(
+_NOTHING_TO_SAY = rectype(
     private=rectype(agenda=ListOf(Action) @ ()),
     shared=rectype(lu=rectype(speaker=Participant @ USR)),
     next_moves=ListOf(Move) @ (),
@@ -84,13 +84,13 @@ def select_ask(s: Record) -> Record | None:
     return replace(asked, {"private.plan": plan})
 
 
-@rule(when=WITH_PLAN, kind="select_action")
+@rule(when=_WITH_PLAN, kind="select_action")
 def select_from_plan(s: Record) -> Record | None:
     """There is a plan: its first action is done unless something is being asked."""
     return None if _has(s.next_moves, ask) else _next_action(s)
 
 
-@rule(when=AFTER_OWN, kind="select_action")
+@rule(when=_AFTER_OWN, kind="select_action")
 def resume_plan(s: Record) -> Record | None:
     """The system has answered and asked nothing: it goes on with its plan."""
     said = s.shared.lu.moves
@@ -102,7 +102,7 @@ def _next_action(s: Record) -> Record:
     return replace(s, {"private.agenda": s.private.plan[:1]})
 
 
-@rule(when=NOTHING_TO_SAY, kind="select_move")
+@rule(when=_NOTHING_TO_SAY, kind="select_move")
 def select_prompt(s: Record) -> Record:
     """There is nothing to be done: the user is invited to ask."""
     return replace(s, {"next_moves": (prompt(SYS),)})
@@ -141,7 +141,7 @@ def selection(domain: Domain) -> Selection:
         known = known_answer(s, action.args[0], domain)
         return None if known is None else _select(s, answer(SYS, known))
 
-    @rule(when=AFTER_PLAN, kind="select_action")
+    @rule(when=_AFTER_PLAN, kind="select_action")
     def select_respond(s: Record) -> Record | None:
         """The plan is done and a question under discussion has an answer: respond."""
         for question in s.shared.qud:

@@ -18,17 +18,17 @@ __all__ = ["GROUNDING", "get_own_moves"]
 LIKELY, HARDLY = 0.5, 0.001
 """The probabilities from which an utterance is understood, and from which heard."""
 
-RUNNING = rectype(program=Program @ "run")
+_RUNNING = rectype(program=Program @ "run")
 
 
-@rule(when=RUNNING, on=USER, p=LIKELY, kind="grounding")
+@rule(when=_RUNNING, on=USER, p=LIKELY, kind="grounding")
 def get_user_moves(s: Record, e: Record) -> Record:
     """The user's utterance becomes the latest; its moves are to be integrated."""
     latest = record(speaker=e.spkr, moves=e.moves)
     return replace(s, {"shared.lu": latest, "private.nim": e.moves})
 
 
-@rule(when=RUNNING, on=USER, p=(HARDLY, LIKELY), kind="grounding")
+@rule(when=_RUNNING, on=USER, p=(HARDLY, LIKELY), kind="grounding")
 def hear_badly(s: Record, e: Record) -> Record:
     """The user said something, but it is too uncertain what: it is unclear."""
     unheard = (unclear(USR),)
