@@ -176,7 +176,7 @@ def relevant(answer: Object, question: Object, model: Model) -> bool:
     >>> relevant(~rectype(e=dest("paris")), where_to, M)
     True
     """
-    return _conveyed(answer, question, model) is not None
+    return _conveyed_proposition(answer, question, model) is not None
 
 
 def resolves(answer: Object, question: Object, model: Model) -> bool:
@@ -193,7 +193,7 @@ def resolves(answer: Object, question: Object, model: Model) -> bool:
     >>> resolves(~rectype(e=dest("paris")), which(dest), M)
     False
     """
-    found = _conveyed(answer, question, model)
+    found = _conveyed_proposition(answer, question, model)
     if found is None:
         return False
     return is_polar(question) or not isinstance(
@@ -216,7 +216,7 @@ def combine(question: Object, answer: Object, model: Model) -> TypeNode:
     >>> print(combine(whether(rectype(e=back())), "no", M))
     ~[e : return_trip()]
     """
-    found = _conveyed(answer, question, model)
+    found = _conveyed_proposition(answer, question, model)
     if found is None:
         raise TTRError(f"{kind_of(answer)} is no answer to the question {question}")
     return found
@@ -274,11 +274,13 @@ def _no_question(found: Object) -> TTRError:
     return TTRError(f"this is no question: {kind_of(found)}")
 
 
-def _conveyed(answer: Object, question: Object, model: Model) -> TypeNode | None:
+def _conveyed_proposition(
+    answer: Object, question: Object, model: Model
+) -> TypeNode | None:
     """The proposition that an answer conveys; None if it is not about the question."""
     spend()
     if isinstance(question, FiniteSet):
-        found = (_conveyed(answer, one, model) for one in question)
+        found = (_conveyed_proposition(answer, one, model) for one in question)
         plain = isinstance(answer, TypeNode)
         return next((one for one in found if one is not None), None) if plain else None
     if not isinstance(question, Function) or not is_question(question):
@@ -331,7 +333,7 @@ def _with_values_inlined(P: TypeNode) -> TypeNode:
 
     So [x = paris : City, e : dest_city(x)] matches like [e : dest_city(paris)].
     """
-    P = _merged(P)
+    P = _merge_parts(P)
     if not isinstance(P, RecordType):
         return P
     fields: dict[str, TypeNode] = {}
@@ -345,7 +347,7 @@ def _with_values_inlined(P: TypeNode) -> TypeNode:
     return RecordType(tuple(fields.items()))
 
 
-def _merged(P: TypeNode) -> TypeNode:
+def _merge_parts(P: TypeNode) -> TypeNode:
     """A meet of record types as one record type."""
     if isinstance(P, Meet) and all(isinstance(part, RecordType) for part in P.parts):
         return reduce(merge, P.parts)

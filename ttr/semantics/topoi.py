@@ -118,7 +118,7 @@ def necessary(model: Model, sit: object, T: TypeNode, warrant: Topos, /) -> Moda
         return found
     background, follows = found
     answer = subtype(follows, as_type(T), model.theory)
-    return _limited(background, answer, f"{follows} follows; is it below {T}?")
+    return _limit_answer(background, answer, f"{follows} follows; is it below {T}?")
 
 
 @within_budget
@@ -129,7 +129,7 @@ def possible(model: Model, sit: object, T: TypeNode, warrant: Topos, /) -> Modal
         return found
     background, follows = found
     answer = consistent(follows, as_type(T), theory=model.theory)
-    return _limited(background, answer, f"{follows} follows; can it be with {T}?")
+    return _limit_answer(background, answer, f"{follows} follows; can it be with {T}?")
 
 
 def _apply_to_situation(
@@ -151,7 +151,7 @@ def _apply_to_situation(
         raise Refused(f"the topos {warrant} fails there: {wrong.message}") from None
 
 
-def _limited(background: Judgement, answer: Answer, question: str) -> ModalAnswer:
+def _limit_answer(background: Judgement, answer: Answer, question: str) -> ModalAnswer:
     """The answer, limited by how certainly the situation is of the background."""
     low = background.p.lo if answer.yes else 0.0
     high = 0.0 if answer.no else background.p.hi

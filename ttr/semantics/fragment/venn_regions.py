@@ -148,7 +148,7 @@ class WorldFinder:
             column = tuple(_weight(it, true, region) for it, true in counts)
             if any(weight > 0 for weight in column):
                 kinds.setdefault(column, region)
-        kinds = {column: kinds[column] for column in _undominated(kinds)}
+        kinds = {column: kinds[column] for column in _undominated_columns(kinds)}
         demands: list[Demand] = [
             (tuple(column[i] for column in kinds), _bound(it, true))
             for i, (it, true) in enumerate(counts)
@@ -261,7 +261,7 @@ class WorldFinder:
 _ONE = (number("at least", 1), number("at most", 1))
 
 
-def _undominated(columns: Iterable[tuple[int, ...]]) -> list[tuple[int, ...]]:
+def _undominated_columns(columns: Iterable[tuple[int, ...]]) -> list[tuple[int, ...]]:
     """The columns that no other column dominates: is at least as large throughout.
 
     As far as the demands go, a thing of a dominated kind could as well be of the other.

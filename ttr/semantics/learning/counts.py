@@ -1,4 +1,4 @@
-"""Frequencies over judgements: the probability of a type, by what was judged.
+"""Frequencies of judgements, and the probabilities of types that they give.
 
 J is a multiset of probabilistic Austinian propositions. ‖T‖ is the sum of the
 probabilities of those whose type is below T; p(T) = ‖T‖ / total and
@@ -212,7 +212,7 @@ class Counts:
         kind = _certain_type(T, p)
         if kind is not None:
             self._check_consistent(sit, kind, evidence)
-        return self._adjusted(evidence, 1)
+        return self._adjust(evidence, 1)
 
     def _without(self, evidence: Record) -> Counts:
         if identity(evidence) not in self.held:
@@ -220,9 +220,9 @@ class Counts:
                 f"{evidence} was not learned, so it cannot be taken back",
                 hint="take back what was learned, with the same probability",
             )
-        return self._adjusted(evidence, -1)
+        return self._adjust(evidence, -1)
 
-    def _adjusted(self, evidence: Record, by: int) -> Counts:
+    def _adjust(self, evidence: Record, by: int) -> Counts:
         """J with the evidence once more or once less; entries of none are dropped."""
         sit, T, p = probabilistic_claim(evidence)
         times = self.times(evidence) + by

@@ -189,7 +189,7 @@ class Notion:
                 return self.system.judge(name, (), P).p
             case TypeNode():
                 _refuse_modal(P)
-                return self.system[name].true(_merged(P))
+                return self.system[name].true(_merge_parts(P))
         sit, T, claimed = probabilistic_claim(P)
         found = self.system.judge(name, sit, T).p
         return borne_out(claimed, found) if "prob" in P else found
@@ -199,7 +199,7 @@ class Notion:
         model = self.system[name]
         try:
             _refuse_modal(S)
-            known = model.witnesses(_merged(S))
+            known = model.witnesses(_merge_parts(S))
         except (Refused, Unsupported) as error:
             return ModalAnswer(UNKNOWN, f"in {name}, {error.message}", name)
         judged = [self.system.judge(name, sit, T) for sit in known]
@@ -226,7 +226,7 @@ def _refuse_modal(T: TypeNode) -> None:
         )
 
 
-def _merged(T: TypeNode) -> TypeNode:
+def _merge_parts(T: TypeNode) -> TypeNode:
     """A meet as the merge of its parts, whose witnesses can be listed."""
     return reduce(merge, T.parts) if isinstance(T, Meet) else T
 
@@ -244,7 +244,7 @@ def _lists_all(S: TypeNode, T: TypeNode) -> bool:
     Records may have further fields, so there are infinitely many of S; but a flat
     record type says something of each field by itself.
     """
-    return not _mentions_records(S) or (_is_flat(_merged(S)) and _is_flat(T))
+    return not _mentions_records(S) or (_is_flat(_merge_parts(S)) and _is_flat(T))
 
 
 def _is_flat(T: TypeNode) -> bool:

@@ -75,11 +75,11 @@ class Speaker:
 
     def confirmed(self, word: str, r: Record) -> Speaker:
         """The speaker after somebody agreed that the word holds."""
-        return self._with_learned(word, self[word].confirmed(r))
+        return self._with_learned_meaning(word, self[word].confirmed(r))
 
     def rejected(self, word: str, r: Record) -> Speaker:
         """The speaker after somebody denied that the word holds."""
-        return self._with_learned(word, self[word].rejected(r))
+        return self._with_learned_meaning(word, self[word].rejected(r))
 
     def corrected(self, r: Record, *, said: str, right: str) -> Speaker:
         """The speaker after "No, this is a …": one word rejected, the other confirmed.
@@ -96,7 +96,7 @@ class Speaker:
             return self.confirmed(right, r)
         return self.rejected(said, r).confirmed(right, r)
 
-    def _with_learned(self, word: str, learned: Meaning) -> Speaker:
+    def _with_learned_meaning(self, word: str, learned: Meaning) -> Speaker:
         """The speaker with a learned meaning, also for words that share its learner."""
         old = _learner(self[word])
         changed = {

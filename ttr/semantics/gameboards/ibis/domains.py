@@ -110,7 +110,7 @@ class Domain:
             if self.questions_about(answer, questions_in(plan))
         ]
 
-    def answered_again(
+    def questions_answered_again(
         self, answer: Object, agreed: Sequence[TypeNode]
     ) -> list[tuple[Object, TypeNode]]:
         """The questions that an answer is about again, each with what it conveys.

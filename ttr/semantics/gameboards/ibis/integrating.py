@@ -182,10 +182,14 @@ def own_integration(domain: Domain) -> Algorithm:
 def integration(domain: Domain) -> Algorithm:
     """The algorithm that integrates the user's moves, drops questions, loads plans."""
 
-    def _answered_again(s: Record, m: PType) -> list[tuple[Object, TypeNode]]:
+    def _questions_answered_again(s: Record, m: PType) -> list[tuple[Object, TypeNode]]:
         """The questions that a move answers again, each with what it conveys."""
         content = content_of(m)
-        return [] if _is_short(m) else domain.answered_again(content, s.shared.com)
+        return (
+            []
+            if _is_short(m)
+            else domain.questions_answered_again(content, s.shared.com)
+        )
 
     @rule(when=integrating_from(USR), where=bind_move(Answer), kind="accommodate")
     def accommodate_issue(s: Record, m: PType) -> Record | None:
@@ -193,7 +197,7 @@ def integration(domain: Domain) -> Algorithm:
 
         Larsson 2002, chapter 4: issue accommodation.
         """
-        if s.private.plan or _is_short(m) or _answered_again(s, m):
+        if s.private.plan or _is_short(m) or _questions_answered_again(s, m):
             return None
         issues = domain.issues_about(content_of(m))
         if len(issues) != 1 or issues[0] in s.shared.qud:
@@ -233,7 +237,7 @@ def integration(domain: Domain) -> Algorithm:
 
         Not so where it answers the question just asked differently than before.
         """
-        said, asked = _answered_again(s, m), top(s.shared.qud)
+        said, asked = _questions_answered_again(s, m), top(s.shared.qud)
         if any(q is asked and domain.incompatible(P, q, s.shared.com) for q, P in said):
             return None
         return _integrate(s) if any(P in s.shared.com for _, P in said) else None
@@ -248,7 +252,7 @@ def integration(domain: Domain) -> Algorithm:
         """
         corrected = [
             (question, P, opposed)
-            for question, P in _answered_again(s, m)
+            for question, P in _questions_answered_again(s, m)
             if (opposed := domain.incompatible(P, question, s.shared.com))
         ]
         asked = [one for one in corrected if one[0] is top(s.shared.qud)]
@@ -257,7 +261,10 @@ def integration(domain: Domain) -> Algorithm:
         ((question, P, opposed),) = asked or corrected
         issues = domain.dependent_issues(question)
         answered = [
-            Q for Q in _known(s) for q in issues if domain.questions_about(Q, [q])
+            Q
+            for Q in _known_propositions(s)
+            for q in issues
+            if domain.questions_about(Q, [q])
         ]
         stale = [*answered, *map(no_answer_to, issues)]
         reopened = [q for q in issues if known_answer(s, q, domain) is not None]
@@ -292,6 +299,6 @@ def _is_short(m: PType) -> bool:
     return isinstance(content_of(m), str) and content_of(m) in (YES, NO)
 
 
-def _known(s: Record) -> tuple[Object, ...]:
+def _known_propositions(s: Record) -> tuple[Object, ...]:
     """All that is agreed on or believed."""
     return (*s.shared.com, *s.private.bel)
