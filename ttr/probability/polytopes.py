@@ -37,8 +37,8 @@ class Polytope:
     def share(self, worth: Sequence[Degree], given: Truth) -> Degree:
         """The bounds of p(E | given), where `worth` has p(E | world) for each world.
 
-        Raises `Impossible` where what is given cannot be, and `Infeasible` where the
-        degrees of the component contradict one another.
+        Raises `Impossible` where what is given cannot be, and `Infeasible`
+        where the degrees of the component contradict one another.
         """
         inside = [
             int(all(case[a] == so for a, so in given.items())) for case in self.cases

@@ -7,8 +7,8 @@ To be read in any order, the small ones first:
 - `quantifiers` by witness sets and `parametric_content` (Cooper 2023), and a `fragment`
   of English built on both;
 - `modality` (Cooper 2023), and `topoi`, which use its answers (Breitholtz 2020);
-- `propositional_entailment`, `random_variables`, and `learning` from judgements (Cooper,
-  Dobnik, Lappin and Larsson 2015);
+- `propositional_entailment`, `random_variables`, and `learning` from judgements
+  (Cooper, Dobnik, Lappin and Larsson 2015);
 - `perceptual` meanings with classifiers (Larsson 2013), which may be learners;
 - `string_prediction` (Fernando 2007; Cooper 2023).
 

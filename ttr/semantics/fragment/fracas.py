@@ -69,7 +69,10 @@ class Answered:
 
 
 def problems(path: str | os.PathLike[str]) -> tuple[Problem, ...]:
-    """Read the problems of section 1 of a file, in order; raises `Unreadable`."""
+    """Read the problems of section 1 of a file, in order.
+
+    Raises `Unreadable` for what is no FraCaS problem set.
+    """
     root = _parse_xml(path)
     if root.tag != "fracas-problems":
         raise Unreadable(
@@ -96,7 +99,10 @@ def _parse_xml(path: str | os.PathLike[str]) -> ET.Element:
 
 
 def _refuse_entities(path: str | os.PathLike[str], data: bytes) -> None:
-    """Raise `Unreadable` where entities are declared: they can grow, or read files."""
+    """Refuse declarations of entities: these can grow, or read files.
+
+    Raises `Unreadable`.
+    """
 
     def refuse(name: str, *_: object) -> NoReturn:
         raise Unreadable(f"{path} declares the entity {name}, which is not allowed")
