@@ -14,11 +14,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from fractions import Fraction
-from typing import NamedTuple
 
 from ttr.safety.budgets import spend
 
-__all__ = ["Infeasible", "Minimum", "Row", "minimise", "units"]
+__all__ = ["Infeasible", "Row", "feasible_point", "minimise", "units"]
 
 Row = Sequence[int]
 
@@ -44,28 +43,29 @@ def units(numbers: Iterable[float]) -> tuple[list[int], int]:
     return counts, 10**places
 
 
-class Minimum(NamedTuple):
-    """The least value of f · v, and a v that has it."""
-
-    value: Fraction
-    point: tuple[Fraction, ...]
-
-
-def minimise(f: Row, g: Row, rows: Sequence[Row]) -> Minimum:
-    """Minimise f · v over the v ≥ 0 with g · v = 1 and r · v ≥ 0 for each row r.
+def minimise(f: Row, g: Row, rows: Sequence[Row]) -> Fraction:
+    """The least f · v over the v ≥ 0 with g · v = 1 and r · v ≥ 0 for each row r.
 
     Raises `Infeasible` where there is no such v. f must be bounded below on them.
 
-    >>> value, point = minimise([1, 0], [1, 1], [[3, -1]])
-    >>> print(value, "at", *point)
-    1/4 at 1/4 3/4
+    >>> minimise([1, 0], [1, 1], [[3, -1]])
+    Fraction(1, 4)
     """
     table = _Table(f, g, rows)
-    table.minimise(table.missing)
-    if table.missing[-1] != 0:
-        raise Infeasible
+    table.make_feasible()
     table.minimise(table.cost)
-    return Minimum(Fraction(-table.cost[-1], table.divisor), table.point())
+    return Fraction(-table.cost[-1], table.divisor)
+
+
+def feasible_point(g: Row, rows: Sequence[Row]) -> tuple[Fraction, ...]:
+    """Some v ≥ 0 with g · v = 1 and r · v ≥ 0 for each row r; else `Infeasible`.
+
+    >>> print(*feasible_point([1, 1], [[3, -1], [-2, 1]]))
+    1/3 2/3
+    """
+    table = _Table([0] * len(g), g, rows)
+    table.make_feasible()
+    return table.point()
 
 
 class _Table:
@@ -89,6 +89,12 @@ class _Table:
         self.missing = [-x for x in g] + [*[0] * (slacks + 1), -1]
         self.basis = [self.width + number for number in range(slacks + 1)]
         self.columns = self.width + slacks
+
+    def make_feasible(self) -> None:
+        """Pivot until nothing is missing of g · v = 1; raises `Infeasible`."""
+        self.minimise(self.missing)
+        if self.missing[-1] != 0:
+            raise Infeasible
 
     def minimise(self, cost: list[int]) -> None:
         """Pivot until no column lowers the cost.

@@ -13,7 +13,13 @@ from dataclasses import dataclass
 from ttr.probability.degrees import Degree, ordered
 from ttr.probability.dependence import Component
 from ttr.probability.events import Truth
-from ttr.probability.linear_programs import Infeasible, Row, minimise, units
+from ttr.probability.linear_programs import (
+    Infeasible,
+    Row,
+    feasible_point,
+    minimise,
+    units,
+)
 from ttr.probability.networks import Impossible
 from ttr.safety.budgets import spend
 
@@ -48,12 +54,12 @@ class Polytope:
         low = [x * one for x, one in zip(ends[::2], inside, strict=True)]
         high = [-x * one for x, one in zip(ends[1::2], inside, strict=True)]
         try:
-            lo = minimise(low, inside, rows).value
+            lo = minimise(low, inside, rows)
         except Infeasible:
             if all(inside) or not self.feasible():
                 raise
             raise Impossible from None
-        hi = -minimise(high, inside, rows).value
+        hi = -minimise(high, inside, rows)
         return ordered(float(lo / unit), float(hi / unit))
 
     def feasible(self) -> bool:
@@ -61,7 +67,7 @@ class Polytope:
         count = len(self.cases)
         try:
             rows = list(_rows(self.component, self.cases))
-            minimise([0] * count, [1] * count, rows)
+            feasible_point([1] * count, rows)
         except Infeasible:
             return False
         return True

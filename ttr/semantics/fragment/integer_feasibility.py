@@ -11,7 +11,7 @@ from fractions import Fraction
 from math import floor, gcd
 from typing import TypeAlias
 
-from ttr.probability.linear_programs import Infeasible, minimise
+from ttr.probability.linear_programs import Infeasible, feasible_point
 
 __all__ = ["Demand", "UndecidedError", "integer_solution"]
 
@@ -70,6 +70,6 @@ def _rational_solution(
     one = [*[0] * size, 1]
     rows = [[*weights, -bound] for weights, bound in demands]
     try:
-        return minimise([0] * (size + 1), one, rows).point[:size]
+        return feasible_point(one, rows)[:size]
     except Infeasible:
         return None
