@@ -1,10 +1,10 @@
 """Questions, what answers them, and the questions under discussion.
 
 A question is a propositional abstract: a function from situations to types. *Whether
-she left* is `\\r:Rec. [e : leave(she)]`, *who left* is `\\r:[x : Ind]. [e :
-leave(r.x)]`. An alternative question is a set of questions whether. Which answers are
-about a question and which resolve it follows from these functions: an answer is about a
-question that can be applied to it.
+she left* is `\\r:Rec. [e : leave(she)]`, and *who left* is
+`\\r:[x : Ind]. [e : leave(r.x)]`. An alternative question is a set of questions whether.
+Which answers are about a question and which resolve it follows from these functions: an
+answer is about a question that can be applied to it.
 
 Sources: Ginzburg 2012, chapters 3 and 4; Larsson 2002, chapter 2, for the names of the
 three relations between questions and answers.
@@ -196,9 +196,7 @@ def resolves(answer: Object, question: Object, model: Model) -> bool:
     found = _conveyed_proposition(answer, question, model)
     if found is None:
         return False
-    return is_polar(question) or not isinstance(
-        _without_double_negation(found), Negation
-    )
+    return is_polar(question) or not isinstance(_simplify_negation(found), Negation)
 
 
 def combine(question: Object, answer: Object, model: Model) -> TypeNode:
@@ -263,11 +261,8 @@ def _matching_argument(question: Function, P: TypeNode) -> Record | None:
     if not is_question(question):
         raise _no_question(question)
     bound: dict[str, Object] = {}
-    return (
-        Record(bound)
-        if _matches(question.body, _with_values_inlined(P), 0, bound)
-        else None
-    )
+    found = _matches(question.body, _with_values_inlined(P), 0, bound)
+    return Record(bound) if found else None
 
 
 def _no_question(found: Object) -> TTRError:
@@ -313,7 +308,7 @@ def _apply(question: Function, argument: Record) -> TypeNode:
 
 def _is_instance(P: TypeNode, question: Function, model: Model) -> bool:
     """Is P ⊑ q(r), or P = ¬q(r), for some r that the question can be applied to?"""
-    P = _without_double_negation(P)
+    P = _simplify_negation(P)
     if asked_of(question, P, model) is not None:
         return True
     denied = P.body if isinstance(P, Negation) else ~P
@@ -321,7 +316,7 @@ def _is_instance(P: TypeNode, question: Function, model: Model) -> bool:
     return about is not None and _apply(question, about) is denied
 
 
-def _without_double_negation(P: TypeNode) -> TypeNode:
+def _simplify_negation(P: TypeNode) -> TypeNode:
     """The type without double negations: T for ¬¬T."""
     while isinstance(P, Negation) and isinstance(P.body, Negation):
         P = P.body.body
@@ -428,9 +423,8 @@ def downdate(
     True
     """
     known = as_tuple(facts, "propositions")
-    return tuple(
-        q for q in as_tuple(qud, "questions") if find_answer(q, known, model) is None
-    )
+    asked = as_tuple(qud, "questions")
+    return tuple(q for q in asked if find_answer(q, known, model) is None)
 
 
 def _without(qud: Iterable[Object], question: Object) -> Iterator[Object]:

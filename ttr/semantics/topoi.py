@@ -82,7 +82,7 @@ class Topos:
 
 
 def topos(fg: Function | Topos, /) -> Topos:
-    r"""A function from situations to types as a topos; `IllFormed` for anything else.
+    r"""A function as a topos, a topos as itself; `IllFormed` for anything else.
 
     >>> from ttr.notation.reader import parse
     >>> from ttr.types.syntax import Ind, Pred
@@ -192,9 +192,8 @@ def compatible(
     Topoi need not be consistent: somebody may hold "birds fly" and "penguins do not".
     Raises `IllFormed` where they are not functions from record types to record types.
     """
-    return consistent(
-        fix(combine_topoi(first, second, theory).fg, theory), theory=theory
-    )
+    both = combine_topoi(first, second, theory)
+    return consistent(fix(both.fg, theory), theory=theory)
 
 
 def underpins(
