@@ -2,9 +2,9 @@
 
 A question is a propositional abstract: a function from situations to types. *Whether
 she left* is `\\r:Rec. [e : leave(she)]`, and *who left* is
-`\\r:[x : Ind]. [e : leave(r.x)]`. An alternative question is a set of questions whether.
-Which answers are about a question and which resolve it follows from these functions: an
-answer is about a question that can be applied to it.
+`\\r:[x : Ind]. [e : leave(r.x)]`. An alternative question is a set of questions
+whether. Which answers are about a question and which resolve it follows from these
+functions: an answer is about a question that can be applied to it.
 
 Sources: Ginzburg 2012, chapters 3 and 4; Larsson 2002, chapter 2, for the names of the
 three relations between questions and answers.
