@@ -492,19 +492,21 @@ _OrderKey: TypeAlias = tuple[Any, ...]
 
 def _order_key(value: object) -> _OrderKey:
     """The sort key of a value; no other value has the same."""
-    if type(value) is str:
+    kind = type(value)
+    if kind is str:
         return value, "str"
+    if kind is int or kind is float:
+        return repr(value), kind.__name__
     if isinstance(value, Node):
         return _order_key_of_node(value)
-    if type(value) is tuple:
+    if kind is tuple:
         spend(len(value))
         return _compose_key("", "tuple", list(map(_order_key, value)))
     if isinstance(value, Record):
         spend(len(value))
         fields = sorted(value._fields.items())
         return _compose_key("{", "Record", list(map(_order_key, fields)))
-    kind = type(value)
-    return str(value), f"{kind.__module__}.{kind.__qualname__}", (repr(value), "str")
+    return str(value), kind.__name__, (repr(value), "str")
 
 
 @cache_on_node
