@@ -499,7 +499,7 @@ def _order_key(value: object) -> _OrderKey:
         return repr(value), kind.__name__
     if isinstance(value, Node):
         return _order_key_of_node(value)
-    if kind is tuple:
+    if type(value) is tuple:
         spend(len(value))
         return _compose_key("", "tuple", list(map(_order_key, value)))
     if isinstance(value, Record):
