@@ -59,7 +59,7 @@ class Refutation:
 
 @hook
 def counterexample(refutation: Refutation) -> Judgement | None:
-    """A judgement that refutes S ⊑ T: `ttr.judging.counterexamples.counter`."""
+    """A judgement that speaks against S ⊑ T (`ttr.judging.counterexamples`)."""
     raise NotImplementedError
 
 

@@ -31,7 +31,7 @@ from ttr.types.paths import escaping, occurring
 from ttr.types.printing import notation
 from ttr.types.syntax import Basic, Object, Pred, PType, TypeNode, identity
 
-__all__ = ["Assignment", "Atom", "Head", "WitnessFunction", "head"]
+__all__ = ["Assignment", "Atom", "WitnessFunction", "head"]
 
 Head: TypeAlias = Basic | Pred
 """What is open or has a witness function: a basic type, or a predicate's ptypes."""

@@ -33,9 +33,9 @@ from ttr.types.syntax import Basic, Meet, Negation, Object, PType, TypeNode
 
 __all__ = [
     "derive_conditional",
-    "with_expectation",
     "table_rows",
     "with_conditional_fact",
+    "with_expectation",
     "with_unknown_dependence",
 ]
 

@@ -23,7 +23,7 @@ from ttr.types.paths import replace_paths
 from ttr.types.substitution import along
 from ttr.types.syntax import Object, Path, RecordType, TypeNode, meet
 
-__all__ = ["find_counterexample", "witness"]
+__all__ = ["find_counterexample"]
 
 SIZES = (1, 0, 2)
 """The numbers of elements of lists and sets to try; one shows the most."""
@@ -34,7 +34,7 @@ def find_counterexample(refutation: Refutation) -> Judgement | None:
     """A judgement of a witness of S that is not of T; None if none was found."""
     T, theory = refutation.T, refutation.theory
     for size, (S, assumed) in product(SIZES, _starts(refutation)):
-        found = witness(S, theory, assumed, size)
+        found = _find_witness(S, theory, assumed, size)
         if found is None or _degree(found, refutation.S) != CERTAIN:
             continue
         if _degree(found, T) == REFUTED:
@@ -99,7 +99,7 @@ def _degree(found: Judgement, T: TypeNode) -> Degree | None:
         return None
 
 
-def witness(
+def _find_witness(
     S: TypeNode,
     theory: Signature,
     assumed: Iterable[Assumption] = (),

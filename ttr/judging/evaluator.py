@@ -67,9 +67,9 @@ __all__ = [
     "Evaluator",
     "claims_of",
     "derivation",
+    "is_reduced",
     "make_witness",
     "reduced",
-    "is_reduced",
 ]
 
 Answer = TypeVar("Answer")

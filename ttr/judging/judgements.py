@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ttr.judging.assignments import Assignment
     from ttr.judging.models import Model
 
-__all__ = ["How", "Judgement", "Why", "mark", "combine_events"]
+__all__ = ["How", "Judgement", "Why", "combine_events", "mark"]
 
 How: TypeAlias = Literal["all", "any", "none"]
 """What a claim needs of its grounds: that all of them hold, or any, or none."""

@@ -1,8 +1,8 @@
 """Models: an assignment of witnesses to types, immutable and cheap to extend.
 
 A model answers three questions. `judge` checks what is there; `perceive` also fills the
-fields whose predicates have witness functions; `create` makes a fresh witness. None
-of them changes the model: what is new is in the model they give back.
+fields whose predicates have witness functions; `create` makes a new witness. None of
+them changes the model: they give a new one with what was added.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ __all__ = ["Conditions", "Model", "as_model", "conditions", "model_of"]
 
 
 _EMPTY: tuple[Object, ...] = ((), FiniteSet(), EventString())
-"""What is of the types of lists, sets and strings, though nothing is known."""
+"""The empty list, set and string, which are witnesses without any fact."""
 
 Conditions: TypeAlias = Iterable[tuple[object, TypeNode]]
 """Judgements: an object and a type each."""
@@ -77,26 +77,26 @@ Table: TypeAlias = Mapping[tuple[bool, ...], object]
 def _judged_unknown(
     error: TooLargeError, model: Model, sit: object, T: TypeNode, /, **_: object
 ) -> Judgement:
-    """The judgement where the budget ended: anything between yes and no."""
+    """The judgement where the budget is spent: its probability is unknown."""
     sit = _frozen(sit)
     return Judgement(sit, T, UNKNOWN, Why(sit, T, UNKNOWN, error.message), model)
 
 
 @within_budget
 def _frozen(value: object) -> Object:
-    """The value as an object; what has more parts than the budget raises."""
+    """The value as an object; raises where it has more parts than the budget."""
     return freeze(value)
 
 
 def _truth_unknown(error: TooLargeError, *_: object, **__: object) -> Degree:
-    """The degree where the budget ended."""
+    """The degree where the budget is spent."""
     return UNKNOWN
 
 
 def _range_unknown(
     error: TooLargeError, model: Model, T: TypeNode, /, *, when: Types, **_: object
 ) -> Range:
-    """The range where the budget ended."""
+    """The range where the budget is spent."""
     types = cast(Sequence[TypeNode], when if isinstance(when, tuple | list) else [when])
     return Range(T, tuple(types), UNKNOWN, ())
 
@@ -148,12 +148,12 @@ class Model:
 
     @property
     def facts(self) -> Assignment:
-        """What is judged of atoms: the assignment that everything else follows from."""
+        """The judgements of atoms: the assignment that all others follow from."""
         return self._facts
 
     @property
     def theory(self) -> Signature:
-        """The axioms, open types and first judgements that the model goes by."""
+        """The axioms, open types and first judgements of the model."""
         return self._facts.theory
 
     @within_budget
@@ -196,10 +196,9 @@ class Model:
         return self._with(facts)
 
     def with_conditional(self, T: TypeNode, /, p: object, *, when: Types) -> Model:
-        """The model in which whatever is of the conditions is of T so probably.
+        """The model in which p(T || S, …) is p, for every object of the conditions S.
 
-        This is p(T || S, …): of the same object, whatever it is. What was given of a
-        particular object goes before it.
+        What was given of a particular object goes before it.
 
         >>> Flu, Ill = Basic("Flu"), Basic("Ill")
         >>> M = Model().with_conditional(Ill, 0.6, when=Flu).given("kim", Flu)
@@ -215,9 +214,9 @@ class Model:
     def with_table(self, T: object, /, on: Sequence[object], rows: Table) -> Model:
         """The model with a table of conditional probabilities for T.
 
-        `on` are what T depends on, and `rows` says, for each case of whether they are
-        so, how probable T is. They are types, and then the table is of whatever object,
-        or pairs of an object and a type. Raises `TTRError` where a row is missing.
+        `on` lists what T depends on, and `rows` gives p(T) for each case of whether
+        these hold. They are types, for a table about every object, or pairs of an
+        object and a type. Raises `TTRError` where a row is missing.
 
         >>> Rain, Wet = Basic("Rain"), Basic("Wet")
         >>> M = Model().given("now", Rain, 0.2)
@@ -237,9 +236,9 @@ class Model:
         return model
 
     def with_unknown_dependence(self, *claims: tuple[object, TypeNode]) -> Model:
-        """The model in which nothing is known of how these judgements depend.
+        """The model in which it is unknown how these judgements depend on one another.
 
-        What rests on several of them then has the bounds that hold in any case.
+        What rests on several of them has the bounds that hold for any dependence.
 
         >>> A, B = Basic("A"), Basic("B")
         >>> M = Model().given("a", A, 0.7).given("a", B, 0.8)
@@ -251,7 +250,7 @@ class Model:
         return self._with(with_unknown_dependence(self._facts, conditions(claims)))
 
     def with_given(self, given: Given | Expected, /) -> Model:
-        """The model in which also what a theory starts from is so."""
+        """The model in which also a `given` of a theory holds."""
         if isinstance(given, Expected):
             return self.with_conditional(given.type, given.p, when=given.when)
         if not isinstance(given, Given):
@@ -305,10 +304,10 @@ class Model:
 
     @within_budget(otherwise=_judged_unknown)
     def perceive(self, sit: object, T: TypeNode, /) -> Judgement:
-        """Judges after filling the fields that are missing and can be perceived.
+        """Judge sit : T after filling the missing fields that can be perceived.
 
-        A field that the record lacks and whose ptype's predicate has a witness function
-        gets a fresh situation, judged with the function's degree.
+        A missing field whose ptype's predicate has a witness function gets a new
+        situation, which is of the ptype with the degree that the function gives.
 
         >>> from ttr.building.constructors import rectype
         >>> from ttr.types.syntax import Ind, record, this
@@ -326,7 +325,7 @@ class Model:
 
     @within_budget
     def create(self, T: TypeNode, /) -> tuple[Object, Model]:
-        """A fresh witness of T, and the model that has it; else `Refused`.
+        """A new witness of T, and the model that has it; `Refused` if there is none.
 
         >>> from ttr.types.syntax import Ind
         >>> a, M = Model().create(Ind)
@@ -339,7 +338,7 @@ class Model:
 
     @within_budget
     def apply(self, function: object, argument: object, /) -> Object:
-        """f(a), worked out: the body of the function for the argument.
+        """f(a): the body of the function for the argument.
 
         Raises `Refused` where the argument is not certainly of the function's domain.
 
@@ -356,16 +355,15 @@ class Model:
 
     @within_budget
     def reduced(self, value: object, /) -> Object:
-        """The type or object with every application in it worked out."""
+        """The type or object with every application in it reduced."""
         return reduced(self._facts, freeze(value))
 
     @within_budget
     def witnesses(self, T: TypeNode, /) -> tuple[Object, ...]:
-        """The known objects that certainly are of T, in the order they were told.
+        """The known objects that are certainly of T, in the order of the facts.
 
         For a record type they are all its records of known objects. Raises
-        `Unsupported` for a type of which there may be others without end, such as
-        lists.
+        `Unsupported` for a type that may have infinitely many, such as lists.
 
         >>> from ttr.building.constructors import rectype
         >>> from ttr.types.syntax import Ind, this
@@ -388,11 +386,11 @@ class Model:
     ) -> Degree:
         """How certain it is that a proposition is true.
 
-        A type is true if something is of it: as surely as that some known object is,
-        and surely not if none is and nobody could say otherwise. With `when` it is
-        p(T | S), given that something is of S; `among` names the objects that there
-        are. An Austinian proposition {sit = s, sit_type = T} is true as far as s is of
-        T; with a prob, if the probability is what it says.
+        A type is true if something is of it. That is as certain as that one of the
+        known objects is, and refuted if none is and the type is not open. With `when`
+        it is p(T | S), given that something is of S; `among` lists the objects that
+        exist. An Austinian proposition {sit = s, sit_type = T} is as true as s : T is;
+        with a `prob`, it is true if p(s : T) is the probability that it states.
 
         >>> from ttr.types.syntax import Ind
         >>> M = Model().given("s1", Pred("dog", Ind)("fido"))
@@ -423,8 +421,8 @@ class Model:
     ) -> Range:
         """p(T || S, …): how probable it is that any one object of S is of T.
 
-        An interval from the least to the most probable of the known objects that may be
-        of S, or of those named.
+        The interval goes from the least to the most probable object: of the known ones
+        that may be of S, or of those in `among`.
 
         >>> Flu, Ill, Old = Basic("Flu"), Basic("Ill"), Basic("Old")
         >>> M = Model().with_conditional(Ill, 0.6, when=[Flu, Old])
@@ -456,7 +454,7 @@ class Model:
         return borne_out(probabilistic_claim(proposition)[2], found)
 
     def _has_unlisted_witness(self, T: TypeNode) -> bool:
-        """Whether something is of a type whose witnesses have no end, by what is known.
+        """Is something certainly of a type whose witnesses cannot be listed?
 
         It may be an empty list, or made of known objects.
         """
@@ -522,14 +520,14 @@ def _objects(among: object) -> list[Object]:
 
 
 def _listed(what: str, values: object) -> list[object]:
-    """The values of a list; a text is none."""
+    """The values of a list; `TTRError` for a text or what is no list."""
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise TTRError(f"{what} are given as a list, found {notation(freeze(values))}")
     return list(values)
 
 
 def _literal(one: object, so: bool) -> Any:
-    """A type or a pair of object and type, denied where it is not so."""
+    """A type, or a pair of an object and a type, negated where it does not hold."""
     if isinstance(one, TypeNode):
         return one if so else ~one
     ((sit, T),) = conditions([one])
@@ -537,7 +535,7 @@ def _literal(one: object, so: bool) -> Any:
 
 
 def _closed(sit: object, T: object) -> tuple[Object, TypeNode]:
-    """The object and the type, if no path leads out of either."""
+    """The object and the type; `IllFormed` if a path leads out of either."""
     sit, kind = freeze(sit), as_type(T)
     for value in (sit, kind):
         if escaping(value):
@@ -548,7 +546,7 @@ def _closed(sit: object, T: object) -> tuple[Object, TypeNode]:
 
 
 def model_of(theory: Signature, purse: SharedPurse | None = None) -> Model:
-    """The model of just the givens; an error tells which of them it was."""
+    """The model of the givens alone; an error tells which of them is to blame."""
     model = Model(replace(theory, givens=()))
     purse = purse or purse_of_several(len(theory.givens))
     for given in theory.givens:

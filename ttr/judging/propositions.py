@@ -27,7 +27,7 @@ __all__ = [
 ]
 
 ROUNDING = 1e-12
-"""How far apart one probability may be that is worked out in two ways."""
+"""How far apart two probabilities may be that count as equal."""
 
 
 def proposition(sit: object, T: TypeNode) -> Record:
@@ -57,7 +57,7 @@ def probabilistic(sit: object, T: TypeNode, p: object) -> Record:
 
 
 def judged(judgement: Judgement, /) -> Record:
-    """What a judgement says, as a probabilistic Austinian proposition.
+    """The probabilistic Austinian proposition that a judgement states.
 
     Law: `probabilistic_claim(judged(j))` is (j.sit, j.type, j.p).
 
@@ -96,7 +96,7 @@ def probabilistic_claim(p: object) -> tuple[Object, TypeNode, Degree]:
 
 
 def borne_out(claimed: Degree, found: Degree) -> Degree:
-    """How certain it is that a probability is as claimed, by what is found.
+    """How certain it is that a probability is as claimed, given the one found.
 
     True where what is found is within what is claimed, false where they are apart.
 

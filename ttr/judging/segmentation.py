@@ -32,14 +32,14 @@ from ttr.types.syntax import (
     identity,
 )
 
-__all__ = ["Segmentation", "events_in_words", "describe_stop"]
+__all__ = ["Segmentation", "describe_stop", "events_in_words"]
 
 Derives = Callable[[Object, TypeNode], Why]
 """Derives whether an object is of a type."""
 
 
 @dataclass(frozen=True, eq=False)
-class LazyGrounds(Sequence[Why]):
+class _LazyGrounds(Sequence[Why]):
     """The derivations for the events of a string, made when they are asked for."""
 
     derives: Derives
@@ -55,7 +55,7 @@ class LazyGrounds(Sequence[Why]):
     def __getitem__(self, index: slice) -> Sequence[Why]: ...
     def __getitem__(self, index: int | slice) -> Why | Sequence[Why]:
         if isinstance(index, slice):
-            return LazyGrounds(self.derives, self.events[index], self.types[index])
+            return _LazyGrounds(self.derives, self.events[index], self.types[index])
         return self.derives(self.events[index], self.types[index])
 
 
@@ -86,7 +86,7 @@ class Segmentation:
         way = a_way(length, found, self._is_certain)
         if isinstance(way, Stop):
             return None
-        return LazyGrounds(self._why, self._events, way)
+        return _LazyGrounds(self._why, self._events, way)
 
     def possible_ways(self, found: Automaton) -> Division | Stop:
         """The ways to divide the string that are possible."""

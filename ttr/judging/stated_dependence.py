@@ -1,7 +1,7 @@
 """Links: what was said of how judgements depend on one another.
 
-p(a : T | b : S, …) is said of particular objects, or of whatever is of the types. What
-is said of particular objects goes before what is said in general.
+A conditional p(a : T | b : S, …) is about particular objects, p(T || S, …) about every
+object. What is said of a particular object goes before what is said of every object.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ Key: TypeAlias = tuple[object, Atom]
 
 @dataclass(frozen=True, eq=False)
 class Claim:
-    """That an object is of a basic type or a ptype."""
+    """The claim that an object is of a basic type or a ptype."""
 
     sit: Object
     type: Atom
 
     @property
     def key(self) -> Key:
-        """What equal claims have in common."""
+        """The key by which claims are equal."""
         return identity(self.sit), self.type
 
     def __eq__(self, other: object) -> bool:
@@ -69,14 +69,14 @@ class Conditioned:
 
 @dataclass(frozen=True, eq=False)
 class Expectation:
-    """p(T || S, …): how probably what is of the conditions, or is not, is of T."""
+    """p(T || S, …): the probability of T for every object of the conditions."""
 
     type: Atom
     condition: tuple[tuple[Atom, bool], ...]
     p: Degree
 
     def of(self, sit: Object) -> Conditioned:
-        """What it says of an object."""
+        """The conditional that it implies for one object."""
         on = tuple([(Claim(sit, T), so) for T, so in self.condition])
         return Conditioned(Claim(sit, self.type), on, self.p)
 
@@ -98,7 +98,7 @@ _EMPTY: Map[Any, Any] = Map()
 
 @dataclass(frozen=True, eq=False)
 class Links:
-    """All that was said of dependence, found by what it is about; immutable."""
+    """All that was said of dependence, indexed by what it is about; immutable."""
 
     conditioned: Map[Key, tuple[Conditioned, ...]] = _EMPTY
     expected: Map[Atom, tuple[Expectation, ...]] = _EMPTY
@@ -110,15 +110,15 @@ class Links:
         return bool(self.conditioned or self.expected or self.unknown)
 
     def of(self, claim: Claim) -> tuple[Conditioned, ...]:
-        """The conditionals of a claim: what was said of it, not of whatever object."""
+        """The conditionals that were stated of this claim."""
         return self.conditioned.get(claim.key, ())
 
     def in_general(self, claim: Claim) -> tuple[Conditioned, ...]:
-        """What the conditionals of whatever object say of a claim."""
+        """The conditionals of every object, applied to the claim."""
         return tuple([one.of(claim.sit) for one in self.expected.get(claim.type, ())])
 
     def on(self, claim: Claim) -> tuple[Claim, ...]:
-        """The claims of which there are conditionals on this one."""
+        """The claims that have conditionals on this one."""
         return self.dependent.get(claim.key, ())
 
     def concerning(self, sit: Object) -> list[Claim]:
@@ -153,7 +153,7 @@ class Links:
         return replace(self, conditioned=conditioned, dependent=dependent, about=about)
 
     def with_expected(self, new: Expectation) -> Links:
-        """The links with a conditional of whatever is of the types."""
+        """The links with a conditional of every object."""
         kept = [
             one
             for one in self.expected.get(new.type, ())
@@ -162,7 +162,7 @@ class Links:
         return replace(self, expected=self.expected.set(new.type, (*kept, new)))
 
     def with_unknown(self, claims: tuple[Claim, ...]) -> Links:
-        """The links where nothing is known of how these claims depend."""
+        """The links where it is unknown how these claims depend on one another."""
         unknown = self.unknown
         for claim in claims:
             others = unknown.get(claim.key, ())

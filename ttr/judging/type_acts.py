@@ -87,7 +87,7 @@ TypeAct: TypeAlias = Judge | JudgeSome | Query | QuerySome | Create
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """What came of an act: the judgements that answer it, and the model after it.
+    """The outcome of an act: the judgements that answer it, and the model after it.
 
     An act of judging or creating is answered by the one judgement made; a query by what
     is judged so far, each object that may be of the type with its degree.
@@ -110,7 +110,7 @@ class Outcome:
 
 
 def performed(act: TypeAct, model: Model) -> Outcome:
-    """What comes of an act in an agent's model.
+    """Perform an act in an agent's model.
 
     A query changes nothing, and creating never takes what there is already. Raises
     `Refused` where what is judged contradicts what the agent knows, or nothing of the
@@ -149,5 +149,5 @@ def performed(act: TypeAct, model: Model) -> Outcome:
 
 
 def _known(T: TypeNode, model: Model) -> tuple[Judgement, ...]:
-    """The judgements of what is known to be of a type, in the order told."""
+    """The judgements of the known objects of a type, in the order of the facts."""
     return tuple(model.judge(sit, T) for sit in model.witnesses(as_type(T)))

@@ -21,9 +21,9 @@ __all__ = [
     "Not",
     "Truth",
     "atoms",
-    "simplify",
     "literals",
     "signs",
+    "simplify",
     "substitute",
 ]
 

@@ -11,13 +11,13 @@ from ttr.probability.degrees import Degree, ordered
 from ttr.probability.events import All, AnyOf, Atomic, Event, Not, atoms, signs
 from ttr.safety.budgets import spend
 
-__all__ = ["bounds", "sum_over_cases", "shared_atoms"]
+__all__ = ["bounds", "sum_over_cases"]
 
 SHARED = 10
 """The number of atoms that may occur more than once for an exact probability."""
 
 
-def shared_atoms(event: Event) -> list[Hashable]:
+def _shared_atoms(event: Event) -> list[Hashable]:
     """The atoms that occur more than once, in the order in which they do."""
     times = Counter(one.atom for one in atoms(event))
     return [atom for atom, count in times.items() if count > 1]
@@ -34,7 +34,7 @@ def sum_over_cases(event: Event) -> Degree | None:
     >>> print(sum_over_cases(AnyOf((a, b))), sum_over_cases(All((a, Not(a)))))
     [0.7, 1] 0
     """
-    names = shared_atoms(event)
+    names = _shared_atoms(event)
     if not names:
         return ordered(*_separate(event, {}))
     degrees = {one.atom: one.p for one in atoms(event)}

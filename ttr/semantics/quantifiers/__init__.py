@@ -41,9 +41,9 @@ from ttr.semantics.quantifiers.thresholds import Threshold, Thresholds, number, 
 from ttr.semantics.quantifiers.truth import absent, truth
 
 __all__ = [
+    "DETERMINERS",
     "Antecedents",
     "Case",
-    "DETERMINERS",
     "Determiner",
     "Extension",
     "Quantification",

@@ -27,10 +27,10 @@ __all__ = [
     "Atoms",
     "Truth",
     "all_true",
-    "truth_of_derivation",
     "conjoin_fields",
     "one_true",
     "own_atoms",
+    "truth_of_derivation",
 ]
 
 Atoms: TypeAlias = frozenset[Hashable]

@@ -30,6 +30,7 @@ from ttr.types.syntax import (
 __all__ = [
     "DETERMINERS",
     "Determiner",
+    "as_property",
     "as_quantified",
     "at_least",
     "at_most",
@@ -44,7 +45,6 @@ __all__ = [
     "most",
     "no",
     "not_every",
-    "as_property",
     "properties",
     "several",
 ]

@@ -50,10 +50,11 @@ from ttr.types.syntax import (
 
 __all__ = [
     "absent",
-    "truth_of_instance",
     "known_objects",
-    "truth_of_judgement",
     "truth",
+    "truth_of_instance",
+    "truth_of_judgement",
+    "truth_of_quantified",
 ]
 
 absent = Pred("absent", Type)
