@@ -85,6 +85,8 @@ def find_excess_depth(text: str) -> tuple[int, int] | None:
     just inside the innermost bracket, `part` the depth behind the functions and arrows
     in it, and `depth` that behind negations and arguments as well.
     """
+    if len(text) <= DEPTH:
+        return None
     around: list[tuple[int, int, int]] = []
     start = part = depth = 0
     for found in _NESTING.finditer(text):

@@ -49,6 +49,10 @@ _OPERATORS: dict[str, tuple[int, str, Callable[..., Term]]] = {
 """How tightly an operator binds, what is expected after it, and its syntax tree."""
 
 
+_AFTER_TERMS = ",:])}"
+"""Signs that no operator begins with."""
+
+
 class TermParser(Tokens):
     """Parses the terms in a text."""
 
@@ -77,6 +81,8 @@ class TermParser(Tokens):
 
     def _rest_of_term(self, start: int, first: Term) -> Term:
         """The term that begins, at `start`, with this operand."""
+        if self._text[self._at : self._at + 1] in _AFTER_TERMS:
+            return first
         found = self._infix(start, first, 0)
         if not self._accept_match(_ARROW):
             return found
@@ -142,6 +148,8 @@ class TermParser(Tokens):
     def _simple_term(self, expected: str) -> Term:
         """A name, path, number or quoted name, or something in [ ], { } or < >."""
         start, text = self._at, self._text
+        if path := PATH.match(text, start):
+            return self._named_term(start, path)
         if self._accept("["):
             is_fields = self._has_name_before(":", "=")
             return self._fields(start) if is_fields else self._items(start)
@@ -152,20 +160,23 @@ class TermParser(Tokens):
             return self._elements(start, "a setting x = a, an object or }")
         if self._accept("<"):
             return self._events(start)
-        if self._accept("set{"):
-            return self._elements(start, "an object or }")
         if QUOTED.match(text, start):
             return self._node(trees.Literal, start, self._quoted())
         if number := NUMBER.match(text, start):
             self._advance(number.end())
             return self._number(start, number[0])
-        if level := _LEVEL.match(text, start):
+        self._fail(expected)
+
+    def _named_term(self, start: int, path: re.Match[str]) -> Term:
+        """A name or a path, Type^1, or set{…}."""
+        if path[0] == "set" and self._accept("set{"):
+            return self._elements(start, "an object or }")
+        level = _LEVEL.match(self._text, start)
+        if level:
             self._advance(level.end())
             return self._node(trees.Name, start, (level[0],), None)
-        if path := PATH.match(text, start):
-            self._advance(path.end())
-            return self._name(start, path[0])
-        self._fail(expected)
+        self._advance(path.end())
+        return self._name(start, path[0])
 
     def _name(self, start: int, path: str) -> trees.Name:
         """x.y, or .x.y, with a caret in front for each record type to leave."""

@@ -83,12 +83,12 @@ class Tokens:
 
     def _accept(self, sign: str, expected: str = "") -> bool:
         """Is this sign next? If so, take it."""
+        if self._text.startswith(sign, self._at):
+            self._advance(self._at + len(sign))
+            return True
         if expected:
             self._note_expected(expected)
-        if not self._text.startswith(sign, self._at):
-            return False
-        self._advance(self._at + len(sign))
-        return True
+        return False
 
     def _accept_match(self, signs: re.Pattern[str]) -> bool:
         """Is one of these signs next? If so, take it."""
@@ -124,6 +124,8 @@ class Tokens:
         self._end, self._at = end, self._skip_space(end)
 
     def _skip_space(self, at: int) -> int:
+        if "#" < self._text[at : at + 1] <= "~":  # most often there is none
+            return at
         space = _SPACE.match(self._text, at)
         assert space is not None
         return space.end()
