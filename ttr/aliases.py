@@ -65,7 +65,10 @@ FORMER_MODULES = {
 
 
 def _errors(names: str) -> dict[str, str]:
-    """What ends in Error now, and did not."""
+    """Error classes by the names that they had before they ended in Error.
+
+    They are words in a text, so that nothing takes them for quoted names of today.
+    """
     return {name: f"{name}Error" for name in names.split()}
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 
-from ttr.dialogues import stories, transcripts
+from ttr.dialogues import logs, stories, transcripts
 from ttr.dialogues.dialogue import Dialogue, Trial, play
 from ttr.dialogues.logs import read_logs, replay, story_of, write_log
 from ttr.dialogues.stories import Setting, read_stories, setting, story_text
@@ -125,6 +125,10 @@ def test_what_stories_made_moments_of_is_a_trial_now() -> None:
         assert "U> Greet\nS> " in stories.written("a visit", [one], DOOR)
     with pytest.warns(DeprecationWarning, match="worded is now .*wording"):
         assert stories.worded(turn.said[0], DOOR) == one.said[0]
+    with pytest.warns(DeprecationWarning, match="failing is now .*failure_reason"):
+        assert stories.failing is stories.failure_reason
+    with pytest.warns(DeprecationWarning, match="continued is now .*continue_log"):
+        assert logs.continued is logs.continue_log
 
 
 def test_what_transcripts_showed_is_a_dialogue_now(visit: Dialogue) -> None:
