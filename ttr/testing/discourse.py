@@ -22,7 +22,7 @@ from ttr.testing.event_subjects import (
     mentions_of_sort,
 )
 from ttr.testing.properties import Breaches, Property
-from ttr.testing.strategies.discourse_roles import Roles, at
+from ttr.testing.strategies.discourse_roles import Roles, value_at
 from ttr.types.printing import notation
 from ttr.types.syntax import Function, Object, Record, RecordType, TypeNode, identity
 from ttr.updates.games import Game
@@ -275,7 +275,7 @@ def _check_commitments(dialogue: Dialogue, roles: Roles) -> Breaches:
 
 
 def _why_forgotten(step: Step, path: str) -> str:
-    before, after = at(step.before, path), at(step.after, path)
+    before, after = value_at(step.before, path), value_at(step.after, path)
     if before is after:
         return ""
     if isinstance(before, TypeNode) and isinstance(after, TypeNode):

@@ -12,7 +12,7 @@ from functools import lru_cache
 
 from ttr.judging.certainty import certainly
 from ttr.judging.models import Model
-from ttr.testing.strategies.discourse_roles import at
+from ttr.testing.strategies.discourse_roles import value_at
 from ttr.testing.strategies.random_states import heard_by
 from ttr.types.paths import occurring
 from ttr.types.printing import notation
@@ -55,7 +55,7 @@ SPEAKERS = frozenset(
 
 def items_at(state: Record, path: str | None) -> tuple[Object, ...]:
     """The elements of the list or set at a path; anything else there is one item."""
-    found = None if path is None else at(state, path)
+    found = None if path is None else value_at(state, path)
     if isinstance(found, tuple):
         return found
     if isinstance(found, FiniteSet):

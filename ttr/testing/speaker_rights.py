@@ -5,7 +5,7 @@ from __future__ import annotations
 from ttr.dialogues.dialogue import Dialogue
 from ttr.testing.event_subjects import agents_of, field_at, speaker_of
 from ttr.testing.properties import Breaches, Property
-from ttr.testing.strategies.discourse_roles import Roles, at
+from ttr.testing.strategies.discourse_roles import Roles, value_at
 from ttr.types.syntax import Record, Singleton
 from ttr.updates.games import Game
 from ttr.updates.running import Step
@@ -24,7 +24,7 @@ def _check_speakers(dialogue: Dialogue, roles: Roles) -> Breaches:
             if why := _why_talking_to_oneself(step, roles):
                 yield number, why
             who = _speaker_with_turn_asked(step, path, dialogue.game)
-            has = at(step.before, path)
+            has = value_at(step.before, path)
             # A field with another label may be of who spoke last. It is taken for who
             # may speak next once the one whom it named has spoken.
             if who is not None and who != has and holds:
@@ -38,7 +38,7 @@ def _speaker_with_turn_asked(step: Step, path: str, game: Game) -> str | None:
     if step.rule.on is None or not isinstance(asked, Singleton):
         return None
     agents = agents_of(game)
-    if at(step.before, path) not in agents:
+    if value_at(step.before, path) not in agents:
         return None
     return speaker_of(step.event, step.model, agents)
 
@@ -57,7 +57,7 @@ def _why_talking_to_oneself(step: Step, roles: Roles) -> str:
 
 
 def _speaker_and_addressee(state: Record, roles: Roles) -> tuple[object, object]:
-    return at(state, str(roles.speaker)), at(state, str(roles.addressee))
+    return value_at(state, str(roles.speaker)), value_at(state, str(roles.addressee))
 
 
 IN_TURN = Property(

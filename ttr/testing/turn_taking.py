@@ -8,7 +8,7 @@ from ttr.dialogues.dialogue import Dialogue, Trial, give
 from ttr.judging.judgements import Judgement
 from ttr.testing.event_subjects import format_objects
 from ttr.testing.properties import Breaches, Property
-from ttr.testing.strategies.discourse_roles import Roles, acts_in, at
+from ttr.testing.strategies.discourse_roles import Roles, acts_in, value_at
 from ttr.testing.strategies.random_states import heard_by, variants
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, Rec, Record, TypeNode, freeze, identity
@@ -64,8 +64,8 @@ def _why_latest_is_old(trial: Trial, roles: Roles) -> str:
     events = [step.event for step in trial.steps if step.rule.on is not None]
     if roles.latest is None or not events:
         return ""
-    latest = at(trial.after.state, roles.latest)
-    if latest is not at(trial.before.state, roles.latest):
+    latest = value_at(trial.after.state, roles.latest)
+    if latest is not value_at(trial.before.state, roles.latest):
         return ""
     if any(_is_part(latest, one) or _is_part(one, latest) for one in events):
         return ""
@@ -206,8 +206,8 @@ def _why_history_differs(trial: Trial, took: Sequence[Object], roles: Roles) -> 
     """Why the history did not become longer by just what happened in the turn."""
     if roles.history is None:
         return ""
-    before = at(trial.before.state, roles.history) or ()
-    after = at(trial.after.state, roles.history) or ()
+    before = value_at(trial.before.state, roles.history) or ()
+    after = value_at(trial.after.state, roles.history) or ()
     events = tuple({identity(event): event for event in took}.values())
     if identity(after) in (
         identity((*before, *events)),

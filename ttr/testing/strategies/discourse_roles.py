@@ -22,7 +22,7 @@ from ttr.types.syntax import (
     Universe,
 )
 
-__all__ = ["Acts", "Roles", "acts_in", "at"]
+__all__ = ["Acts", "Roles", "acts_in", "value_at"]
 
 Test: TypeAlias = Callable[[Object, Object], bool]
 
@@ -201,7 +201,7 @@ def _field_paths(T: RecordType, above: str) -> Iterator[tuple[str, TypeNode]]:
             yield from _field_paths(field, path)
 
 
-def at(state: Record, path: str) -> Object:
+def value_at(state: Record, path: str) -> Object:
     """The value at a path; None if the state has no such path."""
     value: Object = state
     for label in path.split("."):
