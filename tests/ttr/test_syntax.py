@@ -27,6 +27,7 @@ from ttr import (
     rectype,
     this,
 )
+from ttr.types import interning
 from ttr.types.paths import escaping
 from ttr.types.syntax import Path, identity
 
@@ -185,8 +186,8 @@ def test_types_are_put_in_order_without_being_printed(monkeypatch):
     def refuse(*_: object) -> str:
         raise AssertionError("the canonical order asked for text")
 
-    monkeypatch.setattr("ttr.types.interning.as_notation", refuse)
-    monkeypatch.setattr("ttr.types.interning.as_python", refuse)
+    monkeypatch.setattr(interning, "as_notation", refuse)
+    monkeypatch.setattr(interning, "as_python", refuse)
     new, newer = Basic("New"), Basic("Newer")
     assert (dog("n") & ~newer & new).parts == (new, dog("n"), ~newer)
     objects = FiniteSet([newer], {"a": new}, new, ("b",), "a")
