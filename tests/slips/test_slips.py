@@ -70,6 +70,11 @@ def test_a_correct_game_is_left_alone(name):
     assert Suite(game_of(name), examples=25).run().explain_failure() == ""
 
 
+def test_a_rule_for_one_part_of_what_another_takes_is_applied():
+    report = Suite(game_of("accommodate"), examples=100).run()
+    assert report.coverage.missed == ()
+
+
 @pytest.mark.deep
 @pytest.mark.parametrize("name", CORRECT)
 def test_a_correct_game_is_left_alone_for_long(name):

@@ -18,6 +18,7 @@ from ttr.testing.strategies.random_records import objects_of_shape, records, wit
 from ttr.types.paths import escaping
 from ttr.types.syntax import (
     Basic,
+    Join,
     Object,
     PType,
     Record,
@@ -103,17 +104,26 @@ def events(
 def heard_by(game: Game) -> tuple[TypeNode, ...]:
     """The types of the events that a game hears: by default, all that its rules take.
 
-    More specific types that the game's theory defines are among them, such as asking
-    whether it rains if a rule takes any asking.
+    A rule that takes S ∨ T takes events of S and events of T. More specific types that
+    the game's theory defines are among them, such as asking whether it rains if a rule
+    takes any asking.
     """
-    taken = tuple(rule.on for rule in game.rules if rule.on is not None)
+    taken = tuple(
+        T for rule in game.rules if rule.on is not None for T in _alternatives(rule.on)
+    )
     defined = game.theory.definitions.values() if game.theory else ()
     special = (
         T
         for T in defined
         if isinstance(T, RecordType) and any(_is_below(T, on, game) for on in taken)
     )
-    return game.hears or tuple(dict.fromkeys((*taken, *special)))
+    heard = tuple(T for on in game.hears for T in _alternatives(on))
+    return heard or tuple(dict.fromkeys((*taken, *special)))
+
+
+def _alternatives(T: TypeNode) -> tuple[TypeNode, ...]:
+    """The parts of a join; of any other type, the type alone."""
+    return T.parts if isinstance(T, Join) else (T,)
 
 
 def _is_below(T: RecordType, on: TypeNode, game: Game) -> bool:
