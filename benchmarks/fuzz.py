@@ -318,7 +318,7 @@ def _typed(folder: Path) -> Reader:
 
 
 def _fracas(folder: Path) -> Reader:
-    from ttr.semantics.fragment.fracas import Unreadable, problems
+    from ttr.semantics.fragment.fracas import UnreadableError, problems
 
     seed = (
         b'<?xml version="1.0"?><!DOCTYPE a SYSTEM "a.dtd"><fracas-problems>'
@@ -326,7 +326,7 @@ def _fracas(folder: Path) -> Reader:
         b"<q>Is it?</q><h>A vet sings.</h></problem></fracas-problems>"
     )
     laughs = b'<!DOCTYPE a [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;&a;">]><a>&b;</a>'
-    return Reader([seed, laughs], _file(folder, "a.xml", problems), (Unreadable,))
+    return Reader([seed, laughs], _file(folder, "a.xml", problems), (UnreadableError,))
 
 
 def _study(folder: Path) -> Reader:

@@ -30,7 +30,7 @@ from ttr import (
     Model,
     Plus,
     Pred,
-    Refused,
+    RefusedError,
     Str,
     TypeNode,
     fun,
@@ -209,7 +209,7 @@ def random_model(chosen: random.Random) -> Model:
         degree = ends[0] if chosen.random() < 0.6 else tuple(ends)
         try:
             M = M.given("a", T, degree, when=condition)
-        except Refused:
+        except RefusedError:
             continue
     return M
 
@@ -235,7 +235,7 @@ def asked(count: int) -> str:
             done += 1
             try:
                 lo, hi = M.judge("a", T, when=when).p
-            except Refused:
+            except RefusedError:
                 refused += 1
                 continue
             wrong += not 0 <= lo <= hi <= 1

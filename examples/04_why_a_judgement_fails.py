@@ -3,7 +3,17 @@
 Run it with `python examples/04_why_a_judgement_fails.py`, and read along.
 """
 
-from ttr import Basic, Model, Pred, Refused, Undecided, latex, record, rectype, this
+from ttr import (
+    Basic,
+    Model,
+    Pred,
+    RefusedError,
+    UndecidedError,
+    latex,
+    record,
+    rectype,
+    this,
+)
 from ttr.theories.theory import Signature
 
 Ind = Basic("Ind")
@@ -48,7 +58,7 @@ unknown = open_model.judge("s1", dog("sam"))
 print("\nunknown: ", unknown)
 try:
     print(unknown.holds)
-except Undecided as undecided:
+except UndecidedError as undecided:
     print(undecided)
 
 # What a witness condition refuses cannot be given, and is not stored.
@@ -56,7 +66,7 @@ except Undecided as undecided:
 numbers = Model().witnessed(Basic("Real"), by=lambda a: isinstance(a, float))
 try:
     numbers.given("a", Basic("Real"))
-except Refused as refused:
+except RefusedError as refused:
     print("\nrefused: ", refused)
 
 # A derivation is also LaTeX for a paper, and HTML in a notebook.

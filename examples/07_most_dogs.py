@@ -8,7 +8,7 @@ from ttr.semantics.fragment import english, follows, pronoun_antecedents, unders
 from ttr.semantics.parametric_content import content, strong, weak
 from ttr.semantics.quantifiers import (
     Thresholds,
-    Undefined,
+    UndefinedError,
     antecedents,
     every,
     exist,
@@ -55,7 +55,7 @@ print(settle(M, every(dog, bark)).why)
 
 try:
     settle(M, most(Pred("unicorn", Ind), bark))
-except Undefined as undefined:
+except UndefinedError as undefined:
     print("undefined:", undefined)
 
 # What is uncertain makes it a degree: here it is a chance of one in four that Felix

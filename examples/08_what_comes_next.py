@@ -4,7 +4,7 @@ Run it with `python examples/08_what_comes_next.py`, and read along.
 """
 
 from ttr import Basic, EventString, Model, Plus, Pred, Str, subtype
-from ttr.errors import Unexpected
+from ttr.errors import UnexpectedError
 from ttr.semantics.string_prediction import star, start_course
 
 Ind = Basic("Ind")
@@ -44,7 +44,7 @@ for event in ("e1", "e2", "e3"):
 M = M.given("e9", run_after("h", "s"))
 try:
     game.judged_in(M).seen("e9")
-except Unexpected as unexpected:
+except UnexpectedError as unexpected:
     print("\n" + unexpected.message)
 print("does it fit:", game.judged_in(M).expects("e9"))
 

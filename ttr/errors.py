@@ -15,20 +15,20 @@ from ttr.aliases import former_names
 from ttr.escapes import columns, terminal_line, terminal_text
 
 __all__ = [
-    "Endless",
-    "IllFormed",
-    "Mistakes",
-    "NoState",
-    "NotHeard",
+    "EndlessError",
+    "IllFormedError",
+    "MistakesError",
+    "NoStateError",
+    "NotHeardError",
     "NotationError",
-    "Refused",
-    "RuleFailed",
+    "RefusedError",
+    "RuleFailedError",
     "Span",
     "TTRError",
     "TooLargeError",
-    "Undecided",
-    "Unexpected",
-    "Unsupported",
+    "UndecidedError",
+    "UnexpectedError",
+    "UnsupportedError",
     "UpdateError",
     "suggestion",
 ]
@@ -121,39 +121,39 @@ class NotationError(TTRError):
     """A text that the notation does not allow: what was expected, what was found."""
 
 
-class Mistakes(NotationError):
+class MistakesError(NotationError):
     """Several mistakes in one theory; `errors` has them in the order of the text."""
 
     errors: tuple[TTRError, ...] = ()
 
     @classmethod
-    def of(cls, errors: tuple[TTRError, ...]) -> Mistakes:
+    def of(cls, errors: tuple[TTRError, ...]) -> MistakesError:
         """The mistakes as one error."""
         error = cls(f"{len(errors)} mistakes\n\n" + "\n\n".join(map(str, errors)))
         error.errors = errors
         return error
 
     def __reduce__(self) -> tuple[object, ...]:
-        return Mistakes.of, (self.errors,)
+        return MistakesError.of, (self.errors,)
 
 
-class IllFormed(TTRError):
+class IllFormedError(TTRError):
     """A type that cannot be built: wrong arity, wrong domain, path to nowhere."""
 
 
-class Refused(TTRError):
+class RefusedError(TTRError):
     """A judgement that a witness condition or a fact contradicts."""
 
 
-class Unexpected(Refused):
+class UnexpectedError(RefusedError):
     """An event that does not fit the course of events where it comes."""
 
 
-class Undecided(TTRError):
+class UndecidedError(TTRError):
     """A yes or no was asked of a judgement that is neither certain nor refuted."""
 
 
-class Unsupported(TTRError):
+class UnsupportedError(TTRError):
     """An operation that is not defined for a constructor."""
 
 
@@ -170,19 +170,19 @@ class UpdateError(TTRError):
     steps: tuple[Any, ...] = ()
 
 
-class NoState(UpdateError):
+class NoStateError(UpdateError):
     """Something that is not of the type of the information states."""
 
 
-class RuleFailed(UpdateError):
+class RuleFailedError(UpdateError):
     """A rule that raised an error, or gave what no state can be made of."""
 
 
-class Endless(UpdateError):
+class EndlessError(UpdateError):
     """A repetition or an agenda that never ends."""
 
 
-class NotHeard(UpdateError):
+class NotHeardError(UpdateError):
     """An event of a type that no rule takes."""
 
 

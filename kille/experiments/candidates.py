@@ -18,7 +18,7 @@ from typing import Any, TypeAlias
 
 from kille.experiments.results import ExperimentError
 from kille.perception.learners import check_degrees
-from ttr.safety.consent import Consent, NotAllowed
+from ttr.safety.consent import Consent, NotAllowedError
 from ttr.safety.python_files import run_named
 
 __all__ = ["Make", "Methods", "MethodFailed", "candidates"]
@@ -85,7 +85,7 @@ def _module(path: str, consent: Consent | None) -> ModuleType:
         raise ExperimentError(f"there is no file {path}")
     try:
         return run_named(path, Path(), "_measured_", consent)
-    except NotAllowed as error:
+    except NotAllowedError as error:
         raise ExperimentError(error.message) from error
     except (Exception, SystemExit) as error:
         if _is_missing(path, error):

@@ -13,7 +13,7 @@ from importlib.resources import files
 from typing import TYPE_CHECKING
 
 from kille.speech.network import NOTHING, Place, either, following, said
-from kille.speech.spelling import Endless, spellings
+from kille.speech.spelling import EndlessError, spellings
 
 if TYPE_CHECKING:
     from lark.grammar import Symbol
@@ -118,7 +118,7 @@ def _spelled(pattern: str, unsaid: frozenset[str]) -> Place:
     """The ways to say a terminal; none, if it stands for any word."""
     try:
         ways = [parted(it.replace("-", " ")) for it in spellings(pattern)]
-    except Endless:
+    except EndlessError:
         return NOTHING
     return either(said(way) for way in ways if way and unsaid.isdisjoint(way))
 

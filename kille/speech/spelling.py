@@ -8,21 +8,21 @@ from __future__ import annotations
 
 from itertools import product
 
-__all__ = ["Endless", "spellings"]
+__all__ = ["EndlessError", "spellings"]
 
 Spelled = tuple[str, ...]
 """Different texts, in the order of the pattern."""
 
 
-class Endless(ValueError):
+class EndlessError(ValueError):
     """A pattern that stands for any word, or is not of the simple kind read here."""
 
 
 def spellings(pattern: str) -> Spelled:
     r"""All that a pattern matches, in lower case; what may be repeated, once.
 
-    What a pattern only looks ahead for is not part of it. Raises `Endless` for what
-    cannot be listed.
+    What a pattern only looks ahead for is not part of it. Raises `EndlessError` for
+    what cannot be listed.
 
     >>> spellings(r"(seen )?from\b")
     ('seen from', 'from')
@@ -30,14 +30,14 @@ def spellings(pattern: str) -> Spelled:
     ('good bye', 'goodbye', "'s", '’s')
     >>> spellings(r"\w+")
     Traceback (most recent call last):
-    kille.speech.spelling.Endless: \w+: \w stands for any character
+    kille.speech.spelling.EndlessError: \w+: \w stands for any character
     """
     try:
         found, at = _alternatives(pattern, 0)
         if at != len(pattern):
-            raise Endless(f"character {at + 1} is not expected")
-    except (Endless, IndexError) as error:
-        raise Endless(f"{pattern}: {error}") from None
+            raise EndlessError(f"character {at + 1} is not expected")
+    except (EndlessError, IndexError) as error:
+        raise EndlessError(f"{pattern}: {error}") from None
     return tuple(dict.fromkeys(text.lower() for text in found))
 
 
@@ -61,7 +61,7 @@ def _sequence(pattern: str, at: int) -> tuple[Spelled, int]:
             case "+":
                 at += 1
             case "*" | "{":
-                raise Endless(f"{pattern[at]} may go on for ever")
+                raise EndlessError(f"{pattern[at]} may go on for ever")
         found = tuple(a + b for a, b in product(found, piece))
     return found, at
 
@@ -74,12 +74,12 @@ def _piece(pattern: str, at: int) -> tuple[Spelled, int]:
         case "[":
             end = pattern.index("]", at)
             if pattern[at + 1] == "^":
-                raise Endless("[^ stands for nearly any character")
+                raise EndlessError("[^ stands for nearly any character")
             return tuple(pattern[at + 1 : end]), end + 1
         case "\\":
             return _escaped(pattern, at + 1)
         case ".":
-            raise Endless(". stands for any character")
+            raise EndlessError(". stands for any character")
     return (pattern[at],), at + 1
 
 
@@ -87,7 +87,7 @@ def _escaped(pattern: str, at: int) -> tuple[Spelled, int]:
     if pattern[at] == "b":
         return ("",), at + 1
     if pattern[at].isalpha():
-        raise Endless(f"\\{pattern[at]} stands for any character")
+        raise EndlessError(f"\\{pattern[at]} stands for any character")
     return (pattern[at],), at + 1
 
 
@@ -101,5 +101,5 @@ def _group(pattern: str, at: int) -> tuple[Spelled, int]:
             inside = pattern.index(":", at) + 1
     found, end = _alternatives(pattern, inside)
     if pattern[end] != ")":
-        raise Endless(f"character {end + 1} is not expected")
+        raise EndlessError(f"character {end + 1} is not expected")
     return (("",) if ahead else found), end + 1

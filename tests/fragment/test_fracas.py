@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from ttr.cli.main import main
-from ttr.semantics.fragment.fracas import Unreadable, problems
+from ttr.semantics.fragment.fracas import UnreadableError, problems
 
 PROBLEM = """
 <problem id="{number}" fracas_answer="{answer}">
@@ -136,7 +136,7 @@ def test_what_is_no_problem_set_is_told_in_one_line(
 ) -> None:
     path = tmp_path / "it.xml"
     path.write_bytes(text)
-    with pytest.raises(Unreadable):
+    with pytest.raises(UnreadableError):
         problems(path)
     assert main(["fracas", str(path)]) == 2
     printed = capsys.readouterr()

@@ -6,14 +6,14 @@ import pytest
 
 from ttr import Ind, Model, Theory, TTRError, load
 from ttr.semantics.fragment import (
-    OutsideFragment,
+    OutsideFragmentError,
     english,
     follows,
     lexicon,
     pronoun_antecedents,
     understand,
 )
-from ttr.semantics.quantifiers import Undefined, every
+from ttr.semantics.quantifiers import UndefinedError, every
 from ttr.types.objects import FiniteSet
 
 CONTENTS = {
@@ -107,7 +107,7 @@ def test_what_is_false_in_the_model(M, text):
 
 
 def test_most_of_nothing_is_neither(M):
-    with pytest.raises(Undefined, match="cat"):
+    with pytest.raises(UndefinedError, match="cat"):
         understand("Most cats smile.").judge(M)
 
 
@@ -154,7 +154,7 @@ def test_a_donkey_pronoun_is_strong_after_every(M):
     ],
 )
 def test_what_is_outside_is_told_in_one_line(text, why):
-    with pytest.raises(OutsideFragment, match=why) as told:
+    with pytest.raises(OutsideFragmentError, match=why) as told:
         understand(text)
     assert "\n" not in told.value.message
 
@@ -226,7 +226,7 @@ def test_what_excludes_each_other_is_kept_in_a_lexicon_of_several_files(tmp_path
 
 @pytest.mark.parametrize("text", ["", "  ", "...", "?!"])
 def test_an_empty_text_is_no_sentence(text):
-    with pytest.raises(OutsideFragment, match="this text is empty"):
+    with pytest.raises(OutsideFragmentError, match="this text is empty"):
         understand(text)
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from kille import Agent
 from kille.dialogue.meanings import noun
-from ttr import Record, TTRError, Unsupported, box, record
+from ttr import Record, TTRError, UnsupportedError, box, record
 from ttr.probability import UNKNOWN
 from ttr.semantics.perceptual import (
     agreement,
@@ -99,7 +99,7 @@ def test_a_new_word_is_learned_beside_the_others(robot: Agent) -> None:
     assert mug.degree(cup) == robot.meaning("cup").degree(cup)
     taught = mug.confirmed(book)
     assert taught.degree(book).lo > mug.degree(book).lo
-    with pytest.raises(Unsupported, match="cup: that it is not cup teaches this"):
+    with pytest.raises(UnsupportedError, match="cup: that it is not cup teaches this"):
         mug.rejected(cup)
 
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from ttr import (
     Basic,
     FunType,
-    IllFormed,
+    IllFormedError,
     ListOf,
     Model,
     Negation,
@@ -25,11 +25,11 @@ from ttr import (
     PType,
     Record,
     RecordType,
-    Refused,
+    RefusedError,
     SetOf,
     Str,
     TypeNode,
-    Unsupported,
+    UnsupportedError,
     join,
     meet,
     merge,
@@ -131,7 +131,7 @@ def well_formed(fields: dict[str, TypeNode]) -> RecordType:
     """The fields as a record type, without the last ones if paths lead nowhere."""
     try:
         return rectype(fields)
-    except IllFormed:
+    except IllFormedError:
         return well_formed(dict(list(fields.items())[:-1]))
 
 
@@ -205,7 +205,7 @@ def made_up(T: TypeNode, M: Model) -> tuple[Object, Model] | None:
     Where none is found beside the facts of the model, it is made up without them.
     """
     for model in (M, Model()):
-        with suppress(Refused, Unsupported):
+        with suppress(RefusedError, UnsupportedError):
             return model.create(T)
     return None
 

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ttr import Basic, ListOf, Model, Record, RecordType, UpdateError, record, rectype
-from ttr.errors import Endless
+from ttr.errors import EndlessError
 from ttr.types.syntax import Operation, Path
 from ttr.updates import Rule, by_class, first, maybe, repeat, rule, run, seq
 from ttr.updates.checks import faults
@@ -139,7 +139,7 @@ def ends(algorithm, state) -> bool:
     """Whether a run comes to its end, or to a rule that fails."""
     try:
         run(algorithm, state, type=Board, model=M)
-    except Endless:
+    except EndlessError:
         return False
     except UpdateError:
         return True

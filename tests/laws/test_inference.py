@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from ttr import Ind, Model
 from ttr.semantics.fragment import english, follows, understand
-from ttr.semantics.quantifiers import Undefined
+from ttr.semantics.quantifiers import UndefinedError
 
 DETERMINERS = (
     *("every", "some", "no", "not every", "most", "many", "few", "several", "the"),
@@ -69,7 +69,7 @@ def true_in(M, sentence):
     """Whether a sentence is true; None where it is neither true nor false."""
     try:
         return sentence.judge(M).p.lo == 1
-    except Undefined:
+    except UndefinedError:
         return None
 
 

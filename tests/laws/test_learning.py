@@ -7,7 +7,7 @@ from generators import names, types
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ttr import Basic, Refused, meet
+from ttr import Basic, RefusedError, meet
 from ttr.judging.propositions import probabilistic
 from ttr.semantics.learning import (
     JEFFREYS,
@@ -36,7 +36,7 @@ def learned(said):
     for one in said:
         try:
             J = J.learned(one)
-        except Refused:
+        except RefusedError:
             continue
         kept.append(one)
     return J, kept
@@ -53,7 +53,7 @@ def test_learn_then_retract_is_the_identity(before, more):
     for one in more:
         try:
             after = after.learned(one)
-        except Refused:
+        except RefusedError:
             continue
         kept.append(one)
     back = after.retracted(*kept)
@@ -97,7 +97,7 @@ def test_the_interval_has_every_frequency_of_numbers_within(said, at):
         p = min(hi, max(lo, lo + (hi - lo) * next(where)))
         try:
             exact = exact.learned(probabilistic(one.sit, one.sit_type, p))
-        except Refused:
+        except RefusedError:
             return
     for S in BASIC:
         for T in (None, *BASIC):

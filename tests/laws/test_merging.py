@@ -12,7 +12,7 @@ from generators import (
 )
 from hypothesis import given
 
-from ttr import IllFormed, RecordType, amerge, merge
+from ttr import IllFormedError, RecordType, amerge, merge
 
 
 @given(related(), models(), records())
@@ -82,7 +82,7 @@ def test_amerge_has_the_labels_of_both_and_is_below_the_second_if_flat(pair):
     S, T = pair
     try:
         merged = amerge(S, T)
-    except IllFormed:
+    except IllFormedError:
         return
     assert set(merged.labels) == {*S.labels, *T.labels}
     assert all(merged[k] is T[k] for k in T.labels if k != "n")
@@ -93,5 +93,5 @@ def test_amerge_names_the_path_that_would_lead_nowhere():
     from ttr import Ind, Pred, rectype, this
 
     S = rectype(a=rectype(x=Ind), c=Pred("dog", Ind)(this["a.x"]))
-    with pytest.raises(IllFormed, match=r"the path a\.x leads nowhere"):
+    with pytest.raises(IllFormedError, match=r"the path a\.x leads nowhere"):
         amerge(S, rectype(a=Ind))

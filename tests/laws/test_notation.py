@@ -13,7 +13,7 @@ from ttr import (
     Basic,
     EventString,
     FiniteSet,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     Negation,
@@ -260,7 +260,7 @@ def test_a_merge_that_is_written_is_the_merge(S, T):
     for operation in (merge, amerge):
         try:
             wanted = operation(S, T)
-        except IllFormed:
+        except IllFormedError:
             reject()
         text = f"{operation.__name__}({S}, {T})"
         assert Theory.of(S, T).parse(text) is wanted
@@ -318,7 +318,7 @@ def test_a_rule_reads_back_as_itself(rule):
     source = Source(written(rule))
     try:
         Declaring(draft, source).declare(parse_statement(source, 0, len(source.text)))
-    except IllFormed:
+    except IllFormedError:
         reject()  # a path leads to what does not fit, as the types of the rule say
     found = draft.rules[rule.name]
     assert replace(found, span=None, text="") == rule

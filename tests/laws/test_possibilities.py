@@ -18,7 +18,14 @@ from generators import (
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ttr import Application, Refused, Unsupported, proposition, rectype, subtype
+from ttr import (
+    Application,
+    RefusedError,
+    UnsupportedError,
+    proposition,
+    rectype,
+    subtype,
+)
 from ttr.computing.subtyping import consistent
 from ttr.semantics.modality import modal_system, necessarily, possibly
 from ttr.types.paths import occurring
@@ -37,7 +44,7 @@ def test_structural_subtyping_is_subtyping_in_every_possibility(w, S, T):
         return
     assert w.restrictive.subtype(S, T).yes
     for name in w.names:
-        with suppress(Unsupported):
+        with suppress(UnsupportedError):
             for witness in w[name].witnesses(S):
                 assert w.judge(name, witness, T).holds
 
@@ -55,7 +62,7 @@ def test_a_subtyping_that_is_refuted_has_a_counter_judgement(w, S, T):
 def test_witnesses_agree_with_modal_subtyping(w, S, T):
     if w.restrictive.subtype(S, T).yes:
         for name in w.names:
-            with suppress(Unsupported):
+            with suppress(UnsupportedError):
                 for witness in w[name].witnesses(S):
                     assert w.judge(name, witness, T).holds
 
@@ -105,7 +112,7 @@ def test_box_types_are_judged_as_necessity(w, T):
 def test_possibilities_are_apart(w, a, T, b):
     try:
         after = w.given("w0", a, T)
-    except (Refused, Unsupported):
+    except (RefusedError, UnsupportedError):
         return
     for name in w.names[1:]:
         assert after[name] is w[name]

@@ -13,7 +13,7 @@ from ttr import Ind, Model, Pred, fun, outer, this
 from ttr.semantics.quantifiers import (
     Extension,
     Thresholds,
-    Undefined,
+    UndefinedError,
     at_least,
     at_most,
     every,
@@ -70,7 +70,7 @@ def so(q, P, Q, agent=None):
     extensions = Extension.of(sorted(P)), Extension.of(sorted(Q))
     try:
         return quantify(q, *extensions, agent).holds
-    except Undefined:
+    except UndefinedError:
         return None
 
 

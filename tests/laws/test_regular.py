@@ -14,7 +14,7 @@ from ttr import (
     Model,
     Negation,
     Plus,
-    Refused,
+    RefusedError,
     Str,
     Theory,
     subtype,
@@ -130,7 +130,7 @@ def test_what_is_printed_reads_back_as_the_same_type(T):
 def test_what_is_created_is_of_the_type(T):
     try:
         made, model = Model().create(T)
-    except Refused:
+    except RefusedError:
         assert not any(is_of(word, T, EVENTS) for word in WORDS)
     else:
         assert model.judge(made, T).holds
@@ -208,7 +208,7 @@ def test_following_agrees_with_judging(T, word):
     try:
         for event in word:
             course = course.seen(event)
-    except Refused:
+    except RefusedError:
         assert not is_of(word, T, EVENTS)
     else:
         assert course.may_end == M.judge(EventString(*word), T).p
@@ -253,7 +253,7 @@ def test_degrees_hold_what_the_cases_come_to(T, word, data):
         for event in word:
             course = course.seen(event)
         found.append(course.may_end)
-    except Refused:
+    except RefusedError:
         assert total == 0
     for p in found:
         assert p.lo <= total + 1e-9

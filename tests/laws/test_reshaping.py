@@ -14,7 +14,7 @@ from generators import (
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ttr import IllFormed, Record, merge, subtype
+from ttr import IllFormedError, Record, merge, subtype
 from ttr.building.flattening import flatten, unflatten
 from ttr.building.generalisation import common_supertype
 from ttr.building.relabelling import relabel
@@ -46,7 +46,7 @@ def test_relabelling_keeps_judgements(data, M, r):
     names = data.draw(renamings(T))
     try:
         renamed, other = relabel(T, names), relabel(r, names)
-    except IllFormed:
+    except IllFormedError:
         return
     assert M.judge(other, renamed).p == M.judge(r, T).p
 
@@ -61,7 +61,7 @@ def test_relabelling_keeps_made_up_witnesses(data, M):
     r, M = found
     try:
         renamed = relabel(T, names)
-    except IllFormed:
+    except IllFormedError:
         return
     assert M.judge(relabel(r, names), renamed).holds
 
@@ -72,9 +72,9 @@ def test_reshaping_keeps_judgements_for_every_constructor(data, M):
     r = data.draw(any_records(T, M))
     before = M.judge(r, T).p
     names = dict(zip(T, data.draw(st.permutations([*T, "new"])), strict=False))
-    with suppress(IllFormed):
+    with suppress(IllFormedError):
         assert M.judge(relabel(r, names), relabel(T, names)).p == before
-    with suppress(IllFormed):
+    with suppress(IllFormedError):
         assert M.judge(flatten(r, T), flatten(T)).p == before
 
 
@@ -91,7 +91,7 @@ def test_relabelling_can_be_undone(data):
 def test_flattening_keeps_judgements(T, M, r):
     try:
         flat, other = flatten(T), flatten(r, T)
-    except IllFormed:
+    except IllFormedError:
         return
     assert M.judge(other, flat).p == M.judge(r, T).p
 
@@ -118,7 +118,7 @@ def test_subtraction_gives_a_supertype_without_the_path(data):
     path = data.draw(st.sampled_from(paths or ["x"]))
     try:
         rest = subtract(T, path)
-    except IllFormed:
+    except IllFormedError:
         return
     assert subtype(T, rest).yes
     assert path not in rest.labels
@@ -141,7 +141,7 @@ def test_normal_forms_are_their_own(T):
 def test_a_common_supertype_is_above_both(S, T):
     try:
         U = common_supertype(S, T)
-    except IllFormed:
+    except IllFormedError:
         return
     assert subtype(S, U).yes
     assert subtype(T, U).yes

@@ -4,7 +4,7 @@ from generators import record_types
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ttr import Model, Refused, Singleton, UpdateError, amerge, rectype
+from ttr import Model, RefusedError, Singleton, UpdateError, amerge, rectype
 from ttr.building.merging import singleton_type
 from ttr.types.paths import escaping
 from ttr.updates import rule, run
@@ -17,7 +17,7 @@ def made(T):
     try:
         state, M = Model().create(T)
         other, M = M.create(T)
-    except Refused:
+    except RefusedError:
         assume(False)
     return state, other, M
 

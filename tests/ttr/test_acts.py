@@ -2,7 +2,7 @@
 
 import pytest
 
-from ttr import Ind, Model, Pred, Refused, TTRError, record, rectype
+from ttr import Ind, Model, Pred, RefusedError, TTRError, record, rectype
 from ttr.judging.type_acts import Create, Judge, JudgeSome, Query, QuerySome, performed
 from ttr.probability import UNKNOWN
 
@@ -19,7 +19,7 @@ def test_judging_is_remembered():
 
 def test_what_contradicts_is_refused():
     sees = M.witnessed(cat, by=lambda x: False)
-    with pytest.raises(Refused, match="is refused by the witness function of cat"):
+    with pytest.raises(RefusedError, match="is refused by the witness function of cat"):
         performed(Judge("s4", cat("fido")), sees)
 
 
@@ -37,7 +37,9 @@ def test_queries_change_nothing():
     assert [answer.sit for answer in found.answers] == ["s1"]
     assert found.model is M
     nothing = performed(QuerySome(cat("fido")), M)
-    with pytest.raises(Refused, match=r"nothing known answers some : cat\(fido\)\?"):
+    with pytest.raises(
+        RefusedError, match=r"nothing known answers some : cat\(fido\)\?"
+    ):
         _ = nothing.answer
 
 

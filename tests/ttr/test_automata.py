@@ -2,7 +2,7 @@
 
 import pytest
 
-from ttr import Basic, EventString, Model, Plus, Str, Unsupported, join, subtype
+from ttr import Basic, EventString, Model, Plus, Str, UnsupportedError, join, subtype
 from ttr.computing.strings.automata import automaton, automaton_above
 from ttr.types.forms import star
 
@@ -71,7 +71,7 @@ def test_a_meet_may_have_too_many_states():
     many = Plus(A) & ~Plus(join(*map(Str, kinds)))
     found = automaton(Str(many, B))
     assert [edge.label for edge in found.wholes[found.start]] == [many]
-    with pytest.raises(Unsupported, match="too many cases to be followed"):
+    with pytest.raises(UnsupportedError, match="too many cases to be followed"):
         automaton_above(Str(many, B))
 
 

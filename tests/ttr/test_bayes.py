@@ -4,10 +4,10 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     Pred,
-    Refused,
+    RefusedError,
     TTRError,
     proposition,
     rectype,
@@ -78,19 +78,21 @@ def test_many_kinds_of_evidence_do_not_underflow():
 
 
 def test_what_cannot_be_asked(fruit):
-    with pytest.raises(IllFormed, match="at least one class"):
+    with pytest.raises(IllFormedError, match="at least one class"):
         posterior(fruit, [])
-    with pytest.raises(IllFormed, match="expected a list of types as classes, found"):
+    with pytest.raises(
+        IllFormedError, match="expected a list of types as classes, found"
+    ):
         posterior(fruit, Apple)
-    with pytest.raises(IllFormed, match="expected a list of types as evidence"):
+    with pytest.raises(IllFormedError, match="expected a list of types as evidence"):
         posterior(fruit, [Apple], Red)
-    with pytest.raises(IllFormed, match="the judgements are Counts"):
+    with pytest.raises(IllFormedError, match="the judgements are Counts"):
         posterior([], [Apple])
     with pytest.raises(TTRError, match="expected a smoothing, found 'Laplace'"):
         posterior(fruit, [Apple], [Red], smoothing="Laplace")
     with pytest.raises(TTRError, match="expected a smoothing, found 1"):
         NaiveBayes((Red,), 1)
-    with pytest.raises(IllFormed, match="expected a list of types as features"):
+    with pytest.raises(IllFormedError, match="expected a list of types as features"):
         NaiveBayes(Red)
 
 
@@ -137,13 +139,13 @@ def test_what_no_label_was_seen_with_has_no_probability():
 
 def test_evidence_that_is_wrong():
     one = NaiveBayes((A, B)).learned(A, "a", key=1)
-    with pytest.raises(Refused, match="so it is no evidence"):
+    with pytest.raises(RefusedError, match="so it is no evidence"):
         one.learned(A & ~A, "a", key=2)
-    with pytest.raises(Refused, match="so it is no evidence"):
+    with pytest.raises(RefusedError, match="so it is no evidence"):
         one.probabilities(A & ~A)
-    with pytest.raises(IllFormed, match="paths that lead nowhere"):
+    with pytest.raises(IllFormedError, match="paths that lead nowhere"):
         one.learned(red(this.x), "a", key=2)
-    with pytest.raises(IllFormed, match="expected a type"):
+    with pytest.raises(IllFormedError, match="expected a type"):
         one.learned("a", "a", key=2)
     with pytest.raises(TTRError, match="a label is a word"):
         one.learned(A, "", key=2)
@@ -153,7 +155,7 @@ def test_evidence_that_is_wrong():
         one.learned(A, "a", key=1)
     with pytest.raises(TTRError, match="nothing was learned under the key"):
         one.retracted([2])
-    with pytest.raises(IllFormed, match="the feature A is given twice"):
+    with pytest.raises(IllFormedError, match="the feature A is given twice"):
         NaiveBayes((A, A))
-    with pytest.raises(IllFormed, match="expected a type"):
+    with pytest.raises(IllFormedError, match="expected a type"):
         NaiveBayes(("A",))

@@ -5,7 +5,7 @@ import pytest
 from ttr import (
     Basic,
     EventString,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     Model,
@@ -13,7 +13,7 @@ from ttr import (
     Pred,
     Rec,
     RecType,
-    Refused,
+    RefusedError,
     SetOf,
     Str,
     Theory,
@@ -131,7 +131,7 @@ def test_J14_a_circle_is_checked_but_not_built(M):
     assert M.judge(record(x="j", y="j"), T).holds is True
     assert M.judge(record(x="j", y="k"), T).holds is False
     assert circle(T)
-    with pytest.raises(Refused, match="field x"):
+    with pytest.raises(RefusedError, match="field x"):
         M.create(T)
 
 
@@ -235,15 +235,15 @@ def test_A05_amerge_goes_into_nested_types():
 
 
 def test_F02_an_argument_outside_the_domain(M):
-    with pytest.raises(Refused, match="takes objects of Ind, which zz is not"):
+    with pytest.raises(RefusedError, match="takes objects of Ind, which zz is not"):
         M.apply(fun(x=Ind)(run(this.x)), "zz")
 
 
 def test_V01_well_formed():
-    with pytest.raises(IllFormed, match="the path x leads nowhere"):
+    with pytest.raises(IllFormedError, match="the path x leads nowhere"):
         rectype(x=Ind, c=rectype(c=man(this.x)))
     assert rectype(x=rectype(x=Ind, e=man(this.x)), y=Ind @ this.x.x).labels
-    with pytest.raises(IllFormed, match=r"the field e, man\(x\) needs Ind for x"):
+    with pytest.raises(IllFormedError, match=r"the field e, man\(x\) needs Ind for x"):
         rectype(x=Type, e=man(this.x))
 
 
@@ -316,7 +316,9 @@ def test_X17_a_name_is_not_identity():
 
 
 def test_X19_arity():
-    with pytest.raises(IllFormed, match=r"run takes 1 argument \(Ind\), but has 3"):
+    with pytest.raises(
+        IllFormedError, match=r"run takes 1 argument \(Ind\), but has 3"
+    ):
         run("j", "k", "l")
 
 
@@ -396,7 +398,7 @@ def test_I01_the_game_of_fetch_one_step(M):
     assert M.apply(u1, record(agenda=[])) is agenda(picked)
     waiting = M.apply(u2, record(agenda=[picked]))
     assert M.apply(waiting, record(e="ev")) is agenda(thrown)
-    with pytest.raises(Refused, match="in the field agenda"):
+    with pytest.raises(RefusedError, match="in the field agenda"):
         M.apply(u2, record(agenda=[]))
 
 

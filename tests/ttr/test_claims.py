@@ -4,7 +4,7 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     Model,
     Pred,
@@ -44,7 +44,7 @@ def test_what_is_no_probability(p):
 
 
 def test_a_record_with_a_wrong_prob():
-    with pytest.raises(IllFormed, match=r"prob = 2, .*is a number in \[0, 1\]"):
+    with pytest.raises(IllFormedError, match=r"prob = 2, .*is a number in \[0, 1\]"):
         probabilistic_claim(record(sit="a", sit_type=A, prob=2))
 
 
@@ -56,7 +56,9 @@ def test_there_and_back_from_a_judgement(sit):
 
 
 def test_what_is_no_judgement():
-    with pytest.raises(IllFormed, match="expected a judgement, found the object 'a'"):
+    with pytest.raises(
+        IllFormedError, match="expected a judgement, found the object 'a'"
+    ):
         judged("a")
 
 
@@ -125,7 +127,7 @@ def test_what_is_no_proposition(wrong):
         lambda: entails(A, wrong),
         lambda: entails(proposition("s", A), wrong),
     ):
-        with pytest.raises(IllFormed, match="a proposition is a type or a record"):
+        with pytest.raises(IllFormedError, match="a proposition is a type or a record"):
             ask()
 
 

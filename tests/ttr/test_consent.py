@@ -16,7 +16,7 @@ from ttr.cli.session.repl import respond
 from ttr.cli.session.sessions import Session
 from ttr.dialogues.logs import LogError, read_logs
 from ttr.dialogues.stories import play, read_stories, setting
-from ttr.safety.consent import Consent, NotAllowed, is_below
+from ttr.safety.consent import Consent, NotAllowedError, is_below
 from ttr.testing.hash_seeds import differing
 
 GAMES = Path(__file__).parent.parent / "games"
@@ -74,7 +74,7 @@ def test_a_story_runs_no_python_from_elsewhere(
     home: Path, reference: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = story(home, reference.format(home=home))
-    with pytest.raises(NotAllowed):
+    with pytest.raises(NotAllowedError):
         play(read_stories(file)[0])
     assert main(["play", str(file)]) == 2
     out, err = capsys.readouterr()
@@ -268,7 +268,7 @@ def test_a_theory_imports_nothing_else(
     theories: Path, name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = str(importing(theories, name))
-    with pytest.raises(NotAllowed) as caught:
+    with pytest.raises(NotAllowedError) as caught:
         ttr.load(file)
     for command in (["check", file], ["show", file, "Ind"], ["test", file]):
         assert main(command) != 0
@@ -307,7 +307,7 @@ def test_a_theory_imports_from_folders_that_are_allowed(theories: Path) -> None:
         assert main(["show", str(file), "Ind", "--allow", "theirs"]) == 0
     for name in ("../theirs/secret", "secret"):
         file = importing(theories, name)
-        with pytest.raises(NotAllowed, match=r"expected a file called NAME\.ttr"):
+        with pytest.raises(NotAllowedError, match=r"expected a file called NAME\.ttr"):
             ttr.load(file, allow=["theirs"])
 
 
@@ -316,16 +316,16 @@ def test_an_import_of_an_import_stays_in_the_folder_of_the_first(
 ) -> None:
     (theories / "mine" / "below" / "under.ttr").write_text('import "../beside.ttr"')
     assert "Ind" in ttr.load(importing(theories, "below/under.ttr")).names
-    with pytest.raises(NotAllowed):
+    with pytest.raises(NotAllowedError):
         ttr.load(theories / "mine" / "below" / "under.ttr")
     (theories / "mine" / "beside.ttr").write_text('import "../theirs/other.ttr"')
-    with pytest.raises(NotAllowed):
+    with pytest.raises(NotAllowedError):
         ttr.load(importing(theories, "beside.ttr"))
 
 
 def test_a_text_imports_from_the_working_directory(theories: Path) -> None:
     assert "Ind" in ttr.Theory.parse('import "mine/beside.ttr"').names
-    with pytest.raises(NotAllowed):
+    with pytest.raises(NotAllowedError):
         ttr.Theory.parse(f'import "{GAMES}/door.ttr"')
 
 
@@ -363,7 +363,7 @@ def test_what_is_no_path_is_told(theories: Path, name: str) -> None:
     with pytest.raises(ttr.TTRError):
         setting(f"{name} door", top, Consent.of([top]))
     for python in (f"{name[:-4]}.py", name[:-4]):
-        with pytest.raises(NotAllowed):
+        with pytest.raises(NotAllowedError):
             Consent.of(["below"]).check_python(python, Path("elsewhere"))
 
 

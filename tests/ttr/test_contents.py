@@ -2,7 +2,17 @@
 
 import pytest
 
-from ttr import IllFormed, Ind, Model, Pred, Refused, fun, record, rectype, this
+from ttr import (
+    IllFormedError,
+    Ind,
+    Model,
+    Pred,
+    RefusedError,
+    fun,
+    record,
+    rectype,
+    this,
+)
 from ttr.semantics.parametric_content import apply, content, in_context, strong, weak
 from ttr.semantics.quantifiers import truth
 
@@ -56,7 +66,7 @@ def test_an_uncertain_context_makes_it_a_degree(M):
 def test_a_content_is_asked_in_one_context(M):
     contexts = M.witnesses(OWNED)
     assert [in_context(M, BEATS, r).p for r in contexts] == [(1, 1), (0, 0)]
-    with pytest.raises(Refused, match="takes objects of"):
+    with pytest.raises(RefusedError, match="takes objects of"):
         in_context(M, BEATS, record(y="f1"))
 
 
@@ -81,7 +91,7 @@ def test_contents_of_parts_are_composed():
     ],
 )
 def test_a_mistake_is_told(make, why):
-    with pytest.raises(IllFormed, match=why):
+    with pytest.raises(IllFormedError, match=why):
         make()
 
 

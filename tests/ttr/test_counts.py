@@ -7,11 +7,11 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     Model,
     Pred,
-    Refused,
+    RefusedError,
     TTRError,
     proposition,
     rectype,
@@ -171,7 +171,7 @@ def test_learning_changes_no_older_value(kennel):
 
 @pytest.mark.parametrize("T", [A & ~A, rectype(x=Ind @ "a") & rectype(x=Ind @ "b")])
 def test_evidence_of_what_nothing_can_be_of(T):
-    with pytest.raises(Refused, match="cannot be: nothing can be of"):
+    with pytest.raises(RefusedError, match="cannot be: nothing can be of"):
         Counts().learned(proposition("s", T))
     assert len(Counts().learned(probabilistic("s", T, 0))) == 1
 
@@ -179,7 +179,7 @@ def test_evidence_of_what_nothing_can_be_of(T):
 @pytest.mark.parametrize("said", [proposition("s", ~A), probabilistic("s", A, 0)])
 def test_evidence_that_contradicts_what_is_certain(said):
     J = Counts().learned(proposition("s", A))
-    with pytest.raises(Refused, match="contradicts what is certain of s"):
+    with pytest.raises(RefusedError, match="contradicts what is certain of s"):
         J.learned(proposition("t", B), said)
     assert len(J.learned(probabilistic("t", ~A, 1))) == 2
     assert len(J.retracted(proposition("s", A)).learned(said)) == 1
@@ -187,28 +187,28 @@ def test_evidence_that_contradicts_what_is_certain(said):
 
 def test_nothing_is_learned_where_something_is_refused():
     J = Counts()
-    with pytest.raises(Refused):
+    with pytest.raises(RefusedError):
         J.learned(proposition("s", A), proposition("s", ~A))
     assert Counts() == J
 
 
 @pytest.mark.parametrize("wrong", ["a", 3, None, A])
 def test_what_is_no_evidence(wrong):
-    with pytest.raises(IllFormed, match="a proposition is a type or a record"):
+    with pytest.raises(IllFormedError, match="a proposition is a type or a record"):
         Counts().learned(wrong)
 
 
 def test_evidence_with_paths_that_lead_nowhere():
-    with pytest.raises(IllFormed, match="paths that lead nowhere"):
+    with pytest.raises(IllFormedError, match="paths that lead nowhere"):
         Counts().learned(proposition("s", dog(this.x)))
 
 
 def test_what_is_no_theory_or_type(kennel):
-    with pytest.raises(IllFormed, match="expected a theory"):
+    with pytest.raises(IllFormedError, match="expected a theory"):
         Counts("a")
-    with pytest.raises(IllFormed, match="expected a type"):
+    with pytest.raises(IllFormedError, match="expected a type"):
         kennel.p("Dog")
-    with pytest.raises(IllFormed, match="expected a type"):
+    with pytest.raises(IllFormedError, match="expected a type"):
         kennel.p(Dog, given="Bark")
 
 

@@ -2,9 +2,20 @@
 
 import pytest
 
-from ttr import Basic, Ind, Model, Plus, Pred, Refused, Str, TTRError, Unsupported, this
+from ttr import (
+    Basic,
+    Ind,
+    Model,
+    Plus,
+    Pred,
+    RefusedError,
+    Str,
+    TTRError,
+    UnsupportedError,
+    this,
+)
 from ttr.building.constructors import rectype
-from ttr.errors import Unexpected
+from ttr.errors import UnexpectedError
 from ttr.semantics.string_prediction import start_course
 from ttr.types.forms import star
 
@@ -61,13 +72,17 @@ def test_a_course_does_not_change():
 
 def test_an_unexpected_event_is_named_with_what_was_expected():
     course = start_course(Str(A, B | Str(C)), M).seen("a")
-    with pytest.raises(Unexpected) as caught:
+    with pytest.raises(UnexpectedError) as caught:
         course.seen("a")
     assert caught.value.message == r"event 2, a, is of A, but expected: B \/ C"
-    assert isinstance(caught.value, Refused)
-    with pytest.raises(Unexpected, match="is of nothing that is known, but expected"):
+    assert isinstance(caught.value, RefusedError)
+    with pytest.raises(
+        UnexpectedError, match="is of nothing that is known, but expected"
+    ):
         course.seen("zz")
-    with pytest.raises(Unexpected, match=r"event 3, b, .* expected: no more events"):
+    with pytest.raises(
+        UnexpectedError, match=r"event 3, b, .* expected: no more events"
+    ):
         course.seen("b").seen("b")
 
 
@@ -126,7 +141,7 @@ def test_an_event_with_many_uncertain_types_is_bounded():
 def test_later_events_are_judged_in_another_model():
     course = start_course(Str(A, B), M).seen("a")
     later = M.given("new", B)
-    with pytest.raises(Unexpected):
+    with pytest.raises(UnexpectedError):
         course.seen("new")
     assert course.judged_in(later).seen("new").may_end == (1, 1)
 
@@ -145,7 +160,7 @@ def test_a_type_without_strings_expects_nothing():
     assert course.on_course == (0, 0)
     assert course.rest is course.type
     assert str(course) == "a string of str(A) /\\ str(A, A), of which there is none"
-    with pytest.raises(Unexpected):
+    with pytest.raises(UnexpectedError):
         course.seen("a")
 
 
@@ -158,7 +173,7 @@ def test_a_type_without_strings_expects_nothing():
     ],
 )
 def test_what_cannot_be_followed(T, message):
-    with pytest.raises(Unsupported, match=message):
+    with pytest.raises(UnsupportedError, match=message):
         start_course(T, M)
 
 

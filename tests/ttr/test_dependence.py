@@ -11,7 +11,7 @@ from ttr import (
     Ind,
     Model,
     Pred,
-    Refused,
+    RefusedError,
     Theory,
     TTRError,
     check,
@@ -103,7 +103,7 @@ def test_a_condition_is_a_pair():
 
 def test_given_what_cannot_be():
     M = Model().given("a", A, 0.5).given("b", B, 0)
-    with pytest.raises(Refused, match="nothing follows given b : B"):
+    with pytest.raises(RefusedError, match="nothing follows given b : B"):
         M.judge("a", A, when=[("b", B)])
 
 
@@ -125,21 +125,21 @@ def test_what_excludes_one_another():
 
 def test_degrees_that_cannot_all_be_are_refused():
     M = Model(Apart).given("a", A, 0.4).given("a", B, 0.4)
-    with pytest.raises(Refused, match=r"cannot all be so: a : C with 0\.3"):
+    with pytest.raises(RefusedError, match=r"cannot all be so: a : C with 0\.3"):
         M.given("a", C, 0.3)
     assert M.given("a", C, 0.2).judge("a", A | B | C).p == pytest.approx((1, 1))
 
 
 def test_a_conditional_that_contradicts_what_is_given_is_refused():
     M = Model().given("a", A, 0.9).given("a", B, 0.1)
-    with pytest.raises(Refused, match="these cannot all be so"):
+    with pytest.raises(RefusedError, match="these cannot all be so"):
         M.given("a", B, 0.9, when=[("a", A)])
 
 
 def test_certainly_of_one_is_not_of_what_it_excludes():
     M = Model(Apart).given("a", A)
     assert M.judge("a", B).holds is False
-    with pytest.raises(Refused, match="A <: ~B"):
+    with pytest.raises(RefusedError, match="A <: ~B"):
         M.given("a", B)
 
 
@@ -183,7 +183,7 @@ def test_something_is_of_a_type():
     assert M.true(A) == pytest.approx((0.58, 1))
     assert M.true(A, among=["a", "b"]) == pytest.approx((0.58, 0.58))
     assert M.true(A | B, when=A) == (1, 1)
-    with pytest.raises(Refused, match="nothing is of B"):
+    with pytest.raises(RefusedError, match="nothing is of B"):
         M.true(A, when=B)
 
 
@@ -207,7 +207,7 @@ def sure(p):
 def test_classifiers_that_contradict_an_axiom():
     M = Model(Below).witnessed(A, by=sure(0.9)).witnessed(B, by=sure(0.5))
     for kind in (A, B):
-        with pytest.raises(Refused, match="A <: B"):
+        with pytest.raises(RefusedError, match="A <: B"):
             M.judge("a", kind)
     assert M.witnessed(B, by=sure(0.95)).judge("a", A).p == (0.9, 0.9)
     assert M.witnessed(B, by=sure((0.2, 1))).judge("a", B).p == (0.9, 1)
@@ -219,7 +219,7 @@ def test_what_is_seen_contradicts_an_axiom():
     M = Model(theory).given("o", Ind)
     M = M.witnessed(puppy, by=sure(0.9)).witnessed(dog, by=sure(0.5))
     both = rectype(x=Ind, p=puppy(this.x) & dog(this.x))
-    with pytest.raises(Refused, match=r"puppy\(x\) <: dog\(x\)"):
+    with pytest.raises(RefusedError, match=r"puppy\(x\) <: dog\(x\)"):
         M.perceive(record(x="o"), both)
     j = M.witnessed(dog, by=sure(0.95)).perceive(record(x="o"), both)
     assert j.p == pytest.approx((0.9, 0.9))
@@ -249,10 +249,10 @@ def test_a_type_below_two_that_are_independent():
 
 def test_classifiers_and_what_excludes():
     M = Model(Apart).witnessed(A, by=sure(0.9))
-    with pytest.raises(Refused, match="A <: ~B and the witness function of A"):
+    with pytest.raises(RefusedError, match="A <: ~B and the witness function of A"):
         M.given("a", B, 0.5)
     assert M.given("a", B, 0.1).judge("a", A | B).p == (1, 1)
-    with pytest.raises(Refused):
+    with pytest.raises(RefusedError):
         M.witnessed(B, by=sure(0.8)).judge("a", B)
 
 
@@ -270,7 +270,7 @@ def test_many_that_exclude_each_other():
         M = M.given("a", T, 0.07)
     last = EXCLUSIVE[-1]
     assert M.given("a", last, (0, 1)).judge("a", last).p == pytest.approx((0, 0.02))
-    with pytest.raises(Refused, match="these cannot all be so"):
+    with pytest.raises(RefusedError, match="these cannot all be so"):
         M.given("a", last, 0.03)
 
 

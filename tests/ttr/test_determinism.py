@@ -30,7 +30,7 @@ print(witness, M.judge(witness, T).why)
 print(subtype(T, rectype(x0=Ind, zz=Ind)), merge(T, rectype(x1=Ind @ "b")))
 try:
     rectype(x=Ind, y=dog(this.z), w=dog(this.v))
-except IllFormed as error:
+except IllFormedError as error:
     print(error)
 
 @rule(when=rectype(x0=Ind))

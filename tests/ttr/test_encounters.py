@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from ttr import IllFormed, RecType, UpdateError, load, rectype
+from ttr import IllFormedError, RecType, UpdateError, load, rectype
 from ttr.dialogues.encounters import Participant, meeting
 from ttr.updates import Game
 
@@ -95,7 +95,7 @@ def test_what_is_no_meeting(theory, players):
         meeting(5)
     with pytest.raises(UpdateError, match="a participant has a name, found None"):
         Participant(None, theory.games["fetch"], theory.Dog)
-    with pytest.raises(IllFormed, match="expected a type, found int 5"):
+    with pytest.raises(IllFormedError, match="expected a type, found int 5"):
         Participant("cat", theory.games["fetch"], 5)
     with pytest.raises(UpdateError, match="a participant plays a game, found"):
         Participant("cat", 3, theory.Dog)

@@ -4,8 +4,8 @@ import pickle
 
 import pytest
 
-from ttr import IllFormed, Refused, TTRError
-from ttr.errors import Span, Unsupported, suggestion
+from ttr import IllFormedError, RefusedError, TTRError
+from ttr.errors import Span, UnsupportedError, suggestion
 from ttr.safety.budgets import within_budget
 
 TEXT = "basic Ind\nX := [x : Idn]\n"
@@ -13,7 +13,7 @@ SPAN = Span.of("a.ttr", TEXT, 20, 23)
 
 
 def test_the_place_is_drawn():
-    error = IllFormed("nothing is called Idn", hint="did you mean Ind?").at(SPAN)
+    error = IllFormedError("nothing is called Idn", hint="did you mean Ind?").at(SPAN)
     assert str(error) == (
         "nothing is called Idn\n"
         "  ┌─ a.ttr:2:11\n"
@@ -21,17 +21,17 @@ def test_the_place_is_drawn():
         "  │           ^^^\n"
         "help: did you mean Ind?"
     )
-    assert isinstance(error, IllFormed)
+    assert isinstance(error, IllFormedError)
 
 
 def test_the_first_place_stays():
-    error = Refused("no", span=SPAN)
+    error = RefusedError("no", span=SPAN)
     assert error.at(Span.of("b.ttr", TEXT, 0, 1)) is error
 
 
 def test_a_pickled_error_is_whole():
-    error = pickle.loads(pickle.dumps(Refused("no", span=SPAN, hint="yes")))
-    assert (type(error), error.span, error.hint) == (Refused, SPAN, "yes")
+    error = pickle.loads(pickle.dumps(RefusedError("no", span=SPAN, hint="yes")))
+    assert (type(error), error.span, error.hint) == (RefusedError, SPAN, "yes")
 
 
 @pytest.mark.parametrize(
@@ -53,9 +53,9 @@ def test_too_deep_a_nesting_is_an_error_of_ours():
     def endless(n):
         return endless.__wrapped__(n + 1)
 
-    with pytest.raises(Unsupported, match="nests deeper than can be followed"):
+    with pytest.raises(UnsupportedError, match="nests deeper than can be followed"):
         endless(0)
-    assert issubclass(Unsupported, TTRError)
+    assert issubclass(UnsupportedError, TTRError)
 
 
 def test_a_long_line_is_cut_around_the_place():

@@ -5,7 +5,7 @@ import pytest
 from ttr import (
     Application,
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     Path,
@@ -64,7 +64,7 @@ def test_a_record_is_taken_apart_where_a_type_says_so():
 def test_a_record_lacks_what_the_type_has():
     T = rectype(bg=rectype(x=A))
     for r in (record(), record(bg="a"), record(bg={"y": "a"})):
-        with pytest.raises(IllFormed, match=r"there is no bg"):
+        with pytest.raises(IllFormedError, match=r"there is no bg"):
             flatten(r, T)
 
 
@@ -96,7 +96,9 @@ def test_paths_that_lead_out_of_the_whole_follow():
 def test_what_is_said_of_a_nested_record_keeps_it_from_being_flat():
     said = Application(Path(0, ("f",)), Path(0, ("bg",)))
     T = rectype(bg=rectype(x=A), f=rectype(x=A) >> A, c=A @ said)
-    with pytest.raises(IllFormed, match="bg cannot be flattened: c is about bg as a"):
+    with pytest.raises(
+        IllFormedError, match="bg cannot be flattened: c is about bg as a"
+    ):
         flatten(T)
 
 
@@ -110,26 +112,28 @@ def test_what_is_said_of_a_nested_record_keeps_it_from_being_flat():
     ],
 )
 def test_a_label_that_could_be_taken_apart_otherwise_is_refused(value):
-    with pytest.raises(IllFormed, match="cannot become the label") as caught:
+    with pytest.raises(IllFormedError, match="cannot become the label") as caught:
         flatten(value)
     assert "separator" in caught.value.hint
     assert unflatten(flatten(value, sep="_in_"), sep="_in_") == value
 
 
 def test_what_cannot_be_nested_is_said():
-    with pytest.raises(IllFormed, match=r"bg__x cannot become bg\.x"):
+    with pytest.raises(IllFormedError, match=r"bg__x cannot become bg\.x"):
         unflatten(rectype(bg=A, bg__x=A))
-    with pytest.raises(IllFormed, match=r"bg__x__y cannot become bg\.x\.y"):
+    with pytest.raises(IllFormedError, match=r"bg__x__y cannot become bg\.x\.y"):
         unflatten(record(bg__x="a", bg__x__y="b"))
-    with pytest.raises(IllFormed, match="a label is an identifier"):
+    with pytest.raises(IllFormedError, match="a label is an identifier"):
         unflatten(rectype(a____b=A))
-    with pytest.raises(IllFormed, match="flatten takes a record type or a record"):
+    with pytest.raises(IllFormedError, match="flatten takes a record type or a record"):
         flatten(A)
-    with pytest.raises(IllFormed, match="unflatten takes a record type or a record"):
+    with pytest.raises(
+        IllFormedError, match="unflatten takes a record type or a record"
+    ):
         unflatten(A)
 
 
 @pytest.mark.parametrize("sep", ["", ".", " ", 3])
 def test_a_separator_is_a_part_of_an_identifier(sep):
-    with pytest.raises(IllFormed, match="a separator is a part of an identifier"):
+    with pytest.raises(IllFormedError, match="a separator is a part of an identifier"):
         flatten(DEEP, sep=sep)

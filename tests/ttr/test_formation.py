@@ -4,7 +4,7 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     Pred,
@@ -57,7 +57,7 @@ event = Pred("event", (Ind,), (dog("a"),))
     ],
 )
 def test_refused(fields, message):
-    with pytest.raises(IllFormed) as caught:
+    with pytest.raises(IllFormedError) as caught:
         rectype(fields)
     assert message in str(caught.value)
 
@@ -80,7 +80,7 @@ def test_accepted(fields):
 def test_what_fits_by_an_axiom():
     theory = Signature(axioms=(Axiom(Dog, Ind),))
     fields = {"x": Dog, "c": dog(this.x)}
-    with pytest.raises(IllFormed, match="needs Ind for x, but that is of Dog"):
+    with pytest.raises(IllFormedError, match="needs Ind for x, but that is of Dog"):
         rectype(fields)
     assert str(rectype(fields, theory)) == "[x : Dog, c : dog(x)]"
 
@@ -95,19 +95,21 @@ def test_the_question_has_an_answer_with_a_reason():
     misfit = RecordType((("x", Dog), ("c", dog(this.x))))
     assert wellformed(misfit).no
     assert wellformed(misfit, Signature(axioms=(Axiom(Dog, Ind),))).yes
-    with pytest.raises(IllFormed, match="expected a type, found the predicate dog"):
+    with pytest.raises(
+        IllFormedError, match="expected a type, found the predicate dog"
+    ):
         wellformed(dog)
 
 
 def test_a_label_of_the_record_around_is_reached_by_outer():
-    with pytest.raises(IllFormed, match="the path x leads nowhere") as caught:
+    with pytest.raises(IllFormedError, match="the path x leads nowhere") as caught:
         rectype(x=Ind, y=rectype(c=dog(this.x)))
     assert caught.value.hint == "outer.x, written ^.x, is the x one record further out"
     rectype(x=Ind, y=rectype(c=dog(outer.x)))
 
 
 def test_the_label_that_was_meant_comes_before_those_further_out():
-    with pytest.raises(IllFormed) as caught:
+    with pytest.raises(IllFormedError) as caught:
         rectype(xy=Ind, c=dog(this.x))
     assert caught.value.hint == "did you mean xy?"
 
@@ -116,9 +118,9 @@ def test_a_path_into_alternatives_leads_to_what_all_of_them_have():
     either = rectype(a=Dog) | rectype(a=Image, b=Ind)
     assert wellformed(rectype(x=either, y=Ind @ this.x.a)).yes
     fits = r"needs Ind for x\.a, but that is of Dog \\/ Image"
-    with pytest.raises(IllFormed, match=fits):
+    with pytest.raises(IllFormedError, match=fits):
         rectype(x=either, c=dog(this.x.a))
-    with pytest.raises(IllFormed, match=r"has no b") as caught:
+    with pytest.raises(IllFormedError, match=r"has no b") as caught:
         rectype(x=either, c=dog(this.x.b))
     assert caught.value.hint == "b is in some alternatives only"
 

@@ -4,7 +4,7 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     Model,
     Pred,
@@ -33,9 +33,9 @@ def test_what_says_nothing_new_restricts_nothing():
 
 
 def test_only_functions_are_restricted():
-    with pytest.raises(IllFormed, match="restrict takes a function, found"):
+    with pytest.raises(IllFormedError, match="restrict takes a function, found"):
         restrict(Ind, Ind)
-    with pytest.raises(IllFormed, match="expected a type"):
+    with pytest.raises(IllFormedError, match="expected a type"):
         restrict(fun(x=Ind)(run(this.x)), "x")
 
 
@@ -74,8 +74,10 @@ def test_a_record_is_of_it_iff_of_the_domain_and_of_what_the_function_gives():
 
 def test_what_has_no_fixed_point_type_is_said():
     for f in (fun(x=Ind)(run(this.x)), fun(r=rectype(x=Ind))(run(this.r.x)), Ind):
-        with pytest.raises(IllFormed, match="fix takes a function from a record type"):
+        with pytest.raises(
+            IllFormedError, match="fix takes a function from a record type"
+        ):
             fix(f)
     whole = fun(r=rectype(x=Ind))(rectype(s=rectype(x=Ind) @ outer.r))
-    with pytest.raises(IllFormed, match="something is said of r as a whole"):
+    with pytest.raises(IllFormedError, match="something is said of r as a whole"):
         fix(whole)

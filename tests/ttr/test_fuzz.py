@@ -17,7 +17,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from ttr import NotationError, Theory, TTRError
-from ttr.theories.theory import Mistakes
+from ttr.theories.theory import MistakesError
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, identity
 
@@ -112,7 +112,7 @@ def a_mistake_at_most() -> Iterator[None]:
     try:
         yield
     except TTRError as error:
-        mistakes = error.errors if isinstance(error, Mistakes) else (error,)
+        mistakes = error.errors if isinstance(error, MistakesError) else (error,)
         placeless = [one.message for one in mistakes if one.span is None]
         if placeless or not str(error):
             raise AssertionError(f"errors without a place: {placeless}") from error

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from ttr import Ind, ListOf, Model, Pred, Rec, RecType, Type, record, rectype
 from ttr.dialogues.encounters import Participant, meeting
-from ttr.errors import NotHeard
+from ttr.errors import NotHeardError
 from ttr.semantics.gameboards import cooper, kos
 from ttr.semantics.questions import Question, whether, which
 from ttr.updates.checks import faults_of
@@ -136,7 +136,7 @@ def test_boards_of_two_may_differ():
 
 def test_what_is_no_utterance_is_not_heard():
     for move in (leave("kim"), "hello", kos.ask("a", "b", "who"), None):
-        with pytest.raises(NotHeard):
+        with pytest.raises(NotHeardError):
             BOARD.take(BOARD.begin(), record(spkr="a", addr="b", move=move))
 
 

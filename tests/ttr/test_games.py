@@ -5,11 +5,11 @@ import dataclasses
 import pytest
 
 from ttr import (
-    Endless,
+    EndlessError,
     Ind,
     ListOf,
     Model,
-    NotHeard,
+    NotHeardError,
     Rec,
     RecType,
     TTRError,
@@ -64,7 +64,9 @@ def test_a_turn_prints_what_happened():
 def test_a_turn_that_fails_changes_nothing():
     game = talk()
     so_far = game.take(game.begin(), {"by": "a"}).run
-    with pytest.raises(NotHeard, match="is no event that the game talk takes: expecte"):
+    with pytest.raises(
+        NotHeardError, match="is no event that the game talk takes: expecte"
+    ):
         game.take(so_far, {"who": "a"})
     assert so_far.state == record(plan=[], heard=["a"])
 
@@ -75,7 +77,9 @@ def test_a_move_that_nobody_takes_off_the_agenda():
         return replace(s, plan=[rectype(by=Ind @ "b")])
 
     game = talk(algorithm=planning)
-    with pytest.raises(Endless, match=r"no rule takes the move .* stays on the agenda"):
+    with pytest.raises(
+        EndlessError, match=r"no rule takes the move .* stays on the agenda"
+    ):
         game.take(game.begin(), {"by": "a"})
 
     @rule(when=Talk, on=Act)
@@ -83,7 +87,7 @@ def test_a_move_that_nobody_takes_off_the_agenda():
         return replace(s, plan=[rectype(by=Ind @ "b")])
 
     game = talk(algorithm=on_and_on)
-    with pytest.raises(Endless, match="not empty after 100 moves in a turn"):
+    with pytest.raises(EndlessError, match="not empty after 100 moves in a turn"):
         game.take(game.begin(), {"by": "a"})
 
 

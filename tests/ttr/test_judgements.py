@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ttr import Basic, Ind, ListOf, Model, Pred, Undecided, record, rectype, this
+from ttr import Basic, Ind, ListOf, Model, Pred, UndecidedError, record, rectype, this
 from ttr.probability import All, AnyOf
 
 A = Basic("A")
@@ -80,7 +80,7 @@ def test_degrees():
     assert not j.at_least(0.51)
     assert str(j) == "b : A   p = 0.5"
     assert str(j.why) == "p = 0.5 b : A   (given)"
-    with pytest.raises(Undecided, match=r"b : A   p = 0\.5 is neither"):
+    with pytest.raises(UndecidedError, match=r"b : A   p = 0\.5 is neither"):
         _ = j.holds
     with pytest.raises(TypeError, match=r"ask j\.holds or j\.at_least"):
         bool(j)

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ttr import Basic, Refused, TTRError
+from ttr import Basic, RefusedError, TTRError
 from ttr.semantics.learning import LAPLACE, LogOdds, NaiveBayes
 from ttr.semantics.learning.logistic_regression import Example, fit_weights, logistic
 
@@ -114,7 +114,7 @@ def test_what_is_no_variance(wrong):
 
 
 def test_evidence_of_what_nothing_can_be_of():
-    with pytest.raises(Refused, match="so it is no evidence"):
+    with pytest.raises(RefusedError, match="so it is no evidence"):
         LogOdds((A,)).learned(A & ~A, "a", key=1)
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     Pred,
@@ -70,7 +70,7 @@ def test_merging_under_a_theory_keeps_what_fits_by_it():
 
 def test_amerge_refuses_what_would_lead_nowhere():
     S = rectype(n=rectype(x=Ind), c=dog(this.n.x))
-    with pytest.raises(IllFormed, match=r"the path n\.x leads nowhere"):
+    with pytest.raises(IllFormedError, match=r"the path n\.x leads nowhere"):
         amerge(S, rectype(n=Ind))
 
 
@@ -89,5 +89,7 @@ def test_the_type_of_just_one_state():
 
 def test_what_is_no_type():
     for operation in (merge, amerge):
-        with pytest.raises(IllFormed, match="expected a type, found the predicate dog"):
+        with pytest.raises(
+            IllFormedError, match="expected a type, found the predicate dog"
+        ):
             operation(dog, A)

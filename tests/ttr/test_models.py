@@ -9,7 +9,7 @@ from ttr import (
     Application,
     Basic,
     Degree,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     Model,
@@ -18,12 +18,12 @@ from ttr import (
     Pred,
     Rec,
     RecType,
-    Refused,
+    RefusedError,
     Str,
     TTRError,
     Type,
-    Undecided,
-    Unsupported,
+    UndecidedError,
+    UnsupportedError,
     fst,
     fun,
     outer,
@@ -83,24 +83,30 @@ def test_a_dictionary_is_a_record_and_a_list_a_tuple():
     ],
 )
 def test_what_cannot_be_given(sit, T, message):
-    with pytest.raises(Refused) as caught:
+    with pytest.raises(RefusedError) as caught:
         Model().given(sit, T)
     assert message in str(caught.value)
 
 
 def test_what_a_model_takes():
     M = Model()
-    with pytest.raises(IllFormed, match="expected a type, found the predicate dog"):
+    with pytest.raises(
+        IllFormedError, match="expected a type, found the predicate dog"
+    ):
         M.given("s", dog)
-    with pytest.raises(IllFormed, match="expected a type, found the object 'Ind'"):
+    with pytest.raises(IllFormedError, match="expected a type, found the object 'Ind'"):
         M.judge("s", "Ind")
-    with pytest.raises(IllFormed, match=r"dog\(\.x\) has paths that lead nowhere"):
+    with pytest.raises(IllFormedError, match=r"dog\(\.x\) has paths that lead nowhere"):
         M.judge("s", dog(this.x))
-    with pytest.raises(IllFormed, match=r"\{x = \.y\} has paths that lead nowhere"):
+    with pytest.raises(
+        IllFormedError, match=r"\{x = \.y\} has paths that lead nowhere"
+    ):
         M.given(record(x=this.y), rectype(x=Ind))
-    with pytest.raises(IllFormed, match="paths that lead nowhere"):
+    with pytest.raises(IllFormedError, match="paths that lead nowhere"):
         M.create(rectype(c=dog(outer.x)))
-    with pytest.raises(Unsupported, match="only basic types and ptypes take a degree"):
+    with pytest.raises(
+        UnsupportedError, match="only basic types and ptypes take a degree"
+    ):
         M.given("a", A & B, 0.5)
     with pytest.raises(TTRError, match="a model is of a theory, found 3"):
         Model(3)
@@ -118,7 +124,7 @@ def test_open_and_closed():
     assert M.judge("b", B).p == (0, 1)
     M = Model().given("a", B, 0).given("b", B, 1)
     assert M.judge("c", B).p == (0, 0)
-    with pytest.raises(Undecided, match="neither certain nor refuted"):
+    with pytest.raises(UndecidedError, match="neither certain nor refuted"):
         _ = Model(Signature(opened=frozenset([A]))).judge("a", A).holds
 
 
@@ -191,13 +197,13 @@ def test_a_bound_from_above():
 def test_a_model_refuses_what_an_axiom_contradicts():
     M = Model(PUPPIES).given("s", dog("rex"), 0)
     with pytest.raises(
-        Refused,
+        RefusedError,
         match=r"s : puppy\(rex\) cannot have the probability 1: by puppy\(x\) <: dog",
     ):
         M.given("s", puppy("rex"))
     M = Model(PUPPIES).given("s", puppy("rex"))
     with pytest.raises(
-        Refused, match=r"by puppy\(x\) <: dog\(x\) and s : puppy\(rex\)"
+        RefusedError, match=r"by puppy\(x\) <: dog\(x\) and s : puppy\(rex\)"
     ):
         M.given("s", dog("rex"), (0, 0.5))
 
@@ -219,14 +225,18 @@ def test_a_witness_function_of_a_basic_type():
     assert M.judge("a", A).holds is True
     assert M.judge("b", A).holds is False
     assert M.judge("a", A).why.rule == "by the witness function of A"
-    with pytest.raises(Refused, match="b : A is refused by the witness function of A"):
+    with pytest.raises(
+        RefusedError, match="b : A is refused by the witness function of A"
+    ):
         M.given("b", A)
     assert M.given("b", A, 0).judge("b", A).holds is False
 
 
 def test_a_witness_function_rules_over_declared_subtypes():
     M = Model(Signature(axioms=(Axiom(A, B),))).witnessed(B, by=lambda b: False)
-    with pytest.raises(Refused, match="b : A is refused by the witness function of B"):
+    with pytest.raises(
+        RefusedError, match="b : A is refused by the witness function of B"
+    ):
         M.given("b", A)
 
 
@@ -355,13 +365,13 @@ def test_creating_what_has_a_form():
     ],
 )
 def test_what_cannot_be_created(T):
-    with pytest.raises(Refused):
+    with pytest.raises(RefusedError):
         Model().create(T)
 
 
 def test_a_witness_function_may_refuse_what_is_made_up():
     M = Model().witnessed(A, by=lambda a: isinstance(a, float))
-    with pytest.raises(Refused, match="refused by the witness function of A"):
+    with pytest.raises(RefusedError, match="refused by the witness function of A"):
         M.create(A)
     assert M.create(A @ 0.5)[0] == 0.5
 
@@ -391,7 +401,7 @@ def test_what_nests_too_deep_is_said_so():
     r, T = record(), Rec
     for _ in range(3000):
         r, T = record(n=r), rectype(n=T)
-    with pytest.raises(Unsupported, match="nests deeper than can be followed"):
+    with pytest.raises(UnsupportedError, match="nests deeper than can be followed"):
         Model().judge(r, T)
 
 
@@ -427,10 +437,10 @@ def test_a_function_of_what_is_known():
 
 
 def test_what_cannot_be_is_not_given():
-    with pytest.raises(Refused, match="it denies what it says"):
+    with pytest.raises(RefusedError, match="it denies what it says"):
         Model().given("a", A & ~A)
     seen = Model().witnessed(p, by=lambda x: 0)
-    with pytest.raises(Refused, match="refused by the witness function of p"):
+    with pytest.raises(RefusedError, match="refused by the witness function of p"):
         seen.given("s", p("a"), 0.5)
 
 

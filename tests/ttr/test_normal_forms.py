@@ -2,7 +2,7 @@
 
 import pytest
 
-from ttr import Basic, IllFormed, Negation, Unsupported, join, meet, rectype
+from ttr import Basic, IllFormedError, Negation, UnsupportedError, join, meet, rectype
 from ttr.computing.case_analysis import cases
 from ttr.computing.normal_forms import join_normal_form, meet_normal_form
 
@@ -42,9 +42,13 @@ def test_one_form_leads_to_the_other_and_back():
 
 def test_there_is_a_limit_and_it_is_named():
     pairs = [(Basic(f"L{i}"), Basic(f"R{i}")) for i in range(14)]
-    with pytest.raises(Unsupported, match="a normal form of more than 4,096 parts"):
+    with pytest.raises(
+        UnsupportedError, match="a normal form of more than 4,096 parts"
+    ):
         meet_normal_form(join(*[L & R for L, R in pairs]))
-    with pytest.raises(Unsupported, match="a normal form of more than 4,096 parts"):
+    with pytest.raises(
+        UnsupportedError, match="a normal form of more than 4,096 parts"
+    ):
         join_normal_form(meet(*[L | R for L, R in pairs]))
     many = meet(*[Basic(f"L{i}") for i in range(4000)])
     assert meet_normal_form(many) is many
@@ -54,14 +58,14 @@ def test_deep_nesting_is_an_error_of_ours():
     T = A
     for _ in range(20_000):
         T = Negation(T)
-    with pytest.raises(Unsupported, match="deeper than can be followed"):
+    with pytest.raises(UnsupportedError, match="deeper than can be followed"):
         meet_normal_form(T)
 
 
 def test_only_types_have_normal_forms():
-    with pytest.raises(IllFormed, match="expected a type"):
+    with pytest.raises(IllFormedError, match="expected a type"):
         meet_normal_form("A")
-    with pytest.raises(IllFormed, match="expected a type"):
+    with pytest.raises(IllFormedError, match="expected a type"):
         join_normal_form("A")
 
 

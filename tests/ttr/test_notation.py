@@ -9,7 +9,7 @@ from ttr import (
     Basic,
     EventString,
     FiniteSet,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     Negation,
@@ -305,7 +305,7 @@ def test_parse_alone_knows_the_logical_types_only() -> None:
 
 
 def test_theory_of_refuses_two_predicates_of_one_name() -> None:
-    with pytest.raises(IllFormed, match="two predicates are called dog"):
+    with pytest.raises(IllFormedError, match="two predicates are called dog"):
         Theory.of(dog("a"), Pred("dog", A)("a"))
 
 
@@ -439,7 +439,7 @@ def test_says_what_is_wrong(text: str, column: int, said: str, hint: str) -> Non
     ],
 )
 def test_says_what_is_ill_formed(text: str, column: int, said: str) -> None:
-    with pytest.raises(IllFormed) as caught:
+    with pytest.raises(IllFormedError) as caught:
         KENNEL.parse(text)
     assert said in caught.value.message
     assert caught.value.span is not None

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ttr import FiniteSet, IllFormed, Ind, Record, TTRError, outer, record, this
+from ttr import FiniteSet, IllFormedError, Ind, Record, TTRError, outer, record, this
 from ttr.types.objects import freeze
 from ttr.types.syntax import Path
 
@@ -61,14 +61,14 @@ def test_freezing():
 
 @pytest.mark.parametrize("label", ["_x", "", "a b", "a.b", 3, "1"])
 def test_what_is_no_label(label):
-    with pytest.raises(IllFormed, match="a label is an identifier"):
+    with pytest.raises(IllFormedError, match="a label is an identifier"):
         record({label: 1})
 
 
 def test_a_label_is_there_once():
-    with pytest.raises(IllFormed, match="the label x is there twice"):
+    with pytest.raises(IllFormedError, match="the label x is there twice"):
         record({"x": 1}, x=2)
-    with pytest.raises(IllFormed, match="record takes labels as keywords"):
+    with pytest.raises(IllFormedError, match="record takes labels as keywords"):
         record([("x", 1)])
 
 
@@ -98,7 +98,7 @@ def test_paths():
     ],
 )
 def test_what_is_no_path(wrong, message):
-    with pytest.raises(IllFormed, match=message):
+    with pytest.raises(IllFormedError, match=message):
         wrong()
 
 

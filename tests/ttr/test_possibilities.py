@@ -5,15 +5,15 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     Model,
     Pred,
-    Refused,
+    RefusedError,
     Theory,
-    Undecided,
-    Unsupported,
+    UndecidedError,
+    UnsupportedError,
     fun,
     proposition,
     record,
@@ -225,15 +225,15 @@ def test_without_a_predicate_its_ptypes_do_not_exist(w):
     assert not w.has("w1", Dog)
     assert not w.has("w1", proposition("s", dog("a")))
     assert w.has("w1", hug("a", "b"))
-    with pytest.raises(IllFormed, match=r"dog\(a\) does not exist in w1"):
+    with pytest.raises(IllFormedError, match=r"dog\(a\) does not exist in w1"):
         w.judge("w1", "s", dog("a"))
-    with pytest.raises(IllFormed, match="does not exist in w1"):
+    with pytest.raises(IllFormedError, match="does not exist in w1"):
         w.given("w1", "s", dog("a"))
 
 
 def test_a_type_that_exists_nowhere(w):
     w = w.without("w1", B).without("w2", B)
-    with pytest.raises(IllFormed, match="no possibility has B"):
+    with pytest.raises(IllFormedError, match="no possibility has B"):
         w.inclusive.necessary(B)
     assert w.restrictive.possible(B).no
 
@@ -270,7 +270,7 @@ def test_what_a_box_is_about_is_worked_out_first(w):
 
 
 def test_a_box_inside_another_type_is_asked_of_a_situation(w):
-    with pytest.raises(Unsupported, match="are asked of the system"):
+    with pytest.raises(UnsupportedError, match="are asked of the system"):
         w.restrictive.necessary(rectype(c=necessarily(A)))
     assert w.restrictive.subtype(A & necessarily(A), B).unknown
 
@@ -284,7 +284,7 @@ def test_they_are_written_as_predicates_of_types():
 def test_of_what_is_unknown_the_box_is_unknown():
     theory = Signature(opened=frozenset([B]))
     w = modal_system(w1=Model(theory))
-    with pytest.raises(Undecided):
+    with pytest.raises(UndecidedError):
         _ = w.judge("w1", "s", necessarily(B)).holds
 
 
@@ -292,11 +292,13 @@ def test_of_what_is_unknown_the_box_is_unknown():
 
 
 def test_what_is_no_system():
-    with pytest.raises(IllFormed, match="at least one possibility"):
+    with pytest.raises(IllFormedError, match="at least one possibility"):
         modal_system()
-    with pytest.raises(IllFormed, match="the possibility w must be a model, found 3"):
+    with pytest.raises(
+        IllFormedError, match="the possibility w must be a model, found 3"
+    ):
         modal_system(w=3)
-    with pytest.raises(IllFormed, match="w1 and w2 are of different theories"):
+    with pytest.raises(IllFormedError, match="w1 and w2 are of different theories"):
         modal_system(w1=Model(), w2=Model(Signature(opened=frozenset([A]))))
 
 
@@ -308,22 +310,22 @@ def test_what_is_no_possibility(w):
         lambda: w.without("w3", A),
         lambda: w.has("w3", A),
     ):
-        with pytest.raises(IllFormed, match="no possibility w3, only w1, w2"):
+        with pytest.raises(IllFormedError, match="no possibility w3, only w1, w2"):
             ask()
 
 
 def test_what_is_no_head_or_type(w):
-    with pytest.raises(IllFormed, match="lacks is a basic type or a predicate"):
+    with pytest.raises(IllFormedError, match="lacks is a basic type or a predicate"):
         w.without("w1", A & B)
-    with pytest.raises(IllFormed, match="a proposition is a type or a record"):
+    with pytest.raises(IllFormedError, match="a proposition is a type or a record"):
         w.restrictive.necessary("a")
-    with pytest.raises(IllFormed, match="expected a type"):
+    with pytest.raises(IllFormedError, match="expected a type"):
         w.restrictive.subtype(A, "a")
 
 
 def test_what_cannot_be_told_changes_nothing(w):
     before = w.judge("w1", "a", A).p
-    with pytest.raises(Refused):
+    with pytest.raises(RefusedError):
         w.given("w1", "a", A & ~A)
     assert w.judge("w1", "a", A).p == before
 
@@ -331,7 +333,7 @@ def test_what_cannot_be_told_changes_nothing(w):
 @pytest.mark.parametrize("name", [None, 3, [], np.array([1, 2])])
 def test_a_possibility_has_a_name(name):
     w = modal_system(w1=Model())
-    with pytest.raises(IllFormed, match="there is no possibility"):
+    with pytest.raises(IllFormedError, match="there is no possibility"):
         w[name]
-    with pytest.raises(IllFormed, match="there is no possibility"):
+    with pytest.raises(IllFormedError, match="there is no possibility"):
         w.judge(name, "s", Basic("A"))

@@ -18,7 +18,7 @@ from ttr import (
     RecType,
     Type,
     Universe,
-    Unsupported,
+    UnsupportedError,
     fun,
     outer,
     record,
@@ -136,5 +136,5 @@ def test_what_nests_too_deep_to_be_printed_is_said_so(shown):
     for _ in range(2000):
         T, r = rectype(n=T), record(n=r)
     for deep in (T, r):
-        with pytest.raises(Unsupported, match="nests deeper than can be followed"):
+        with pytest.raises(UnsupportedError, match="nests deeper than can be followed"):
             shown(deep)

@@ -4,14 +4,14 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     Model,
     Pred,
-    Refused,
+    RefusedError,
     Theory,
     TTRError,
-    Undecided,
+    UndecidedError,
     fun,
     outer,
     record,
@@ -22,7 +22,7 @@ from ttr.semantics.quantifiers import (
     DETERMINERS,
     Extension,
     Thresholds,
-    Undefined,
+    UndefinedError,
     absent,
     antecedents,
     at_least,
@@ -170,7 +170,7 @@ def test_properties_may_be_of_records_or_types(M):
 
 def test_a_property_of_something_else_is_refused(M):
     Dog = rectype(x=Ind, c=dog(this.x))
-    with pytest.raises(Refused, match=r"takes objects of Ind, which .* is not"):
+    with pytest.raises(RefusedError, match=r"takes objects of Ind, which .* is not"):
         settle(M, every(Dog, bark))
 
 
@@ -190,7 +190,7 @@ def test_a_possible_thing_leaves_it_open(M):
     M = Model(kennel).given("f", Ind).given("df", dog("f"))
     found = settle(M, every(dog, bark))
     assert found.p == (0, 1)
-    with pytest.raises(Undecided, match="neither certain nor refuted"):
+    with pytest.raises(UndecidedError, match="neither certain nor refuted"):
         _ = found.holds
 
 
@@ -271,9 +271,9 @@ def test_one_thing_is_picked_up_in_the_singular(M):
 
 
 def test_a_share_of_nothing_is_neither_true_nor_false(M):
-    with pytest.raises(Undefined, match=r"most\(.*boy.*nothing is of"):
+    with pytest.raises(UndefinedError, match=r"most\(.*boy.*nothing is of"):
         settle(M, most(boy, bark))
-    with pytest.raises(Undefined, match="nothing is of P"):
+    with pytest.raises(UndefinedError, match="nothing is of P"):
         quantify(few, Extension.of([]), Extension.of([]))
     assert settle(M, every(boy, bark)).holds is True
     assert settle(M, not_every(boy, bark)).holds is False
@@ -305,7 +305,7 @@ def test_a_mistake_is_told(make, why):
 
 
 def test_a_property_that_gives_no_type_is_told(M):
-    with pytest.raises((IllFormed, Refused), match="type"):
+    with pytest.raises((IllFormedError, RefusedError), match="type"):
         settle(M, every(dog, fun(x=Ind)(this.x)))
 
 

@@ -5,7 +5,7 @@ import pytest
 from ttr import (
     Application,
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     Path,
@@ -93,48 +93,52 @@ def test_equal_records_are_renamed_alike_or_not_at_all():
     T = rectype(bg=rectype(x=A), o=rectype(x=A) @ this.bg)
     both = relabel(T, {"bg.x": "z", "o.x": "z"})
     assert both is rectype(bg=rectype(z=A), o=rectype(z=A) @ this.bg)
-    with pytest.raises(IllFormed, match=r"bg\.x cannot be renamed: o is about bg"):
+    with pytest.raises(IllFormedError, match=r"bg\.x cannot be renamed: o is about bg"):
         relabel(T, {"bg.x": "z"})
-    with pytest.raises(IllFormed, match=r"o\.x cannot be renamed: o is set to"):
+    with pytest.raises(IllFormedError, match=r"o\.x cannot be renamed: o is set to"):
         relabel(T, {"o.x": "z"})
 
 
 def test_nothing_is_renamed_in_a_record_that_something_is_said_of():
     said = Application(Path(0, ("f",)), Path(0, ("bg",)))
     T = rectype(bg=rectype(x=A), f=rectype(x=A) >> A, c=A @ said)
-    with pytest.raises(IllFormed, match=r"c is about bg as a whole"):
+    with pytest.raises(IllFormedError, match=r"c is about bg as a whole"):
         relabel(T, {"bg.x": "z"})
-    with pytest.raises(IllFormed, match=r"bg\.x cannot be renamed: B is no record"):
+    with pytest.raises(
+        IllFormedError, match=r"bg\.x cannot be renamed: B is no record"
+    ):
         relabel(rectype(bg=B & rectype(x=A)), {"bg.x": "z"})
 
 
 @pytest.mark.parametrize("value", [rectype(x=A, y=A), record(x="a", y="b")])
 def test_labels_that_would_fall_together_are_named(value):
-    with pytest.raises(IllFormed, match="the labels x and y would both be called y"):
+    with pytest.raises(
+        IllFormedError, match="the labels x and y would both be called y"
+    ):
         relabel(value, x="y")
 
 
 def test_labels_fall_together_across_the_parts_of_a_meet():
     T = rectype(bg=meet(rectype(x=A), rectype(y=A)))
-    with pytest.raises(IllFormed, match="x and y in bg would both be called y"):
+    with pytest.raises(IllFormedError, match="x and y in bg would both be called y"):
         relabel(T, {"bg.x": "y"})
 
 
 @pytest.mark.parametrize("value", [PAIR, record(x="a", y="b", e="s")])
 def test_a_label_that_is_not_there_is_named(value):
-    with pytest.raises(IllFormed, match="there is no ee") as caught:
+    with pytest.raises(IllFormedError, match="there is no ee") as caught:
         relabel(value, ee="z")
     assert caught.value.hint == "did you mean e?"
 
 
 def test_what_cannot_be_relabelled_is_said():
-    with pytest.raises(IllFormed, match="relabel takes a record type or a record"):
+    with pytest.raises(IllFormedError, match="relabel takes a record type or a record"):
         relabel(Ind, x="y")
-    with pytest.raises(IllFormed, match="a label is an identifier"):
+    with pytest.raises(IllFormedError, match="a label is an identifier"):
         relabel(PAIR, x="bg.z")
-    with pytest.raises(IllFormed, match=r"a path as a text, as in 'bg\.x'"):
+    with pytest.raises(IllFormedError, match=r"a path as a text, as in 'bg\.x'"):
         relabel(PAIR, {3: "z"})
-    with pytest.raises(IllFormed, match="x is no record"):
+    with pytest.raises(IllFormedError, match="x is no record"):
         relabel(record(x="a"), {"x.y": "z"})
 
 

@@ -11,12 +11,12 @@ import ttr
 from ttr import (
     Application,
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     Model,
     Pred,
     Type,
-    Unsupported,
+    UnsupportedError,
     outer,
     record,
     rectype,
@@ -486,19 +486,19 @@ def test_records_and_functions_have_names_too() -> None:
 
 @pytest.mark.parametrize("form", [ttr.box, ttr.latex, ttr.html])
 def test_wrong_unfolding(form) -> None:
-    with pytest.raises(IllFormed, match=r"unfold takes .*, 0 or more, found -1"):
+    with pytest.raises(IllFormedError, match=r"unfold takes .*, 0 or more, found -1"):
         form(Ind, unfold=-1, theory=KENNEL)
-    with pytest.raises(IllFormed, match=r"unfold takes .* found True"):
+    with pytest.raises(IllFormedError, match=r"unfold takes .* found True"):
         form(Ind, unfold=True, theory=KENNEL)
-    with pytest.raises(IllFormed, match="unfold needs the theory") as caught:
+    with pytest.raises(IllFormedError, match="unfold needs the theory") as caught:
         form(Ind, unfold=0)
     assert caught.value.hint
-    with pytest.raises(IllFormed, match="unfold needs the theory"):
+    with pytest.raises(IllFormedError, match="unfold needs the theory"):
         form(Ind, unfold=0, theory="kennel.ttr")
 
 
 def test_wrong_width() -> None:
-    with pytest.raises(IllFormed, match="a width is a number of columns"):
+    with pytest.raises(IllFormedError, match="a width is a number of columns"):
         ttr.box(Ind, width=0)
 
 
@@ -518,7 +518,7 @@ def test_what_nests_too_deep_is_refused(form) -> None:
     T = Ind
     for _ in range(3000):
         T = ttr.ListOf(T)
-    with pytest.raises(Unsupported, match="deeper than can be followed"):
+    with pytest.raises(UnsupportedError, match="deeper than can be followed"):
         form(T)
 
 
@@ -557,7 +557,7 @@ def test_values_draw_themselves_in_a_notebook() -> None:
     ],
 )
 def test_what_is_only_about_objects_is_not_drawn(form, value, kind):
-    with pytest.raises(IllFormed, match=f"derivations are drawn, found {kind}$"):
+    with pytest.raises(IllFormedError, match=f"derivations are drawn, found {kind}$"):
         form(value)
 
 

@@ -11,17 +11,17 @@ from ttr.cli.session.repl import is_complete, respond
 from ttr.cli.session.sessions import Session
 from ttr.display.abbreviations import folding
 from ttr.errors import (
-    NoState,
+    NoStateError,
     NotationError,
-    NotHeard,
+    NotHeardError,
     TTRError,
-    Unsupported,
+    UnsupportedError,
     UpdateError,
 )
 from ttr.judging.models import Model
 from ttr.probability import Degree
 from ttr.theories.checking import check
-from ttr.theories.theory import Mistakes, Theory, load
+from ttr.theories.theory import MistakesError, Theory, load
 from ttr.types.syntax import Record, RecordType, record
 from ttr.updates import all_, by_class, first, maybe, nbest, repeat, rule, run, seq
 from ttr.updates.rule_application import stepped, why_not
@@ -242,7 +242,7 @@ def test_a_game_hears_what_it_says_it_hears() -> None:
     assert found.games["g"].hears == (found.Move, found.Ind)
     assert found.games["h"].hears == (found.parse("[m : Ind]"),)
     assert found.games["h"].agenda == "plan"
-    with pytest.raises(NotHeard):
+    with pytest.raises(NotHeardError):
         found.games["h"].take(found.games["h"].begin(), found.Move)
 
 
@@ -259,7 +259,7 @@ def test_a_game_that_starts_from_no_state_is_told_with_its_place() -> None:
         "game g({spkr = 'c', addr = b, plan = [], in = {deep = a}} : State) := turn"
     )
     for ask in (lambda: found.games, lambda: check(found)):
-        with pytest.raises(NoState) as caught:
+        with pytest.raises(NoStateError) as caught:
             ask()
         assert caught.value.message == (
             "at the start the state is not of its type, at spkr: c : Ind, "
@@ -663,7 +663,7 @@ def test_what_mentions_a_spoilt_rule_is_passed_over() -> None:
             "game g(Start : State) := n\n"
             "check r(Start) = Start\n"
         )
-    assert not isinstance(caught.value, Mistakes)
+    assert not isinstance(caught.value, MistakesError)
     assert caught.value.message == "nothing is called Stat here"
 
 
@@ -812,7 +812,7 @@ def test_a_python_rule_is_not_written() -> None:
     def nothing(s):
         return None
 
-    with pytest.raises(Unsupported) as caught:
+    with pytest.raises(UnsupportedError) as caught:
         written(nothing)
     assert caught.value.message == (
         "the effect of nothing is a Python function, not notation"

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ttr import Basic, Ind, ListOf, Model, NoState, Pred, record, rectype, this
+from ttr import Basic, Ind, ListOf, Model, NoStateError, Pred, record, rectype, this
 from ttr.updates.states import check_state, is_still_of
 
 Number = Basic("Number")
@@ -69,5 +69,5 @@ def test_fields_that_depend_on_one_another_are_judged_whole():
 
 
 def test_a_state_that_is_no_record_is_refused():
-    with pytest.raises(NoState, match="at first the state is no record, but a"):
+    with pytest.raises(NoStateError, match="at first the state is no record, but a"):
         check_state("a", State, GIVEN, "at first")

@@ -13,7 +13,7 @@ from ttr import (
     FiniteSet,
     Function,
     FunType,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     Model,
@@ -22,7 +22,7 @@ from ttr import (
     Pred,
     Record,
     RecordType,
-    Refused,
+    RefusedError,
     Singleton,
     Theory,
     TTRError,
@@ -155,7 +155,7 @@ def test_a_record_of_any_record_type_is_of_it(data):
     T = data.draw(tst.record_types())
     try:
         r, M = data.draw(tst.records(T))
-    except Refused:
+    except RefusedError:
         return
     assert M.judge(r, T).holds
 
@@ -187,14 +187,16 @@ def test_facts_have_the_degrees_that_are_asked_for(M):
 
 def test_nothing_is_drawn_where_nothing_can_be():
     T = rectype(x=Ind @ this.y, y=Ind @ this.x)
-    with pytest.raises(Refused):
+    with pytest.raises(RefusedError):
         drawn(tst.records(rectype(x=ListOf(Ind) @ "a", n=T)), few)
 
 
 def test_wrong_arguments_are_named():
-    with pytest.raises(IllFormed, match="records are drawn for a record type, found"):
+    with pytest.raises(
+        IllFormedError, match="records are drawn for a record type, found"
+    ):
         tst.records(Ind)
-    with pytest.raises(IllFormed, match="expected a type"):
+    with pytest.raises(IllFormedError, match="expected a type"):
         tst.records("Dog")
     with pytest.raises(TTRError, match="records are drawn over a model, found"):
         tst.records(DOG, model=KENNEL)

@@ -6,7 +6,7 @@ from hypothesis import given
 from ttr import (
     Basic,
     EventString,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     Model,
@@ -82,13 +82,13 @@ def test_type_of_type_is_read_and_never_of_itself():
     assert Model().judge(sit, T).holds is True
     assert sit is not T
     assert Model().judge(Type, Type).holds is False
-    with pytest.raises(IllFormed, match=r"level 2 is too high for Type\^1"):
+    with pytest.raises(IllFormedError, match=r"level 2 is too high for Type\^1"):
         levelled_judgement(T1, T1)
 
 
 def test_a_superscript_that_is_written_is_kept():
     assert with_levels(T3 @ Ind) is T3 @ Ind
-    with pytest.raises(IllFormed, match=r"write Type\^3, or leave") as wrong:
+    with pytest.raises(IllFormedError, match=r"write Type\^3, or leave") as wrong:
         with_levels(rectype(x=T1 @ T2))
     assert "level 3" in wrong.value.message
 
@@ -99,9 +99,9 @@ def test_superscripts_left_out():
 
 
 def test_what_is_no_type():
-    with pytest.raises(IllFormed, match="expected a type, found the object 'a'"):
+    with pytest.raises(IllFormedError, match="expected a type, found the object 'a'"):
         with_levels("a")
-    with pytest.raises(IllFormed, match="expected a type"):
+    with pytest.raises(IllFormedError, match="expected a type"):
         levelled_judgement("a", "b")
 
 
@@ -109,7 +109,7 @@ def test_what_is_no_type():
 def test_reading_twice_is_reading_once(T):
     try:
         read = with_levels(without_levels(T))
-    except IllFormed:
+    except IllFormedError:
         return
     assert with_levels(read) is read
     assert without_levels(read) is without_levels(T)
@@ -119,7 +119,7 @@ def test_reading_twice_is_reading_once(T):
 def test_every_type_is_of_type_in_some_reading(T):
     try:
         read = levelled_judgement(without_levels(T), Type)
-    except IllFormed:
+    except IllFormedError:
         return
     sit, universe = read
     assert universe is Universe("Type", level_of(sit))

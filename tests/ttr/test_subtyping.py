@@ -8,7 +8,7 @@ import ttr
 from ttr import (
     Application,
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     NonEmpty,
@@ -17,7 +17,7 @@ from ttr import (
     RecType,
     Str,
     Type,
-    Unsupported,
+    UnsupportedError,
     fun,
     outer,
     record,
@@ -227,9 +227,9 @@ def test_a_reason_that_is_too_large_is_said_to_be():
 
 
 def test_what_is_no_type():
-    with pytest.raises(IllFormed, match="expected a type, found the predicate p"):
+    with pytest.raises(IllFormedError, match="expected a type, found the predicate p"):
         subtype(A, p)
-    with pytest.raises(IllFormed, match="expected a type, found the object 'a'"):
+    with pytest.raises(IllFormedError, match="expected a type, found the object 'a'"):
         _ = A <= "a"
 
 
@@ -244,7 +244,7 @@ def test_what_nests_too_deep_is_said_so():
     T = rectype(x=A)
     for _ in range(3000):
         T = rectype(n=T)
-    with pytest.raises(Unsupported, match="nests deeper than can be followed"):
+    with pytest.raises(UnsupportedError, match="nests deeper than can be followed"):
         subtype(T, rectype(n=rectype(y=A)))
 
 

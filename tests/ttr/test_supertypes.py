@@ -4,7 +4,7 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     NonEmpty,
@@ -55,7 +55,7 @@ def test_types_that_are_no_record_types(S, T, expected):
     ("S", "T"), [(A, B), (A, rectype(x=A)), (ListOf(A), SetOf(A)), (Str(A), Str(A, A))]
 )
 def test_there_is_no_type_of_everything(S, T):
-    with pytest.raises(IllFormed, match="have no common supertype without a join"):
+    with pytest.raises(IllFormedError, match="have no common supertype without a join"):
         common_supertype(S, T)
 
 
@@ -162,7 +162,7 @@ def test_one_below_the_other_gives_the_other():
 
 
 def test_only_types_have_supertypes():
-    with pytest.raises(IllFormed, match="expected a type"):
+    with pytest.raises(IllFormedError, match="expected a type"):
         common_supertype("A", A)
 
 
@@ -175,5 +175,5 @@ def test_functions_have_none_above_them_if_the_result_of_one_depends(turned):
     fixed = Ind >> rectype(a=A, c=dog("fido"))
     depends = Pi(x=Ind)(rectype(a=A, c=dog(outer.x)))
     both = (depends, fixed) if turned else (fixed, depends)
-    with pytest.raises(IllFormed, match="have no common supertype"):
+    with pytest.raises(IllFormedError, match="have no common supertype"):
         common_supertype(*both)

@@ -10,7 +10,7 @@ from ttr import (
     Basic,
     FiniteSet,
     FunType,
-    IllFormed,
+    IllFormedError,
     Ind,
     ListOf,
     Meet,
@@ -152,7 +152,9 @@ def test_nodes_do_not_change():
     ],
 )
 def test_a_predicate_is_no_type(mistaken):
-    with pytest.raises(IllFormed, match="expected a type, found the predicate dog:"):
+    with pytest.raises(
+        IllFormedError, match="expected a type, found the predicate dog:"
+    ):
         mistaken()
 
 
@@ -247,7 +249,7 @@ WRONG = {
 
 @pytest.mark.parametrize("message", WRONG)
 def test_mistakes_are_named(message):
-    with pytest.raises(IllFormed) as caught:
+    with pytest.raises(IllFormedError) as caught:
         WRONG[message]()
     assert message in str(caught.value)
 

@@ -14,14 +14,14 @@ import pytest
 import ttr
 from ttr.building.constructors import rectype
 from ttr.computing.subtyping import subtype
-from ttr.errors import IllFormed, NotationError, Span, TTRError
+from ttr.errors import IllFormedError, NotationError, Span, TTRError
 from ttr.notation.parser import parse_statement
 from ttr.notation.syntax_trees import Part, Source
 from ttr.theories.checking import check
 from ttr.theories.drafts import Draft
-from ttr.theories.loading import Unreadable
+from ttr.theories.loading import UnreadableError
 from ttr.theories.statements import Declaring
-from ttr.theories.theory import Axiom, Mistakes, Theory, load, theory_of_draft
+from ttr.theories.theory import Axiom, MistakesError, Theory, load, theory_of_draft
 from ttr.types.syntax import Basic, Ind, Pred, this
 from ttr.types.syntax import Path as LabelPath
 
@@ -170,7 +170,7 @@ def test_a_mistake_is_told_with_its_place(
 
 def test_an_ill_formed_definition_is_ill_formed() -> None:
     error = mistake("Hug := [x : Ind, e : hug(x)]")
-    assert isinstance(error, IllFormed)
+    assert isinstance(error, IllFormedError)
     assert error.message == "hug takes 2 arguments (Ind, Ind), but has 1"
     assert error.span is not None
     assert (error.span.line, error.span.column, error.span.length) == (4, 22, 6)
@@ -178,7 +178,7 @@ def test_an_ill_formed_definition_is_ill_formed() -> None:
 
 def test_reading_stops_after_a_hundred_mistakes() -> None:
     error = mistake("X := Y\n" * 1000)
-    assert isinstance(error, Mistakes)
+    assert isinstance(error, MistakesError)
     *first, last = error.errors
     assert len(first) == 100
     assert last.message == "reading stops after 100 mistakes"
@@ -197,7 +197,7 @@ pred meow(Ind)
 Meow := [x : Ind, c : meow(x), d : hug(x)]
 """
     )
-    assert isinstance(error, Mistakes)
+    assert isinstance(error, MistakesError)
     assert isinstance(error, NotationError)
     spans = [one.span for one in error.errors]
     assert [span and span.line for span in spans] == [5, 8, 10]
@@ -276,7 +276,7 @@ def test_what_cannot_be_read_is_told(tmp_path: Path) -> None:
         (".", "is a folder, not a file"),
         ("\0", "is no path of a file"),
     ):
-        with pytest.raises(Unreadable, match=said):
+        with pytest.raises(UnreadableError, match=said):
             load(tmp_path / name)
 
 
@@ -448,13 +448,15 @@ def test_a_finished_theory_does_not_follow_its_draft() -> None:
 
 
 def test_a_text_is_no_theory_by_itself() -> None:
-    with pytest.raises(IllFormed, match="found the object 'basic Ind'") as caught:
+    with pytest.raises(IllFormedError, match="found the object 'basic Ind'") as caught:
         Theory("basic Ind")  # type: ignore[arg-type]
     assert "Theory.parse(text)" in caught.value.hint
 
 
 def test_items_are_asked_for_by_name() -> None:
-    with pytest.raises(IllFormed, match="a theory is asked for a name, found int 3"):
+    with pytest.raises(
+        IllFormedError, match="a theory is asked for a name, found int 3"
+    ):
         theory("")[3]  # type: ignore[index]
 
 

@@ -4,11 +4,11 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     Model,
     Pred,
-    Refused,
+    RefusedError,
     TTRError,
     fun,
     merge,
@@ -46,7 +46,7 @@ def test_what_a_topos_lets_expect():
 
 
 def test_of_what_is_no_bird_nothing_is_expected():
-    with pytest.raises(Refused, match="takes objects of"):
+    with pytest.raises(RefusedError, match="takes objects of"):
         expectation(M, record(x="fido", c="s1"), birds_fly)
 
 
@@ -116,11 +116,13 @@ def test_an_enthymeme_and_its_topos():
 
 def test_what_is_no_topos():
     for wrong in (Bird, "a", None, fun(x=Ind)(this.x), fun(x=Ind)("a")):
-        with pytest.raises(IllFormed, match="a topos is a function from situations"):
+        with pytest.raises(
+            IllFormedError, match="a topos is a function from situations"
+        ):
             topos(wrong)
-    with pytest.raises(IllFormed, match="paths that lead nowhere"):
+    with pytest.raises(IllFormedError, match="paths that lead nowhere"):
         topos(fun(x=Ind)(fly(outer.y)))
-    with pytest.raises(IllFormed, match="a topos is a function from situations"):
+    with pytest.raises(IllFormedError, match="a topos is a function from situations"):
         expectation(M, tweety, "fly")
     assert topos(fun(x=Ind)(Basic("A"))).bg is Ind
 
@@ -144,5 +146,5 @@ def test_a_topos_is_applied_in_a_model(ask, model):
 
 @pytest.mark.parametrize("fg", [None, Bird, fun(r=Bird)(outer.r.x)])
 def test_a_topos_made_by_hand_is_checked_too(fg):
-    with pytest.raises(IllFormed, match="a topos is a function"):
+    with pytest.raises(IllFormedError, match="a topos is a function"):
         Topos(fg)

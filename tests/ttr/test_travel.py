@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from ttr import Model, Rec, TTRError, rectype
 from ttr.dialogues.stories import play, read_stories, setting
-from ttr.errors import NotHeard
+from ttr.errors import NotHeardError
 from ttr.semantics.gameboards.ibis import Domain, PhraseBook, utterance
 from ttr.semantics.gameboards.ibis import moves as moves
 from ttr.semantics.gameboards.ibis.domains import plan_size, questions_in
@@ -273,7 +273,7 @@ def test_who_answers_all_that_is_asked_is_told_the_price_or_that_there_is_none(d
     ],
 )
 def test_what_is_no_utterance_of_the_user_is_not_heard(event):
-    with pytest.raises(NotHeard, match="is no event that the game travel takes"):
+    with pytest.raises(NotHeardError, match="is no event that the game travel takes"):
         GAME.take(GAME.begin(), event)
 
 

@@ -6,16 +6,16 @@ import pytest
 
 from ttr import (
     Basic,
-    Endless,
+    EndlessError,
     Ind,
     ListOf,
     Model,
-    NoState,
+    NoStateError,
     Pred,
     Rec,
     Record,
     RecType,
-    RuleFailed,
+    RuleFailedError,
     TTRError,
     Type,
     UpdateError,
@@ -135,13 +135,15 @@ def test_a_repetition_without_progress():
     with pytest.raises(UpdateError, match="help: let its precondition fail"):
         play(repeat(first(at_three, still)))
     there_and_back = seq(up, rule(when=Counter)(lambda s: replace(s, n=s.n - 1)))
-    with pytest.raises(Endless, match=r"goes in a circle: up → <lambda> → up"):
+    with pytest.raises(EndlessError, match=r"goes in a circle: up → <lambda> → up"):
         play(repeat(there_and_back))
 
 
 def test_a_repetition_without_end():
     circle = first(at_three, up)
-    with pytest.raises(Endless, match="goes in a circle: up → up → up → at_three → up"):
+    with pytest.raises(
+        EndlessError, match="goes in a circle: up → up → up → at_three → up"
+    ):
         play(repeat(circle, times=50))
 
 
@@ -150,11 +152,13 @@ def test_a_repetition_that_goes_on_and_on():
     def longer(s):
         return replace(s, log=[*s.log, "a"])
 
-    with pytest.raises(Endless, match="after 50 rounds; the last rules: longer, long"):
+    with pytest.raises(
+        EndlessError, match="after 50 rounds; the last rules: longer, long"
+    ):
         play(repeat(longer, times=50))
-    with pytest.raises(Endless, match="did not end after 1000 rounds"):
+    with pytest.raises(EndlessError, match="did not end after 1000 rounds"):
         play(repeat(longer))
-    with pytest.raises(Endless, match=r"log should get smaller .* from 0 to 1"):
+    with pytest.raises(EndlessError, match=r"log should get smaller .* from 0 to 1"):
         play(repeat(longer, measure="log"))
 
 
@@ -502,7 +506,9 @@ def test_a_rule_keeps_to_what_it_says_it_gives():
     def reset(s):
         return replace(s, n=1)
 
-    with pytest.raises(NoState, match=r"after reset, by what it gives, .* at n: 1 "):
+    with pytest.raises(
+        NoStateError, match=r"after reset, by what it gives, .* at n: 1 "
+    ):
         play(reset)
 
 
@@ -526,7 +532,7 @@ def test_a_value_of_the_wrong_type_is_refused_where_it_stands():
     def banana(s):
         return rectype(n=Count @ "banana")
 
-    with pytest.raises(RuleFailed, match="at n: banana : Count"):
+    with pytest.raises(RuleFailedError, match="at n: banana : Count"):
         play(banana)
 
 
@@ -585,11 +591,13 @@ def test_a_measure_gets_smaller_and_is_never_negative():
         return replace(s, n=s.n - 1) if s.n else None
 
     assert play(repeat(down, measure="n"), record(n=3, log=[])).state.n == 0
-    with pytest.raises(Endless, match="n should get smaller each time up is repeated"):
+    with pytest.raises(
+        EndlessError, match="n should get smaller each time up is repeated"
+    ):
         play(repeat(up, measure="n"))
-    with pytest.raises(Endless, match=r"should get smaller .* from 3 to 3"):
+    with pytest.raises(EndlessError, match=r"should get smaller .* from 3 to 3"):
         play(repeat(up, times=2, measure=lambda s: 3))
-    with pytest.raises(Endless, match="from 0 to -1"):
+    with pytest.raises(EndlessError, match="from 0 to -1"):
         play(repeat(up, measure=lambda s: -s.n))
     with pytest.raises(UpdateError, match="a list or a whole number, found None"):
         play(repeat(up, measure=lambda s: None))
@@ -597,7 +605,7 @@ def test_a_measure_gets_smaller_and_is_never_negative():
         play(repeat(up, measure=lambda s: 1 / (s.n + 1)))
     with pytest.raises(UpdateError, match="the measure m is no path of the state"):
         play(repeat(up, measure="m"))
-    with pytest.raises(RuleFailed, match="the measure failed: ZeroDivisionError"):
+    with pytest.raises(RuleFailedError, match="the measure failed: ZeroDivisionError"):
         play(repeat(up, measure=lambda s: 1 / 0))
 
 
@@ -620,7 +628,7 @@ def test_all_applies_where_a_part_does():
 
 
 def test_a_choice_that_fails():
-    with pytest.raises(RuleFailed, match="what chooses failed: ZeroDivisionError"):
+    with pytest.raises(RuleFailedError, match="what chooses failed: ZeroDivisionError"):
         play(ask(up, choose=lambda names, s: 1 / 0))
 
 
@@ -655,7 +663,9 @@ def test_an_object_that_was_changed_in_place_is_judged_again(state):
         (s["b.in"] if isinstance(s.b, Record) else s.b).size = 9
         return replace(s, b=s.b)
 
-    with pytest.raises(NoState, match="after swell the state is not of its type, at b"):
+    with pytest.raises(
+        NoStateError, match="after swell the state is not of its type, at b"
+    ):
         run(swell, state, type=T, model=Small)
 
 
@@ -667,7 +677,7 @@ def test_a_list_of_objects_that_were_changed_in_place():
         s.l[0].size = 9
         return replace(s, l=[*s.l, Box(1)])
 
-    with pytest.raises(NoState, match="at l: <Box"):
+    with pytest.raises(NoStateError, match="at l: <Box"):
         run(swell, record(l=[Box(1)]), type=T, model=Small)
 
 
@@ -677,7 +687,7 @@ def giving(value):
 
 def test_what_a_rule_gives_is_told_on_one_short_line():
     for junk in (["a"] * 10**5, Silent(), "a\nb" * 100):
-        with pytest.raises(RuleFailed) as caught:
+        with pytest.raises(RuleFailedError) as caught:
             play(rule(when=Counter)(giving(junk)))
         assert len(str(caught.value)) < 400
         assert "\n" not in str(caught.value)
@@ -685,7 +695,9 @@ def test_what_a_rule_gives_is_told_on_one_short_line():
     def complain(s):
         raise ValueError("one\ntwo" * 1000)
 
-    with pytest.raises(RuleFailed, match="complain failed: ValueError: one twoone tw"):
+    with pytest.raises(
+        RuleFailedError, match="complain failed: ValueError: one twoone tw"
+    ):
         play(rule(when=Counter)(complain))
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.types.objects import Path, check_label
 
 __all__ = ["Address", "to_absolute", "parse_address", "to_relative", "format_address"]
@@ -24,7 +24,7 @@ def parse_address(path: object, what: str) -> Address:
     ('bg', 'x')
     """
     if not isinstance(path, str):
-        raise IllFormed(
+        raise IllFormedError(
             f"{what} takes a path as a text, as in 'bg.x', found {type(path).__name__}"
         )
     labels = tuple(path.split("."))

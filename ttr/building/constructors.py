@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from ttr.building.formation import checked, checked_binder
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.types.forms import order_fields
 from ttr.types.objects import check_label, labelled
 from ttr.types.paths import replace_paths
@@ -38,9 +38,9 @@ def rectype(
     """The record type with these fields, as keywords or as one mapping.
 
     Fields are put in the order (depth of dependency, label), so that the order of
-    writing never matters; fields on a cycle come last. Raises `IllFormed` for a path
-    that leads nowhere in this record type, or to an object of a wrong type; what fits
-    by an axiom fits where the theory is given.
+    writing never matters; fields on a cycle come last. Raises `IllFormedError` for a
+    path that leads nowhere in this record type, or to an object of a wrong type; what
+    fits by an axiom fits where the theory is given.
 
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> dog = Pred("dog", Ind)
@@ -48,14 +48,14 @@ def rectype(
     [x : Ind, c : dog(x)]
     >>> rectype(c=dog(this.y), x=Ind)
     Traceback (most recent call last):
-    ttr.errors.IllFormed: the path y leads nowhere: [c : dog(.y), x : Ind] has no y
+    ttr.errors.IllFormedError: the path y leads nowhere: [c : dog(.y), x : Ind] has no y
     help: outer.y, written ^.y, is the y one record further out
     """
     given = labelled("rectype", fields, labels)
     for label, T in given.items():
         check_label(label)
         if not isinstance(T, TypeNode):
-            raise IllFormed(f"the field {label} needs a type, found {kind_of(T)}")
+            raise IllFormedError(f"the field {label} needs a type, found {kind_of(T)}")
     return checked(RecordType(order_fields(given)), theory)
 
 
@@ -71,8 +71,8 @@ def fun(
     """`fun(x=S)(body)` is the function λx:S. body.
 
     In the body `this.x` is the variable, and inside a record type there `outer.x`, as
-    the function is a scope like a record type. Raises `IllFormed` for a path that leads
-    nowhere, or to an object of a wrong type.
+    the function is a scope like a record type. Raises `IllFormedError` for a path that
+    leads nowhere, or to an object of a wrong type.
 
     >>> from ttr.types.syntax import Ind, Pred, outer, this
     >>> run, hug = Pred("run", Ind), Pred("hug", Ind, Ind)
@@ -119,7 +119,7 @@ def _variable(
     """The one variable of a binder, and its type."""
     variables = labelled(what, given, named)
     if len(variables) != 1:
-        raise IllFormed(f"{what} takes one variable, as in {what}(x=Ind)(…)")
+        raise IllFormedError(f"{what} takes one variable, as in {what}(x=Ind)(…)")
     ((name, domain),) = variables.items()
     check_label(name)
     return name, as_type(domain)
@@ -133,7 +133,7 @@ def _bind_variable(name: str, body: Object) -> Object:
         if path.up > 0 or first == BOUND:
             return path
         if first != name:
-            raise IllFormed(
+            raise IllFormedError(
                 f"the path {'.'.join(path.labels)} leads nowhere: "
                 f"the variable is {name}"
             )

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any, TypeVar
 
 from ttr.building.addresses import Address, format_address, to_absolute, to_relative
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.forms import order_fields
 from ttr.types.objects import check_label
@@ -30,7 +30,7 @@ def flatten(
 
     A field at the path bg.x gets the label bg__x, and paths follow. A record is taken
     apart wherever it holds a record with labels, or only where the record type `like`
-    has a record type with fields. Raises `IllFormed` where a joined label could be
+    has a record type with fields. Raises `IllFormedError` where a joined label could be
     taken apart in another way, where something is said of a nested record as a whole,
     and where a record lacks what `like` has.
     Law: r : T iff flatten(r, T) : flatten(T), and unflatten(flatten(r)) == r.
@@ -83,7 +83,7 @@ def _flat_path(
             label = _join_labels(found.labels[:size], sep)
             return Path(0, (label, *found.labels[size:]))
     whole = format_address(found.labels)
-    raise IllFormed(
+    raise IllFormedError(
         f"{whole} cannot be flattened: {format_address(at)} is about {whole} as a whole"
     )
 
@@ -107,7 +107,7 @@ def _parts_like(
     for label, field in T.fields:
         if label not in labels:
             there = format_address((*at, label))
-            raise IllFormed(f"there is no {there} in the record, but {T} has one")
+            raise IllFormedError(f"there is no {there} in the record, but {T} has one")
         if isinstance(field, RecordType) and field.fields:
             yield from _parts_like(field, labels[label], (*at, label))
         else:
@@ -124,7 +124,7 @@ def _join_labels(at: Address, sep: str) -> str:
     check_label(label)
     if _split_label(label, sep) == at:
         return label
-    raise IllFormed(
+    raise IllFormedError(
         f"{format_address(at)} cannot become the label {label}, which reads as "
         f"{format_address(_split_label(label, sep))}",
         hint='give another separator, as in flatten(T, sep="_in_")',
@@ -138,7 +138,7 @@ def _split_label(label: str, sep: str) -> Address:
 
 def _check_separator(sep: object) -> None:
     if not isinstance(sep, str) or not sep or not f"a{sep}".isidentifier():
-        raise IllFormed(f"a separator is a part of an identifier, found {sep!r}")
+        raise IllFormedError(f"a separator is a part of an identifier, found {sep!r}")
 
 
 # --- nested --------------------------------------------------------------------------
@@ -148,9 +148,9 @@ def _check_separator(sep: object) -> None:
 def unflatten(value: _Shape, sep: str = "__") -> _Shape:
     """The record type or record that flattens to this one.
 
-    A label bg__x becomes the label x inside bg, and paths follow. Raises `IllFormed`
-    for a label that cannot be taken apart, and for one that is taken apart while its
-    first part is a label as well.
+    A label bg__x becomes the label x inside bg, and paths follow. Raises
+    `IllFormedError` for a label that cannot be taken apart, and for one that is taken
+    apart while its first part is a label as well.
     Law: flatten(unflatten(T)) is T, and the same for records.
 
     >>> from ttr.building.constructors import rectype
@@ -199,9 +199,11 @@ def _build_tree(fields: Mapping[str, Object], sep: str) -> _Tree:
     return tree
 
 
-def _label_clash(label: str, sep: str) -> IllFormed:
+def _label_clash(label: str, sep: str) -> IllFormedError:
     path = format_address(_split_label(label, sep))
-    return IllFormed(f"{label} cannot become {path}: one of its parts is also a field")
+    return IllFormedError(
+        f"{label} cannot become {path}: one of its parts is also a field"
+    )
 
 
 def _record(tree: _Tree) -> Record:
@@ -220,5 +222,7 @@ def _record_type(tree: _Tree) -> RecordType:
     )
 
 
-def _wrong_argument(what: str, value: object) -> IllFormed:
-    return IllFormed(f"{what} takes a record type or a record, found {kind_of(value)}")
+def _wrong_argument(what: str, value: object) -> IllFormedError:
+    return IllFormedError(
+        f"{what} takes a record type or a record, found {kind_of(value)}"
+    )

@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeVar
 
 from ttr.computing.cycles import circle
 from ttr.computing.subtyping import Answer, subtype
-from ttr.errors import IllFormed, suggestion
+from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.paths import escaping, parts
@@ -42,7 +42,7 @@ def wellformed(T: TypeNode, theory: Signature | None = None, /) -> Answer:
     """Does every path in T lead to a field that fits, and none in a circle?
 
     A type with a circle can be judged, but no witness of it can be created. With a
-    theory, its axioms count. Raises `IllFormed` if T is not a type.
+    theory, its axioms count. Raises `IllFormedError` if T is not a type.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
@@ -58,7 +58,7 @@ def wellformed(T: TypeNode, theory: Signature | None = None, /) -> Answer:
     if isinstance(T, RecordType):
         try:
             checked(T, theory)
-        except IllFormed as error:
+        except IllFormedError as error:
             return Answer("no", error.message)
     return Answer("yes", "every path leads to a field that fits")
 
@@ -69,7 +69,7 @@ _Where = tuple[str, ...]
 
 @within_budget
 def checked(T: RecordType, theory: Signature | None = None) -> RecordType:
-    """The record type itself, if its paths resolve and fit; else `IllFormed`.
+    """The record type itself, if its paths resolve and fit; else `IllFormedError`.
 
     Paths that lead out of T are left to the record type that will be built around it.
     """
@@ -85,7 +85,7 @@ _BINDER = TypeVar("_BINDER", Function, FunType)
 
 @within_budget
 def checked_binder(binder: _BINDER, theory: Signature | None = None) -> _BINDER:
-    """The binder itself, if its paths resolve and fit; else `IllFormed`."""
+    """The binder itself, if its paths resolve and fit; else `IllFormedError`."""
     inside = binder.body if isinstance(binder, Function) else binder.result
     _check(inside, _scope(binder), (), signature_of(theory))
     return binder
@@ -96,12 +96,13 @@ def checked_within(
 ) -> None:
     """Check that the paths of a value resolve and fit, if it stands in `around`.
 
-    Raises `IllFormed` if they do not. The value stands there like the type of a field.
+    Raises `IllFormedError` if they do not. The value stands there like the type of a
+    field.
 
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> checked_within(Pred("dog", Ind)(this.s.y), RecordType((("s", RecordType(())),)))
     Traceback (most recent call last):
-    ttr.errors.IllFormed: the path s.y leads nowhere: Rec has no y
+    ttr.errors.IllFormedError: the path s.y leads nowhere: Rec has no y
     """
     _check(value, _scope(around), (), signature_of(theory))
 
@@ -166,7 +167,9 @@ def _argument_types(inside: TypeNode) -> tuple[tuple[Path, TypeNode], ...] | Non
 
 
 def target(path: Path, T: RecordType) -> TypeNode:
-    """The type of the field that a path leads to, from within T; else `IllFormed`."""
+    """The type of the field that a path leads to, from within T; else
+    `IllFormedError`.
+    """
     here: TypeNode = T
     for label in path.labels:
         field = _field(here, label)
@@ -175,7 +178,7 @@ def target(path: Path, T: RecordType) -> TypeNode:
             is_record = labels or isinstance(here, RecordType)
             lacks = f"has no {label}" if is_record else "is no record type"
             where = f"the path {_format_path(path)} leads nowhere"
-            raise IllFormed(
+            raise IllFormedError(
                 f"{where}: {_format_scope(here)} {lacks}",
                 hint=f"{label} is in some alternatives only"
                 if label in labels
@@ -291,7 +294,7 @@ def _check_arguments(
         return
     arg, wanted, found = first
     scope = tuple(one.names for one in around)
-    raise IllFormed(
+    raise IllFormedError(
         f"{_name_field(where)}{notation(value, scope)} needs {wanted} for "
         f"{notation(arg, scope)}, but that is of {found}"
     )

@@ -6,7 +6,7 @@ from typing import cast
 
 from ttr.building.formation import checked, checked_binder
 from ttr.building.merging import merge
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Signature
 from ttr.types.forms import order_fields
@@ -28,7 +28,8 @@ __all__ = ["fix", "restrict"]
 def restrict(f: Function, S: TypeNode, theory: Signature | None = None, /) -> Function:
     r"""λv:merge(T, S). body: the function f = λv:T. body, only for what is also of S.
 
-    Raises `IllFormed` for what is no function, and where the domain is ill-formed then.
+    Raises `IllFormedError` for what is no function, and where the domain is ill-formed
+    then.
 
     >>> from ttr.building.constructors import fun, rectype
     >>> from ttr.types.syntax import Ind, Pred, this
@@ -38,7 +39,7 @@ def restrict(f: Function, S: TypeNode, theory: Signature | None = None, /) -> Fu
     \r:[x : Ind, c : man(x)]. run(r.x)
     """
     if not isinstance(f, Function):
-        raise IllFormed(f"restrict takes a function, found {kind_of(f)}")
+        raise IllFormedError(f"restrict takes a function, found {kind_of(f)}")
     domain = merge(f.domain, as_type(S), theory)
     return checked_binder(Function(domain, f.body, f.hint), theory)
 
@@ -48,8 +49,8 @@ def fix(f: Function, theory: Signature | None = None, /) -> RecordType:
     r"""The fixed-point type of f = λr:S. T, for record types S and T.
 
     It is S merged with T, in which the paths from r are paths from the record itself:
-    a record s is of it iff s : S and s : f(s). Raises `IllFormed` where f is no such
-    function, and where it says something of r as a whole. Source: Cooper 2023.
+    a record s is of it iff s : S and s : f(s). Raises `IllFormedError` where f is no
+    such function, and where it says something of r as a whole. Source: Cooper 2023.
 
     >>> from ttr.building.constructors import fun, rectype
     >>> from ttr.types.syntax import Ind, Pred, outer
@@ -64,7 +65,7 @@ def fix(f: Function, theory: Signature | None = None, /) -> RecordType:
         case Function(RecordType() as domain, RecordType() as body, hint):
             inside = _replace_variable(body, hint)
         case _:
-            raise IllFormed(
+            raise IllFormedError(
                 "fix takes a function from a record type to a record type, as in "
                 f"\\r:[x : Ind]. [c : run(r.x)], found {kind_of(f)}"
             )
@@ -84,7 +85,7 @@ def _replace_variable(body: RecordType, variable: str) -> RecordType:
         if path.up > 1 or path.labels[0] != BOUND:
             return Path(path.up - 1, path.labels)
         if len(path.labels) == 1:
-            raise IllFormed(
+            raise IllFormedError(
                 f"there is no fixed-point type: something is said of {variable} "
                 "as a whole"
             )

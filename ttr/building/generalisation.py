@@ -18,7 +18,7 @@ from ttr.building.merging import merge
 from ttr.computing.generic_witness import ITSELF, GenericWitness, step
 from ttr.computing.strings.pieces import is_of_strings
 from ttr.computing.subtyping import subtype
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.axioms import above
 from ttr.signature.signature import Signature
@@ -58,8 +58,8 @@ def common_supertype(
     If one is below the other it is that other one. Of record types it has the labels
     that both have, with types above both; a field depends on others and is set to what
     it is set to as far as it is so in both. Of other types it is the meet of what each
-    of them says and the other is below. Raises `IllFormed` where there is none: there
-    is no type of everything.
+    of them says and the other is below. Raises `IllFormedError` where there is none:
+    there is no type of everything.
     Law: S <= common_supertype(S, T), and T <= common_supertype(S, T).
 
     >>> from ttr.types.syntax import Ind, Pred, this
@@ -69,11 +69,11 @@ def common_supertype(
     [x : Ind, c : dog(x)]
     >>> common_supertype(Ind, Basic("Real"))
     Traceback (most recent call last):
-    ttr.errors.IllFormed: Ind and Real have no common supertype without a join
+    ttr.errors.IllFormedError: Ind and Real have no common supertype without a join
     """
     found = _common_supertype(as_type(S), as_type(T), theory)
     if found is None:
-        raise IllFormed(f"{S} and {T} have no common supertype without a join")
+        raise IllFormedError(f"{S} and {T} have no common supertype without a join")
     return found
 
 
@@ -105,12 +105,12 @@ def _drop_ill_formed_fields(T: RecordType, theory: Signature | None) -> RecordTy
     fields = dict(T.fields)
     try:
         return rectype(fields, theory)
-    except IllFormed:
+    except IllFormedError:
         kept: dict[str, TypeNode] = {}
     for label, inside in fields.items():
         try:
             kept = dict(rectype({**kept, label: inside}, theory).fields)
-        except IllFormed:
+        except IllFormedError:
             continue
     return rectype(kept, theory)
 

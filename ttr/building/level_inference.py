@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from ttr.computing.universe_levels import level_of
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.paths import escaping, rebuilt
 from ttr.types.syntax import (
@@ -57,7 +57,7 @@ class _Placed(NamedTuple):
 def with_levels(T: TypeNode, /) -> TypeNode:
     """T with the least superscripts at which each manifest field is of its type.
 
-    A superscript that is written stays; raises `IllFormed` where it is too low. An
+    A superscript that is written stays; raises `IllFormedError` where it is too low. An
     argument of a function that is written out is made to fit its domain as well. Which
     part of a join is meant is not known, so joins stay as they are.
     Source: Russell's typical ambiguity; Cooper 2023 for the levels.
@@ -70,7 +70,7 @@ def with_levels(T: TypeNode, /) -> TypeNode:
     [x = Type : Type^1, y = x : Type^1]
     >>> with_levels(Universe("Type", 1) @ Universe("Type", 1))
     Traceback (most recent call last):
-    ttr.errors.IllFormed: what is of level 2 is too high for Type^1
+    ttr.errors.IllFormedError: what is of level 2 is too high for Type^1
     help: write Type^2, or leave the superscript out
     """
     return as_type(_infer_levels(as_type(T), ()))
@@ -81,7 +81,8 @@ def levelled_judgement(sit: object, T: TypeNode, /) -> tuple[Object, TypeNode]:
     """The judgement sit : T with the least superscripts at which it makes sense.
 
     Law: where sit is a type and T is `Type` without a superscript, the judgement that
-    it gives holds. Raises `IllFormed` where a superscript that is written is too low.
+    it gives holds. Raises `IllFormedError` where a superscript that is written is too
+    low.
 
     >>> from ttr.types.syntax import Type
     >>> levelled_judgement(Type, Type)
@@ -180,7 +181,7 @@ def _at_least(universe: Universe, level: int) -> Universe:
         return Universe(universe.name, level)
     if level <= universe.level:
         return universe
-    raise IllFormed(
+    raise IllFormedError(
         f"what is of level {level} is too high for {universe}",
         hint=f"write {universe.name}^{level}, or leave the superscript out",
     )

@@ -28,7 +28,7 @@ def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeN
 
     If one is below the other it is that one. Record types are merged label by label,
     dependent fields keeping their paths; any other two types give their meet. Raises
-    `IllFormed` for what is no type.
+    `IllFormedError` for what is no type.
     Law: r : merge(S, T) iff r : S and r : T. Source: Cooper 2023.
 
     >>> from ttr.types.syntax import Ind, Pred, this
@@ -103,7 +103,7 @@ def _merge_records(
 def amerge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeNode:
     """The asymmetric merge: T wins wherever S and T are not both record types.
 
-    Raises `IllFormed` where a path of S would lead nowhere in the result.
+    Raises `IllFormedError` where a path of S would lead nowhere in the result.
     Source: Cooper 2023, where it models non-monotonic update.
 
     >>> from ttr.types.syntax import Basic, Ind

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import overload
 
 from ttr.building.addresses import Address, format_address, parse_address
-from ttr.errors import IllFormed, suggestion
+from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.forms import order_fields
 from ttr.types.objects import check_label, labelled
@@ -53,9 +53,9 @@ def relabel(
 
     A label inside a nested record is named by its path, in a mapping: `{"bg.x": "z"}`
     renames x to z inside bg. All is renamed at once, so that labels can be swapped,
-    and paths follow. Raises `IllFormed` for a label that is not there, where two labels
-    would fall together, and where something is said of a record as a whole in which a
-    label would change: it would not be the same record any more.
+    and paths follow. Raises `IllFormedError` for a label that is not there, where two
+    labels would fall together, and where something is said of a record as a whole in
+    which a label would change: it would not be the same record any more.
     Law: r : T iff relabel(r, m) : relabel(T, m), for every r that has the labels.
 
     >>> from ttr.building.constructors import rectype
@@ -79,7 +79,9 @@ def relabel(
     if isinstance(value, RecordType):
         _check_renaming([value], renaming, ())
         return _relabel_record_type(value, renaming, (), ())
-    raise IllFormed(f"relabel takes a record type or a record, found {kind_of(value)}")
+    raise IllFormedError(
+        f"relabel takes a record type or a record, found {kind_of(value)}"
+    )
 
 
 @dataclass(frozen=True)
@@ -216,9 +218,9 @@ def _rename_path(path: Path, scopes: _Scopes) -> tuple[Path, _Renaming]:
     return Path(path.up, tuple(labels)), renaming
 
 
-def _cannot_rename(where: Address, renaming: _Renaming, why: str) -> IllFormed:
+def _cannot_rename(where: Address, renaming: _Renaming, why: str) -> IllFormedError:
     path = format_address((*where, *renaming.first()))
-    return IllFormed(f"{path} cannot be renamed: {why}")
+    return IllFormedError(f"{path} cannot be renamed: {why}")
 
 
 # --- in records ----------------------------------------------------------------------
@@ -226,7 +228,7 @@ def _cannot_rename(where: Address, renaming: _Renaming, why: str) -> IllFormed:
 
 def _relabel_record(value: Object, renaming: _Renaming, where: Address) -> Record:
     if not isinstance(value, Record):
-        raise IllFormed(
+        raise IllFormedError(
             f"{format_address(where)} is no record, so it has no labels to rename"
         )
     _check_labels(value._fields, renaming, where)
@@ -268,7 +270,7 @@ def _check_labels(labels: Iterable[str], renaming: _Renaming, where: Address) ->
     for label in (*renaming.names, *renaming.inner):
         if label not in known:
             missing = format_address((*where, label))
-            raise IllFormed(
+            raise IllFormedError(
                 f"there is no {missing}, so it cannot be renamed",
                 hint=suggestion(label, known),
             )
@@ -279,7 +281,9 @@ def _check_labels(labels: Iterable[str], renaming: _Renaming, where: Address) ->
             both = " and ".join(sorted([other, label]))
             inside = f" in {format_address(where)}" if where else ""
             name = renaming.new_name(label)
-            raise IllFormed(f"the labels {both}{inside} would both be called {name}")
+            raise IllFormedError(
+                f"the labels {both}{inside} would both be called {name}"
+            )
 
 
 def _fields(T: Object) -> Iterator[tuple[str, Object]]:

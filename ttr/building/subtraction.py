@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from ttr.building.addresses import Address, format_address, parse_address
 from ttr.building.formation import checked
-from ttr.errors import IllFormed, suggestion
+from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature
 from ttr.types.forms import order_fields
@@ -23,8 +23,8 @@ _Shape = TypeVar("_Shape", RecordType, Record)
 def subtract(value: _Shape, /, *paths: str, theory: Signature | None = None) -> _Shape:
     """T ⊖ π: the record type or record without what these paths lead to.
 
-    Raises `IllFormed` for a path that is not there, and where another field would then
-    have a path that leads nowhere; several paths are taken away at once.
+    Raises `IllFormedError` for a path that is not there, and where another field would
+    then have a path that leads nowhere; several paths are taken away at once.
     Law: T <= subtract(T, π).
 
     >>> from ttr.building.constructors import rectype
@@ -34,7 +34,7 @@ def subtract(value: _Shape, /, *paths: str, theory: Signature | None = None) -> 
     [x : Ind, y : Ind]
     >>> subtract(T, "y")
     Traceback (most recent call last):
-    ttr.errors.IllFormed: without y, the path y leads nowhere: ...
+    ttr.errors.IllFormedError: without y, the path y leads nowhere: ...
     >>> print(subtract(T, "y", "e"))
     [x : Ind]
     """
@@ -44,7 +44,7 @@ def subtract(value: _Shape, /, *paths: str, theory: Signature | None = None) -> 
             value = _remove_from_record(value, labels, ())
         return value
     if not isinstance(value, RecordType):
-        raise IllFormed(
+        raise IllFormedError(
             f"subtract takes a record type or a record, found {kind_of(value)}"
         )
     for labels in addresses:
@@ -76,7 +76,7 @@ def _remove_inside(T: TypeNode, labels: Address, at: Address) -> TypeNode:
             others = [p for p in parts if p not in having]
             if having:
                 return meet(*others, *[_remove(p, labels, at) for p in having])
-    raise IllFormed(
+    raise IllFormedError(
         f"there is no {format_address((*at, *labels))} to take away: "
         f"{format_address(at)} : {T} is no record type with that label"
     )
@@ -95,8 +95,8 @@ def _remove_from_record(r: Object, labels: Address, around: Address) -> Record:
     return Record(fields)
 
 
-def _missing_path(path: Address, known: Iterable[str]) -> IllFormed:
-    return IllFormed(
+def _missing_path(path: Address, known: Iterable[str]) -> IllFormedError:
+    return IllFormedError(
         f"there is no {format_address(path)} to take away",
         hint=suggestion(path[-1], known),
     )
@@ -105,12 +105,14 @@ def _missing_path(path: Address, known: Iterable[str]) -> IllFormed:
 def _check_result(
     T: RecordType, paths: tuple[str, ...], theory: Signature | None
 ) -> RecordType:
-    """T itself, if every path in it still leads somewhere; else `IllFormed`."""
+    """T itself, if every path in it still leads somewhere; else `IllFormedError`."""
     try:
         for part in occurring([T]):
             if isinstance(part, RecordType):
                 checked(part, theory)
-    except IllFormed as error:
+    except IllFormedError as error:
         gone = " and ".join(paths)
-        raise IllFormed(f"without {gone}, {error.message}", hint=error.hint) from None
+        raise IllFormedError(
+            f"without {gone}, {error.message}", hint=error.hint
+        ) from None
     return T

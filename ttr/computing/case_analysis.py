@@ -14,7 +14,7 @@ from math import prod
 
 from ttr.computing.normal_forms import meet_normal_form, push_negations_inwards
 from ttr.computing.strings.pieces import is_of_strings
-from ttr.errors import Unsupported
+from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend
 from ttr.types.forms import order_fields
 from ttr.types.syntax import (
@@ -124,7 +124,7 @@ def clauses(T: TypeNode) -> tuple[Clause, ...] | None:
     """
     try:
         T = meet_normal_form(T, _CASES)
-    except Unsupported:
+    except UnsupportedError:
         return None
     whole = T.parts if isinstance(T, Meet) else (T,)
     return tuple([one.parts if isinstance(one, Join) else (one,) for one in whole])

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TypeAlias
 
-from ttr.errors import Unsupported
+from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.syntax import Join, Meet, Negation, TypeNode, as_type, join, meet
 
@@ -28,7 +28,7 @@ def meet_normal_form(T: TypeNode, /, limit: int = LIMIT) -> TypeNode:
     r"""The type as a meet of joins: (A ∧ B) ∨ C becomes (A ∨ C) ∧ (B ∨ C).
 
     A join that another one is part of is left out, as it says nothing more. Raises
-    `Unsupported` where there are more parts than the limit.
+    `UnsupportedError` where there are more parts than the limit.
     Law: a is of it iff a : T, under every assignment.
 
     >>> from ttr.types.syntax import Basic
@@ -47,7 +47,7 @@ def join_normal_form(T: TypeNode, /, limit: int = LIMIT) -> TypeNode:
     r"""The type as a join of meets: A ∧ (B ∨ C) becomes (A ∧ B) ∨ (A ∧ C).
 
     A meet that another one is part of is left out, as nothing more is of it. Raises
-    `Unsupported` where there are more parts than the limit.
+    `UnsupportedError` where there are more parts than the limit.
     Law: a is of it iff a : T, under every assignment.
 
     >>> from ttr.types.syntax import Basic
@@ -98,7 +98,7 @@ def _drop_redundant(parts: Iterable[_Part], limit: int) -> list[_Part]:
         spend()
         once[part] = None
         if len(once) > limit:
-            raise Unsupported(
+            raise UnsupportedError(
                 f"this has a normal form of more than {limit:,} parts",
                 hint="take apart a smaller type",
             )

@@ -29,7 +29,7 @@ from ttr.computing.strings.inclusion import Inclusion, check_inclusion
 from ttr.computing.strings.pieces import events_of, is_of_strings, is_regular
 from ttr.computing.strings.runs import accepts
 from ttr.computing.universe_levels import why_outside
-from ttr.errors import Unsupported
+from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend
 from ttr.signature.axioms import above, excluding
 from ttr.signature.signature import Signature
@@ -155,7 +155,7 @@ class Prover:
         if isinstance(known, Str) and events_of(known) is not None:
             return False
         inside = self._inside_string(term)
-        with suppress(Unsupported):
+        with suppress(UnsupportedError):
             return check_inclusion(
                 automaton_above(known), None, inside._is_event_below
             ).yes
@@ -421,7 +421,7 @@ class Prover:
             return Finding(False)
         inside = self._inside_string(term)
         found = Inclusion(False)
-        with suppress(Unsupported):
+        with suppress(UnsupportedError):
             above = automaton(T)
             for one in (automaton, automaton_above):
                 found = check_inclusion(one(known), above, inside._is_event_below)

@@ -155,8 +155,8 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     and a manifest field equals what it is set to. T@a ⊑ T. A meet is below each of its
     parts, a join above each of its parts; S ⊑ ¬T if nothing can be of both. Lists,
     sets, strings and plus(T) go along with their elements; (S → T) ⊑ (S′ → T′) if
-    S′ ⊑ S and T ⊑ T′. Raises `IllFormed` for what is no type. Source: Cooper 2023, with
-    Betarte and Tasistro 1998 for record types.
+    S′ ⊑ S and T ⊑ T′. Raises `IllFormedError` for what is no type. Source: Cooper 2023,
+    with Betarte and Tasistro 1998 for record types.
 
     The proof is about one arbitrary witness of S, or of each case where S is a join.
     A type without witnesses is below every type. Where S may have none, nothing is

@@ -17,7 +17,7 @@ from typing import Any, Self
 from ttr.dialogues.settings import Setting
 from ttr.dialogues.snapshots import copy_of, first_change, snapshot
 from ttr.dialogues.wording import line_of_event, wording
-from ttr.errors import NotHeard, TTRError, UpdateError
+from ttr.errors import NotHeardError, TTRError, UpdateError
 from ttr.judging.models import Model
 from ttr.types.syntax import Object, Record, TypeNode
 from ttr.updates.games import Game, Turn
@@ -214,7 +214,7 @@ def _attempt(
         return None, error
     try:
         return game.take(before, event), None
-    except NotHeard:
+    except NotHeardError:
         return None, None
     except Exception as error:
         return None, error if _can_happen(event, before.model) else None

@@ -12,9 +12,9 @@ from typing import Self
 from ttr.errors import TTRError, suggestion
 from ttr.judging.models import Model
 from ttr.notation.reader import read_term
-from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowed, check_called
+from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError, check_called
 from ttr.safety.python_files import run_named
-from ttr.theories.loading import Unreadable
+from ttr.theories.loading import UnreadableError
 from ttr.theories.theory import Theory, theory_of_file
 from ttr.types.syntax import Basic, Object, Rec, TypeNode, Universe
 from ttr.updates import Game
@@ -76,7 +76,7 @@ def setting(reference: str, folder: Path, consent: Consent | None = None) -> Set
     A reference is the path of a theory and the name of a game in it, or a Python file
     or module, a colon and a name. Without `consent`, the caller names it, and so lets
     it run; for a reference from a file, pass the user's consent. Raises `StoryError`
-    where there is no such game, and `NotAllowed` where there is no consent.
+    where there is no such game, and `NotAllowedError` where there is no consent.
     """
     if consent is not None:
         check_named(reference, folder, consent)
@@ -91,7 +91,7 @@ def setting(reference: str, folder: Path, consent: Consent | None = None) -> Set
 
 
 def check_named(reference: str, folder: Path, consent: Consent) -> None:
-    """Raises `NotAllowed` for a reference in a file without consent to it.
+    """Raises `NotAllowedError` for a reference in a file without consent to it.
 
     A theory may lie anywhere, for nothing in it is run.
     """
@@ -139,7 +139,7 @@ def _of_theory(file: str, name: str, folder: Path, consent: Consent) -> Setting:
     try:
         theory = theory_of_file(folder / file, consent)
         games = theory.games
-    except Unreadable as error:
+    except UnreadableError as error:
         raise StoryError(error.message) from error
     except TTRError as error:
         place = f"{error.span.source}:{error.span.line}: " if error.span else ""
@@ -186,7 +186,7 @@ def _module(path: str, folder: Path, consent: Consent | None) -> ModuleType:
         _check_exists(path, folder)
     try:
         return run_named(path, folder, "_played_", consent)
-    except NotAllowed:
+    except NotAllowedError:
         raise
     except Exception as error:
         raise StoryError(_failure_message(path, error)) from error

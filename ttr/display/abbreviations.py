@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.safety.budgets import spend
 from ttr.types.paths import escaping, rebuilt
 from ttr.types.syntax import (
@@ -32,8 +32,8 @@ def folding(theory: Signature | None, unfold: int | None) -> Callable[[Object], 
     """A function that replaces what the theory defines by its name.
 
     `unfold` is the number of definitions, one inside another, that are shown in full
-    before a name is put; None shows all of them in full. Raises `IllFormed` if it is
-    neither, and if there is no theory to take names from.
+    before a name is put; None shows all of them in full. Raises `IllFormedError` if it
+    is neither, and if there is no theory to take names from.
 
     >>> from ttr.theories.theory import Theory
     >>> kennel = Theory.parse('''
@@ -48,13 +48,13 @@ def folding(theory: Signature | None, unfold: int | None) -> Callable[[Object], 
     if unfold is None:
         return lambda value: value
     if type(unfold) is not int or unfold < 0:
-        raise IllFormed(
+        raise IllFormedError(
             "unfold takes how many levels of definitions to open, 0 or more, "
             f"found {unfold!r}"
         )
     definitions = getattr(theory, "definitions", None)
     if definitions is None:
-        raise IllFormed(
+        raise IllFormedError(
             "unfold needs the theory whose names to show",
             hint="give it too, as in box(T, unfold=0, theory=kennel)",
         )

@@ -11,7 +11,7 @@ from ttr.display.html import derivation_as_html, layout_as_html
 from ttr.display.latex import derivation_as_latex, layout_as_latex
 from ttr.display.layout import Layout, Line, Sign, Step, Word, laid_out
 from ttr.display.text import derivation_as_text, layout_as_text
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.judging.judgements import Judgement, Why, mark
 from ttr.safety.budgets import within_budget
 from ttr.types.interning import Node
@@ -36,8 +36,9 @@ def box(
 
     The value is a type, an object, a judgement or its `why`. With `unfold=0`, the names
     of the theory stand for their definitions; with `unfold=1`, one level of definitions
-    is shown in full, and so on. Raises `IllFormed` for a wrong number and for any other
-    value, such as a theory, and `Unsupported` for a value that nests too deep.
+    is shown in full, and so on. Raises `IllFormedError` for a wrong number and for any
+    other value, such as a theory, and `UnsupportedError` for a value that nests too
+    deep.
 
     >>> from ttr import Ind, Pred, rectype, this
     >>> print(box(rectype(x=Ind, c=Pred("dog", Ind)(this.x))))
@@ -45,7 +46,9 @@ def box(
     ⎣c : dog(x)⎦
     """
     if type(width) is not int or width < 1:
-        raise IllFormed(f"a width is a number of columns, 1 or more, found {width!r}")
+        raise IllFormedError(
+            f"a width is a number of columns, 1 or more, found {width!r}"
+        )
     to_layout = _layout_function(theory, unfold)
     if isinstance(value, Why):
         return derivation_as_text(_step(value, to_layout), width)
@@ -107,7 +110,8 @@ _OF_PYTHON = (NoneType, type, FunctionType, BuiltinFunctionType, ModuleType)
 
 
 def _drawable(value: object) -> Object:
-    """The value as an object; raises `IllFormed` for a theory, a model, an answer, …
+    """The value as an object; raises `IllFormedError` for a theory, a model, an answer,
+    …
 
     A value that has a `record`, such as a meaning, is drawn as this record.
     """
@@ -117,7 +121,7 @@ def _drawable(value: object) -> Object:
     kind: type = type(found)
     is_ours = kind.__module__.startswith("ttr.")
     if isinstance(found, _OF_PYTHON) or (is_ours and not isinstance(found, Drawn)):
-        raise IllFormed(
+        raise IllFormedError(
             "types, objects, judgements and derivations are drawn, "
             f"found {kind.__name__}"
         )

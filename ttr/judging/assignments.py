@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 from immutables import Map
 
-from ttr.errors import Refused, TTRError
+from ttr.errors import RefusedError, TTRError
 from ttr.judging.stated_dependence import Atom, Claim, Conditioned, Expectation, Links
 from ttr.probability import (
     CERTAIN,
@@ -198,7 +198,7 @@ class Assignment:
     def with_fact(self, sit: Object, T: Atom, p: Degree) -> Assignment:
         """The assignment in which also sit : T, in place of an earlier fact.
 
-        Raises `Refused` where a witness function says no, or an axiom contradicts.
+        Raises `RefusedError` where a witness function says no, or an axiom contradicts.
         """
         self._check(sit, T, p)
         opened = self._opened_by(T, p)
@@ -227,7 +227,7 @@ class Assignment:
     def with_perceived(self, sit: Object, T: PType) -> Assignment:
         """The assignment in which sit is of T as far as T's witness function says.
 
-        Raises `Refused` where an axiom and what was judged before contradict it.
+        Raises `RefusedError` where an axiom and what was judged before contradict it.
         """
         seen = self._with(sit, T, self.perceived(sit, T) or UNKNOWN)
         seen.degree_of(sit, T)
@@ -280,7 +280,7 @@ class Assignment:
         kinds = (T, *(upper for _, upper in above(T, self.theory.axioms)))
         for kind in kinds:
             if p.lo > 0.0 and self._refuses(sit, kind, p):
-                raise Refused(
+                raise RefusedError(
                     f"{notation(sit)} : {T} is refused by the witness function of "
                     f"{head(kind).name}"
                 )
@@ -294,12 +294,14 @@ class Assignment:
         lower: Bound,
         upper: Bound,
     ) -> Degree:
-        """The degree within the bounds that axioms set; `Refused` if it is outside."""
+        """The degree within the bounds that axioms set; `RefusedError` if it is
+        outside.
+        """
         if lower is _NO_LOWER and upper is _NO_UPPER:
             return p
         lo, hi = max(p.lo, lower[0]), min(p.hi, upper[0])
         if lo > hi:
-            raise Refused(
+            raise RefusedError(
                 f"{notation(sit)} : {T} cannot have the probability {p}: "
                 f"{upper[1] if p.lo > upper[0] else lower[1]}"
             )

@@ -12,7 +12,7 @@ from operator import is_
 from typing import Any, TypeAlias
 from weakref import ref
 
-from ttr.errors import Refused
+from ttr.errors import RefusedError
 from ttr.judging.assignments import Assignment, Atom
 from ttr.judging.evaluator import Evaluator, derivation
 from ttr.judging.judgements import How
@@ -185,7 +185,7 @@ class _Certainty(Evaluator[bool]):
         """Is sit the object that a singleton type is of?"""
         try:
             value = self._value_in(T, around)
-        except (Unresolved, Refused):
+        except (Unresolved, RefusedError):
             return False
         return value is sit or identity(value) == identity(sit)
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import product
 
-from ttr.errors import Refused, TTRError, Unsupported
+from ttr.errors import RefusedError, TTRError, UnsupportedError
 from ttr.judging.assignments import Assignment
 from ttr.judging.degrees_of_claims import probability_of
 from ttr.judging.dependence_analysis import check_together, dependence
@@ -50,7 +50,7 @@ def derive_conditional(
 ) -> Why:
     """Derive p(sit : T | when), the probability given other judgements.
 
-    Raises `Refused` where these cannot all hold.
+    Raises `RefusedError` where these cannot all hold.
     """
     claim = derivation(facts, sit, T)
     conditions = tuple([derivation(facts, *pair) for pair in when])
@@ -60,7 +60,7 @@ def derive_conditional(
     try:
         found = probability_of(event, known, condition)
     except Impossible:
-        raise Refused(
+        raise RefusedError(
             f"nothing follows given {given}, as that cannot be",
             hint="judge under conditions that are possible",
         ) from None
@@ -89,7 +89,7 @@ def with_conditional_fact(
 ) -> Assignment:
     """The assignment in which p(sit : T | when) is p.
 
-    Raises `Refused` where that contradicts the facts.
+    Raises `RefusedError` where that contradicts the facts.
     """
     literals = [
         (Claim(one, kind), so)
@@ -155,7 +155,7 @@ def _case(case: tuple[bool, ...]) -> str:
 def _atom(T: TypeNode, what: str) -> Atom:
     if isinstance(T, Basic | PType):
         return T
-    raise Unsupported(f"{what} is of a basic type or a ptype, found {T}")
+    raise UnsupportedError(f"{what} is of a basic type or a ptype, found {T}")
 
 
 def _literals(T: TypeNode, what: str) -> list[tuple[Atom, bool]]:

@@ -19,7 +19,7 @@ from ttr.computing.strings.pieces import (
     string_of,
 )
 from ttr.computing.strings.runs import shortest
-from ttr.errors import Refused, TTRError
+from ttr.errors import RefusedError, TTRError
 from ttr.judging.assignments import Assignment
 from ttr.judging.certainty import certainly
 from ttr.judging.evaluator import derivation, is_reduced, make_witness, reduced
@@ -65,7 +65,7 @@ __all__ = ["create_witness", "with_judgement"]
 def with_judgement(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
     """The assignment in which also sit : T, taken apart into judgements of atoms.
 
-    No path leads out of T. Raises `Refused` where sit cannot be of T.
+    No path leads out of T. Raises `RefusedError` where sit cannot be of T.
     """
     match T:
         case Basic() | PType():
@@ -92,7 +92,7 @@ def with_judgement(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
             return with_judgement(facts, sit, _reduce_to_type(facts, T))
     why = derivation(facts, sit, T)
     if why.p != CERTAIN:
-        raise Refused(f"{notation(sit)} : {T} cannot be given: {why.rule}")
+        raise RefusedError(f"{notation(sit)} : {T} cannot be given: {why.rule}")
     return facts
 
 
@@ -123,25 +123,29 @@ def _with_denial(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
             return facts
     if derivation(facts, sit, T).p == REFUTED:
         return facts
-    raise Refused(f"{notation(sit)} : {Negation(T)} cannot be given: only of atoms")
+    raise RefusedError(
+        f"{notation(sit)} : {Negation(T)} cannot be given: only of atoms"
+    )
 
 
 def _reduce_to_type(facts: Assignment, T: Application) -> TypeNode:
-    """The type that a function gives; raises `Refused` where it gives none."""
+    """The type that a function gives; raises `RefusedError` where it gives none."""
     found = reduced(facts, T)
     if isinstance(found, TypeNode) and not isinstance(found, Application):
         return found
-    raise Refused(f"{T} is no type, so nothing is of it")
+    raise RefusedError(f"{T} is no type, so nothing is of it")
 
 
 def _with_fields(facts: Assignment, sit: Record, T: RecordType) -> Assignment:
     for label, field in T.fields:
         if label not in sit:
-            raise Refused(f"{notation(sit)} : {T} cannot be given: there is no {label}")
+            raise RefusedError(
+                f"{notation(sit)} : {T} cannot be given: there is no {label}"
+            )
         try:
             ground = grounded(field, (sit._fields,))
         except Unresolved as unresolved:
-            raise Refused(
+            raise RefusedError(
                 f"{notation(sit)} : {T} cannot be given: {unresolved.message}"
             ) from unresolved
         facts = with_judgement(facts, sit._fields[label], ground)
@@ -156,11 +160,12 @@ def create_witness(
 
     `size` is the number of elements of the lists, sets and repetitions in it, where T
     leaves that open; elements of a join take turns. From 2 on, a record has one label
-    more than it needs. No path leads out of T. Raises `Refused` where there is none.
+    more than it needs. No path leads out of T. Raises `RefusedError` where there is
+    none.
     """
     try:
         sit, facts = _WitnessMaker(size).make(facts, T)
-    except Refused:
+    except RefusedError:
         settled = _settled(T)
         if settled is T:
             raise
@@ -184,9 +189,11 @@ def _settled(T: TypeNode) -> TypeNode:
 
 
 def _check(facts: Assignment, sit: Object, T: TypeNode) -> None:
-    """Raise `Refused` where the facts contradict what T denies of its witness."""
+    """Raise `RefusedError` where the facts contradict what T denies of its witness."""
     if derivation(facts, sit, T).p != CERTAIN:
-        raise Refused(f"a witness of {T} cannot be made up: it denies what it says")
+        raise RefusedError(
+            f"a witness of {T} cannot be made up: it denies what it says"
+        )
 
 
 Made = tuple[Object, Assignment]
@@ -249,7 +256,7 @@ class _WitnessMaker:
         """A string of the first alternatives; if there is none, of other ones."""
         try:
             return self._string(facts, T)
-        except Refused:
+        except RefusedError:
             if isinstance(T, Str) and events_of(T) is not None:
                 raise
             return self._by_events(facts, T)
@@ -282,7 +289,7 @@ class _WitnessMaker:
             except Unresolved as unresolved:
                 around = circle(T)
                 why = f"its fields go in a circle: {around}" * bool(around)
-                raise Refused(
+                raise RefusedError(
                     f"the field {label} cannot be created: {why or unresolved.message}",
                     hint="fields on a cycle can be judged, but not created",
                 ) from unresolved
@@ -299,7 +306,7 @@ class _WitnessMaker:
             made = Function(T.domain, body, T.hint)
             if derivation(known, made, T).p == CERTAIN:
                 return made, known
-        raise Refused(f"a function of {T} cannot be made up, only be given")
+        raise RefusedError(f"a function of {T} cannot be made up, only be given")
 
     def _bodies(self, facts: Assignment, T: FunType) -> Iterator[Made]:
         """Bodies to try; constants come last where lists have one element."""
@@ -322,19 +329,19 @@ class _WitnessMaker:
 
     def _combined(self, facts: Assignment, T: TypeNode) -> Made:
         """A witness of the first case that has one."""
-        refused = Refused(f"a witness of {T} cannot be made up, only be given")
+        refused = RefusedError(f"a witness of {T} cannot be made up, only be given")
         for case in cases(T) or (T,):
             try:
                 sit, known = self._case(facts, case)
                 _check(known, sit, case)
                 return sit, known
             except TTRError as error:
-                refused = Refused(error.message, hint=error.hint)
+                refused = RefusedError(error.message, hint=error.hint)
         raise refused
 
     def _case(self, facts: Assignment, T: TypeNode) -> Made:
         if splits(T) and isinstance(T, Join):
-            raise Refused(f"{T} has too many cases for a witness to be made up")
+            raise RefusedError(f"{T} has too many cases for a witness to be made up")
         if not isinstance(T, Meet | Negation):
             return self.make(facts, T)
         parts = T.parts if isinstance(T, Meet) else (T,)
@@ -355,14 +362,14 @@ class _WitnessMaker:
 
     def _by_events(self, facts: Assignment, T: TypeNode) -> Made:
         """A string as an automaton above T says, judged to be of the rest of T, too."""
-        refused = Refused(f"a witness of {T} cannot be made up, only be given")
+        refused = RefusedError(f"a witness of {T} cannot be made up, only be given")
         found = automaton_above(T)
         for labels in islice(shortest(found, self._size), TRIED):
             try:
                 sit, known = self._string(facts, Str(*labels))
                 return sit, _with_certainty(known, sit, T)
             except TTRError as error:
-                refused = Refused(error.message, hint=error.hint)
+                refused = RefusedError(error.message, hint=error.hint)
         raise refused
 
 

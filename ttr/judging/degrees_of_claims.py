@@ -32,7 +32,7 @@ NAMED = 3
 
 
 def probability_of(event: Event, known: Dependence, given: Event = SURE) -> Chance:
-    """The probability of an event; `Refused` where the facts are contradictory."""
+    """The probability of an event; `RefusedError` where the facts are contradictory."""
     try:
         return chance(event, known, given)
     except Contradiction as wrong:

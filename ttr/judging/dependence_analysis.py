@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterable, Iterator, Mapping
 from itertools import combinations, permutations
 from typing import NamedTuple
 
-from ttr.errors import Refused
+from ttr.errors import RefusedError
 from ttr.judging.assignments import Assignment, head
 from ttr.judging.stated_dependence import Atom, Claim, Conditioned, Key
 from ttr.probability import (
@@ -253,7 +253,7 @@ def _by_object(claims: Iterable[Claim]) -> dict[object, list[Claim]]:
 
 
 def check_together(facts: Assignment, sit: Object, T: Atom) -> None:
-    """Raise `Refused` where sit : T contradicts other judgements of sit."""
+    """Raise `RefusedError` where sit : T contradicts other judgements of sit."""
     claim = Claim(sit, T)
     known = dependence(facts, {claim: facts.degree_of(sit, T)[0]})
     number = known.place.get(claim.key)
@@ -261,7 +261,7 @@ def check_together(facts: Assignment, sit: Object, T: Atom) -> None:
         raise contradiction(known.components[number])
 
 
-def contradiction(component: Component) -> Refused:
+def contradiction(component: Component) -> RefusedError:
     """The error that says which judgements cannot all be as they were given."""
     degrees = [
         f"{component.written(atom)} with {p}"
@@ -270,7 +270,7 @@ def contradiction(component: Component) -> Refused:
     ]
     links = component.links()
     said = "; ".join((", ".join(degrees[:SHOWN]), *links[:SHOWN]))
-    return Refused(
+    return RefusedError(
         f"these cannot all be so: {said}",
         hint="change one of the degrees, or what was said of how they depend",
     )

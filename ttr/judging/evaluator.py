@@ -21,7 +21,7 @@ from ttr.computing.strings.automata import automaton
 from ttr.computing.strings.pieces import events_of
 from ttr.computing.strings.runs import Stop
 from ttr.computing.universe_levels import why_outside
-from ttr.errors import Refused
+from ttr.errors import RefusedError
 from ttr.hooks import hook
 from ttr.judging.assignments import Assignment
 from ttr.judging.degrees_of_claims import explain_probability, probability_of
@@ -175,7 +175,7 @@ class Evaluator(ABC, Generic[Answer]):
         try:
             ground = T if is_reduced(T) else self._value_of(T, around)
             return self.judge_atom(sit, ground, where)
-        except (Unresolved, Refused) as wrong:
+        except (Unresolved, RefusedError) as wrong:
             return self.conclude(sit, T, REFUTED, wrong.message, where)
 
     def _judge_application(
@@ -183,7 +183,7 @@ class Evaluator(ABC, Generic[Answer]):
     ) -> Answer:
         try:
             value = _reduce_head(self.facts, grounded(T, around))
-        except (Unresolved, Refused) as wrong:
+        except (Unresolved, RefusedError) as wrong:
             return self.conclude(sit, T, REFUTED, wrong.message, where)
         if isinstance(value, TypeNode):
             return self.of(sit, value, (), where)
@@ -196,7 +196,7 @@ class Evaluator(ABC, Generic[Answer]):
         spend()
         try:
             value = self._value_in(T, around)
-        except (Unresolved, Refused) as wrong:
+        except (Unresolved, RefusedError) as wrong:
             return self.conclude(sit, T, REFUTED, wrong.message, where)
         ground = T if value is T.value else Singleton(T.base, value)
         if value is not sit and identity(value) != identity(sit):
@@ -284,7 +284,7 @@ class Evaluator(ABC, Generic[Answer]):
             if not isinstance(sit, Function):
                 return self.conclude(sit, ground, REFUTED, "it is no function", where)
             return self.judge_function(sit, ground, where)
-        except (Unresolved, Refused) as wrong:
+        except (Unresolved, RefusedError) as wrong:
             return self.conclude(sit, T, REFUTED, wrong.message, where)
 
     def _judge_record(
@@ -465,7 +465,7 @@ class _Derivation(Evaluator[Why]):
             for x in islice(self.facts.witnesses(domain), TRIED):
                 yield x, self.facts
         for case, size in product(cases(domain) or (domain,), (1, 0, 2)):
-            with suppress(Refused):
+            with suppress(RefusedError):
                 yield make_witness(self.facts, case, size)
 
     def _derive_value(self, sit: Function, T: FunType, x: Object) -> list[Why]:
@@ -476,7 +476,7 @@ class _Derivation(Evaluator[Why]):
         scope: Around = ({BOUND: x},)
         try:
             value = reduced(self.facts, grounded(sit.body, scope))
-        except (Unresolved, Refused) as wrong:
+        except (Unresolved, RefusedError) as wrong:
             return [inside, Why(sit.body, T.result, REFUTED, wrong.message)]
         return [inside, self.of(value, T.result, scope)]
 
@@ -509,8 +509,8 @@ def _decide(how: How, degrees: list[Degree]) -> Degree | None:
 def reduced(facts: Assignment, value: Object) -> Object:
     """The value with every application in it reduced, except those that mention paths.
 
-    Raises `Refused` where an argument is not certainly of the function's domain, and
-    where something that is no function is applied.
+    Raises `RefusedError` where an argument is not certainly of the function's domain,
+    and where something that is no function is applied.
     """
     spend()
     if not mentions(value, Application):
@@ -536,13 +536,15 @@ def _reduce_head(facts: Assignment, T: Application) -> Object:
 
 
 def _apply(facts: Assignment, function: Object, argument: Object) -> Object:
-    """The body of a function for an argument; `Refused` outside its domain."""
+    """The body of a function for an argument; `RefusedError` outside its domain."""
     if not isinstance(function, Function):
         whole = Application(function, argument)
-        raise Refused(f"{notation(function)} is no function, so {whole} is nothing")
+        raise RefusedError(
+            f"{notation(function)} is no function, so {whole} is nothing"
+        )
     inside = derivation(facts, argument, function.domain)
     if inside.p != CERTAIN:
-        raise Refused(
+        raise RefusedError(
             f"{notation(function)} takes objects of {function.domain}, which "
             f"{notation(argument)} is not{_where(inside)}: "
             f"{(inside.failure() or inside).rule}"

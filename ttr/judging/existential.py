@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from ttr.computing.subtyping import subtype
-from ttr.errors import Refused
+from ttr.errors import RefusedError
 from ttr.judging.assignments import Assignment
 from ttr.judging.conditioning import derive_conditional
 from ttr.judging.degrees_of_claims import probability_of
@@ -102,7 +102,8 @@ def probability_of_some(
     """p(T), or p(T | S): how probable it is that something is of T.
 
     If T is closed, this is one of the known objects; if T is open, there may be others.
-    With `among` it is one of these objects. Raises `Refused` where nothing can be of S.
+    With `among` it is one of these objects. Raises `RefusedError` where nothing can be
+    of S.
     """
     if when is not None and subtype(when, T, facts.theory).yes:
         return CERTAIN
@@ -115,7 +116,9 @@ def probability_of_some(
     try:
         found = probability_of(event, known, SURE if given is None else given)
     except Impossible:
-        raise Refused(f"nothing is of {when}, so nothing follows from it") from None
+        raise RefusedError(
+            f"nothing is of {when}, so nothing follows from it"
+        ) from None
     return found.p
 
 

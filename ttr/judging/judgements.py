@@ -8,7 +8,7 @@ from functools import cached_property
 from itertools import islice
 from typing import TYPE_CHECKING, Literal, TypeAlias, assert_never
 
-from ttr.errors import Undecided
+from ttr.errors import UndecidedError
 from ttr.probability import (
     CERTAIN,
     REFUTED,
@@ -199,10 +199,10 @@ class Judgement(Drawn):
 
     @property
     def holds(self) -> bool:
-        """True at [1, 1], False at [0, 0]; else it raises `Undecided`."""
+        """True at [1, 1], False at [0, 0]; else it raises `UndecidedError`."""
         if self.p in (CERTAIN, REFUTED):
             return self.p == CERTAIN
-        raise Undecided(
+        raise UndecidedError(
             f"{self} is neither certain nor refuted",
             hint="ask for a degree with j.at_least(q), or look at j.p",
         )

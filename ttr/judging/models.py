@@ -14,7 +14,13 @@ from typing import Any, Protocol, TypeAlias, cast
 from immutables import Map
 
 from ttr.aliases import Alias
-from ttr.errors import IllFormed, Refused, TooLargeError, TTRError, Unsupported
+from ttr.errors import (
+    IllFormedError,
+    RefusedError,
+    TooLargeError,
+    TTRError,
+    UnsupportedError,
+)
 from ttr.judging.assignments import Assignment, WitnessFunction
 from ttr.judging.conditioning import (
     derive_conditional,
@@ -165,8 +171,8 @@ class Model:
         Records, meets, singletons and lists are taken apart into their atoms, for which
         the probability must be 1. With `when` it is p(sit : T | b : S, …), what it is
         if these are so; the conditions are of basic types and ptypes or their
-        negations. Raises `Refused` where a witness function says no or what is given
-        cannot be, and `IllFormed` where a path leads nowhere.
+        negations. Raises `RefusedError` where a witness function says no or what is
+        given cannot be, and `IllFormedError` where a path leads nowhere.
 
         >>> A, B = Basic("A"), Basic("B")
         >>> M = Model().given("a", A, 0.6).given("a", B, (0.7, 0.8), when=[("a", A)])
@@ -184,13 +190,13 @@ class Model:
                 check_together(facts, sit, T)
             return self._with(facts)
         if p != CERTAIN:
-            raise Unsupported(
+            raise UnsupportedError(
                 f"only basic types and ptypes take a degree, but {T} was given {p}"
             )
         facts = with_judgement(self._facts, sit, T)
         why = derivation(facts, sit, T)
         if why.p == REFUTED:
-            raise Refused(
+            raise RefusedError(
                 f"{notation(sit)} : {T} cannot be given: it denies what it says"
             )
         return self._with(facts)
@@ -283,8 +289,8 @@ class Model:
         """Is sit of T? What is there is checked; nothing is filled in.
 
         With `when` the probability is p(sit : T | b : S, …), given that these are so,
-        whatever types they are of. Raises `IllFormed` where T is no type, or has a path
-        that leads nowhere, and `Refused` where the conditions cannot be.
+        whatever types they are of. Raises `IllFormedError` where T is no type, or has a
+        path that leads nowhere, and `RefusedError` where the conditions cannot be.
 
         >>> A, B = Basic("A"), Basic("B")
         >>> M = Model().given("a", A, 0.6).given("a", B, 0.5)
@@ -325,7 +331,8 @@ class Model:
 
     @within_budget
     def create(self, T: TypeNode, /) -> tuple[Object, Model]:
-        """A new witness of T, and the model that has it; `Refused` if there is none.
+        """A new witness of T, and the model that has it; `RefusedError` if there is
+        none.
 
         >>> from ttr.types.syntax import Ind
         >>> a, M = Model().create(Ind)
@@ -340,7 +347,8 @@ class Model:
     def apply(self, function: object, argument: object, /) -> Object:
         """f(a): the body of the function for the argument.
 
-        Raises `Refused` where the argument is not certainly of the function's domain.
+        Raises `RefusedError` where the argument is not certainly of the function's
+        domain.
 
         >>> from ttr.building.constructors import fun
         >>> from ttr.types.syntax import Ind, this
@@ -349,7 +357,7 @@ class Model:
         run(j)
         >>> Model().apply(run, "zz")
         Traceback (most recent call last):
-        ttr.errors.Refused: \\x:Ind. run(x) takes objects of Ind, which zz is not: ...
+        ttr...RefusedError: \\x:Ind. run(x) takes objects of Ind, which zz is not: ...
         """
         return self.reduced(Application(function, argument))
 
@@ -363,7 +371,7 @@ class Model:
         """The known objects that are certainly of T, in the order of the facts.
 
         For a record type they are all its records of known objects. Raises
-        `Unsupported` for a type that may have infinitely many, such as lists.
+        `UnsupportedError` for a type that may have infinitely many, such as lists.
 
         >>> from ttr.building.constructors import rectype
         >>> from ttr.types.syntax import Ind, this
@@ -407,7 +415,7 @@ class Model:
         objects = None if among is None else _objects(among)
         try:
             return probability_of_some(self._facts, T, given, objects)
-        except Unsupported:
+        except UnsupportedError:
             return CERTAIN if self._has_unlisted_witness(T) else UNKNOWN
 
     @within_budget(otherwise=_range_unknown)
@@ -464,7 +472,7 @@ class Model:
             return True
         try:
             sit, _ = create_witness(self._facts, T)
-        except Refused:
+        except RefusedError:
             return False
         return self._is_certain(sit, T)
 
@@ -535,11 +543,11 @@ def _literal(one: object, so: bool) -> Any:
 
 
 def _closed(sit: object, T: object) -> tuple[Object, TypeNode]:
-    """The object and the type; `IllFormed` if a path leads out of either."""
+    """The object and the type; `IllFormedError` if a path leads out of either."""
     sit, kind = freeze(sit), as_type(T)
     for value in (sit, kind):
         if escaping(value):
-            raise IllFormed(
+            raise IllFormedError(
                 f"{notation(value)} has paths that lead nowhere, so nothing is judged"
             )
     return sit, kind

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ttr.errors import Refused
+from ttr.errors import RefusedError
 from ttr.judging.assignments import Assignment
 from ttr.judging.evaluator import reduced
 from ttr.safety.budgets import spend
@@ -39,7 +39,7 @@ def _fill_record(
     for label, field in T.fields:
         try:
             ground = reduced(facts, grounded(field, (fields,)))
-        except (Unresolved, Refused):
+        except (Unresolved, RefusedError):
             continue
         seen, facts = _perceive_field(facts, fields.get(label), ground)
         if seen is not None:

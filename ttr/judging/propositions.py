@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ttr.errors import IllFormed, TTRError
+from ttr.errors import IllFormedError, TTRError
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
 from ttr.types.objects import Object, Record, record
 from ttr.types.syntax import TypeNode, as_type, kind_of
@@ -69,14 +69,16 @@ def judged(judgement: Judgement, /) -> Record:
     try:
         return probabilistic(judgement.sit, judgement.type, judgement.p)
     except AttributeError:
-        raise IllFormed(f"expected a judgement, found {kind_of(judgement)}") from None
+        raise IllFormedError(
+            f"expected a judgement, found {kind_of(judgement)}"
+        ) from None
 
 
 def claim(p: object) -> tuple[Object, TypeNode]:
-    """The situation and the type of an Austinian proposition; else `IllFormed`."""
+    """The situation and the type of an Austinian proposition; else `IllFormedError`."""
     if isinstance(p, Record) and set(p) >= {"sit", "sit_type"}:
         return p.sit, as_type(p.sit_type)
-    raise IllFormed(
+    raise IllFormedError(
         f"a proposition is a type or a record {{sit = s, sit_type = T}}, found {p}"
     )
 
@@ -84,7 +86,7 @@ def claim(p: object) -> tuple[Object, TypeNode]:
 def probabilistic_claim(p: object) -> tuple[Object, TypeNode, Degree]:
     """The situation, the type and the probability; one without prob claims certainty.
 
-    Raises `IllFormed` for what is no Austinian proposition.
+    Raises `IllFormedError` for what is no Austinian proposition.
     """
     sit, T = claim(p)
     if not isinstance(p, Record) or "prob" not in p:
@@ -92,7 +94,7 @@ def probabilistic_claim(p: object) -> tuple[Object, TypeNode, Degree]:
     try:
         return sit, T, degree(p.prob, "the prob of a proposition")
     except TTRError as error:
-        raise IllFormed(f"{p}: {error.message}") from None
+        raise IllFormedError(f"{p}: {error.message}") from None
 
 
 def borne_out(claimed: Degree, found: Degree) -> Degree:

@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from ttr.errors import Refused, TTRError
+from ttr.errors import RefusedError, TTRError
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model, as_model
 from ttr.types.printing import notation
@@ -99,9 +99,9 @@ class Outcome:
 
     @property
     def answer(self) -> Judgement:
-        """The first answer; raises `Refused` where there is none."""
+        """The first answer; raises `RefusedError` where there is none."""
         if not self.answers:
-            raise Refused(f"nothing known answers {self.act}")
+            raise RefusedError(f"nothing known answers {self.act}")
         return self.answers[0]
 
     def __str__(self) -> str:
@@ -113,8 +113,8 @@ def performed(act: TypeAct, model: Model) -> Outcome:
     """Perform an act in an agent's model.
 
     A query changes nothing, and creating never takes what there is already. Raises
-    `Refused` where what is judged contradicts what the agent knows, or nothing of the
-    type can be.
+    `RefusedError` where what is judged contradicts what the agent knows, or nothing of
+    the type can be.
 
     >>> from ttr.types.syntax import Ind, Pred
     >>> dog, M = Pred("dog", Ind), Model().given("fido", Ind)

@@ -10,7 +10,7 @@ from typing import cast
 
 from ttr.building.merging import merge
 from ttr.computing.strings.pieces import string_of
-from ttr.errors import Refused, Unsupported
+from ttr.errors import RefusedError, UnsupportedError
 from ttr.judging.assignments import Assignment
 from ttr.judging.evaluator import derivation, reduced
 from ttr.probability import Degree
@@ -38,8 +38,8 @@ __all__ = ["can_be_listed", "candidates", "witnesses"]
 def witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:
     """The known objects that are certainly of T, each once, in the order of the facts.
 
-    No path leads out of T. Raises `Unsupported` where there may be infinitely many:
-    for types of lists, sets, functions and types, and for negations.
+    No path leads out of T. Raises `UnsupportedError` where there may be infinitely
+    many: for types of lists, sets, functions and types, and for negations.
     """
     yield from _Listing(facts, 1.0).of(T)
 
@@ -105,7 +105,7 @@ class _Listing:
             case Application():
                 yield from self._of_application(T)
             case _:
-                raise Unsupported(
+                raise UnsupportedError(
                     f"what is of {T} cannot be listed, as there may be no end of it",
                     hint="judge an object, or create a witness",
                 )
@@ -114,7 +114,7 @@ class _Listing:
         """The objects of the type that a function gives, if it gives one."""
         try:
             value = reduced(self.facts, T)
-        except Refused:
+        except RefusedError:
             return
         if isinstance(value, TypeNode):
             yield from self.of(value)
@@ -146,7 +146,7 @@ class _Listing:
         try:
             field = grounded(T[label], (fields,))
         except Unresolved as unresolved:
-            raise Unsupported(
+            raise UnsupportedError(
                 f"the records of {T} cannot be listed: {unresolved.message}",
                 hint="fields on a cycle can be judged, but not listed",
             ) from None

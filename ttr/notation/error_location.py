@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
 from ttr.building.constructors import fun
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.notation.syntax_trees import Field, Fields, Part, Term
 from ttr.signature.signature import Signature
 from ttr.types.paths import replace_paths
@@ -75,9 +75,9 @@ def _is_misfit(field: Object, around: RecordType, theory: Signature) -> bool:
 
 
 def is_ill_formed(build: Callable[[], Object]) -> bool:
-    """Does `build` raise `IllFormed`?"""
+    """Does `build` raise `IllFormedError`?"""
     try:
         build()
-    except IllFormed:
+    except IllFormedError:
         return True
     return False

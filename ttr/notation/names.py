@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Set
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.signature.signature import Opening, Signature
 from ttr.types.paths import occurring
 from ttr.types.syntax import Basic, Object, Pred
@@ -104,7 +104,7 @@ class Vocabulary:
 def vocabulary_of(*values: object) -> Vocabulary:
     """The names of the basic types, predicates and objects that occur in the values.
 
-    Raises `IllFormed` where two predicates of one name occur.
+    Raises `IllFormedError` where two predicates of one name occur.
 
     >>> from ttr.types.syntax import Ind, Pred
     >>> sorted(vocabulary_of(Pred("dog", (Ind,))("fido")).names)
@@ -126,6 +126,6 @@ def vocabulary_of(*values: object) -> Vocabulary:
 
 def _check_same(known: Pred, found: Pred) -> None:
     if known is not found:
-        raise IllFormed(
+        raise IllFormedError(
             f"two predicates are called {known.name}: {known!r} and {found!r}"
         )

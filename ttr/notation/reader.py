@@ -23,7 +23,7 @@ from typing import Any, NoReturn, TypeVar
 
 from ttr.building.constructors import Pi, fun, rectype
 from ttr.building.merging import amerge, merge
-from ttr.errors import IllFormed, NotationError, TTRError, suggestion
+from ttr.errors import IllFormedError, NotationError, TTRError, suggestion
 from ttr.notation.error_location import is_ill_formed, locate_error, locate_misfit
 from ttr.notation.names import Names, is_declared, meaning_of, vocabulary_of
 from ttr.notation.parser import parse_term
@@ -128,7 +128,7 @@ def parse(text: str, using: Iterable[object] = ()) -> Object:
 
     `using` lists the basic types, predicates and object names that it may mention, or
     types and objects in which they occur. Raises `NotationError` if the text is no
-    notation, and `IllFormed` if the type is ill-formed.
+    notation, and `IllFormedError` if the type is ill-formed.
 
     >>> from ttr.types.syntax import Ind
     >>> parse("list(Ind)", using=[Ind]) is ListOf(Ind)
@@ -410,7 +410,7 @@ class Reader:
         """The function or function type with this body; an error says where it is."""
         try:
             return build(inside)
-        except IllFormed as error:
+        except IllFormedError as error:
             wrong = locate_error(
                 term, inside, lambda T: is_ill_formed(lambda: build(T))
             )
@@ -427,7 +427,7 @@ class Reader:
             found[part.label.text] = kind
         try:
             return rectype(found, self.theory.signature)
-        except IllFormed as error:
+        except IllFormedError as error:
             wrong = locate_misfit(term, found, self.theory.signature)
             raise error.at(self.source.span(wrong)) from None
 
@@ -548,10 +548,10 @@ class Reader:
             span = self.source.span(label)
             if label.text in seen:
                 told = f"the label {excerpt(label.text)} is there twice"
-                raise IllFormed(told, span=span)
+                raise IllFormedError(told, span=span)
             try:
                 check_label(label.text)
-            except IllFormed as error:
+            except IllFormedError as error:
                 raise error.at(span) from None
             seen.add(label.text)
 

@@ -20,7 +20,7 @@ from contextvars import ContextVar
 from functools import wraps
 from typing import ParamSpec, TypeVar, overload
 
-from ttr.errors import TooLargeError, TTRError, Unsupported
+from ttr.errors import TooLargeError, TTRError, UnsupportedError
 
 __all__ = [
     "STEPS",
@@ -182,7 +182,7 @@ def within_budget(
 
     It then raises `TooLargeError`, or returns `otherwise(error, …)`, given that error
     and the arguments. Inside another question it spends that one's budget. Raises
-    `Unsupported` where types nest too deep.
+    `UnsupportedError` where types nest too deep.
     """
     if function is None:
         return lambda decorated: _within_budget(decorated, otherwise)
@@ -219,8 +219,8 @@ def _within_budget(
     return asked
 
 
-def _nests_too_deep() -> Unsupported:
-    return Unsupported(
+def _nests_too_deep() -> UnsupportedError:
+    return UnsupportedError(
         "this nests deeper than can be followed",
         hint="put fewer records, lists and types inside one another",
     )

@@ -15,10 +15,10 @@ from shlex import quote
 
 from ttr.errors import TTRError
 
-__all__ = ["OWN_FOLDER", "Consent", "NotAllowed", "check_called", "is_below"]
+__all__ = ["OWN_FOLDER", "Consent", "NotAllowedError", "check_called", "is_below"]
 
 
-class NotAllowed(TTRError):
+class NotAllowedError(TTRError):
     """A file names something to which the user has not consented."""
 
 
@@ -35,24 +35,27 @@ def _real_path(path: str | os.PathLike[str]) -> Path:
     try:
         return Path(os.path.realpath(path))
     except ValueError:  # no text with a zero in it is a path
-        raise NotAllowed(f"{str(path)!r} is no path of a file") from None
+        raise NotAllowedError(f"{str(path)!r} is no path of a file") from None
 
 
 def check_called(path: str | os.PathLike[str], suffix: str, named: str = "") -> None:
-    """Raises `NotAllowed` unless a file, and what a link leads to, has this suffix.
+    """Raises `NotAllowedError` unless a file, and what a link leads to, has this
+    suffix.
 
     An error message shows lines of the file. So no file is read as a theory or a story
     that is not called one: it could be a secret. `named` is how a file names this one.
     """
     real, told = _real_path(path), named or path
     if Path(path).suffix != suffix:
-        raise NotAllowed(f"{told} is not used: expected a file called NAME{suffix}")
+        raise NotAllowedError(
+            f"{told} is not used: expected a file called NAME{suffix}"
+        )
     if real.suffix != suffix:
-        raise NotAllowed(
+        raise NotAllowedError(
             f"{told} is not used: it leads to a file not called NAME{suffix}"
         )
     if os.path.exists(real) and not (os.path.isfile(real) or os.path.isdir(real)):
-        raise NotAllowed(f"{told} is not used: it is no regular file")
+        raise NotAllowedError(f"{told} is not used: it is no regular file")
 
 
 @dataclass(frozen=True)
@@ -66,7 +69,7 @@ class Consent:
     >>> consent.check("games/door.ttr")
     >>> consent.check("/etc/passwd")
     Traceback (most recent call last):
-    ttr.safety.consent.NotAllowed: /etc/passwd lies in another folder: allow it with ...
+    ttr...NotAllowedError: /etc/passwd lies in another folder: allow it with ...
     """
 
     folders: tuple[Path, ...] = ()
@@ -94,31 +97,31 @@ class Consent:
         return replace(self, modules=self.modules | {python})
 
     def check(self, path: str | os.PathLike[str], named: str = "") -> None:
-        """Raises `NotAllowed` for a file that may not be used.
+        """Raises `NotAllowedError` for a file that may not be used.
 
         `named` is how a file names it.
         """
         if not self.folders:
-            raise NotAllowed(f"{named or path}: no other file may be used here")
+            raise NotAllowedError(f"{named or path}: no other file may be used here")
         if not any(is_below(path, folder) for folder in self.folders):
             folder = _folder_of_path(path)
-            raise NotAllowed(
+            raise NotAllowedError(
                 f"{named or path} lies in another folder: allow it with --allow "
                 f"{quote(folder)}, in Python with allow=[{folder!r}]"
             )
 
     def check_python(self, python: str, folder: Path) -> None:
-        """Raises `NotAllowed` for Python that may not be run.
+        """Raises `NotAllowedError` for Python that may not be run.
 
         It is a file, relative to a folder, or a module, which is looked for in all
         folders that may be used.
         """
         if not self.python:
-            raise NotAllowed(f"{python} is Python, which may not be run here")
+            raise NotAllowedError(f"{python} is Python, which may not be run here")
         if python.endswith(".py"):
             self.check(folder / python, python)
         elif python not in self.modules and self.folder_of(python) is None:
-            raise NotAllowed(
+            raise NotAllowedError(
                 f"there is no module {python} in this folder: write a file there that "
                 "imports what is needed, and name that"
             )

@@ -20,8 +20,8 @@ def run_named(
 ) -> ModuleType:
     """The module that FILE.py, relative to a folder, or MODULE names; runs a file anew.
 
-    Without a `consent`, it is the caller who names it. Raises `NotAllowed` where there
-    is no consent, and whatever running it raises.
+    Without a `consent`, it is the caller who names it. Raises `NotAllowedError` where
+    there is no consent, and whatever running it raises.
     """
     if consent is None:
         consent = Consent.of([folder]).naming(python, folder)

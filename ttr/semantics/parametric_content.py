@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from ttr.building.constructors import Pi, fun, rectype
 from ttr.computing.subtyping import subtype
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.judging.models import Model
 from ttr.semantics.quantifiers.degrees_of_truth import Truth
 from ttr.semantics.quantifiers.thresholds import Thresholds
@@ -39,7 +39,7 @@ def content(
 ) -> Record:
     """The parametric content {bg, fg}; a type as fg is the same in all contexts.
 
-    Raises `IllFormed` where bg is no record type, or not below the domain of fg.
+    Raises `IllFormedError` where bg is no record type, or not below the domain of fg.
 
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> donkey, bray = Pred("donkey", Ind), Pred("bray", Ind)
@@ -48,12 +48,12 @@ def content(
     {bg = [x : Ind, c : donkey(x)], fg = \\r:[x : Ind, c : donkey(x)]. bray(r.x)}
     """
     if not isinstance(bg, RecordType):
-        raise IllFormed(f"a background is a record type, found {kind_of(bg)}")
+        raise IllFormedError(f"a background is a record type, found {kind_of(bg)}")
     if not isinstance(fg, Function):
         fg = fun(r=bg)(as_type(fg))
     covered = subtype(bg, as_type(fg.domain), theory)
     if not covered.yes:
-        raise IllFormed(
+        raise IllFormedError(
             f"the foreground {fg} does not take the contexts of the background {bg}: "
             f"{covered.why}"
         )
@@ -104,7 +104,7 @@ def in_context(
 ) -> Truth:
     """How certain a content is in one context.
 
-    Raises `Refused` where r is not certainly of the background.
+    Raises `RefusedError` where r is not certainly of the background.
     """
     _, fg = _parts(of)
     return truth(M, as_type(M.apply(fg, r)), thresholds)
@@ -115,7 +115,7 @@ def _parts(of: object) -> tuple[RecordType, Function]:
         bg, fg = of._fields["bg"], of._fields["fg"]
         if isinstance(bg, RecordType) and isinstance(fg, Function):
             return bg, fg
-    raise IllFormed(
+    raise IllFormedError(
         f"a parametric content is a record {{bg, fg}}, found {kind_of(of)}",
         hint="build it with content(bg, fg)",
     )

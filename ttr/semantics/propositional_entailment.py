@@ -23,8 +23,8 @@ def entails(
     For types, and for Austinian propositions of one situation: is the first type below
     the second? An Austinian proposition that is certain entails its type. If p(s : S)
     is in [lo, hi], then p(s : T) is at least lo where S ⊑ T, at most hi where T ⊑ S, at
-    least 1 − hi where ¬S ⊑ T, and at most 1 − lo where S ⊑ ¬T. Raises `IllFormed` for
-    what is no proposition.
+    least 1 − hi where ¬S ⊑ T, and at most 1 − lo where S ⊑ ¬T. Raises `IllFormedError`
+    for what is no proposition.
 
     >>> from ttr.judging.propositions import probabilistic, proposition
     >>> from ttr.types.syntax import Basic

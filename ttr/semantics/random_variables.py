@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from ttr.errors import IllFormed, Refused
+from ttr.errors import IllFormedError, RefusedError
 from ttr.judging.judgements import Judgement, Why
 from ttr.judging.models import Conditions, Model, as_model, conditions
 from ttr.probability import CERTAIN, REFUTED, Degree
@@ -55,10 +55,10 @@ class RandomVariable:
 
     def __init__(self, name: str, /, *values: TypeNode) -> None:
         if not isinstance(name, str):
-            raise IllFormed(f"a random variable has a name, found {kind_of(name)}")
+            raise IllFormedError(f"a random variable has a name, found {kind_of(name)}")
         kinds = tuple(dict.fromkeys(map(as_type, values)))
         if len(kinds) < 2:
-            raise IllFormed(f"{name} needs two values or more that differ")
+            raise IllFormedError(f"{name} needs two values or more that differ")
         object.__setattr__(self, "name", name)
         object.__setattr__(self, "values", kinds)
 
@@ -81,7 +81,7 @@ class RandomVariable:
         T is a value, or a meet, join or negation of such types.
 
         A condition on the same object with such a type limits the values, too. Raises
-        `IllFormed` for other types, and `Refused` where no value is possible.
+        `IllFormedError` for other types, and `RefusedError` where no value is possible.
 
         >>> from ttr.types.syntax import Basic
         >>> A, B, C = Basic("A"), Basic("B"), Basic("C")
@@ -96,7 +96,7 @@ class RandomVariable:
         wanted = self._covered_values(T)
         p, said = _share(whys, wanted & mine, mine - wanted)
         if p is None:
-            raise Refused(
+            raise RefusedError(
                 f"{notation(sit)} is of no value of {self.name} that is possible here",
                 hint=f"the values are {', '.join(map(str, self.values))}",
             )
@@ -140,7 +140,7 @@ class RandomVariable:
     def _is_of_values(self, T: TypeNode) -> bool:
         try:
             self._covered_values(T)
-        except IllFormed:
+        except IllFormedError:
             return False
         return True
 
@@ -157,7 +157,7 @@ class RandomVariable:
                 return frozenset[TypeNode]().union(*map(self._covered_values, parts))
             case Negation(body):
                 return frozenset(self.values) - self._covered_values(body)
-        raise IllFormed(
+        raise IllFormedError(
             f"{T} is no value of {self.name}, nor made of its values",
             hint=f"the values are {', '.join(map(str, self.values))}",
         )

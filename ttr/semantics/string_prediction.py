@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from ttr.aliases import former_names
 from ttr.computing.strings.automata import automaton
 from ttr.computing.strings.pieces import is_of_strings
-from ttr.errors import Unexpected, Unsupported
+from ttr.errors import UnexpectedError, UnsupportedError
 from ttr.judging.automaton_filter import Following, followed_from
 from ttr.judging.models import Model, as_model
 from ttr.judging.segmentation import events_in_words
@@ -36,8 +36,8 @@ if not TYPE_CHECKING:
 def start_course(T: TypeNode, model: Model, /) -> Course:
     """The course of a string of T before its first event.
 
-    Raises `Unsupported` for a type that is not of strings, or that says something of a
-    string as a whole.
+    Raises `UnsupportedError` for a type that is not of strings, or that says something
+    of a string as a whole.
 
     >>> from ttr.types.syntax import Ind, Plus, Pred, Str
     >>> throw, fetch = Pred("throw", Ind)("stick"), Pred("fetch", Ind)("stick")
@@ -50,7 +50,7 @@ def start_course(T: TypeNode, model: Model, /) -> Course:
     fetch(stick) 0
     >>> game.seen("e1")
     Traceback (most recent call last):
-    ttr.errors.Unexpected: event 2, e1, is of throw(stick), but expected: fetch(stick)
+    ttr...UnexpectedError: event 2, e1, is of throw(stick), but expected: fetch(stick)
     help: ask expects(event) how probable it is that it fits
     >>> print(game.seen("e2").may_end)
     1
@@ -58,13 +58,13 @@ def start_course(T: TypeNode, model: Model, /) -> Course:
     T = as_type(T)
     as_model(model)
     if not is_of_strings(T) or escaping(T):
-        raise Unsupported(
+        raise UnsupportedError(
             f"{T} is no type of strings that can be predicted",
             hint="write one with str(…), plus(…) or star(…), without paths outwards",
         )
     found = automaton(T)
     if any(found.wholes.values()):
-        raise Unsupported(
+        raise UnsupportedError(
             f"{T} says something of a string as a whole, which no single event shows",
             hint="judge the string when it is complete",
         )
@@ -89,7 +89,7 @@ class Course:
     def seen(self, event: object, /) -> Course:
         """The course after one more event.
 
-        Raises `Unexpected` where no string of the type goes on with it.
+        Raises `UnexpectedError` where no string of the type goes on with it.
         """
         event = freeze(event)
         after = self._after(event)
@@ -167,11 +167,11 @@ class Course:
         after = self._filter.after(lambda T: self.model.judge(event, T).why)
         return replace(self, _filter=after, length=self.length + 1)
 
-    def _unexpected(self, event: Object) -> Unexpected:
+    def _unexpected(self, event: Object) -> UnexpectedError:
         kinds = sorted(str(kind) for kind in self.model.facts.types_of(event))
         found = " and ".join(kinds) or "nothing that is known"
         wanted = self.expected
-        return Unexpected(
+        return UnexpectedError(
             f"event {self.length + 1}, {notation(event)}, is of {found}, but expected: "
             f"{'no more events' if wanted is None else wanted}",
             hint="ask expects(event) how probable it is that it fits",

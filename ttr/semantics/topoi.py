@@ -14,7 +14,7 @@ from ttr.aliases import former_names
 from ttr.building.functions import fix, restrict
 from ttr.building.merging import merge
 from ttr.computing.subtyping import Answer, consistent, subtype
-from ttr.errors import IllFormed, Refused
+from ttr.errors import IllFormedError, RefusedError
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model, as_model
 from ttr.probability import REFUTED, Degree
@@ -60,12 +60,12 @@ class Topos:
     def __post_init__(self) -> None:
         fg = self.fg
         if not isinstance(fg, Function) or not isinstance(fg.body, TypeNode):
-            raise IllFormed(
+            raise IllFormedError(
                 "a topos is a function from situations to types, as in "
                 rf"\r:[x : Ind]. [e : run(r.x)], found {kind_of(fg)}"
             )
         if escaping(fg):
-            raise IllFormed(f"the topos {fg} has paths that lead nowhere")
+            raise IllFormedError(f"the topos {fg} has paths that lead nowhere")
 
     @property
     def bg(self) -> TypeNode:
@@ -82,7 +82,7 @@ class Topos:
 
 
 def topos(fg: Function | Topos, /) -> Topos:
-    r"""A function as a topos, a topos as itself; `IllFormed` for anything else.
+    r"""A function as a topos, a topos as itself; `IllFormedError` for anything else.
 
     >>> from ttr.notation.reader import parse
     >>> from ttr.types.syntax import Ind, Pred
@@ -101,7 +101,7 @@ def topos(fg: Function | Topos, /) -> Topos:
 def expectation(model: Model, sit: object, warrant: Topos, /) -> TypeNode:
     """t(s): what to expect of a situation s by a topos t.
 
-    Raises `Refused` where s is not certainly of the background type.
+    Raises `RefusedError` where s is not certainly of the background type.
     """
     return as_type(as_model(model).apply(topos(warrant).fg, sit))
 
@@ -137,7 +137,8 @@ def _apply_to_situation(
 ) -> tuple[Judgement, TypeNode] | ModalAnswer:
     """The judgement that the situation is of the background, and what then follows.
 
-    The answer no where it is not. Raises `Refused` where the topos cannot be applied.
+    The answer no where it is not. Raises `RefusedError` where the topos cannot be
+    applied.
     """
     warrant = topos(warrant)
     background = as_model(model).judge(sit, warrant.bg)
@@ -147,8 +148,10 @@ def _apply_to_situation(
     try:
         body = grounded(warrant.fg.body, ({BOUND: freeze(sit)},))
         return background, as_type(model.reduced(body))
-    except (Unresolved, Refused) as wrong:
-        raise Refused(f"the topos {warrant} fails there: {wrong.message}") from None
+    except (Unresolved, RefusedError) as wrong:
+        raise RefusedError(
+            f"the topos {warrant} fails there: {wrong.message}"
+        ) from None
 
 
 def _limit_answer(background: Judgement, answer: Answer, question: str) -> ModalAnswer:
@@ -190,7 +193,8 @@ def compatible(
     """Can what two topoi let expect of one situation be the case together?
 
     Topoi need not be consistent: somebody may hold "birds fly" and "penguins do not".
-    Raises `IllFormed` where they are not functions from record types to record types.
+    Raises `IllFormedError` where they are not functions from record types to record
+    types.
     """
     both = combine_topoi(first, second, theory)
     return consistent(fix(both.fg, theory), theory=theory)

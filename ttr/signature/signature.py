@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from immutables import Map
 
 from ttr.aliases import Alias
-from ttr.errors import IllFormed, Span
+from ttr.errors import IllFormedError, Span
 from ttr.escapes import json_text
 from ttr.types.interning import as_notation
 from ttr.types.syntax import (
@@ -160,16 +160,18 @@ class Signature:
 
     def __post_init__(self) -> None:
         if not isinstance(self.axioms, tuple):
-            raise IllFormed(
+            raise IllFormedError(
                 f"a theory is made of a tuple of axioms, found {kind_of(self.axioms)}",
                 hint="to read a text, write Theory.parse(text)",
             )
 
 
 def signature_of(theory: object) -> Signature:
-    """The theory, or the empty one for None; raises `IllFormed` for anything else."""
+    """The theory, or the empty one for None; raises `IllFormedError` for anything
+    else.
+    """
     if theory is None:
         return Signature()
     if not isinstance(theory, Signature):
-        raise IllFormed(f"expected a theory, found {kind_of(theory)}")
+        raise IllFormedError(f"expected a theory, found {kind_of(theory)}")
     return theory

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ttr.dialogues.dialogue import Dialogue
-from ttr.errors import Endless, NoState, RuleFailed, TTRError
+from ttr.errors import EndlessError, NoStateError, RuleFailedError, TTRError
 from ttr.probability import CERTAIN
 from ttr.testing.properties import Breaches, Property
 from ttr.testing.single_rules import state_when_rerun
@@ -24,7 +24,7 @@ __all__ = ["KEEPS_TYPE", "NAMES_BOUND", "NEVER_BREAKS", "PURE", "TERMINATES"]
 def _is_missing_name(fault: Exception) -> bool:
     """Did a rule fail because something that it names does not exist?"""
     cause = fault.__cause__
-    if not isinstance(fault, RuleFailed) or cause is None:
+    if not isinstance(fault, RuleFailedError) or cause is None:
         return False
     if isinstance(cause, AttributeError | KeyError | NameError | Unresolved):
         return True
@@ -32,12 +32,12 @@ def _is_missing_name(fault: Exception) -> bool:
 
 
 def _check_type(dialogue: Dialogue, roles: Roles) -> Breaches:
-    if isinstance(dialogue.fault, NoState):
+    if isinstance(dialogue.fault, NoStateError):
         yield len(dialogue.trials), str(dialogue.fault)
 
 
 def _check_termination(dialogue: Dialogue, roles: Roles) -> Breaches:
-    if isinstance(dialogue.fault, Endless):
+    if isinstance(dialogue.fault, EndlessError):
         yield len(dialogue.trials), str(dialogue.fault)
 
 
@@ -48,7 +48,11 @@ def _check_names(dialogue: Dialogue, roles: Roles) -> Breaches:
 
 def _check_no_error(dialogue: Dialogue, roles: Roles) -> Breaches:
     fault = dialogue.fault
-    if fault is None or isinstance(fault, NoState | Endless) or _is_missing_name(fault):
+    if (
+        fault is None
+        or isinstance(fault, NoStateError | EndlessError)
+        or _is_missing_name(fault)
+    ):
         return
     text = str(fault)
     named = text if isinstance(fault, TTRError) else f"{type(fault).__name__}: {text}"

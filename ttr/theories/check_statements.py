@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ttr.errors import IllFormed, TTRError
+from ttr.errors import IllFormedError, TTRError
 from ttr.notation import syntax_trees as trees
 from ttr.notation.names import is_declared
 from ttr.notation.reader import Reader
@@ -50,7 +50,7 @@ class Asking:
         """The query, or the error if a type is ill-formed: a check may ask for one."""
         try:
             return self._read_query(tree)
-        except (IllFormed, Unresolved) as error:
+        except (IllFormedError, Unresolved) as error:
             return error
 
     def _read_query(self, tree: trees.Query) -> Query:
@@ -112,7 +112,7 @@ class Asking:
     def _type_or_error(self, term: Term) -> TypeNode | TTRError:
         try:
             return self._type(term)
-        except IllFormed as error:
+        except IllFormedError as error:
             return error
 
     def _object(self, term: Term) -> Object:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, assert_never
 from ttr.building.merging import amerge, merge
 from ttr.computing.cycles import circle
 from ttr.computing.subtyping import subtype
-from ttr.errors import Span, TooLargeError, TTRError, Undecided
+from ttr.errors import Span, TooLargeError, TTRError, UndecidedError
 from ttr.judging.models import model_of
 from ttr.safety.budgets import SharedPurse, one_of_several, purse_of_several
 from ttr.signature.signature import Interval
@@ -57,8 +57,8 @@ def check(theory: Theory) -> Report:
     """Answer the theory's checks, in the model in which its givens are judged.
 
     Its rules are checked without running them: those of each game together, the others
-    one by one. Raises `Refused` if the givens contradict one another, and `UpdateError`
-    if the start of a game is not of its type.
+    one by one. Raises `RefusedError` if the givens contradict one another, and
+    `UpdateError` if the start of a game is not of its type.
 
     >>> theory = Theory.parse("basic A, B\\nA <: B\\ncheck A <= B\\ncheck not B <= A")
     >>> print(check(theory))
@@ -120,7 +120,7 @@ def _answer_of_error(error: TTRError) -> _Answer:
 def _reduce(query: Query, model: Model) -> Query:
     """The query with every application in it worked out.
 
-    Raises `Refused` if an argument is not in the domain of its function.
+    Raises `RefusedError` if an argument is not in the domain of its function.
     """
     if isinstance(query, IsWellFormed | Updates):
         return query
@@ -170,7 +170,7 @@ def _is_of(query: IsOf, model: Model) -> _Answer:
     judgement = model.judge(query.sit, query.type)
     try:
         verdict = "yes" if judgement.holds else "no"
-    except Undecided:
+    except UndecidedError:
         verdict = "unknown"
     found = (
         verdict if verdict != "unknown" else f"unknown, {_format_interval(judgement.p)}"

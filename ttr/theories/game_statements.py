@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from ttr.building.formation import target
-from ttr.errors import IllFormed, TTRError
+from ttr.errors import IllFormedError, TTRError
 from ttr.judging.models import model_of
 from ttr.notation.reader import Reader
 from ttr.notation.syntax_trees import GameStatement, Name, Term
@@ -31,7 +31,9 @@ __all__ = ["opened", "read_game"]
 
 
 def read_game(tree: GameStatement, reader: Reader) -> Opening:
-    """The game that a statement declares; raises `NotationError` or `IllFormed`."""
+    """The game that a statement declares; raises `NotationError` or
+    `IllFormedError`.
+    """
     state = read_state_type(tree.type, reader)
     start = reader.object(tree.begin, ())
     if not isinstance(start, Record):
@@ -61,7 +63,7 @@ def _agenda(term: Term, state: RecordType, reader: Reader) -> str:
             )
     try:
         found_type = target(path, state)
-    except IllFormed as error:
+    except IllFormedError as error:
         raise error.at(reader.source.span(term)) from None
     if not _may_be_list(found_type):
         reader.refuse(

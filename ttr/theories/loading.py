@@ -11,14 +11,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ttr.errors import Mistakes, NotationError, Span, TooLargeError, TTRError
+from ttr.errors import MistakesError, NotationError, Span, TooLargeError, TTRError
 from ttr.notation import syntax_trees as trees
 from ttr.notation.names import Names, is_declared, meaning_of
 from ttr.notation.parser import parse_statement
 from ttr.notation.scanning import blocks, vetted
 from ttr.notation.syntax_trees import Part, Source
 from ttr.safety.budgets import SharedPurse, one_of_several, purse_of_several
-from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowed, check_called
+from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError, check_called
 from ttr.safety.files import why_unread
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import THEORY
@@ -26,7 +26,7 @@ from ttr.theories.drafts import Draft
 from ttr.theories.statements import Declaring, mentioned
 from ttr.types.interning import identity
 
-__all__ = ["Unreadable", "draft_of_file", "draft_of_text"]
+__all__ = ["UnreadableError", "draft_of_file", "draft_of_text"]
 
 _IMPORTS = 50
 """The longest chain of files that import one another."""
@@ -35,7 +35,7 @@ _MISTAKES = 100
 """After this many mistakes, the rest of a text is not read."""
 
 
-class Unreadable(TTRError):
+class UnreadableError(TTRError):
     """The file does not exist, or is no text."""
 
 
@@ -45,7 +45,7 @@ def draft_of_text(
     """What a text declares of a theory; an import is relative to the working directory.
 
     It may import from the working directory, or from where `consent` allows. Raises the
-    mistake in it, or `Mistakes` if there are several.
+    mistake in it, or `MistakesError` if there are several.
     """
     allowed = Consent.of([""]) if consent is None else consent
     return _draft_if_sound(
@@ -57,7 +57,7 @@ def draft_of_file(path: Path, consent: Consent = OWN_FOLDER) -> Draft:
     """What a file declares of a theory.
 
     It, and what it imports, may import from its folder, or from where the user's
-    consent allows. Raises `Unreadable`, the mistake in it, or `Mistakes`.
+    consent allows. Raises `UnreadableError`, the mistake in it, or `MistakesError`.
     """
     return _draft_if_sound(_Files(consent.adding(path.parent), {}).read_file(path, ()))
 
@@ -79,7 +79,7 @@ def _draft_if_sound(reading: _Reading) -> Draft:
         return reading.draft
     if len(reading.mistakes) == 1:
         raise reading.mistakes[0]
-    raise Mistakes.of(reading.mistakes)
+    raise MistakesError.of(reading.mistakes)
 
 
 @dataclass(frozen=True)
@@ -140,13 +140,13 @@ class _Files:
 
 
 def _path_and_text(path: Path) -> tuple[Path, str]:
-    """A file's path without links, and its text; raises `Unreadable`."""
+    """A file's path without links, and its text; raises `UnreadableError`."""
     try:
         return path.resolve(), read_text(path, THEORY)
     except (OSError, UnicodeDecodeError) as error:
-        raise Unreadable(why_unread(path, error)) from None
+        raise UnreadableError(why_unread(path, error)) from None
     except (ValueError, RuntimeError):
-        raise Unreadable(f"{str(path)!r} is no path of a file") from None
+        raise UnreadableError(f"{str(path)!r} is no path of a file") from None
 
 
 _DECLARES = re.compile(
@@ -197,7 +197,7 @@ class _File:
     @property
     def is_refused(self) -> bool:
         """Was an import not allowed? Without it nothing more can be said."""
-        return any(isinstance(one, NotAllowed) for one in self.mistakes)
+        return any(isinstance(one, NotAllowedError) for one in self.mistakes)
 
     def read_statement(self, start: int, end: int) -> None:
         """Reads the statement text[start:end]."""

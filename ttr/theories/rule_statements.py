@@ -13,7 +13,7 @@ from typing import NoReturn
 
 from ttr.building.formation import checked_within, target
 from ttr.building.merging import merge
-from ttr.errors import IllFormed, TTRError
+from ttr.errors import IllFormedError, TTRError
 from ttr.notation.error_location import is_ill_formed, locate_error
 from ttr.notation.reader import Reader
 from ttr.notation.syntax_trees import (
@@ -51,7 +51,9 @@ _BIND = "bind it: where [{name} = … : T]"
 
 
 def read_rule(tree: RuleStatement, reader: Reader) -> Rule:
-    """The rule that a statement declares; raises `NotationError` or `IllFormed`."""
+    """The rule that a statement declares; raises `NotationError` or
+    `IllFormedError`.
+    """
     return _RuleReader(tree, reader).rule()
 
 
@@ -96,7 +98,9 @@ class _RuleReader:
         return replace(self.reader, way_out=way_out)
 
     def rule(self) -> Rule:
-        """The rule; raises `NotationError` or `IllFormed` if its parts do not fit."""
+        """The rule; raises `NotationError` or `IllFormedError` if its parts do not
+        fit.
+        """
         tree = self.tree
         when, on, p = self._parameters()
         names = tuple(one.name.text for one in self.given)
@@ -222,11 +226,11 @@ class _RuleReader:
         for path in sorted(escaping(value), key=lambda one: one.labels):
             try:
                 target(path, around)
-            except IllFormed as error:
+            except IllFormedError as error:
                 self._refuse_path(term, path, error)
         try:
             checked_within(value, around, signature)
-        except IllFormed as error:
+        except IllFormedError as error:
 
             def is_wrong(part: Object) -> bool:
                 return is_ill_formed(lambda: checked_within(part, around, signature))

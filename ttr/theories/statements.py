@@ -50,7 +50,7 @@ class Declaring:
         return Reader(self.draft, self.source, self.later)
 
     def declare(self, tree: Statement) -> None:
-        """Add what a statement declares; raises `NotationError` or `IllFormed`.
+        """Add what a statement declares; raises `NotationError` or `IllFormedError`.
 
         A statement with a mistake adds nothing.
         """

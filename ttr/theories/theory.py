@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Protocol, overload
 
-from ttr.errors import IllFormed, Mistakes, TTRError, suggestion
+from ttr.errors import IllFormedError, MistakesError, TTRError, suggestion
 from ttr.notation.names import all_names, vocabulary_of
 from ttr.notation.reader import read_term
 from ttr.safety.consent import OWN_FOLDER, Consent
@@ -40,7 +40,7 @@ __all__ = [
     "Expected",
     "Given",
     "Interval",
-    "Mistakes",
+    "MistakesError",
     "Opening",
     "Signature",
     "Theory",
@@ -80,7 +80,8 @@ class _Parse:
 
 
 def _parse_theory(text: str, source: str = "<text>") -> Theory:
-    """The theory that a text declares; raises `NotationError`, `IllFormed`, `Mistakes`.
+    """The theory that a text declares; raises `NotationError`, `IllFormedError`,
+    `MistakesError`.
 
     An `import` in it is relative to the working directory, and may not lead out of it.
     """
@@ -124,8 +125,8 @@ class Theory(Signature):
     def of(cls, *values: object) -> Theory:
         """The smallest theory that declares everything that occurs in the values.
 
-        Law: Theory.of(T).parse(str(T)) is T. Raises `IllFormed` where two predicates of
-        one name occur: no text could tell them apart.
+        Law: Theory.of(T).parse(str(T)) is T. Raises `IllFormedError` where two
+        predicates of one name occur: no text could tell them apart.
 
         >>> from ttr.types.syntax import Ind
         >>> sorted(Theory.of(Pred("dog", Ind)("fido")).names)
@@ -161,7 +162,7 @@ class Theory(Signature):
 
     def __getitem__(self, name: str) -> Object:
         if not isinstance(name, str):
-            raise IllFormed(f"a theory is asked for a name, found {kind_of(name)}")
+            raise IllFormedError(f"a theory is asked for a name, found {kind_of(name)}")
         for declared in (self.definitions, self.basics, self.predicates):
             if name in declared:
                 return declared[name]
@@ -219,13 +220,14 @@ def theory_of_text(
     """The theory that a text declares; an import is relative to the working directory.
 
     It may import from the working directory, or from where `consent` allows. Raises the
-    mistake in it, or `Mistakes` if there are several.
+    mistake in it, or `MistakesError` if there are several.
     """
     return theory_of_draft(draft_of_text(text, source, consent))
 
 
 def theory_of_file(path: FilePath, consent: Consent = OWN_FOLDER) -> Theory:
-    """The theory in a file; raises `Unreadable`, the mistake in it, or `Mistakes`.
+    """The theory in a file; raises `UnreadableError`, the mistake in it, or
+    `MistakesError`.
 
     It, and what it imports, may import from its folder, or from where the user's
     consent allows.

@@ -15,7 +15,7 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, dataclass_transform
 from weakref import ref
 
-from ttr.errors import IllFormed, TTRError
+from ttr.errors import IllFormedError, TTRError
 from ttr.hooks import hook
 from ttr.safety.budgets import Spent, open_purse, within_budget
 from ttr.types.notebooks import Drawn
@@ -47,11 +47,13 @@ _pool: dict[tuple[object, ...], _Entry] = {}
 _lock = RLock()
 
 
-def _wrong_arguments(cls: type) -> IllFormed:
+def _wrong_arguments(cls: type) -> IllFormedError:
     """The error for arguments of a node that are too few, too many or misnamed."""
     wanted = inspect.signature(cls._normal)  # type: ignore[attr-defined]
     names = [name for name in wanted.parameters if name != "args"]
-    return IllFormed(f"{cls.__name__} takes {', '.join(names) or 'other arguments'}")
+    return IllFormedError(
+        f"{cls.__name__} takes {', '.join(names) or 'other arguments'}"
+    )
 
 
 def _remove_from_pool(entry: _Entry, pool: Any = _pool, lock: Any = _lock) -> None:

@@ -13,7 +13,7 @@ from itertools import chain, groupby
 from types import NoneType
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
-from ttr.errors import IllFormed, TTRError
+from ttr.errors import IllFormedError, TTRError
 from ttr.hooks import hook
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.interning import (
@@ -154,9 +154,9 @@ class PathTo:
         if self._labels:
             return as_application(self._path(), *args)
         if self._up == 0 or len(args) != 1:
-            raise IllFormed("only outer can be called, as in outer(2).x")
+            raise IllFormedError("only outer can be called, as in outer(2).x")
         if type(args[0]) is not int or args[0] < 1:
-            raise IllFormed(
+            raise IllFormedError(
                 f"outer takes how many scopes out, 1 or more, found {args[0]!r}"
             )
         return PathTo(args[0])
@@ -171,9 +171,9 @@ class PathTo:
         return as_python(Path(self._up, self._labels))
 
     def _path(self) -> Path:
-        """The path written so far; raises `IllFormed` where it has no label."""
+        """The path written so far; raises `IllFormedError` where it has no label."""
         if not self._labels:
-            raise IllFormed("a path needs a label, as in this.x or outer.x")
+            raise IllFormedError("a path needs a label, as in this.x or outer.x")
         return Path(self._up, self._labels)
 
 
@@ -291,7 +291,7 @@ def concat(*parts: object) -> Object:
     for part in map(freeze, parts):
         flat += part.args if _is_operation(part, "+") else (part,)
     if not flat:
-        raise IllFormed("a concatenation needs at least one list or string")
+        raise IllFormedError("a concatenation needs at least one list or string")
     for piece in flat:
         if not _is_symbolic(piece) and not isinstance(piece, tuple | EventString):
             raise Unresolved(f"only lists and strings can be concatenated, not {piece}")
@@ -460,7 +460,7 @@ _fields_of: Callable[[Record], dict[str, Object]] = Record._fields.__get__  # ty
 def record(fields: Mapping[str, object] | None = None, /, **labels: object) -> Record:
     """The record with these labels, as keywords or as one mapping.
 
-    Raises `IllFormed` for what is no label, and for a label that is there twice.
+    Raises `IllFormedError` for what is no label, and for a label that is there twice.
 
     >>> print(record(x="fido", c="s1"))
     {c = s1, x = fido}
@@ -549,12 +549,12 @@ def labelled(
     if fields is None:
         return dict(labels)
     if not isinstance(fields, Mapping):
-        raise IllFormed(
+        raise IllFormedError(
             f"{what} takes labels as keywords or as one mapping, found {fields!r}"
         )
     twice = sorted(fields.keys() & labels.keys())
     if twice:
-        raise IllFormed(f"the label {twice[0]} is there twice")
+        raise IllFormedError(f"the label {twice[0]} is there twice")
     return {**fields, **labels}
 
 
@@ -567,5 +567,7 @@ def check_label(label: object) -> None:
         if label.isascii() or unicodedata.normalize("NFKC", label) == label:
             return
         usual = unicodedata.normalize("NFKC", label)
-        raise IllFormed(f"the label {label!r} is written {usual} in Python")
-    raise IllFormed(f"a label is an identifier that does not start with _: {label!r}")
+        raise IllFormedError(f"the label {label!r} is written {usual} in Python")
+    raise IllFormedError(
+        f"a label is an identifier that does not start with _: {label!r}"
+    )

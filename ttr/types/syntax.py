@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING, NoReturn
 
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.hooks import hook
 from ttr.safety.budgets import within_budget
 from ttr.types.interning import Node, identity, node
@@ -124,14 +124,14 @@ class TypeNode(Node):
 
 
 def as_type(value: object) -> TypeNode:
-    """The value, if it is a type; else `IllFormed` says what it is."""
+    """The value, if it is a type; else `IllFormedError` says what it is."""
     if isinstance(value, TypeNode):
         return value
     raise _not_a_type(value)
 
 
-def _not_a_type(found: object) -> IllFormed:
-    return IllFormed(f"expected a type, found {kind_of(found)}")
+def _not_a_type(found: object) -> IllFormedError:
+    return IllFormedError(f"expected a type, found {kind_of(found)}")
 
 
 def kind_of(value: object) -> str:
@@ -166,7 +166,9 @@ class Basic(TypeNode):
     @staticmethod
     def _normal(name: str) -> tuple[str]:
         if not isinstance(name, str) or not name:
-            raise IllFormed(f"a basic type is named by a string, found {kind_of(name)}")
+            raise IllFormedError(
+                f"a basic type is named by a string, found {kind_of(name)}"
+            )
         return (str(name),)
 
 
@@ -184,11 +186,11 @@ class Universe(TypeNode):
     @staticmethod
     def _normal(name: str, level: int = 0) -> tuple[str, int]:
         if not isinstance(name, str) or name not in ("Type", "RecType"):
-            raise IllFormed(
+            raise IllFormedError(
                 f"a type of types is Type or RecType, found {kind_of(name)}"
             )
         if type(level) is not int or level < 0:
-            raise IllFormed(f"a level of types is 0 or more, found {level!r}")
+            raise IllFormedError(f"a level of types is 0 or more, found {level!r}")
         return name, level
 
 
@@ -202,16 +204,16 @@ class PType(TypeNode):
     @staticmethod
     def _normal(pred: Pred, args: object) -> tuple[object, ...]:
         if not isinstance(pred, Pred):
-            raise IllFormed(f"a ptype is of a predicate, found {kind_of(pred)}")
+            raise IllFormedError(f"a ptype is of a predicate, found {kind_of(pred)}")
         if not isinstance(args, tuple | list):
-            raise IllFormed(
+            raise IllFormedError(
                 f"the arguments of {pred} are a tuple, found {kind_of(args)}"
             )
         frozen = tuple(map(freeze, args))
         for arity in pred.arities:
             if len(arity) == len(frozen):
                 return pred, frozen
-        raise IllFormed(_wrong_arity(pred, len(frozen)))
+        raise IllFormedError(_wrong_arity(pred, len(frozen)))
 
 
 def _wrong_arity(pred: Pred, found: int) -> str:
@@ -425,7 +427,7 @@ class Application(Applied, TypeNode):
 def applied(function: object, *args: object) -> Application:
     """f(a), or f(a)(b) and so on where there are more arguments."""
     if not args:
-        raise IllFormed(f"a function is applied to an argument: {function}(…)")
+        raise IllFormedError(f"a function is applied to an argument: {function}(…)")
     for arg in args:
         function = Application(function, arg)
     return function  # type: ignore[return-value]
@@ -456,7 +458,7 @@ class RecordType(TypeNode):
         try:
             types = dict(self.fields if isinstance(self.fields, tuple) else (None,))
         except (TypeError, ValueError):
-            raise IllFormed(
+            raise IllFormedError(
                 "RecordType holds pairs of a label and a type: build it with rectype"
             ) from None
         object.__setattr__(self, "_types", types)
@@ -505,7 +507,9 @@ class Pred(Node):
     @staticmethod
     def _normal(name: str, *arities: object) -> tuple[object, ...]:
         if not isinstance(name, str) or not name.isidentifier():
-            raise IllFormed(f"a predicate is named by an identifier, found {name!r}")
+            raise IllFormedError(
+                f"a predicate is named by an identifier, found {name!r}"
+            )
         several = [arity for arity in arities if isinstance(arity, tuple)]
         if not several or len(several) < len(arities):
             several = [arities]
@@ -546,7 +550,7 @@ def meet(*parts: TypeNode) -> TypeNode:
     """
     flat = _flat_parts(Meet, parts)
     if not flat:
-        raise IllFormed("a meet needs at least one type")
+        raise IllFormedError("a meet needs at least one type")
     return flat[0] if len(flat) == 1 else Meet(flat)
 
 
@@ -560,7 +564,7 @@ def join(*parts: TypeNode) -> TypeNode:
     """
     flat = _flat_parts(Join, parts)
     if not flat:
-        raise IllFormed("a join needs at least one type")
+        raise IllFormedError("a join needs at least one type")
     return flat[0] if len(flat) == 1 else Join(flat)
 
 

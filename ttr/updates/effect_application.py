@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ttr.errors import RuleFailed, TTRError
+from ttr.errors import RuleFailedError, TTRError
 from ttr.judging.certainty import certainly
 from ttr.judging.evaluator import derivation, reduced
 from ttr.judging.models import Model
@@ -33,7 +33,8 @@ class NextState(NamedTuple):
 def apply_effect(rule: Rule, effect: object, state: Record, model: Model) -> NextState:
     """The next state, by the result of a rule's effect.
 
-    Raises `RuleFailed` for a result of another kind, or if no state can be made of it.
+    Raises `RuleFailedError` for a result of another kind, or if no state can be made of
+    it.
     """
     match effect:
         case Record():
@@ -44,12 +45,12 @@ def apply_effect(rule: Rule, effect: object, state: Record, model: Model) -> Nex
             try:
                 return _realise(effect, state, model, (), "")
             except TTRError as error:
-                raise RuleFailed(
+                raise RuleFailedError(
                     f"no state can be made of what the rule {rule} gave: "
                     f"{error.message}",
                     hint=error.hint,
                 ) from error
-    raise RuleFailed(
+    raise RuleFailedError(
         f"the rule {rule} gives a state, a state and a model, a record type or None, "
         f"but it gave {excerpt(effect)}"
     )
@@ -90,6 +91,6 @@ def _realise_field(
     why = derivation(model.facts, value, T.base)
     failed = why.failure() or why
     at = ".".join(filter(None, (path, why.path())))
-    raise RuleFailed(
+    raise RuleFailedError(
         f"at {at}: {notation(failed.sit)} : {failed.type}, {failed.because}"
     )

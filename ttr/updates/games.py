@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
-from ttr.errors import Endless, NotHeard, TTRError, UpdateError, suggestion
+from ttr.errors import EndlessError, NotHeardError, TTRError, UpdateError, suggestion
 from ttr.judging.certainty import certainly
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model, as_model
@@ -165,8 +165,8 @@ class Game:
         """One turn: the event, then the moves on the agenda.
 
         The event is an object, an `NBest`, or a type of which an event is created; None
-        if nothing happens. Raises `NotHeard` for an event that no rule could take, and
-        the errors of `run`; then nothing is changed.
+        if nothing happens. Raises `NotHeardError` for an event that no rule could take,
+        and the errors of `run`; then nothing is changed.
         """
         if not isinstance(so_far, Run):
             raise UpdateError(
@@ -189,7 +189,7 @@ class Game:
             ready = after._replace(model=model)
             following = self._play_event(ready, move, after.model)
             if len(following.trace) == len(after.trace):
-                error = Endless(
+                error = EndlessError(
                     f"no rule takes the move {planned[0]}, so it stays on the agenda",
                     hint="write a rule that takes it off when it has been made",
                 )
@@ -260,7 +260,7 @@ class Game:
         if any(model.judge(event, T).p != REFUTED for T in types):
             return
         wanted = " or ".join(map(str, types)) or "none at all"
-        raise NotHeard(
+        raise NotHeardError(
             f"{notation(event)} is no event that the game {self.name} takes: expected "
             f"{wanted}"
         )
@@ -310,10 +310,10 @@ class Game:
         return Judgement(move, T, CERTAIN, lambda: model.judge(move, T).why, model)
 
 
-def _endless(after: Run) -> Endless:
+def _endless(after: Run) -> EndlessError:
     """The error that an agenda does not become empty, and which rules repeat."""
     circle = " → ".join(_repeating_names([str(step.rule) for step in after.trace]))
-    error = Endless(
+    error = EndlessError(
         f"the agenda is not empty after {MOVES} moves in a turn: {circle} → …",
         hint="let a rule take the last move off without planning another",
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 
-from ttr.errors import Refused
+from ttr.errors import RefusedError
 from ttr.judging.certainty import certainly
 from ttr.judging.evaluator import reduced
 from ttr.judging.models import Model
@@ -93,7 +93,7 @@ def _candidates(
         T = reduced(model.facts, grounded(field, around))
         known = [(one, model) for one in model.witnesses(T)]
         return known or _situations_seen(T, model)
-    except (Unresolved, Refused):
+    except (Unresolved, RefusedError):
         return []
 
 
@@ -103,6 +103,6 @@ def _situations_seen(T: TypeNode, model: Model) -> Iterable[tuple[Object, Model]
         return []
     try:
         seen, extended = model.create(T)
-    except Refused:
+    except RefusedError:
         return []
     return [(seen, extended)] if certainly(extended.facts, seen, T) else []

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from ttr.errors import Unsupported
+from ttr.errors import UnsupportedError
 from ttr.escapes import json_text
 from ttr.probability import CERTAIN, Degree
 from ttr.signature.signature import Opening
@@ -27,7 +27,8 @@ def written(rule: Rule) -> str:
     r"""The statement that declares the rule.
 
     Where the names in it are declared, reading it gives the same rule. Raises
-    `Unsupported` for a rule that has no notation, as one whose effect is in Python.
+    `UnsupportedError` for a rule that has no notation, as one whose effect is in
+    Python.
 
     >>> from ttr.theories.theory import Theory
     >>> board = Theory.parse('''
@@ -46,12 +47,14 @@ def written(rule: Rule) -> str:
 
 def _lines(rule: Rule) -> Iterator[str]:
     if not isinstance(rule.effect, Body):
-        raise Unsupported(f"the effect of {rule} is a Python function, not notation")
+        raise UnsupportedError(
+            f"the effect of {rule} is a Python function, not notation"
+        )
     if rule.gives is not None:
-        raise Unsupported(f"{rule} declares what it gives, which has no notation")
+        raise UnsupportedError(f"{rule} declares what it gives, which has no notation")
     for name in (rule.name, rule.kind or rule.name):
         if not name.isidentifier() or name in RESERVED:
-            raise Unsupported(f"{name!r} is no name in the notation")
+            raise UnsupportedError(f"{name!r} is no name in the notation")
     names = rule.names[: 1 + (rule.on is not None)]
     kind = f" of {rule.kind}" if rule.kind else ""
     doc = f" {json_text(rule.doc)}" if rule.doc else ""

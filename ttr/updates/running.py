@@ -13,7 +13,7 @@ from math import inf
 from time import perf_counter
 from typing import NamedTuple
 
-from ttr.errors import Endless, UpdateError
+from ttr.errors import EndlessError, UpdateError
 from ttr.judging.certainty import certainly_also
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model
@@ -121,9 +121,9 @@ def run(
     """Play events through an algorithm; if there are none, run it once.
 
     If no rule applies to an event, the state stays as it is. Raises `UpdateError`:
-    `NoState` if the state is not of its type before the first or after any rule,
-    `RuleFailed` if a rule fails, `Endless` if a repetition does not end. The state and
-    the model that are given never change.
+    `NoStateError` if the state is not of its type before the first or after any rule,
+    `RuleFailedError` if a rule fails, `EndlessError` if a repetition does not end. The
+    state and the model that are given never change.
     """
     check_strategies("run", (algorithm,))
     if isinstance(events, str | bytes | NBest | Record | Mapping | TypeNode):
@@ -395,9 +395,9 @@ class _Player:
             check_state(after, rule.gives, model, f"after {rule}, by what it gives,")
 
 
-def _endless(message: str, run: Run, hint: str = "") -> Endless:
+def _endless(message: str, run: Run, hint: str = "") -> EndlessError:
     """The error that a repetition does not end, with the steps up to there."""
-    error = Endless(message, hint=hint)
+    error = EndlessError(message, hint=hint)
     error.steps = run.trace
     return error
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from operator import is_
 
-from ttr.errors import NoState, UpdateError
+from ttr.errors import NoStateError, UpdateError
 from ttr.judging.certainty import certainly, note
 from ttr.judging.models import Model
 from ttr.types.objects import lasts
@@ -20,20 +20,22 @@ __all__ = ["check_state", "is_still_of"]
 def check_state(state: Object, type: RecordType, model: Model, when: str) -> None:
     """Check that a state certainly is of its type.
 
-    Raises `NoState` if it is not, and says where it fails; `UpdateError` for what is no
-    record type.
+    Raises `NoStateError` if it is not, and says where it fails; `UpdateError` for what
+    is no record type.
     """
     if not isinstance(type, RecordType):
         raise UpdateError(f"the type of a state is a record type, found {type!r}")
     if not isinstance(state, Record):
-        raise NoState(f"{when} the state is no record, but {notation(state)}")
+        raise NoStateError(f"{when} the state is no record, but {notation(state)}")
     if certainly(model.facts, state, type):
         return
     why = model.judge(state, type).why
     failed = why.failure()
     if failed is not None:
         claim = f"{notation(failed.sit)} : {failed.type}, {failed.because}"
-        raise NoState(f"{when} the state is not of its type, at {why.path()}: {claim}")
+        raise NoStateError(
+            f"{when} the state is not of its type, at {why.path()}: {claim}"
+        )
 
 
 def is_still_of(before: Record, after: Record, T: RecordType, model: Model) -> bool:

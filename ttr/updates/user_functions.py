@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from types import TracebackType
 
-from ttr.errors import RuleFailed, TTRError
+from ttr.errors import RuleFailedError, TTRError
 
 __all__ = ["blame", "excerpt"]
 
@@ -21,7 +21,7 @@ class blame:
     >>> with blame("the rule hear"):
     ...     1 / 0
     Traceback (most recent call last):
-    ttr.errors.RuleFailed: the rule hear failed: ZeroDivisionError: division by zero
+    ttr...RuleFailedError: the rule hear failed: ZeroDivisionError: division by zero
     """
 
     __slots__ = ("_parts",)
@@ -42,10 +42,10 @@ class blame:
         if not isinstance(error, Exception):
             return
         if isinstance(error, TTRError):
-            raise RuleFailed(f"{self._what} failed: {error}") from error
+            raise RuleFailedError(f"{self._what} failed: {error}") from error
         text = excerpt(error, str)
         fault = f"{type(error).__name__}: {text}" if text else type(error).__name__
-        raise RuleFailed(f"{self._what} failed: {fault}") from error
+        raise RuleFailedError(f"{self._what} failed: {fault}") from error
 
 
 def excerpt(value: object, shown: Callable[[object], str] = repr) -> str:

@@ -14,7 +14,7 @@ from kille.studies.errors import StudyError
 from kille.studies.reading.lines import Key
 from kille.studies.reading.troubles import Trouble, told
 from kille.studies.study import Study, Theory
-from ttr.safety.consent import NotAllowed, check_called
+from ttr.safety.consent import NotAllowedError, check_called
 
 __all__ = ["check_allowed", "python_in", "unallowed"]
 
@@ -88,5 +88,5 @@ def _ending(path: str) -> str:
 def _refused(key: Key, check: Callable[[str], None], name: str) -> Iterator[Trouble]:
     try:
         check(name)
-    except NotAllowed as error:
+    except NotAllowedError as error:
         yield Trouble(key, error.message)

@@ -37,7 +37,7 @@ from ttr import TTRError
 from ttr.errors import Span
 from ttr.safety.consent import OWN_FOLDER
 from ttr.theories.checking import check
-from ttr.theories.theory import Mistakes, load
+from ttr.theories.theory import MistakesError, load
 from ttr.updates.checks import NEVER, Fault, faults_of
 
 __all__ = ["troubles"]
@@ -97,7 +97,7 @@ def _apart(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
 
 def _inline(types: Mapping[str, str], error: TTRError) -> Iterator[Trouble]:
     """Mistakes in types that stand in the study, each at the type where it is."""
-    for one in error.errors if isinstance(error, Mistakes) else (error,):
+    for one in error.errors if isinstance(error, MistakesError) else (error,):
         line = one.span.text if one.span else one.message
         hint = f" ({one.hint})" if one.hint else ""
         yield Trouble(_key_of(types, line), f"{one.message}{hint}")
@@ -139,7 +139,7 @@ def _of_rules(theory: Theory) -> Iterator[Trouble]:
 
 
 def _of_error(key: Key, error: TTRError) -> Iterator[Trouble]:
-    for one in error.errors if isinstance(error, Mistakes) else (error,):
+    for one in error.errors if isinstance(error, MistakesError) else (error,):
         hint = f" ({one.hint})" if one.hint else ""
         yield Trouble(key, f"{one.message}{hint}", _place(one.span))
 

@@ -15,7 +15,7 @@ from kille.studies.failing import line_in, why
 from kille.studies.settings import no_file, unknown
 from kille.studies.study import Theory
 from ttr import TTRError
-from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowed
+from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError
 from ttr.safety.python_files import run_named
 from ttr.theories.theory import load
 from ttr.updates import (
@@ -179,7 +179,7 @@ def _of_python(reference: str, consent: Consent | None) -> Any:
     _check_there(Path(path))
     try:
         module = run_named(path, Path(), "_rules_", consent)
-    except NotAllowed as error:
+    except NotAllowedError as error:
         raise TheoryError(error.message) from error
     except (Exception, SystemExit) as error:
         at = f"{path}:{line_in(path, error) or 1}"

@@ -16,7 +16,7 @@ from kille.studies.errors import StudyError
 from kille.studies.failing import line_in, why
 from kille.studies.settings import no_file, unknown
 from kille.studies.tutors.tutor import Tutor
-from ttr.safety.consent import Consent, NotAllowed
+from ttr.safety.consent import Consent, NotAllowedError
 from ttr.safety.python_files import run_named
 
 __all__ = ["Make", "located", "maker_of"]
@@ -38,7 +38,7 @@ def maker_of(name: str, folder: Path, consent: Consent | None = None) -> Make:
     try:
         python = os.path.expanduser(where)
         module = run_named(python, folder, "_tutor_", consent)
-    except NotAllowed as error:
+    except NotAllowedError as error:
         raise StudyError([error.message]) from error
     except (Exception, SystemExit) as error:
         told = located(where, folder, error)

@@ -22,7 +22,7 @@ from kille.dialogue.meanings import (
     word_of,
 )
 from kille.dialogue.parsing import Grammar, GrammarError
-from ttr import IllFormed, Ind, Pred, rectype, this
+from ttr import IllFormedError, Ind, Pred, rectype, this
 
 MOVES = {
     "en": {
@@ -122,9 +122,9 @@ def test_setting_a_field_gives_the_record_type_that_has_it() -> None:
     assert set_to(T, a=Ind, d=dog(this.y), y=Ind) is rectype(
         a=Ind, x=Ind, y=Ind, c=dog(this.x), d=dog(this.y)
     )
-    with pytest.raises(IllFormed, match="leads nowhere"):
+    with pytest.raises(IllFormedError, match="leads nowhere"):
         set_to(T, c=dog(this.z))
-    with pytest.raises(IllFormed):
+    with pytest.raises(IllFormedError):
         set_to(T, x=theory()["Text"])
 
 

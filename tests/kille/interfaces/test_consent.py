@@ -16,7 +16,7 @@ from kille.studies.reading import checked, read
 from kille.studies.reading.consenting import unallowed
 from kille.studies.study import Theory
 from kille.studies.theories.judging import learners_of
-from ttr.safety.consent import NotAllowed
+from ttr.safety.consent import NotAllowedError
 
 Run = Callable[..., Any]
 
@@ -244,7 +244,7 @@ def test_what_lies_in_the_working_directory_is_not_run(home: Path) -> None:
 
 def test_the_variable_of_meanings_names_a_theory(home: Path) -> None:
     for own in ("/etc/passwd", "mine/secret", "mine/hidden.ttr"):
-        with pytest.raises(NotAllowed) as caught:
+        with pytest.raises(NotAllowedError) as caught:
             types_of(own)
         assert "root:x" not in str(caught.value)
 
@@ -326,7 +326,7 @@ def test_a_log_that_says_it_is_from_elsewhere_runs_nothing(
     assert ran(home) == ["mine"]
     consent = log.study(results).theories["one"].consent
     assert consent is not None
-    with pytest.raises(NotAllowed, match="may not be run here"):
+    with pytest.raises(NotAllowedError, match="may not be run here"):
         consent.check_python("own.py", home / "theirs")
 
 

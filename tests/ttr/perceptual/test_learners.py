@@ -7,7 +7,7 @@ import warnings
 
 import pytest
 
-from ttr import Ind, Pred, TTRError, Unsupported, record, rectype, this
+from ttr import Ind, Pred, TTRError, UnsupportedError, record, rectype, this
 from ttr.probability import UNKNOWN
 from ttr.semantics.perceptual import (
     ByLearner,
@@ -98,7 +98,9 @@ def test_a_word_that_was_never_taught_may_have_what_the_others_leave():
 
 def test_a_rejection_alone_teaches_nothing_where_there_is_no_other_label():
     cup = word(Nearest(), other=None)
-    with pytest.raises(Unsupported, match="cup: that it is not cup teaches") as wrong:
+    with pytest.raises(
+        UnsupportedError, match="cup: that it is not cup teaches"
+    ) as wrong:
         cup.rejected(at(0))
     assert "say what it is instead" in str(wrong.value)
 

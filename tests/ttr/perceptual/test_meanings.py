@@ -6,14 +6,14 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormed,
+    IllFormedError,
     Ind,
     Meet,
     Model,
     Pred,
     TTRError,
-    Undecided,
-    Unsupported,
+    UndecidedError,
+    UnsupportedError,
     amerge,
     box,
     fix,
@@ -143,7 +143,7 @@ def test_what_is_no_record_of_a_meaning(found):
     ],
 )
 def test_an_interpretation_has_one_ptype(body):
-    with pytest.raises(IllFormed, match="a record type with one ptype, as in"):
+    with pytest.raises(IllFormedError, match="a record type with one ptype, as in"):
         meaning(fun(r=BG)(body), Perceptron(), LARSSON, of="pos")
 
 
@@ -153,9 +153,9 @@ def test_an_interpretation_of_a_type_is_the_inverse_of_fix(to_the_right):
     )
     assert interpretation(to_the_right.type, "c") is INTERP
     for label in ("foo", "nonesuch"):
-        with pytest.raises(IllFormed, match=f"with a ptype at {label}"):
+        with pytest.raises(IllFormedError, match=f"with a ptype at {label}"):
             interpretation(to_the_right.type, label)
-    with pytest.raises(IllFormed, match="with a ptype at c, found"):
+    with pytest.raises(IllFormedError, match="with a ptype at c, found"):
         interpretation(Ind, "c")
 
 
@@ -248,9 +248,9 @@ def test_a_handle_is_sensed_and_what_is_not_there_is_unknown(M):
     assert meant.degree(seen) == (1.0, 1.0)
     assert meant.degree(gone) == UNKNOWN
     assert meant.in_model(M, gone).perceive(record(x="o1"), rectype(c=right("o1"))).p
-    with pytest.raises(Undecided, match=r"right: .* may be so or not"):
+    with pytest.raises(UndecidedError, match=r"right: .* may be so or not"):
         meant.classify(gone)
-    with pytest.raises(Undecided, match="right: nothing can be seen"):
+    with pytest.raises(UndecidedError, match="right: nothing can be seen"):
         meant.score(gone)
     for learn in (meant.confirmed, meant.rejected):
         with pytest.raises(
@@ -410,9 +410,13 @@ def test_eyes_that_fail():
 
 def test_what_has_no_score_or_does_not_learn():
     meant = meaning(INTERP, Projective(), record(axis=[1, 0]), of="pos")
-    with pytest.raises(Unsupported, match="right: a spatial template has degrees, but"):
+    with pytest.raises(
+        UnsupportedError, match="right: a spatial template has degrees, but"
+    ):
         meant.score(at(1, 0))
-    with pytest.raises(Unsupported, match="right: a spatial template does not learn"):
+    with pytest.raises(
+        UnsupportedError, match="right: a spatial template does not learn"
+    ):
         meant.confirmed(at(1, 0))
 
 

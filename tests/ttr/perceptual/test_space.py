@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ttr import Ind, Model, Pred, Refused, TTRError, fun, record, rectype, this
+from ttr import Ind, Model, Pred, RefusedError, TTRError, fun, record, rectype, this
 from ttr.semantics.perceptual import (
     INDIVIDUATE,
     Frame,
@@ -113,9 +113,9 @@ def test_individuals_are_assumed_for_regions():
 
 
 def test_what_is_no_region():
-    with pytest.raises(Refused, match="takes objects of"):
+    with pytest.raises(RefusedError, match="takes objects of"):
         individuate(Model(), record(reg="here", pfun=fun(x=Ind)(cup(this.x))))
-    with pytest.raises(Refused, match="takes objects of"):
+    with pytest.raises(RefusedError, match="takes objects of"):
         individuate(Model(), record(reg=SCENE))
 
 

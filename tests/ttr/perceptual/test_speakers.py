@@ -2,7 +2,7 @@
 
 import pytest
 
-from ttr import Ind, Pred, TTRError, Unsupported, record, rectype, this
+from ttr import Ind, Pred, TTRError, UnsupportedError, record, rectype, this
 from ttr.semantics.perceptual import (
     Agreement,
     ByLearner,
@@ -132,7 +132,9 @@ def test_words_with_one_learner_learn_together():
 def test_a_correction_that_one_of_them_cannot_take_changes_neither():
     words = {n: word(n, ByLearner(n), learner_params(Counting())) for n in ("a", "b")}
     who = Speaker("a", words)
-    with pytest.raises(Unsupported, match="that it is not a teaches this learner noth"):
+    with pytest.raises(
+        UnsupportedError, match="that it is not a teaches this learner noth"
+    ):
         who.corrected(at(0), said="a", right="b")
     assert who.meanings == words
 

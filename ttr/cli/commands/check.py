@@ -81,16 +81,16 @@ def _check(options: argparse.Namespace) -> int:
 
 def _outcome(file: str, allow: Sequence[Path]) -> _Outcome:
     from ttr.theories.checking import check
-    from ttr.theories.loading import Unreadable
-    from ttr.theories.theory import Mistakes, load
+    from ttr.theories.loading import UnreadableError
+    from ttr.theories.theory import MistakesError, load
 
     try:
         report = check(load(file, allow=allow))
-    except Unreadable as error:
+    except UnreadableError as error:
         if error.span is None:
             return _Outcome(file, unreadable=error.message)
         return _Outcome(file, mistakes=(error,))
-    except Mistakes as error:
+    except MistakesError as error:
         return _Outcome(file, mistakes=error.errors)
     except TTRError as error:
         return _Outcome(file, mistakes=(error,))

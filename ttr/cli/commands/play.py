@@ -25,7 +25,7 @@ from ttr.cli.consent_options import (
     named_game,
 )
 from ttr.errors import TTRError
-from ttr.safety.consent import Consent, NotAllowed
+from ttr.safety.consent import Consent, NotAllowedError
 from ttr.safety.files import check_outputs, write_whole
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ def _play(options: argparse.Namespace) -> int:
 def _read_allowed(
     file: Path, game: Setting | None, consent: Consent
 ) -> Sequence[Story]:
-    """The stories in a file; `NotAllowed` if one names something without consent.
+    """The stories in a file; `NotAllowedError` if one names something without consent.
 
     If a game is given, it is played instead of those that the stories name.
     """
@@ -144,7 +144,7 @@ class _Playing:
         start = perf_counter()
         try:
             played = self._played(story)
-        except (StoryError, NotAllowed) as error:
+        except (StoryError, NotAllowedError) as error:
             seconds = perf_counter() - start
             return Outcome(file, story.title, seconds, error=error), None
         seconds = perf_counter() - start

@@ -28,13 +28,13 @@ def add(commands: Commands) -> None:
 def _repl(options: argparse.Namespace) -> int:
     from ttr.cli.session.sessions import Session, load_file
     from ttr.cli.session.terminal import talk
-    from ttr.theories.loading import Unreadable
+    from ttr.theories.loading import UnreadableError
 
     session = Session(consent=consent_of(options))
     try:
         if options.file is not None:
             session, _ = load_file(session, Path(options.file))
-    except Unreadable as error:
+    except UnreadableError as error:
         return complain(error.message)
     except TTRError as error:
         say(f"error: {error}")

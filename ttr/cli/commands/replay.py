@@ -13,7 +13,7 @@ from ttr.cli.consent_options import (
     named_game,
 )
 from ttr.errors import TTRError
-from ttr.safety.consent import NotAllowed
+from ttr.safety.consent import NotAllowedError
 from ttr.safety.files import check_outputs, write_whole
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def _turn(text: str) -> int:
 
 
 def _replay(options: argparse.Namespace) -> int:
-    from ttr.dialogues.logs import UnreadableLog, read_logs
+    from ttr.dialogues.logs import UnreadableLogError, read_logs
 
     try:
         check_outputs([options.file], [options.story, options.html])
@@ -70,7 +70,7 @@ def _replay(options: argparse.Namespace) -> int:
     try:
         logs = read_logs(options.file)
         played = [_replay_log(log, options) for log in logs]
-    except (UnreadableLog, NotAllowed) as error:
+    except (UnreadableLogError, NotAllowedError) as error:
         return complain(str(error))
     except TTRError as error:
         say(str(error))
@@ -96,7 +96,7 @@ def _replay_log(log: Log, options: argparse.Namespace) -> tuple[Log, Setting, Re
 
 
 def _setting(log: Log, options: argparse.Namespace, place: str) -> Setting:
-    """The game that the user names, or else the log; raises `NotAllowed`.
+    """The game that the user names, or else the log; raises `NotAllowedError`.
 
     A log runs nothing by itself: Python that it names needs the user's consent.
     """
@@ -110,15 +110,17 @@ def _setting(log: Log, options: argparse.Namespace, place: str) -> Setting:
         raise LogError(f"{place}: the log names no game: name it with --game")
     folder, python = options.file.parent, python_in(reference)
     if python and not options.trust:
-        raise NotAllowed(f"{place}: the log names {reference}, {_refusal(options)}")
+        raise NotAllowedError(
+            f"{place}: the log names {reference}, {_refusal(options)}"
+        )
     if python:
         where = (folder / python).resolve() if python.endswith(".py") else python
         say(f"{place}: running {where}, which the log names")
         consent = named_by_user(reference, folder, consent)
     try:
         return setting(reference, folder, consent)
-    except NotAllowed as error:
-        raise NotAllowed(f"{place}: {error.message}") from error
+    except NotAllowedError as error:
+        raise NotAllowedError(f"{place}: {error.message}") from error
 
 
 def _refusal(options: argparse.Namespace) -> str:

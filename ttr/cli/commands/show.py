@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ttr.cli.commands.output import FAILED, FINE, Commands, complain, say
 from ttr.cli.consent_options import add_allow
-from ttr.errors import TTRError, Unsupported
+from ttr.errors import TTRError, UnsupportedError
 
 if TYPE_CHECKING:
     from ttr.theories.theory import Theory
@@ -47,12 +47,12 @@ def _level_count(text: str) -> int:
 
 
 def _show(options: argparse.Namespace) -> int:
-    from ttr.theories.loading import Unreadable
+    from ttr.theories.loading import UnreadableError
     from ttr.theories.theory import load
 
     try:
         theory = load(options.file, allow=options.allow)
-    except Unreadable as error:
+    except UnreadableError as error:
         return complain(error.message)
     except TTRError as error:
         say(f"error: {error}")
@@ -96,7 +96,7 @@ def _rule_text(theory: Theory, options: argparse.Namespace) -> str:
     from ttr.updates.rule_notation import declaration
 
     if options.form != "text":
-        raise Unsupported(f"{options.name} is shown as text only: it is no type")
+        raise UnsupportedError(f"{options.name} is shown as text only: it is no type")
     return declaration(theory, options.name, folding(theory, options.unfold))
 
 

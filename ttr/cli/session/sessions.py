@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from ttr.computing.subtyping import Answer
-from ttr.errors import NotationError, TTRError, Unsupported
+from ttr.errors import NotationError, TTRError, UnsupportedError
 from ttr.escapes import json_text
 from ttr.judging.judgements import Judgement, Why
 from ttr.judging.models import Model
@@ -34,7 +34,7 @@ from ttr.theories.strategy_statements import gathered
 from ttr.theories.theory import (
     Expected,
     Given,
-    Mistakes,
+    MistakesError,
     Theory,
     theory_of_draft,
     theory_of_file,
@@ -308,7 +308,7 @@ def _replace_entries(
     try:
         after = _rebuild(session, entries, _theory_of(session, entries))
     except TTRError as error:
-        first = error.errors[0] if isinstance(error, Mistakes) else error
+        first = error.errors[0] if isinstance(error, MistakesError) else error
         raise type(first)(
             f"{_listing(names)} cannot change so: {first.message}",
             span=first.span,
@@ -402,7 +402,7 @@ def _read(text: str) -> tuple[Statement, Source]:
 def create_witness(session: Session, T: TypeNode) -> tuple[Session, Object]:
     """The session with the facts of a new witness of T, and the witness.
 
-    Raises `Refused` where there can be no witness.
+    Raises `RefusedError` where there can be no witness.
     """
     witness, model = session.model.create(T)
     for sit, kind, p in _atoms(model.judge(witness, T).why, CERTAIN):
@@ -476,7 +476,7 @@ def save_file(session: Session, path: Path) -> None:
         lines = [_with_relative_import(entry.text, folder) for entry in session.entries]
         write_whole(path, "".join(f"{line}\n" for line in lines))
     except ValueError:
-        raise Unsupported(
+        raise UnsupportedError(
             f"{path} cannot be written: it is no path of a file"
         ) from None
 

@@ -28,7 +28,7 @@ from ttr.computing.strings.pieces import (
     is_regular,
     regular_above,
 )
-from ttr.errors import Unsupported
+from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend
 from ttr.types.forms import star
 from ttr.types.syntax import Join, Meet, Negation, Plus, Str, TypeNode
@@ -54,7 +54,7 @@ def automaton(T: TypeNode) -> Automaton:
 def automaton_above(T: TypeNode) -> Automaton:
     """An automaton without wholes, of all strings of a type and perhaps more.
 
-    Raises `Unsupported` if a meet in the type has too many states.
+    Raises `UnsupportedError` if a meet in the type has too many states.
     """
     found = _Builder(regular_above).of(T)
     if any(found.wholes.values()):
@@ -191,7 +191,7 @@ class _Builder:
         """The automaton of a meet; None if it has to be taken as a whole."""
         if T not in self._intersections:
             self._intersections[T] = None
-            with suppress(Unsupported):
+            with suppress(UnsupportedError):
                 self._intersections[T] = _product(T, self)
         return self._intersections[T]
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import NamedTuple, TypeAlias
 
-from ttr.errors import Unsupported
+from ttr.errors import UnsupportedError
 from ttr.types.syntax import TypeNode, join, meet
 
 __all__ = ["Automaton", "Edge", "Edges", "intersect", "too_many_states", "trim"]
@@ -97,8 +97,8 @@ def intersect(plain: list[Automaton], denied: list[Automaton]) -> Automaton:
     """The automaton of the strings of all `plain` automata and of none `denied`.
 
     For those that are denied all possible states are followed, so that an event of a
-    label is distinguished from one that is not. Raises `Unsupported` if there are too
-    many edges.
+    label is distinguished from one that is not. Raises `UnsupportedError` if there are
+    too many edges.
     """
     return _Product(plain, denied).all()
 
@@ -188,9 +188,9 @@ def _distinguish_events(
         yield known, frozenset(edge.target for edge in edges if so[edge.label])
 
 
-def too_many_states(T: TypeNode) -> Unsupported:
+def too_many_states(T: TypeNode) -> UnsupportedError:
     """The error that a type has too many cases."""
-    return Unsupported(
+    return UnsupportedError(
         f"{T} has too many cases to be followed event by event",
         hint="ask for its parts one by one",
     )

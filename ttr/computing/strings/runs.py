@@ -13,7 +13,7 @@ from itertools import islice
 from typing import Any, NamedTuple, TypeAlias
 
 from ttr.computing.strings.automata import Automaton, Edge, Edges, automaton_above
-from ttr.errors import Unsupported
+from ttr.errors import UnsupportedError
 from ttr.types.syntax import TypeNode, join
 
 __all__ = [
@@ -228,7 +228,7 @@ class _Arrivals:
         """The ends of the strings of a type that begin after so many events."""
         try:
             above = automaton_above(T)
-        except Unsupported:
+        except UnsupportedError:
             ends = range(start, self._length + 1)
             return [end for end in ends if self._fits_whole(start, end, T)]
         found, states = [], {above.start}

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ttr.aliases import former_names
 from ttr.dialogues.logs.entries import Entry, Header, LogError
-from ttr.dialogues.logs.log_reader import Log, UnreadableLog, read_logs
+from ttr.dialogues.logs.log_reader import Log, UnreadableLogError, read_logs
 from ttr.dialogues.logs.log_writer import LogFile, write_log
 from ttr.dialogues.logs.replay import (
     Divergence,
@@ -28,7 +28,7 @@ __all__ = [
     "LogError",
     "LogFile",
     "Replayed",
-    "UnreadableLog",
+    "UnreadableLogError",
     "continue_log",
     "read_logs",
     "replay",

@@ -21,10 +21,10 @@ from ttr.safety.files import why_unread
 from ttr.safety.inputs import parse_json, read_bytes
 from ttr.safety.limits import LINE, LOG
 
-__all__ = ["Log", "UnreadableLog", "read_logs"]
+__all__ = ["Log", "UnreadableLogError", "read_logs"]
 
 
-class UnreadableLog(LogError):
+class UnreadableLogError(LogError):
     """A log that cannot be read at all: it is missing, or may not be opened."""
 
 
@@ -70,13 +70,13 @@ class Log:
 def read_logs(path: Path) -> tuple[Log, ...]:
     """The dialogues in a file; a last line that is cut off is left out.
 
-    Raises `LogError` for a damaged line, and `UnreadableLog` for a file that cannot be
-    read at all.
+    Raises `LogError` for a damaged line, and `UnreadableLogError` for a file that
+    cannot be read at all.
     """
     try:
         text = read_bytes(path, LOG)
     except OSError as error:
-        raise UnreadableLog(why_unread(path, error)) from None
+        raise UnreadableLogError(why_unread(path, error)) from None
     *lines, rest = text.split(b"\n")
     logs = _group_lines(path, lines)
     if rest and logs:

@@ -16,14 +16,14 @@ from ttr.dialogues.settings import (
 from ttr.dialogues.stories.line_events import value_of_text
 from ttr.dialogues.stories.story_reader import Line, Story
 from ttr.errors import TTRError, suggestion
-from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowed
+from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError
 from ttr.types.syntax import Record
 
 __all__ = ["check_consent", "opening", "setting_of", "turns_of"]
 
 
 def setting_of(story: Story, consent: Consent = OWN_FOLDER) -> Setting:
-    """The setting that a story names; raises `StoryError` and `NotAllowed`.
+    """The setting that a story names; raises `StoryError` and `NotAllowedError`.
 
     Python that it names runs if it lies in the story's folder or below, or where there
     is consent.
@@ -43,16 +43,16 @@ def setting_of(story: Story, consent: Consent = OWN_FOLDER) -> Setting:
 
 
 def check_consent(story: Story, consent: Consent) -> None:
-    """Raises `NotAllowed` where a story names something without consent."""
+    """Raises `NotAllowedError` where a story names something without consent."""
     if story.game is None:
         return
     try:
         check_named(*_reference_of(story.game), _consent_beside(story.game, consent))
-    except NotAllowed as error:
+    except NotAllowedError as error:
         reference, _ = _reference_of(story.game)
         or_else = f", or name the game yourself, --game {quote(reference)}"
         told = error.message + or_else * bool(consent.python and python_in(reference))
-        raise NotAllowed(f"{story.game.place}: {told}") from error
+        raise NotAllowedError(f"{story.game.place}: {told}") from error
     except StoryError as error:
         raise story.game.wrong(error.message) from error
 

@@ -14,7 +14,7 @@ from ttr.dialogues.stories.line_events import event_of_line, type_of_text
 from ttr.dialogues.stories.mismatches import SILENCE, Mismatch
 from ttr.dialogues.stories.story_opening import opening, setting_of, turns_of
 from ttr.dialogues.stories.story_reader import Line, Story
-from ttr.errors import NotHeard, TTRError
+from ttr.errors import NotHeardError, TTRError
 from ttr.judging.judgements import Judgement
 from ttr.probability import CERTAIN
 from ttr.types.printing import notation
@@ -103,7 +103,7 @@ class _Playing:
         try:
             turn = self.setting.game.take(self._now, happening)
             trial = Trial.of(turn, self.setting, told)
-        except NotHeard as error:
+        except NotHeardError as error:
             raise line.wrong(error.message) from error
         except TTRError as error:
             self._said = []

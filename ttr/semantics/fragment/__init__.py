@@ -18,13 +18,13 @@ from typing import TYPE_CHECKING
 from ttr.aliases import former_names
 from ttr.semantics.fragment.inference import Inference, follows
 from ttr.semantics.fragment.lexicon import Lexicon, english, lexicon
-from ttr.semantics.fragment.sentence_parsing import OutsideFragment
+from ttr.semantics.fragment.sentence_parsing import OutsideFragmentError
 from ttr.semantics.fragment.sentences import Sentence, pronoun_antecedents, understand
 
 __all__ = [
     "Inference",
     "Lexicon",
-    "OutsideFragment",
+    "OutsideFragmentError",
     "Sentence",
     "english",
     "follows",

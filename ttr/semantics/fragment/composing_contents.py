@@ -19,7 +19,7 @@ from ttr.semantics.fragment.content_types import (
 )
 from ttr.semantics.fragment.determiner_meanings import apply_determiner
 from ttr.semantics.fragment.lexicon import Lexicon
-from ttr.semantics.fragment.sentence_parsing import OutsideFragment, Phrase
+from ttr.semantics.fragment.sentence_parsing import OutsideFragmentError, Phrase
 from ttr.semantics.parametric_content import content, strong, weak
 from ttr.semantics.quantifiers import Determiner, absent, every, exist
 from ttr.types.objects import FiniteSet
@@ -58,10 +58,10 @@ def compose_content(
     """The content of a sentence.
 
     A pronoun stands for the first of `picked` that agrees with it in number. Raises
-    `OutsideFragment` for a construction that is read but has no meaning here.
+    `OutsideFragmentError` for a construction that is read but has no meaning here.
     """
     if sum(1 for kind in _REPEATING for _ in tree.below(kind)) > _MODIFIERS:
-        raise OutsideFragment(
+        raise OutsideFragmentError(
             f"a sentence has at most {_MODIFIERS} adverbs, words like very, "
             "prepositions after a verb, adjectives that need a noun, the, both and "
             "neither, counted together"
@@ -94,7 +94,7 @@ class _Composer:
     def _existence(self, np: Phrase) -> TypeNode:
         """There is or are NP: the noun restricts, and what follows it is the scope."""
         if np.kind not in ("quantified", "bare"):
-            raise OutsideFragment(
+            raise OutsideFragmentError(
                 "there is takes a noun phrase such as a dog, or no dogs"
             )
         nbar = np.parts[-1]
@@ -103,9 +103,9 @@ class _Composer:
             return exist(self._bind(head), self._bind(rest))
         det = np.parts[0].kind
         if det in ("every", "most", "both", "neither", "the", "not_every"):
-            raise OutsideFragment(f"there is takes no noun phrase with {det}")
+            raise OutsideFragmentError(f"there is takes no noun phrase with {det}")
         if det in ("many", "few") and len(nbar.parts) == 1:
-            raise OutsideFragment(
+            raise OutsideFragmentError(
                 f"there are {det} needs to say of which share, as in there are {det} "
                 "dogs in Rome"
             )
@@ -182,7 +182,7 @@ class _Composer:
         for things in self._picked:
             if plural == (len(things) > 1):
                 return lambda said: self._of_each(things, said)
-        raise OutsideFragment(
+        raise OutsideFragmentError(
             f"{form!r} has nothing to stand for: no sentence before it is about "
             f"{'several things' if plural else 'one thing'}"
         )
@@ -287,7 +287,7 @@ class _Composer:
     def _predicate_adjective(self, adj: Phrase) -> Property:
         """The property of an adjective on its own, as if its noun were "thing"."""
         if adj.kind == "privative":
-            raise OutsideFragment(f"{adj.parts[-1].word} needs a noun after it")
+            raise OutsideFragmentError(f"{adj.parts[-1].word} needs a noun after it")
         if adj.parts[-1].kind == "ADJ" and len(adj.parts) == 1:
             return self._unary("ADJ", adj.parts[0])
         return self._adjective(adj, _anything)
@@ -302,7 +302,9 @@ class _Composer:
             case "name", [token]:
                 name = str(self._words.word("NAME", token.word).meaning)
                 return lambda x: equality(x, name)
-        raise OutsideFragment("after is stands an adjective, a noun with a, or a name")
+        raise OutsideFragmentError(
+            "after is stands an adjective, a noun with a, or a name"
+        )
 
     def _with_modifiers(self, said: Property, modifiers: Sequence[Phrase]) -> Property:
         """The property of a verb phrase with its modifiers, the innermost first."""
@@ -374,5 +376,5 @@ def _has_object_pronoun(vp: Phrase) -> bool:
     return "it" in pronouns
 
 
-def _without_meaning(tree: Phrase) -> OutsideFragment:
-    return OutsideFragment(f"the fragment gives no meaning to {tree.kind}")
+def _without_meaning(tree: Phrase) -> OutsideFragmentError:
+    return OutsideFragmentError(f"the fragment gives no meaning to {tree.kind}")

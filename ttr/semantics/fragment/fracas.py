@@ -20,14 +20,14 @@ from ttr.safety.inputs import read_bytes
 from ttr.safety.limits import PROBLEMS
 from ttr.semantics.fragment.inference import follows
 from ttr.semantics.fragment.lexicon import Lexicon
-from ttr.semantics.fragment.sentence_parsing import OutsideFragment
+from ttr.semantics.fragment.sentence_parsing import OutsideFragmentError
 from ttr.semantics.quantifiers import Thresholds
 
 __all__ = [
     "Answered",
     "Outcome",
     "Problem",
-    "Unreadable",
+    "UnreadableError",
     "answered",
     "problems",
 ]
@@ -44,7 +44,7 @@ Outcome: TypeAlias = Literal["right", "wrong", "outside", "open"]
 """How a problem came out; open if the set has no plain answer to compare with."""
 
 
-class Unreadable(TTRError):
+class UnreadableError(TTRError):
     """A file that is not a FraCaS problem set."""
 
 
@@ -71,18 +71,18 @@ class Answered:
 def problems(path: str | os.PathLike[str]) -> tuple[Problem, ...]:
     """Read the problems of section 1 of a file, in order.
 
-    Raises `Unreadable` for what is no FraCaS problem set.
+    Raises `UnreadableError` for what is no FraCaS problem set.
     """
     root = _parse_xml(path)
     if root.tag != "fracas-problems":
-        raise Unreadable(
+        raise UnreadableError(
             f"{path} is no FraCaS problem set: expected <fracas-problems>, "
             f"found <{root.tag}>"
         )
     found = [_read_problem(path, it) for it in root.iter("problem")]
     section = tuple(it for it in found if 1 <= it.number <= _LAST)
     if not section:
-        raise Unreadable(f"{path} has none of the problems 1 to {_LAST}")
+        raise UnreadableError(f"{path} has none of the problems 1 to {_LAST}")
     return section
 
 
@@ -90,22 +90,24 @@ def _parse_xml(path: str | os.PathLike[str]) -> ET.Element:
     try:
         data = read_bytes(path, PROBLEMS)
     except OSError as error:
-        raise Unreadable(why_unread(path, error)) from None
+        raise UnreadableError(why_unread(path, error)) from None
     try:
         _refuse_entities(path, data)
         return ET.fromstring(data)
     except (expat.ExpatError, ET.ParseError, LookupError, ValueError) as error:
-        raise Unreadable(f"{path} is no XML: {error}") from None
+        raise UnreadableError(f"{path} is no XML: {error}") from None
 
 
 def _refuse_entities(path: str | os.PathLike[str], data: bytes) -> None:
     """Refuse declarations of entities: these can grow, or read files.
 
-    Raises `Unreadable`.
+    Raises `UnreadableError`.
     """
 
     def refuse(name: str, *_: object) -> NoReturn:
-        raise Unreadable(f"{path} declares the entity {name}, which is not allowed")
+        raise UnreadableError(
+            f"{path} declares the entity {name}, which is not allowed"
+        )
 
     parser = expat.ParserCreate()
     parser.EntityDeclHandler = refuse
@@ -115,7 +117,7 @@ def _refuse_entities(path: str | os.PathLike[str], data: bytes) -> None:
 def _read_problem(path: str | os.PathLike[str], it: ET.Element) -> Problem:
     name = it.get("id", "")
     if not name.isdecimal() or len(name) > _DIGITS:
-        raise Unreadable(f"{path} has a problem whose id is no number: {name!r}")
+        raise UnreadableError(f"{path} has a problem whose id is no number: {name!r}")
     premises = tuple(_text(p) for p in it.findall("p"))
     return Problem(
         int(name), premises, _text(it.find("h")), it.get("fracas_answer", "undef")
@@ -141,7 +143,7 @@ def _answer_problem(
         return Answered(problem, "outside", "", "the problem has no hypothesis")
     try:
         found = follows(problem.premises, problem.hypothesis, words, thresholds)
-    except OutsideFragment as outside:
+    except OutsideFragmentError as outside:
         why = "; ".join(filter(None, (outside.message, outside.hint)))
         return Answered(problem, "outside", "", why)
     if problem.answer not in _ANSWERS:

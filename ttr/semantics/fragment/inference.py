@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from ttr.errors import Unsupported
+from ttr.errors import UnsupportedError
 from ttr.safety.budgets import within_budget
 from ttr.semantics.argument_checks import as_tuple
 from ttr.semantics.fragment.formulas import Formula, Negated, content_formula
@@ -48,7 +48,7 @@ def follows(
 ) -> Inference:
     """Does a sentence follow from others, for an agent with these thresholds?
 
-    Raises `OutsideFragment` for a sentence that cannot be read.
+    Raises `OutsideFragmentError` for a sentence that cannot be read.
 
     >>> print(follows(["Every dog barks.", "Fido is a dog."], "Fido barks.").verdict)
     yes
@@ -63,7 +63,7 @@ def follows(
     wanted = _formula_of(hypothesis, chosen, agent)
     try:
         return _answer(given, wanted, WorldFinder(chosen, agent))
-    except (UndecidedError, Unsupported) as error:
+    except (UndecidedError, UnsupportedError) as error:
         return Inference("unknown", str(error) or "it takes too many steps")
 
 

@@ -15,7 +15,7 @@ from ttr.semantics.fragment.lexicon import Lexicon
 if TYPE_CHECKING:
     from lark import Lark, Token, Tree
 
-__all__ = ["OutsideFragment", "Phrase", "parse_sentence"]
+__all__ = ["OutsideFragmentError", "Phrase", "parse_sentence"]
 
 _LONGEST = 300
 """The most characters that a sentence may have."""
@@ -37,30 +37,33 @@ class Phrase:
             yield from part.below(kind)
 
 
-class OutsideFragment(TTRError):
+class OutsideFragmentError(TTRError):
     """A sentence with a word or a construction that the fragment does not have."""
 
 
 def parse_sentence(text: str, words: Lexicon) -> Phrase:
     """The tree of the sentence that a text is.
 
-    Raises `OutsideFragment`, which names the word or construction that is not known.
+    Raises `OutsideFragmentError`, which names the word or construction that is not
+    known.
     """
     from lark.exceptions import UnexpectedInput
 
     if not isinstance(text, str):
-        raise OutsideFragment(f"a sentence is a text, found {text!r}")
+        raise OutsideFragmentError(f"a sentence is a text, found {text!r}")
     if not text.strip(" .,!?\t\r\n"):
-        raise OutsideFragment("a sentence has words, but this text is empty")
+        raise OutsideFragmentError("a sentence has words, but this text is empty")
     if len(text) > _LONGEST:
-        raise OutsideFragment(f"a sentence has at most {_LONGEST} characters")
+        raise OutsideFragmentError(f"a sentence has at most {_LONGEST} characters")
     plain = " ".join(text.replace("’", "'").split())
     grammar = _grammar(words)
     _check_words(plain, words)
     try:
         return _phrase(grammar.parse(plain))
     except UnexpectedInput as error:
-        raise OutsideFragment(_describe_failure(plain, error.pos_in_stream)) from None
+        raise OutsideFragmentError(
+            _describe_failure(plain, error.pos_in_stream)
+        ) from None
 
 
 def _phrase(found: Tree[Token] | Token) -> Phrase:
@@ -109,11 +112,11 @@ _FUNCTION_WORDS = frozenset(
 
 
 def _check_words(text: str, words: Lexicon) -> None:
-    """Raise `OutsideFragment` for the first word that is in no lexicon."""
+    """Raise `OutsideFragmentError` for the first word that is in no lexicon."""
     known = {part for form in words.forms for part in form.split()}
     for word in re.findall(r"[\w'-]+", text):
         if word.lower() not in known | _FUNCTION_WORDS and not word.isdecimal():
-            raise OutsideFragment(
+            raise OutsideFragmentError(
                 f"the lexicon has no word {word!r}",
                 hint=suggestion(word.lower(), known),
             )

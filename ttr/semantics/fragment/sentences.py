@@ -41,7 +41,7 @@ class Sentence:
     def judge(self, M: Model, thresholds: Thresholds | None = None) -> Truth:
         """How certain the sentence is in a model, and why.
 
-        Raises `Undefined` where it presupposes what is not so, as "most unicorns".
+        Raises `UndefinedError` where it presupposes what is not so, as "most unicorns".
         """
         return truth(M, self.content, thresholds)
 
@@ -52,12 +52,12 @@ def understand(
     """The sentence that a text is.
 
     `picked` has the sets of things that its pronouns may stand for. Raises
-    `OutsideFragment` for a word or a construction that is not known, and for a pronoun
-    that has nothing to stand for.
+    `OutsideFragmentError` for a word or a construction that is not known, and for a
+    pronoun that has nothing to stand for.
 
     >>> understand("Every pupy barks.")
     Traceback (most recent call last):
-    ttr...OutsideFragment: the lexicon has no word 'pupy'
+    ttr...OutsideFragmentError: the lexicon has no word 'pupy'
     help: did you mean puppy?
     """
     chosen = lexicon_of(words)

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, TypeVar
 from immutables import Map
 
 from ttr.computing.subtyping import consistent, subtype
-from ttr.errors import IllFormed, Refused, TTRError
+from ttr.errors import IllFormedError, RefusedError, TTRError
 from ttr.judging.judgements import Judgement
 from ttr.judging.propositions import judged, probabilistic, probabilistic_claim
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
@@ -98,16 +98,16 @@ class Counts:
     def learned(self, *evidence: Record | Judgement) -> Counts:
         """J with these propositions or judgements, each once more.
 
-        A proposition without prob is certain. Raises `Refused`, and learns nothing, for
-        a type that nothing can be of, and where one situation would certainly be of
-        types that exclude one another.
+        A proposition without prob is certain. Raises `RefusedError`, and learns
+        nothing, for a type that nothing can be of, and where one situation would
+        certainly be of types that exclude one another.
 
         >>> from ttr.judging.propositions import proposition
         >>> from ttr.types.syntax import Basic
         >>> A = Basic("A")
         >>> Counts().learned(proposition("s", A), proposition("s", ~A))
         Traceback (most recent call last):
-        ttr.errors.Refused: {prob = 1.0, sit = s, sit_type = ~A} contradicts what is ...
+        ttr...RefusedError: {prob = 1.0, sit = s, sit_type = ~A} contradicts what is ...
         """
         counts = self
         for one in evidence:
@@ -206,9 +206,11 @@ class Counts:
     def _with(self, evidence: Record) -> Counts:
         sit, T, p = probabilistic_claim(evidence)
         if escaping(T):
-            raise IllFormed(f"{T} has paths that lead nowhere, so it is no evidence")
+            raise IllFormedError(
+                f"{T} has paths that lead nowhere, so it is no evidence"
+            )
         if p.lo > 0.0 and T not in self.sums and consistent(T, theory=self.theory).no:
-            raise Refused(f"{evidence} cannot be: nothing can be of {T}")
+            raise RefusedError(f"{evidence} cannot be: nothing can be of {T}")
         kind = _certain_type(T, p)
         if kind is not None:
             self._check_consistent(sit, kind, evidence)
@@ -234,13 +236,15 @@ class Counts:
         )
 
     def _check_consistent(self, sit: Object, kind: TypeNode, evidence: Record) -> None:
-        """Raise `Refused` for what contradicts the certain types of the situation."""
+        """Raise `RefusedError` for what contradicts the certain types of the
+        situation.
+        """
         known = self._certain_types(sit)
         if not known or kind in known:
             return
         if consistent(*known, kind, theory=self.theory).no:
             said = ", ".join(sorted(map(str, known)))
-            raise Refused(
+            raise RefusedError(
                 f"{evidence} contradicts what is certain of {notation(sit)}: "
                 f"that it is of {said}",
                 hint="take back what was learned of it, or say it with a prob",

@@ -46,7 +46,7 @@ class EvidenceBased:
     def learned(self: C, x: TypeNode, label: str, *, key: Key) -> C:
         """The classifier after a lesson: what is of x has this label.
 
-        Raises `Refused` where nothing can be of x, and `KeyTaken`.
+        Raises `RefusedError` where nothing can be of x, and `KeyTaken`.
         """
         found = features_below(x, self.features, self.theory)
         return replace(self, evidence=self.evidence.learned(found, label, key))  # type: ignore[type-var]

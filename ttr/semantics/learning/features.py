@@ -7,7 +7,7 @@ from functools import reduce
 
 from ttr.building.merging import merge
 from ttr.computing.subtyping import consistent, subtype
-from ttr.errors import IllFormed, Refused
+from ttr.errors import IllFormedError, RefusedError
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Signature
 from ttr.types.paths import escaping
@@ -61,18 +61,20 @@ def _labels_needed(T: RecordType, label: str) -> set[str]:
 
 
 def types_of(values: Iterable[TypeNode], what: str) -> tuple[TypeNode, ...]:
-    """The types of a list; `IllFormed` for what is no list of types."""
+    """The types of a list; `IllFormedError` for what is no list of types."""
     if isinstance(values, tuple | list):
         return tuple(map(as_type, values))
-    raise IllFormed(f"expected a list of types as {what}, found {kind_of(values)}")
+    raise IllFormedError(f"expected a list of types as {what}, found {kind_of(values)}")
 
 
 def features_of(types: Iterable[TypeNode]) -> tuple[TypeNode, ...]:
-    """Types as the features of a classifier; `IllFormed` for a type given twice."""
+    """Types as the features of a classifier; `IllFormedError` for a type given
+    twice.
+    """
     found = types_of(types, "features")
     twice = next((T for T in found if found.count(T) > 1), None)
     if twice is not None:
-        raise IllFormed(f"the feature {twice} is given twice")
+        raise IllFormedError(f"the feature {twice} is given twice")
     return found
 
 
@@ -82,7 +84,8 @@ def features_below(
 ) -> Features:
     """For each feature: is x below it?
 
-    Raises `Refused` where nothing can be of x, as x would then be below all features.
+    Raises `RefusedError` where nothing can be of x, as x would then be below all
+    features.
 
     >>> from ttr.types.syntax import Basic
     >>> A, B = Basic("A"), Basic("B")
@@ -91,7 +94,7 @@ def features_below(
     """
     x = as_type(x)
     if escaping(x):
-        raise IllFormed(f"{x} has paths that lead nowhere, so it is no evidence")
+        raise IllFormedError(f"{x} has paths that lead nowhere, so it is no evidence")
     if consistent(x, theory=theory).no:
-        raise Refused(f"nothing can be of {x}, so it is no evidence")
+        raise RefusedError(f"nothing can be of {x}, so it is no evidence")
     return tuple(subtype(x, feature, theory).yes for feature in features)

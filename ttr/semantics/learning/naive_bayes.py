@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.probability import UNKNOWN, Degree
 from ttr.safety.budgets import within_budget
 from ttr.semantics.learning.counts import NO_THEORY, Counts
@@ -42,7 +42,7 @@ def posterior(
 
     Priors and likelihoods are frequencies of the judgements; likelihoods are smoothed.
     Each class has [0, 1] where the evidence is impossible in all of them. Raises
-    `IllFormed` where no class is given. Source: Cooper, Dobnik, Lappin and Larsson
+    `IllFormedError` where no class is given. Source: Cooper, Dobnik, Lappin and Larsson
     2015.
 
     >>> from ttr.judging.propositions import proposition
@@ -55,7 +55,7 @@ def posterior(
     0.6667
     """
     if not isinstance(judgements, Counts):
-        raise IllFormed(f"the judgements are Counts, found {kind_of(judgements)}")
+        raise IllFormedError(f"the judgements are Counts, found {kind_of(judgements)}")
     found = dict.fromkeys(types_of(evidence, "evidence"))
     scores = {
         C: _score(
@@ -65,7 +65,7 @@ def posterior(
         for C in types_of(classes, "classes")
     }
     if not scores:
-        raise IllFormed("naive Bayes needs at least one class, found none")
+        raise IllFormedError("naive Bayes needs at least one class, found none")
     return _normalise(scores)
 
 

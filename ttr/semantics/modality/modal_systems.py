@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
-from ttr.errors import IllFormed, Refused, suggestion
+from ttr.errors import IllFormedError, RefusedError, suggestion
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model
 from ttr.safety.budgets import within_budget
@@ -64,17 +64,17 @@ class ModalSystem:
         return tuple(name for name, _ in self.models)
 
     def __getitem__(self, name: str) -> Model:
-        """The model of a possibility; raises `IllFormed` for an unknown name.
+        """The model of a possibility; raises `IllFormedError` for an unknown name.
 
         >>> modal_system(w1=Model())["w2"]
         Traceback (most recent call last):
-        ttr.errors.IllFormed: there is no possibility w2, only w1
+        ttr.errors.IllFormedError: there is no possibility w2, only w1
         """
         for known, model in self.models if isinstance(name, str) else ():
             if known == name:
                 return model
         written = in_notation(name)
-        raise IllFormed(
+        raise IllFormedError(
             f"there is no possibility {written}, only {', '.join(self.names)}",
             hint=suggestion(written, self.names),
         )
@@ -84,7 +84,8 @@ class ModalSystem:
     ) -> ModalSystem:
         """The system in which also sit : T, in this possibility and in no other.
 
-        Raises what `Model.given` raises, and `IllFormed` where T does not exist there.
+        Raises what `Model.given` raises, and `IllFormedError` where T does not exist
+        there.
         """
         self._check_exists(name, T)
         changed = self[name].given(sit, T, p)
@@ -107,7 +108,7 @@ class ModalSystem:
         self[name]
         for head in heads:
             if not isinstance(head, Basic | Pred):
-                raise IllFormed(
+                raise IllFormedError(
                     "what a possibility lacks is a basic type or a predicate, "
                     f"found {kind_of(head)}"
                 )
@@ -140,14 +141,14 @@ class ModalSystem:
         self._check_exists(name, T)
         model, asked = self[name], freeze(sit)
         for part, kind in modal_claims(asked, T):
-            with suppress(Refused):
+            with suppress(RefusedError):
                 model = self._with_modal_judgement(model, part, kind)
         return model.judge(asked, T)
 
     def _with_modal_judgement(self, model: Model, sit: Object, box: PType) -> Model:
         """The model with a judgement of a box or diamond type.
 
-        Its argument is reduced first; raises `Refused` where that cannot be done.
+        Its argument is reduced first; raises `RefusedError` where that cannot be done.
         """
         kind = PType(box.pred, (model.reduced(box.args[0]),))
         notion = self.restrictive
@@ -167,7 +168,7 @@ class ModalSystem:
     def _check_exists(self, name: str, T: TypeNode) -> None:
         self[name]
         if not self.has(name, as_type(T)):
-            raise IllFormed(f"{T} does not exist in {name}")
+            raise IllFormedError(f"{T} does not exist in {name}")
 
 
 def modal_system(
@@ -175,19 +176,21 @@ def modal_system(
 ) -> ModalSystem:
     """The modal system of some possibilities, given as keywords or as a mapping.
 
-    Raises `IllFormed` where there is none, and where they are of different theories:
-    they must share axioms, exclusions and open types.
+    Raises `IllFormedError` where there is none, and where they are of different
+    theories: they must share axioms, exclusions and open types.
     """
     found = labelled("modal_system", models, named)
     if not found:
-        raise IllFormed("a modal system has at least one possibility, found none")
+        raise IllFormedError("a modal system has at least one possibility, found none")
     for name, model in found.items():
         if not isinstance(model, Model):
-            raise IllFormed(f"the possibility {name} must be a model, found {model!r}")
+            raise IllFormedError(
+                f"the possibility {name} must be a model, found {model!r}"
+            )
     first, *rest = found
     for name in rest:
         if _assumptions(found[name]) != _assumptions(found[first]):
-            raise IllFormed(
+            raise IllFormedError(
                 f"the possibilities {first} and {name} are of different theories",
                 hint="build their models with the same Model(theory)",
             )

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from ttr.building.merging import merge
 from ttr.computing.subtyping import subtype
-from ttr.errors import IllFormed, Refused, Unsupported
+from ttr.errors import IllFormedError, RefusedError, UnsupportedError
 from ttr.judging.assignments import Assignment
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
@@ -68,7 +68,7 @@ def everywhere(
 def where_they_exist(
     system: ModalSystem, values: tuple[Object, ...]
 ) -> tuple[str, ...]:
-    """The possibilities in which all values exist; raises `IllFormed` for none."""
+    """The possibilities in which all values exist; raises `IllFormedError` for none."""
     found = tuple(
         name
         for name in system.names
@@ -77,7 +77,7 @@ def where_they_exist(
     if found:
         return found
     shown = " and ".join(map(notation, values))
-    raise IllFormed(f"no possibility has {shown}, so nothing can be asked of it")
+    raise IllFormedError(f"no possibility has {shown}, so nothing can be asked of it")
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,11 +176,13 @@ class Notion:
         spend()
         try:
             return self._degree(name, P)
-        except Refused:
+        except RefusedError:
             return UNKNOWN
 
     def _degree(self, name: str, P: Object) -> Degree:
-        """The same, but raises `Refused` where a function in P is undefined there."""
+        """The same, but raises `RefusedError` where a function in P is undefined
+        there.
+        """
         match P:
             case PType(pred, (TypeNode() as inner,)) if pred in (nec, poss):
                 asks = self.necessary if pred is nec else self.possible
@@ -200,7 +202,7 @@ class Notion:
         try:
             _refuse_modal(S)
             known = model.witnesses(_merge_parts(S))
-        except (Refused, Unsupported) as error:
+        except (RefusedError, UnsupportedError) as error:
             return ModalAnswer(UNKNOWN, f"in {name}, {error.message}", name)
         judged = [self.system.judge(name, sit, T) for sit in known]
         for j in judged:
@@ -218,9 +220,11 @@ class Notion:
 
 
 def _refuse_modal(T: TypeNode) -> None:
-    """Raise `Unsupported` for a type with nec or poss; it has no list of witnesses."""
+    """Raise `UnsupportedError` for a type with nec or poss; it has no list of
+    witnesses.
+    """
     if mentions_modal(T):
-        raise Unsupported(
+        raise UnsupportedError(
             f"what is of {T} cannot be listed, as nec and poss are asked of the system",
             hint="judge a situation",
         )

@@ -14,7 +14,7 @@ import math
 from dataclasses import dataclass
 
 from ttr.building.constructors import rectype
-from ttr.errors import TTRError, Unsupported
+from ttr.errors import TTRError, UnsupportedError
 from ttr.semantics.argument_checks import in_notation
 from ttr.semantics.perceptual.regions import PointMap
 from ttr.semantics.perceptual.vectors import (
@@ -136,8 +136,8 @@ class Projective:
         return math.pow(cosine, self.sharpness)
 
     def confirmed(self, _: Record, x: Object, /) -> Record:
-        """Raise `Unsupported`: a template does not learn."""
-        raise Unsupported(
+        """Raise `UnsupportedError`: a template does not learn."""
+        raise UnsupportedError(
             f"a spatial template does not learn, as from {in_notation(x)}"
         )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ttr.building.constructors import fun
 from ttr.building.formation import checked
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.semantics.argument_checks import in_notation
 from ttr.types.forms import order_fields
 from ttr.types.paths import replace_paths
@@ -14,11 +14,13 @@ __all__ = ["claim_of", "interpretation"]
 
 
 def claim_of(interp: object) -> tuple[str, PType]:
-    """The label and the ptype in an interpretation; `IllFormed` for what is none."""
+    """The label and the ptype in an interpretation; `IllFormedError` for what is
+    none.
+    """
     match interp:
         case Function(RecordType(), RecordType(((label, PType() as claim),))):
             return label, claim
-    raise IllFormed(
+    raise IllFormedError(
         "an interpretation takes situations to a record type with one ptype, as in "
         f"\\r:[x : Ind]. [c : cup(r.x)], found {interp}"
     )
@@ -27,7 +29,8 @@ def claim_of(interp: object) -> tuple[str, PType]:
 def interpretation(T: RecordType, label: str) -> Function:
     r"""The λr:bg. [ℓ : p(…)] whose fixed-point type is T, which has ℓ : p(…).
 
-    Law: fix(interpretation(T, ℓ)) is T. Raises `IllFormed` where T has no ptype there.
+    Law: fix(interpretation(T, ℓ)) is T. Raises `IllFormedError` where T has no ptype
+    there.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, Pred, this
@@ -38,7 +41,7 @@ def interpretation(T: RecordType, label: str) -> Function:
     claim = T.get(label) if is_there else None
     if not isinstance(claim, PType):
         found = T if isinstance(T, RecordType) else kind_of(T)
-        raise IllFormed(
+        raise IllFormedError(
             "an interpretation is of a record type with a ptype at "
             f"{in_notation(label)}, found {found}"
         )

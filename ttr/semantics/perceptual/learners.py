@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from ttr.errors import TTRError, Unsupported
+from ttr.errors import TTRError, UnsupportedError
 from ttr.semantics.argument_checks import as_tuple, in_notation, in_one_line
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, Record, freeze, record
@@ -144,8 +144,8 @@ class ByLearner:
 
     A label that it was never taught has a degree between 0 and what the others leave.
     To confirm is to teach the label, to reject is to teach the label `other`. Where
-    there is no `other`, a rejection teaches nothing and raises `Unsupported`; say what
-    the thing is instead.
+    there is no `other`, a rejection teaches nothing and raises `UnsupportedError`; say
+    what the thing is instead.
     """
 
     label: object
@@ -169,7 +169,7 @@ class ByLearner:
     def rejected(self, params: Record, x: Object, /) -> Record:
         """The parameters with the learner taught one more example of `other`."""
         if self.other is None:
-            raise Unsupported(
+            raise UnsupportedError(
                 f"that it is not {notation(self.label)} teaches this learner nothing",
                 hint="say what it is instead, or give ByLearner a label for the others",
             )

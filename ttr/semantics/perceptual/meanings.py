@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import Any, cast
 
 from ttr.building.functions import fix
-from ttr.errors import TTRError, Undecided, Unsupported
+from ttr.errors import TTRError, UndecidedError, UnsupportedError
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model, as_model
 from ttr.probability import UNKNOWN, Degree, degree
@@ -150,21 +150,21 @@ class Meaning:
         """The score that the method compares with its threshold, if it has one."""
         method = self.clf.method
         if not hasattr(method, "score"):
-            raise Unsupported(f"{self._word}: {method} has degrees, but no score")
+            raise UnsupportedError(f"{self._word}: {method} has degrees, but no score")
         x = self._percept(r)
         if x is None:
-            raise Undecided(f"{self._word}: nothing can be seen in {notation(r)}")
+            raise UndecidedError(f"{self._word}: nothing can be seen in {notation(r)}")
         return float(self._ask(method.score, x))
 
     def classify(self, r: Record, /) -> TypeNode:
         """The claim that the word holds of the situation, or the negation of it.
 
-        It holds if its degree is at least a half. Raises `Undecided` where the interval
-        leaves that open.
+        It holds if its degree is at least a half. Raises `UndecidedError` where the
+        interval leaves that open.
         """
         p = self.degree(r)
         if p.lo < 0.5 <= p.hi:
-            raise Undecided(
+            raise UndecidedError(
                 f"{self._word}: {notation(r)} may be so or not, with the degree {p}"
             )
         claim: PType = self._ground(self.claim, ({}, {BOUND: r}))
@@ -188,7 +188,7 @@ class Meaning:
     def rejected(self, r: Record, /) -> Meaning:
         """The meaning after the word was wrongly said in the situation.
 
-        As `confirmed`; raises `Unsupported` where the method cannot learn from it.
+        As `confirmed`; raises `UnsupportedError` where the method cannot learn from it.
         """
         return self._learn(self.clf.method.rejected, r)
 

@@ -201,7 +201,7 @@ def individuate(M: Model, region: Record) -> Individual:
     r"""A new individual for a region {reg, pfun, p}, by `INDIVIDUATE`.
 
     It certainly exists; that it has the property is as probable as p of the region, or
-    certain where there is no p. Raises `Refused` for what is no region.
+    certain where there is no p. Raises `RefusedError` for what is no region.
 
     >>> from ttr.types.syntax import Pred
     >>> seen = record(reg=PointMap([[0, 1], [1, 0]]), pfun=fun(x=Ind)(

@@ -32,7 +32,7 @@ from ttr.semantics.quantifiers.extension_pairs import Case
 from ttr.semantics.quantifiers.extensions import Extension, extension
 from ttr.semantics.quantifiers.quantified_propositions import (
     Quantification,
-    Undefined,
+    UndefinedError,
     quantify,
     settle,
 )
@@ -50,7 +50,7 @@ __all__ = [
     "Threshold",
     "Thresholds",
     "Truth",
-    "Undefined",
+    "UndefinedError",
     "absent",
     "antecedents",
     "at_least",

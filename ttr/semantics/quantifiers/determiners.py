@@ -12,7 +12,7 @@ from itertools import product
 from typing import TypeGuard
 
 from ttr.building.constructors import fun, rectype
-from ttr.errors import IllFormed
+from ttr.errors import IllFormedError
 from ttr.semantics.quantifiers.thresholds import Threshold, Thresholds, number, share
 from ttr.types.syntax import (
     Basic,
@@ -187,27 +187,27 @@ def as_property(value: object) -> Property:
     if isinstance(value, Function | TypeNode):
         return value
     if not isinstance(value, Pred):
-        raise IllFormed(
+        raise IllFormedError(
             f"a property is a function to types, a type or a predicate, found "
             f"{kind_of(value)}"
         )
     for arity in value.arities:
         if len(arity) == 1:
             return fun(x=arity[0])(value(this.x))
-    raise IllFormed(
+    raise IllFormedError(
         f"a property is of one thing, but {value.name} takes {len(value.arities[0])}"
     )
 
 
 def as_quantified(T: TypeNode) -> PType:
-    """The type, if it is quantified; else `IllFormed`."""
+    """The type, if it is quantified; else `IllFormedError`."""
     if isinstance(T, PType) and determiner_of(T) is not None:
         return T
     raise _not_quantified(T)
 
 
-def _not_quantified(T: object) -> IllFormed:
-    return IllFormed(
+def _not_quantified(T: object) -> IllFormedError:
+    return IllFormedError(
         f"{T} is no quantified type",
         hint="write every(P, Q) or the like, of ttr.semantics.quantifiers",
     )
@@ -217,7 +217,9 @@ def properties(T: PType) -> tuple[Property, Property]:
     """The two properties of a quantified type."""
     P, Q = T.args[-2:]
     if not (_is_property(P) and _is_property(Q)):
-        raise IllFormed(f"{T} is not of two properties, functions to types or types")
+        raise IllFormedError(
+            f"{T} is not of two properties, functions to types or types"
+        )
     return P, Q
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from ttr.errors import IllFormed, Refused, TTRError
+from ttr.errors import IllFormedError, RefusedError, TTRError
 from ttr.judging.models import Model, as_model
 from ttr.probability import CERTAIN, REFUTED, Degree, degree
 from ttr.safety.budgets import within_budget
@@ -110,7 +110,7 @@ def extension(
     """What has the property P in a model, certainly or perhaps, in the order told.
 
     P is a predicate of one thing, a function to types, or a type; what is asked are the
-    known objects of its domain. Raises `Unsupported` where these cannot be listed.
+    known objects of its domain. Raises `UnsupportedError` where these cannot be listed.
 
     >>> from ttr.types.syntax import Ind, Pred
     >>> dog = Pred("dog", Ind)
@@ -123,7 +123,7 @@ def extension(
     chosen = thresholds_of(thresholds)
     domain = P.domain if isinstance(P, Function) else P
     if not isinstance(domain, TypeNode):
-        raise IllFormed(f"{notation(domain)} is no domain of a property")
+        raise IllFormedError(f"{notation(domain)} is no domain of a property")
     members = {}
     for sit, p in known_objects(M, domain, chosen):
         if not isinstance(P, Function):
@@ -154,12 +154,12 @@ def _restrict_to_domain(one: Member, domain: Truth) -> Member:
 
 
 def in_domain(M: Model, Q: Property, sit: Object) -> None:
-    """Raise `Refused` where a function does not take a thing at all."""
+    """Raise `RefusedError` where a function does not take a thing at all."""
     if not isinstance(Q, Function):
         return
     inside = M.judge(sit, Q.domain).p
     if inside == REFUTED:
-        raise Refused(
+        raise RefusedError(
             f"{Q} takes objects of {Q.domain}, which {notation(sit)} is not",
             hint="let both properties be of individuals, or both of records",
         )

@@ -12,7 +12,7 @@ from collections.abc import Hashable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from ttr.errors import TTRError, Undecided
+from ttr.errors import TTRError, UndecidedError
 from ttr.judging.judgements import Why
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
@@ -46,10 +46,10 @@ from ttr.types.syntax import (
     kind_of,
 )
 
-__all__ = ["Quantification", "Undefined", "list_names", "quantify", "settle"]
+__all__ = ["Quantification", "UndefinedError", "list_names", "quantify", "settle"]
 
 
-class Undefined(TTRError):
+class UndefinedError(TTRError):
     """A proposition that is neither true nor false: what it presupposes is not so."""
 
 
@@ -84,10 +84,10 @@ class Quantification:
 
     @property
     def holds(self) -> bool:
-        """True at [1, 1], False at [0, 0]; else it raises `Undecided`."""
+        """True at [1, 1], False at [0, 0]; else it raises `UndecidedError`."""
         if self.p in (CERTAIN, REFUTED):
             return self.p == CERTAIN
-        raise Undecided(
+        raise UndecidedError(
             f"{self.type} is neither certain nor refuted: p = {self.p}",
             hint="look at .p, or at .open_ for who is uncertain",
         )
@@ -156,8 +156,8 @@ def quantify(
 ) -> Quantification:
     """Are so many of one extension in the other? Only what is in P is looked at.
 
-    What is uncertain of different things is taken as independent. Raises `Undefined`
-    where q asks for a share, as `most` does, and nothing is P.
+    What is uncertain of different things is taken as independent. Raises
+    `UndefinedError` where q asks for a share, as `most` does, and nothing is P.
 
     >>> from ttr.semantics.quantifiers import most, every
     >>> dogs = Extension.of(["fido", "rex", "sam"], "dog")
@@ -184,8 +184,8 @@ def settle(
 ) -> Quantification:
     """Is q(P, Q) true in a model? The extension of P is listed, and Q asked of each.
 
-    Raises `Undefined` where q asks for a share, as `most` does, and nothing is P;
-    `IllFormed` for a type that is not quantified.
+    Raises `UndefinedError` where q asks for a share, as `most` does, and nothing is P;
+    `IllFormedError` for a type that is not quantified.
 
     >>> from ttr.semantics.quantifiers import every
     >>> from ttr.types.syntax import Ind, Pred
@@ -221,7 +221,7 @@ def _quantification(T: PType, found: Split, thresholds: Thresholds) -> Quantific
     asked = demands(T, thresholds)
     if not found.P and any(one.presupposes for one in asked):
         P, _ = properties(T)
-        raise Undefined(
+        raise UndefinedError(
             f"{T} is neither true nor false: it asks for a share, and nothing is of {P}"
         )
     sure = len(found.inside), len(found.outside)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from ttr.errors import IllFormed, Refused, Unsupported
+from ttr.errors import IllFormedError, RefusedError, UnsupportedError
 from ttr.hooks import hook
 from ttr.judging.judgements import Why
 from ttr.judging.models import Model, as_model
@@ -76,7 +76,8 @@ def truth(M: Model, T: TypeNode, thresholds: Thresholds | None = None) -> Truth:
 
     For a ptype this is the probability that one of the known situations is of it, or
     what its witness function says if it has one; where none is known and the type is
-    open, it is unknown. Raises `IllFormed` for a type with a path that leads out of it.
+    open, it is unknown. Raises `IllFormedError` for a type with a path that leads out
+    of it.
 
     >>> from ttr.semantics.quantifiers import no
     >>> from ttr.types.syntax import Ind
@@ -89,7 +90,9 @@ def truth(M: Model, T: TypeNode, thresholds: Thresholds | None = None) -> Truth:
     as_model(M)
     T = as_type(T)
     if escaping(T):
-        raise IllFormed(f"{T} has paths that lead nowhere, so it is not true or false")
+        raise IllFormedError(
+            f"{T} has paths that lead nowhere, so it is not true or false"
+        )
     return _Truths(M, thresholds_of(thresholds)).of(T)
 
 
@@ -170,7 +173,7 @@ class _Truths:
         try:
             S = grounded(field, ({k: found.witness for k, found in way},))
         except Unresolved as lost:
-            raise Unsupported(f"{T} cannot be followed: {lost.message}") from None
+            raise UnsupportedError(f"{T} cannot be followed: {lost.message}") from None
         if label not in needed:
             found = self.of(S)
             yield from [[*way, (label, found)]] if found.p != REFUTED else []
@@ -244,8 +247,8 @@ def known_objects(
     """The objects that are or may be of T by the facts, in their order.
 
     Of a record type they are records of such objects, with one situation for each
-    field that no other field mentions. Raises `Unsupported` for a type of which there
-    may be others without end.
+    field that no other field mentions. Raises `UnsupportedError` for a type of which
+    there may be others without end.
     """
     if isinstance(T, RecordType):
         ways = _Truths(M, thresholds_of(thresholds)).ways(T)
@@ -289,7 +292,7 @@ def _reduce_to_type(M: Model, value: Object) -> TypeNode:
         value = M.reduced(value)
     if isinstance(value, TypeNode):
         return value
-    raise Refused(f"{notation(value)} is no type, so it is neither true nor false")
+    raise RefusedError(f"{notation(value)} is no type, so it is neither true nor false")
 
 
 def _parts_to_search(value: Object) -> Iterable[Object]:

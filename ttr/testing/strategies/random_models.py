@@ -6,7 +6,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from ttr.errors import Refused, TTRError
+from ttr.errors import RefusedError, TTRError
 from ttr.judging.models import Model
 from ttr.testing.strategies import arbitrary
 from ttr.testing.strategies.arbitrary import Words
@@ -57,5 +57,5 @@ def _with_fact(M: Model, sit: Object, T: TypeNode, degree: object) -> Model:
         return M
     try:
         return M.given(sit, T, degree)
-    except Refused:
+    except RefusedError:
         return M

@@ -9,7 +9,7 @@ from typing import Any
 from hypothesis import strategies as st
 
 from ttr.computing.strings.pieces import string_of
-from ttr.errors import IllFormed, Refused, TTRError
+from ttr.errors import IllFormedError, RefusedError, TTRError
 from ttr.judging.models import Model
 from ttr.testing.strategies import arbitrary
 from ttr.testing.strategies.arbitrary import Words
@@ -47,8 +47,8 @@ def records(T: TypeNode, model: Model | None = None) -> st.SearchStrategy[Any]:
 
     With a model they have the shape of T, with objects of the model and new ones: many
     are of T, others nearly. Without a model they are pairs (record, model) in which the
-    record is of T; drawing raises `Refused` if no such record can be created. Raises
-    `IllFormed` for what is no record type.
+    record is of T; drawing raises `RefusedError` if no such record can be created.
+    Raises `IllFormedError` for what is no record type.
 
     >>> from hypothesis import find
     >>> from ttr.building.constructors import rectype
@@ -59,7 +59,7 @@ def records(T: TypeNode, model: Model | None = None) -> st.SearchStrategy[Any]:
     True
     """
     if not has_only_records(as_type(T)):
-        raise IllFormed(f"records are drawn for a record type, found {kind_of(T)}")
+        raise IllFormedError(f"records are drawn for a record type, found {kind_of(T)}")
     if model is None:
         return _witnesses(T)
     if not isinstance(model, Model):
@@ -89,7 +89,7 @@ def _witnesses(draw: st.DrawFn, T: TypeNode) -> tuple[Object, Model]:
     if witness is not None and draw(st.booleans()):
         return witness
     for model in (M, Model()):
-        with suppress(Refused):
+        with suppress(RefusedError):
             return model.create(T)
     return witness or Model().create(T)
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from ttr.building.constructors import rectype
 from ttr.computing.subtyping import subtype
-from ttr.errors import IllFormed, TTRError
+from ttr.errors import IllFormedError, TTRError
 from ttr.judging.models import Model, as_model
 from ttr.testing.strategies.random_records import objects_of_shape, records, with_fact
 from ttr.types.paths import escaping
@@ -46,8 +46,8 @@ def states(
     """Pairs (state, model) in which the state certainly is of the record type.
 
     States have objects of the model and new ones, about which the model of the pair
-    knows more. Raises `IllFormed` for what is no record type; drawing raises `Refused`
-    if no state can be created.
+    knows more. Raises `IllFormedError` for what is no record type; drawing raises
+    `RefusedError` if no state can be created.
 
     >>> from hypothesis import find
     >>> from ttr.types.syntax import Ind, ListOf
@@ -57,7 +57,7 @@ def states(
     True
     """
     if not isinstance(T, RecordType):
-        raise IllFormed(f"states are drawn for a record type, found {kind_of(T)}")
+        raise IllFormedError(f"states are drawn for a record type, found {kind_of(T)}")
     return records(T) if model is None else _states_over_model(T, as_model(model))
 
 
