@@ -95,7 +95,7 @@ PROVIDERS = {
     "ttr.types.syntax.as_function_type": "ttr.types.forms",
     "ttr.types.syntax.is_subtype": "ttr.computing.subtyping",
     "ttr.computing.subtyping.counterexample": "ttr.judging.counterexamples",
-    "ttr.judging.evaluator.made_up": "ttr.judging.creation",
+    "ttr.judging.evaluator.make_witness": "ttr.judging.creation",
     "ttr.semantics.quantifiers.truth.truth_of_quantified": (
         "ttr.semantics.quantifiers.quantified_propositions"
     ),

@@ -29,7 +29,7 @@ from ttr import (
     record,
     rectype,
 )
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.syntax import Object
 
 __all__ = [
@@ -121,7 +121,9 @@ def set_to(T: RecordType, **fields: TypeNode) -> RecordType:
 def _is_set(field: TypeNode, to: TypeNode) -> bool:
     """Whether a field is only set to an object, by which paths fit as they did."""
     base = _unset(to)
-    return base is _unset(field) and escaping(base) == escaping(to) == escaping(field)
+    return base is _unset(field) and free_paths(base) == free_paths(to) == free_paths(
+        field
+    )
 
 
 def _unset(T: TypeNode) -> TypeNode:

@@ -20,7 +20,7 @@ from ttr import (
 )
 from ttr.types.printing import notation
 from ttr.types.records import differences
-from ttr.types.substitution import grounded
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import Object
 from ttr.updates import Step
 
@@ -140,7 +140,7 @@ def _belief(belief: Record) -> str:
     sit = belief.sit
     for _, field in belief.sign.meaning.fields:
         if isinstance(field, PType):
-            return f"some : {grounded(field, (sit,))}   p = {belief.p:.2f}"
+            return f"some : {resolve_paths(field, (sit,))}   p = {belief.p:.2f}"
     return f"{sit} : {belief.sign.meaning}   p = {belief.p:.2f}"
 
 

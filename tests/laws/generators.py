@@ -37,7 +37,7 @@ from ttr import (
     rectype,
 )
 from ttr.testing.strategies import models, objects, types
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.syntax import Object
 
 __all__ = [
@@ -212,4 +212,4 @@ def made_up(T: TypeNode, M: Model) -> tuple[Object, Model] | None:
 
 def has_negations_or_function_types(*types: TypeNode) -> bool:
     """Whether what the contract says of transitivity does not go so far."""
-    return any(isinstance(part, Negation | FunType) for part in occurring(types))
+    return any(isinstance(part, Negation | FunType) for part in subterms(types))

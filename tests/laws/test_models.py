@@ -41,9 +41,9 @@ def test_creation_is_refused_only_on_a_circle_or_a_contradiction(T, M):
 
 
 def _paths(field):
-    from ttr.types.paths import escaping
+    from ttr.types.paths import free_paths
 
-    return escaping(field)
+    return free_paths(field)
 
 
 def _acyclic(T):

@@ -28,7 +28,7 @@ from ttr import (
 )
 from ttr.computing.subtyping import consistent
 from ttr.semantics.modality import modal_system, necessarily, possibly
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 
 systems = st.lists(models(), min_size=1, max_size=3).map(
     lambda found: modal_system({f"w{n}": M for n, M in enumerate(found)})
@@ -100,7 +100,7 @@ def test_duality_of_propositions(w, a, T):
 
 @given(systems, types())
 def test_box_types_are_judged_as_necessity(w, T):
-    assume(not any(isinstance(part, Application) for part in occurring([T])))
+    assume(not any(isinstance(part, Application) for part in subterms([T])))
     box, diamond = w.restrictive.necessary(T).p, w.restrictive.possible(T).p
     assert w.judge("w0", "s", necessarily(T)).p == box
     assert w.judge("w0", "s", possibly(T)).p == diamond

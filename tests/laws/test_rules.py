@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from ttr import Model, RefusedError, Singleton, UpdateError, amerge, rectype
 from ttr.building.merging import singleton_type
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.updates import rule, run
 
 draws = st.data()
@@ -24,7 +24,7 @@ def made(T):
 
 def setting(T, labels, values):
     """The type that sets some fields of T to these values."""
-    fields = {k: Singleton(T[k], values[k]) for k in labels if not escaping(T[k])}
+    fields = {k: Singleton(T[k], values[k]) for k in labels if not free_paths(T[k])}
     return rectype(fields)
 
 

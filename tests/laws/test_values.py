@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import ttr
 from ttr import Function, FunType, Theory, join, meet, record, rectype, subtype
 from ttr.types.interning import identity
-from ttr.types.paths import rebuilt
+from ttr.types.paths import map_parts
 
 NAMES = {name: getattr(ttr, name) for name in ttr.__all__}
 
@@ -62,7 +62,7 @@ def test_pickle_and_copies_give_an_equal_record(r):
 
 def renamed(value, name):
     """The value with every bound variable called so."""
-    value = rebuilt(value, lambda part, deeper: renamed(part, name))
+    value = map_parts(value, lambda part, deeper: renamed(part, name))
     if isinstance(value, Function | FunType):
         inside = value.body if isinstance(value, Function) else value.result
         return type(value)(value.domain, inside, name)
@@ -174,7 +174,7 @@ def test_fields_stand_behind_what_they_depend_on(T):
     circular = False
     for label, field in T.fields:
         needs = {
-            path.labels[0] for path in ttr.types.paths.escaping(field) if path.up == 0
+            path.labels[0] for path in ttr.types.paths.free_paths(field) if path.up == 0
         }
         circular = circular or not needs <= seen
         assert circular or needs <= seen

@@ -2,7 +2,13 @@
 
 import pytest
 
-from ttr.computing.strings.beliefs import NOWHERE, SETS, Beliefs, frechet, independent
+from ttr.computing.strings.beliefs import (
+    NOWHERE,
+    SETS,
+    Beliefs,
+    frechet_conjunction,
+    independent_conjunction,
+)
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 
 ONE, TWO, BOTH = frozenset((1,)), frozenset((2,)), frozenset((1, 2))
@@ -10,10 +16,10 @@ ONE, TWO, BOTH = frozenset((1,)), frozenset((2,)), frozenset((1, 2))
 
 def test_together():
     p, q = Degree(0.5, 0.8), Degree(0.7, 0.9)
-    assert independent(p, q) == pytest.approx((0.35, 0.72))
-    assert frechet(p, q) == pytest.approx((0.2, 0.8))
-    assert frechet(CERTAIN, q) == independent(CERTAIN, q) == q
-    assert frechet(REFUTED, q) == REFUTED
+    assert independent_conjunction(p, q) == pytest.approx((0.35, 0.72))
+    assert frechet_conjunction(p, q) == pytest.approx((0.2, 0.8))
+    assert frechet_conjunction(CERTAIN, q) == independent_conjunction(CERTAIN, q) == q
+    assert frechet_conjunction(REFUTED, q) == REFUTED
 
 
 def test_what_is_certain():
@@ -29,7 +35,7 @@ def test_a_bound_is_known_from_what_is_so_and_from_what_is_not():
 
 def test_ways_to_one_set_add_up():
     beliefs = Beliefs({ONE: Degree(0.25, 0.25), TWO: Degree(0.75, 0.75)})
-    after = beliefs.after(lambda states: [(BOTH, CERTAIN)], independent)
+    after = beliefs.after(lambda states: [(BOTH, CERTAIN)], independent_conjunction)
     assert after.degrees == {BOTH: CERTAIN}
 
 
@@ -37,7 +43,9 @@ def test_where_there_are_too_many_sets_bounds_are_kept():
     number = SETS + 10
     share = 1 / number
     sets = {frozenset((0, i)): Degree(share, share) for i in range(1, number + 1)}
-    after = Beliefs(sets).after(lambda states: [(states, CERTAIN)], independent)
+    after = Beliefs(sets).after(
+        lambda states: [(states, CERTAIN)], independent_conjunction
+    )
     assert len(after.degrees) == SETS
     assert after.states() == list(range(number + 1))
     for state in range(number + 1):

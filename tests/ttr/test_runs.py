@@ -4,7 +4,13 @@ from itertools import islice
 
 from ttr import Basic, Plus, Str
 from ttr.computing.strings.automata import automaton
-from ttr.computing.strings.runs import Stop, a_way, accepts, all_ways, shortest
+from ttr.computing.strings.runs import (
+    Stop,
+    accepts,
+    find_division,
+    find_divisions,
+    shortest_words,
+)
 from ttr.types.forms import star
 
 A, B, C = map(Basic, "ABC")
@@ -22,16 +28,16 @@ def never(start, end, T):
 def test_a_way_goes_back_where_it_has_to():
     found = automaton(Plus(Str(A, B) | Str(A, A, B)))
     kinds = ({A}, {A}, {B}, {A}, {B})
-    assert a_way(5, found, among(*kinds)) == (A, A, B, A, B)
+    assert find_division(5, found, among(*kinds)) == (A, A, B, A, B)
 
 
 def test_where_a_string_stops():
     found = automaton(Str(A, B | Str(C)))
-    stop = a_way(2, found, among({A}, {A}))
+    stop = find_division(2, found, among({A}, {A}))
     assert stop == Stop(1, (B, C), False)
-    stop = a_way(3, found, among({A}, {B}, {A}))
+    stop = find_division(3, found, among({A}, {B}, {A}))
     assert stop == Stop(2, (), True)
-    stop = all_ways(1, found, among({A}), never)
+    stop = find_divisions(1, found, among({A}), never)
     assert stop == Stop(1, (B, C), False)
 
 
@@ -42,18 +48,20 @@ def test_every_event_is_asked_for_a_type_once():
         asked.append((number, T))
         return True
 
-    a_way(4, automaton(Plus(Str(A) | Str(A, A) | Str(A, B))), fits)
+    find_division(4, automaton(Plus(Str(A) | Str(A, A) | Str(A, B))), fits)
     assert len(asked) == len(set(asked))
 
 
 def test_ways_are_told_apart_by_types_not_by_states():
-    found = all_ways(3, automaton(Str(star(A), star(A))), among({A}, {A}, {A}), never)
+    found = find_divisions(
+        3, automaton(Str(star(A), star(A))), among({A}, {A}, {A}), never
+    )
     assert found.all
     assert len(found.ways) == 1
 
 
 def test_more_ways_than_are_told_apart():
-    found = all_ways(
+    found = find_divisions(
         12, automaton(Plus(Str(A) | Str(B, B) | Str(B))), lambda i, T: True, never
     )
     assert not found.all
@@ -68,7 +76,7 @@ def test_wholes_may_be_empty_or_long():
     def fits_whole(start, end, T):
         return end - start == (0 if T is optional else 1)
 
-    division = all_ways(2, found, among({A}, {A}), fits_whole)
+    division = find_divisions(2, found, among({A}, {A}), fits_whole)
     (way,) = division.ways
     assert [(piece.start, piece.end) for piece in way] == [(0, 1), (1, 1), (1, 2)]
 
@@ -82,7 +90,7 @@ def test_whether_there_is_a_way():
 
 def test_strings_shortest_first_but_long_enough():
     found = automaton(Plus(A | Str(B, B)))
-    assert list(islice(shortest(found), 3)) == [(A,), (A, A), (B, B)]
-    assert next(iter(shortest(found, 4))) == (A, A, A, A)
-    assert list(shortest(automaton(Str(A) | Str(B, B)), 5)) == [(B, B), (A,)]
-    assert list(shortest(automaton(Str(A) & Str(A, A)))) == []
+    assert list(islice(shortest_words(found), 3)) == [(A,), (A, A), (B, B)]
+    assert next(iter(shortest_words(found, 4))) == (A, A, A, A)
+    assert list(shortest_words(automaton(Str(A) | Str(B, B)), 5)) == [(B, B), (A,)]
+    assert list(shortest_words(automaton(Str(A) & Str(A, A)))) == []

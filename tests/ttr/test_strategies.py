@@ -32,9 +32,9 @@ from ttr import (
     this,
     wellformed,
 )
-from ttr.computing.cycles import circle
+from ttr.computing.cycles import describe_cycle
 from ttr.testing import strategies as tst
-from ttr.types.paths import escaping, occurring, parts
+from ttr.types.paths import free_paths, parts, subterms
 
 many = settings(
     max_examples=1000,
@@ -68,7 +68,7 @@ def drawn(strategy, run=many):
 
 def kinds_in(value):
     """Names for what there is in a type: constructors, operations, sorts of paths."""
-    for part in occurring([value]):
+    for part in subterms([value]):
         yield type(part).__name__
         match part:
             case Operation(name):
@@ -76,10 +76,10 @@ def kinds_in(value):
             case Path(up, labels):
                 yield f"path {up} out" if labels[0] != "•" else f"variable {up} out"
                 yield f"path of {min(len(labels), 2)}"
-            case FunType(_, result) if any(p.up == 0 for p in escaping(result)):
+            case FunType(_, result) if any(p.up == 0 for p in free_paths(result)):
                 yield "dependent function type"
-    if circle(value):
-        yield "circle"
+    if describe_cycle(value):
+        yield "describe_cycle"
 
 
 def nesting(value):
@@ -100,7 +100,7 @@ def test_every_constructor_is_reached_in_1000_draws():
     seen = Counter(kind for T in found for kind in set(kinds_in(T)))
     for kind in REACHED.split():
         assert seen[kind] >= 5, (kind, seen)
-    for kind in ("+", "fst", "rst", "circle", "dependent function type"):
+    for kind in ("+", "fst", "rst", "describe_cycle", "dependent function type"):
         assert seen[kind] >= 5, (kind, seen)
     for kind in ("path 0 out", "path 1 out", "path of 2", "variable 0 out"):
         assert seen[kind] >= 3, (kind, seen)
@@ -109,9 +109,9 @@ def test_every_constructor_is_reached_in_1000_draws():
 
 def test_types_are_closed_and_well_formed():
     for T in drawn(tst.types(), few):
-        assert not escaping(T)
+        assert not free_paths(T)
         answer = wellformed(T)
-        assert answer.yes or "circle" in answer.why
+        assert answer.yes or "describe_cycle" in answer.why
 
 
 def test_depth_is_how_deep_constructors_nest():
@@ -124,7 +124,7 @@ def test_types_use_the_names_of_a_theory():
     assert {"Animal", "Dog", "barks", "bites", "rex", "fido"} <= names
     assert "A" not in names
     assert KENNEL.Biting in [
-        part for T in drawn(tst.types(KENNEL), few) for part in occurring([T])
+        part for T in drawn(tst.types(KENNEL), few) for part in subterms([T])
     ]
 
 

@@ -5,7 +5,7 @@ import pytest
 from ttr import Ind, Pred, outer, record, rectype, this
 from ttr.types.objects import Unresolved
 from ttr.types.paths import replace_paths
-from ttr.types.substitution import along, grounded
+from ttr.types.substitution import follow_path, resolve_paths
 from ttr.types.syntax import Path
 
 hug = Pred("hug", Ind, Ind)
@@ -13,18 +13,18 @@ hug = Pred("hug", Ind, Ind)
 
 def test_grounding_through_the_records_around():
     here, around = {"x": "a"}, {"x": "b", "n": record(y="c")}
-    assert grounded(hug(this.x, outer.x), (here, around)) is hug("a", "b")
-    assert grounded(hug(this.x, outer["n.y"]), (here, around)) is hug("a", "c")
+    assert resolve_paths(hug(this.x, outer.x), (here, around)) is hug("a", "b")
+    assert resolve_paths(hug(this.x, outer["n.y"]), (here, around)) is hug("a", "c")
 
 
 def test_grounding_reaches_into_nested_types_and_values():
     T = rectype(x=Ind, n=rectype(c=hug(this.x, outer(2).z), x=Ind @ outer.x))
-    grounded_type = grounded(T, ({"z": "k"},))
+    grounded_type = resolve_paths(T, ({"z": "k"},))
     assert grounded_type is rectype(
         x=Ind, n=rectype(c=hug(this.x, "k"), x=Ind @ outer.x)
     )
     value = Ind @ {"a": [this.z, rectype(c=hug(outer.z, "j"))]}
-    assert grounded(value, ({"z": "k"},)) is Ind @ {
+    assert resolve_paths(value, ({"z": "k"},)) is Ind @ {
         "a": ["k", rectype(c=hug("k", "j"))]
     }
 
@@ -37,7 +37,7 @@ def test_a_replacement_is_moved_along():
 
 def test_a_type_without_paths_is_itself():
     T = rectype(x=Ind, c=hug(this.x, this.x))
-    assert grounded(T, ()) is T
+    assert resolve_paths(T, ()) is T
 
 
 @pytest.mark.parametrize(
@@ -50,11 +50,11 @@ def test_a_type_without_paths_is_itself():
 )
 def test_what_leads_nowhere(path, message):
     with pytest.raises(Unresolved, match=message):
-        grounded(Ind @ path, ({"x": "a"},))
+        resolve_paths(Ind @ path, ({"x": "a"},))
 
 
 def test_along():
-    assert along(record(bg=record(x="a")), ("bg", "x")) == "a"
-    assert along("a", ()) == "a"
+    assert follow_path(record(bg=record(x="a")), ("bg", "x")) == "a"
+    assert follow_path("a", ()) == "a"
     with pytest.raises(Unresolved, match=r"the path bg\.y leads nowhere"):
-        along(record(bg=record(x="a")), ("bg", "y"))
+        follow_path(record(bg=record(x="a")), ("bg", "y"))

@@ -28,7 +28,7 @@ from ttr import (
     this,
 )
 from ttr.types import interning
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.syntax import Path, identity
 
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)
@@ -210,10 +210,10 @@ def test_fields_by_label():
 
 def test_escaping_paths():
     inner = rectype(x=Ind, e=hug(this.x, outer.y))
-    assert escaping(inner) == {Path(0, ("y",))}
-    assert escaping(rectype(y=Ind, n=inner)) == frozenset()
-    assert escaping(Ind @ {"a": [this.x]}) == {Path(0, ("x",))}
-    assert escaping(ListOf(dog(outer(2).z))) == {Path(2, ("z",))}
+    assert free_paths(inner) == {Path(0, ("y",))}
+    assert free_paths(rectype(y=Ind, n=inner)) == frozenset()
+    assert free_paths(Ind @ {"a": [this.x]}) == {Path(0, ("x",))}
+    assert free_paths(ListOf(dog(outer(2).z))) == {Path(2, ("z",))}
 
 
 WRONG = {

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
-from ttr.building.formation import checked, checked_binder
+from ttr.building.formation import check_binder, check_record_type
 from ttr.errors import IllFormedError
 from ttr.types.forms import order_fields
-from ttr.types.objects import check_label, labelled
+from ttr.types.objects import check_label, combine_labels
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import (
     BOUND,
@@ -51,12 +51,12 @@ def rectype(
     ttr.errors.IllFormedError: the path y leads nowhere: [c : dog(.y), x : Ind] has no y
     help: outer.y, written ^.y, is the y one record further out
     """
-    given = labelled("rectype", fields, labels)
+    given = combine_labels("rectype", fields, labels)
     for label, T in given.items():
         check_label(label)
         if not isinstance(T, TypeNode):
             raise IllFormedError(f"the field {label} needs a type, found {kind_of(T)}")
-    return checked(RecordType(order_fields(given)), theory)
+    return check_record_type(RecordType(order_fields(given)), theory)
 
 
 # --- functions -----------------------------------------------------------------------
@@ -87,7 +87,7 @@ def fun(
 
     def of(body: object) -> Function:
         found = Function(domain, _bind_variable(name, freeze(body)), name)
-        return checked_binder(found, theory)
+        return check_binder(found, theory)
 
     return of
 
@@ -108,7 +108,7 @@ def Pi(
 
     def of(result: TypeNode) -> FunType:
         found = FunType(domain, _bind_variable(name, as_type(result)), name)
-        return checked_binder(found, theory)
+        return check_binder(found, theory)
 
     return of
 
@@ -117,7 +117,7 @@ def _variable(
     what: str, given: Mapping[str, TypeNode] | None, named: Mapping[str, TypeNode]
 ) -> tuple[str, TypeNode]:
     """The one variable of a binder, and its type."""
-    variables = labelled(what, given, named)
+    variables = combine_labels(what, given, named)
     if len(variables) != 1:
         raise IllFormedError(f"{what} takes one variable, as in {what}(x=Ind)(…)")
     ((name, domain),) = variables.items()

@@ -9,12 +9,12 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple, TypeVar
 
-from ttr.computing.cycles import circle
+from ttr.computing.cycles import describe_cycle
 from ttr.computing.subtyping import Answer, subtype
 from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature, signature_of
-from ttr.types.paths import escaping, parts
+from ttr.types.paths import free_paths, parts
 from ttr.types.printing import notation
 from ttr.types.syntax import (
     BOUND,
@@ -34,7 +34,13 @@ from ttr.types.syntax import (
     meet,
 )
 
-__all__ = ["checked", "checked_binder", "checked_within", "target", "wellformed"]
+__all__ = [
+    "check_record_type",
+    "check_binder",
+    "check_value",
+    "field_at_path",
+    "wellformed",
+]
 
 
 @within_budget
@@ -52,12 +58,12 @@ def wellformed(T: TypeNode, theory: Signature | None = None, /) -> Answer:
     no: its paths go in a circle: x → y → x
     """
     T = as_type(T)
-    around = circle(T)
+    around = describe_cycle(T)
     if around:
         return Answer("no", f"its paths go in a circle: {around}")
     if isinstance(T, RecordType):
         try:
-            checked(T, theory)
+            check_record_type(T, theory)
         except IllFormedError as error:
             return Answer("no", error.message)
     return Answer("yes", "every path leads to a field that fits")
@@ -68,7 +74,7 @@ _Where = tuple[str, ...]
 
 
 @within_budget
-def checked(T: RecordType, theory: Signature | None = None) -> RecordType:
+def check_record_type(T: RecordType, theory: Signature | None = None) -> RecordType:
     """The record type itself, if its paths resolve and fit; else `IllFormedError`.
 
     Paths that lead out of T are left to the record type that will be built around it.
@@ -84,14 +90,14 @@ _BINDER = TypeVar("_BINDER", Function, FunType)
 
 
 @within_budget
-def checked_binder(binder: _BINDER, theory: Signature | None = None) -> _BINDER:
+def check_binder(binder: _BINDER, theory: Signature | None = None) -> _BINDER:
     """The binder itself, if its paths resolve and fit; else `IllFormedError`."""
     inside = binder.body if isinstance(binder, Function) else binder.result
     _check(inside, _scope(binder), (), signature_of(theory))
     return binder
 
 
-def checked_within(
+def check_value(
     value: Object, around: RecordType, theory: Signature | None = None
 ) -> None:
     """Check that the paths of a value resolve and fit, if it stands in `around`.
@@ -100,7 +106,7 @@ def checked_within(
     field.
 
     >>> from ttr.types.syntax import Ind, Pred, this
-    >>> checked_within(Pred("dog", Ind)(this.s.y), RecordType((("s", RecordType(())),)))
+    >>> check_value(Pred("dog", Ind)(this.s.y), RecordType((("s", RecordType(())),)))
     Traceback (most recent call last):
     ttr.errors.IllFormedError: the path s.y leads nowhere: Rec has no y
     """
@@ -125,9 +131,9 @@ def _check(
     inside: Object, scope: _Scope, where: _Where, theory: Signature | None
 ) -> None:
     """Check that the paths of what stands in a scope lead to fields that fit."""
-    paths = [path for path in escaping(inside) if path.up == 0]
+    paths = [path for path in free_paths(inside) if path.up == 0]
     found = {
-        path: target(path, scope.fields)
+        path: field_at_path(path, scope.fields)
         for path in sorted(paths, key=lambda p: p.labels)
     }
     if not paths:
@@ -166,7 +172,7 @@ def _argument_types(inside: TypeNode) -> tuple[tuple[Path, TypeNode], ...] | Non
     return tuple(wanted)
 
 
-def target(path: Path, T: RecordType) -> TypeNode:
+def field_at_path(path: Path, T: RecordType) -> TypeNode:
     """The type of the field that a path leads to, from within T; else
     `IllFormedError`.
     """
@@ -248,14 +254,14 @@ def _check_domains(
     """
     spend()
     outermost = len(around) - 1
-    if not any(path.up == outermost for path in escaping(value)):
+    if not any(path.up == outermost for path in free_paths(value)):
         return
     match value:
         case PType(pred, args):
             arities = [a for a in pred.arities if len(a) == len(args)]
             _check_arguments(value, args, arities, around, where, theory)
         case Application(Path() as function, argument) if function.up == outermost:
-            domain = _domain(target(function, around[outermost].fields))
+            domain = _domain(field_at_path(function, around[outermost].fields))
             if domain is not None:
                 _check_arguments(value, (argument,), [(domain,)], around, where, theory)
     same, inner = parts(value)
@@ -271,7 +277,7 @@ def _check_domains(
 
 def _domain(T: TypeNode) -> TypeNode | None:
     """The domain of functions of the type, where it depends on nothing."""
-    if isinstance(T, FunType) and not escaping(T.domain):
+    if isinstance(T, FunType) and not free_paths(T.domain):
         return T.domain
     return None
 
@@ -315,7 +321,7 @@ def _find_misfit(
     for arg, wanted in zip(args, arity, strict=True):
         if not isinstance(arg, Path) or arg.up != up:
             continue
-        found = target(arg, scope)
+        found = field_at_path(arg, scope)
         if _strip_singletons(found) is not wanted and subtype(found, wanted, theory).no:
             return arg, wanted, found
     return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import cast
 
-from ttr.building.formation import checked, checked_binder
+from ttr.building.formation import check_binder, check_record_type
 from ttr.building.merging import merge
 from ttr.errors import IllFormedError
 from ttr.safety.budgets import within_budget
@@ -41,7 +41,7 @@ def restrict(f: Function, S: TypeNode, theory: Signature | None = None, /) -> Fu
     if not isinstance(f, Function):
         raise IllFormedError(f"restrict takes a function, found {kind_of(f)}")
     domain = merge(f.domain, as_type(S), theory)
-    return checked_binder(Function(domain, f.body, f.hint), theory)
+    return check_binder(Function(domain, f.body, f.hint), theory)
 
 
 @within_budget
@@ -70,7 +70,7 @@ def fix(f: Function, theory: Signature | None = None, /) -> RecordType:
                 f"\\r:[x : Ind]. [c : run(r.x)], found {kind_of(f)}"
             )
     merged = cast(RecordType, merge(domain, inside, theory))
-    return checked(merged, theory)
+    return check_record_type(merged, theory)
 
 
 def _replace_variable(body: RecordType, variable: str) -> RecordType:

@@ -20,11 +20,11 @@ from ttr.computing.strings.pieces import is_of_strings
 from ttr.computing.subtyping import subtype
 from ttr.errors import IllFormedError
 from ttr.safety.budgets import spend, within_budget
-from ttr.signature.axioms import above
+from ttr.signature.axioms import supertypes
 from ttr.signature.signature import Signature
 from ttr.types.forms import function_type, order_fields
 from ttr.types.objects import sort_canonically
-from ttr.types.paths import escaping, moved, parts, rebuilt, replace_paths
+from ttr.types.paths import free_paths, map_parts, parts, replace_paths, shift_paths
 from ttr.types.syntax import (
     Basic,
     FunType,
@@ -206,7 +206,7 @@ class _Generalisation:
         )
         written = [_places_to_paths(part, place) for part in common]
         found = [
-            part for part in written if not any(map(_is_in_witness, escaping(part)))
+            part for part in written if not any(map(_is_in_witness, free_paths(part)))
         ]
         if any(map(_is_record_type, mine)) and any(map(_is_record_type, theirs)):
             found.append(self._record(place))
@@ -265,12 +265,12 @@ class _Generalisation:
         if isinstance(T, Singleton):
             yield from self._implied_types(T.base)
         if isinstance(T, Basic | PType) and self.theory:
-            yield from [upper for _, upper in above(T, self.theory.axioms)]
+            yield from [upper for _, upper in supertypes(T, self.theory.axioms)]
 
     def _generalise_pair(self, f: TypeNode, g: TypeNode) -> TypeNode | None:
         """The generalisation of two types that are not meets."""
         spend()
-        if f is not g and not escaping(f) and not escaping(g):
+        if f is not g and not free_paths(f) and not free_paths(g):
             higher = self._comparable_supertype(f, g)
             if higher is not None:
                 return higher
@@ -303,7 +303,7 @@ class _Generalisation:
 
     def _function(self, f: FunType, g: FunType) -> TypeNode | None:
         """The generalisation of two function types whose results do not depend."""
-        if escaping(f.result) or escaping(g.result):
+        if free_paths(f.result) or free_paths(g.result):
             return None
         result = _common_supertype(f.result, g.result, self.theory)
         domain = merge(f.domain, g.domain, self.theory)
@@ -356,7 +356,7 @@ class _Generalisation:
             return s
         found = self._path(s, t, depth)
         if found is not None:
-            return moved(found, depth)
+            return shift_paths(found, depth)
         if type(s) is not type(t) or isinstance(s, Path):
             return _NO_TERM
         return self._generalise_parts(s, t, depth)
@@ -418,7 +418,7 @@ def _mentions_witness(value: Object, depth: int) -> bool:
     """Does a path in a term lead into the witness?"""
     return any(
         path.up == depth and _is_in_witness(Path(0, path.labels))
-        for path in escaping(value)
+        for path in free_paths(value)
     )
 
 
@@ -427,9 +427,9 @@ def _seen_from_outside(value: Object, depth: int) -> Object:
     if isinstance(value, Path):
         inside = value.up < depth
         return _NO_TERM if inside else Path(value.up - depth, value.labels)
-    return value if depth == 0 or not escaping(value) else _NO_TERM
+    return value if depth == 0 or not free_paths(value) else _NO_TERM
 
 
 def _replace_parts(value: Object, common: list[Object]) -> Object:
     waiting = iter(common)
-    return rebuilt(value, lambda part, deeper: next(waiting))
+    return map_parts(value, lambda part, deeper: next(waiting))

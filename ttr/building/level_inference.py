@@ -14,7 +14,7 @@ from typing import NamedTuple
 from ttr.computing.universe_levels import level_of
 from ttr.errors import IllFormedError
 from ttr.safety.budgets import spend, within_budget
-from ttr.types.paths import escaping, rebuilt
+from ttr.types.paths import free_paths, map_parts
 from ttr.types.syntax import (
     BOUND,
     Application,
@@ -109,7 +109,7 @@ def _drop_levels(value: Object) -> Object:
     spend()
     if isinstance(value, Universe):
         return Universe(value.name)
-    return rebuilt(value, lambda part, _: _drop_levels(part))
+    return map_parts(value, lambda part, _: _drop_levels(part))
 
 
 # --- reading -------------------------------------------------------------------------
@@ -138,7 +138,7 @@ def _infer_levels(value: Object, around: _Scopes) -> Object:
             found = _Placed(_infer_levels(argument, around), around)
             wider = Function(_raise_levels(domain, [found]), body, hint)
             return Application(_infer_levels(wider, around), found.value)
-    return rebuilt(value, lambda part, _: _infer_levels(part, around))
+    return map_parts(value, lambda part, _: _infer_levels(part, around))
 
 
 def _raise_levels(T: TypeNode, values: list[_Placed]) -> TypeNode:
@@ -189,14 +189,14 @@ def _at_least(universe: Universe, level: int) -> Universe:
 
 def _level(one: _Placed) -> int:
     """The level of a value; a path has the highest level that its field may hold."""
-    reached = [_path_level(path, one.around) for path in escaping(one.value)]
+    reached = [_path_level(path, one.around) for path in free_paths(one.value)]
     return max(level_of(one.value), *reached, 0)
 
 
 def _path_level(path: Path, around: _Scopes) -> int:
     """The highest level that what a path leads to may have."""
     field = _field(path, around)
-    if isinstance(field, Singleton) and not escaping(field.value):
+    if isinstance(field, Singleton) and not free_paths(field.value):
         return level_of(field.value)
     while isinstance(field, Singleton):
         field = field.base

@@ -8,7 +8,7 @@ from ttr.errors import TTRError
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.objects import sort_canonically
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.syntax import (
     Record,
     RecordType,
@@ -78,7 +78,7 @@ def _merge_compatible(
 
 def _count_terms(T: TypeNode) -> int:
     """How many different types and objects T is made of."""
-    return sum(1 for _ in occurring([T]))
+    return sum(1 for _ in subterms([T]))
 
 
 def _is_below(S: TypeNode, T: TypeNode, theory: Signature | None) -> bool:

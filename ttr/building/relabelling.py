@@ -10,7 +10,7 @@ from ttr.building.addresses import Address, format_address, parse_address
 from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.forms import order_fields
-from ttr.types.objects import check_label, labelled
+from ttr.types.objects import check_label, combine_labels
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import (
     Join,
@@ -71,7 +71,7 @@ def relabel(
     {y = fido}
     """
     renaming = _Renaming()
-    for path, name in labelled("relabel", names, labels).items():
+    for path, name in combine_labels("relabel", names, labels).items():
         check_label(name)
         renaming = renaming.with_name(parse_address(path, "relabel"), name)
     if isinstance(value, Record):

@@ -6,12 +6,12 @@ from collections.abc import Iterable
 from typing import TypeVar
 
 from ttr.building.addresses import Address, format_address, parse_address
-from ttr.building.formation import checked
+from ttr.building.formation import check_record_type
 from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature
 from ttr.types.forms import order_fields
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.syntax import Meet, Object, Record, RecordType, TypeNode, kind_of, meet
 
 __all__ = ["subtract"]
@@ -107,9 +107,9 @@ def _check_result(
 ) -> RecordType:
     """T itself, if every path in it still leads somewhere; else `IllFormedError`."""
     try:
-        for part in occurring([T]):
+        for part in subterms([T]):
             if isinstance(part, RecordType):
-                checked(part, theory)
+                check_record_type(part, theory)
     except IllFormedError as error:
         gone = " and ".join(paths)
         raise IllFormedError(

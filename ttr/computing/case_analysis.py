@@ -28,7 +28,7 @@ from ttr.types.syntax import (
     meet,
 )
 
-__all__ = ["Clause", "cases", "clauses", "splits"]
+__all__ = ["Clause", "cases", "clauses", "has_cases"]
 
 _CASES = 256
 """How many cases or clauses a type may have; with more it is not divided."""
@@ -36,23 +36,23 @@ _CASES = 256
 Clause = tuple[TypeNode, ...]
 
 
-def splits(T: TypeNode) -> bool:
+def has_cases(T: TypeNode) -> bool:
     """Has T a join or a negation that can be split into cases?"""
     match T:
         case Join() | Negation():
             return True
         case Meet(parts):
             spend(len(parts))
-            return any(map(splits, parts))
+            return any(map(has_cases, parts))
         case Str(parts):
             spend(len(parts))
-            return any(splits(part) for part in parts if not is_of_strings(part))
+            return any(has_cases(part) for part in parts if not is_of_strings(part))
         case RecordType(fields):
             spend(len(fields))
-            return any(splits(field) for _, field in fields)
+            return any(has_cases(field) for _, field in fields)
         case Singleton(base, _):
             spend()
-            return splits(base)
+            return has_cases(base)
     return False
 
 
@@ -67,7 +67,7 @@ def cases(T: TypeNode) -> tuple[TypeNode, ...] | None:
     A /\\ B; A /\\ C
     """
     spend()
-    if not splits(T):
+    if not has_cases(T):
         return (T,)
     match T:
         case Join(parts):

@@ -7,16 +7,16 @@ from graphlib import CycleError, TopologicalSorter
 
 from ttr.safety.budgets import spend
 from ttr.types.forms import order_fields
-from ttr.types.paths import escaping, occurring, rebuilt
+from ttr.types.paths import free_paths, map_parts, subterms
 from ttr.types.syntax import Object, RecordType, Singleton, TypeNode
 
-__all__ = ["circle", "has_fields_in_order", "round_about", "straightened"]
+__all__ = ["describe_cycle", "has_fields_in_order", "find_cycle", "break_cycles"]
 
 Address = tuple[str, ...]
 """A field of a record type or of one nested in it: the labels that lead to it."""
 
 
-def circle(T: TypeNode) -> str:
+def describe_cycle(T: TypeNode) -> str:
     """The fields that depend on one another in a circle, or the empty string.
 
     A field depends on another if its type or value mentions a path to it, to something
@@ -25,20 +25,20 @@ def circle(T: TypeNode) -> str:
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
-    >>> circle(rectype(x=Ind @ this.y, y=Ind @ this.x))
+    >>> describe_cycle(rectype(x=Ind @ this.y, y=Ind @ this.x))
     'x → y → x'
-    >>> circle(rectype(x=Ind, y=Ind @ this.x))
+    >>> describe_cycle(rectype(x=Ind, y=Ind @ this.x))
     ''
     """
-    return " → ".join(round_about(T))
+    return " → ".join(find_cycle(T))
 
 
-def round_about(T: TypeNode) -> tuple[str, ...]:
+def find_cycle(T: TypeNode) -> tuple[str, ...]:
     """The paths of the fields on a cycle, the first repeated at the end; or none.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
-    >>> round_about(rectype(x=Ind @ this.x)), round_about(rectype(x=Ind))
+    >>> find_cycle(rectype(x=Ind @ this.x)), find_cycle(rectype(x=Ind))
     (('x', 'x'), ())
     """
     leaves = dict(_leaves(T, ()))
@@ -68,7 +68,7 @@ def has_fields_in_order(T: TypeNode) -> bool:
     """
     return all(
         _has_fields_in_order(part)
-        for part in occurring([T])
+        for part in subterms([T])
         if isinstance(part, RecordType)
     )
 
@@ -76,19 +76,19 @@ def has_fields_in_order(T: TypeNode) -> bool:
 def _has_fields_in_order(T: RecordType) -> bool:
     before: set[str] = set()
     for label, field in T.fields:
-        for path in escaping(field):
+        for path in free_paths(field):
             if path.up == 0 and path.labels[0] not in before:
                 return False
         before.add(label)
     return True
 
 
-def straightened(T: TypeNode) -> TypeNode:
+def break_cycles(T: TypeNode) -> TypeNode:
     """T without the equations that close a cycle.
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.types.syntax import Ind, this
-    >>> print(straightened(rectype(x=Ind @ this.y, y=Ind @ this.x)))
+    >>> print(break_cycles(rectype(x=Ind @ this.y, y=Ind @ this.x)))
     [x : Ind, y = x : Ind]
     """
     found: TypeNode = _break_cycles(T)
@@ -97,12 +97,12 @@ def straightened(T: TypeNode) -> TypeNode:
 
 def _break_cycles(value: Object) -> Object:
     spend()
-    value = rebuilt(value, lambda part, _: _break_cycles(part))
+    value = map_parts(value, lambda part, _: _break_cycles(part))
     if not isinstance(value, RecordType):
         return value
     fields: dict[str, TypeNode] = {}
     for label, field in value.fields:
-        needs = {path.labels[0] for path in escaping(field) if path.up == 0}
+        needs = {path.labels[0] for path in free_paths(field) if path.up == 0}
         if isinstance(field, Singleton) and not needs <= fields.keys():
             field = field.base
         fields[label] = field
@@ -123,7 +123,7 @@ def _leaves(T: TypeNode, at: Address) -> Iterator[tuple[Address, TypeNode]]:
 
 def _target_addresses(leaf: Address, field: TypeNode) -> list[Address]:
     """Where the paths of a field lead; those that leave the whole type lead nowhere."""
-    inside = [path for path in escaping(field) if path.up < len(leaf)]
+    inside = [path for path in free_paths(field) if path.up < len(leaf)]
     return sorted(leaf[: len(leaf) - 1 - path.up] + path.labels for path in inside)
 
 

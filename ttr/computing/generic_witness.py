@@ -15,7 +15,7 @@ from collections.abc import Collection, Iterable, Iterator
 from ttr.computing.strings.pieces import events_of, is_of_strings
 from ttr.computing.universe_levels import why_outside
 from ttr.safety.budgets import spend
-from ttr.types.paths import escaping, occurring, replace_paths
+from ttr.types.paths import free_paths, replace_paths, subterms
 from ttr.types.substitution import field_type, follow_labels, substitute_variable
 from ttr.types.syntax import (
     Application,
@@ -310,7 +310,7 @@ class GenericWitness:
         labels = place.labels
         if labels in self._around_bound:
             self._is_complete = False
-        for path in escaping(value):
+        for path in free_paths(value):
             size = min(len(path.labels), len(labels))
             if path.up == 0 and path.labels[:size] == labels[:size]:
                 self._note_unsolved(place, value)
@@ -451,8 +451,8 @@ def _computed_value(T: TypeNode) -> Object:
 
 def _is_open(value: Object) -> bool:
     """Does the value depend on a place, or on the value of a function?"""
-    return bool(escaping(value)) or any(
-        isinstance(part, Application) for part in occurring([value])
+    return bool(free_paths(value)) or any(
+        isinstance(part, Application) for part in subterms([value])
     )
 
 

@@ -31,9 +31,9 @@ from ttr.computing.strings.runs import accepts
 from ttr.computing.universe_levels import why_outside
 from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend
-from ttr.signature.axioms import above, excluding
+from ttr.signature.axioms import find_exclusion, supertypes
 from ttr.signature.signature import Signature
-from ttr.types.paths import escaping, replace_paths
+from ttr.types.paths import free_paths, replace_paths
 from ttr.types.printing import notation
 from ttr.types.substitution import field_type, substitute_variable
 from ttr.types.syntax import (
@@ -172,7 +172,7 @@ class Prover:
         if not self.theory.exclusions:
             return False
         return any(
-            excluding(one, other, self.theory)
+            find_exclusion(one, other, self.theory)
             for atoms in self.witness.atoms(self.given)
             for one, other in combinations_with_replacement(atoms, 2)
         )
@@ -231,7 +231,7 @@ class Prover:
                 return _YES
             if not isinstance(known, Basic | PType):
                 continue
-            for axiom, upper in above(known, self.theory.axioms):
+            for axiom, upper in supertypes(known, self.theory.axioms):
                 if upper is wanted:
                     return Finding(True, partial("by the axiom {}".format, axiom))
         if isinstance(term, Operation) and term.name == "fst":
@@ -422,9 +422,9 @@ class Prover:
         inside = self._inside_string(term)
         found = Inclusion(False)
         with suppress(UnsupportedError):
-            above = automaton(T)
+            supertypes = automaton(T)
             for one in (automaton, automaton_above):
-                found = check_inclusion(one(known), above, inside._is_event_below)
+                found = check_inclusion(one(known), supertypes, inside._is_event_below)
                 if found.yes:
                     return _YES
         if found.against is None:
@@ -616,7 +616,7 @@ def _ask_of(term: Object, T: TypeNode) -> Callable[[Prover], Finding]:
 
 def _is_closed(term: Object, T: TypeNode) -> bool:
     """Can a model be asked? Questions about functions are answered here."""
-    return not (isinstance(T, FunType) or escaping(term) or escaping(T))
+    return not (isinstance(T, FunType) or free_paths(term) or free_paths(T))
 
 
 def _cases(T: TypeNode) -> tuple[TypeNode, ...]:

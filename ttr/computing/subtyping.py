@@ -20,7 +20,7 @@ from ttr.hooks import hook
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.interning import Node
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.syntax import (
     Basic,
     EventString,
@@ -229,7 +229,7 @@ def _is_plain(T: TypeNode) -> bool:
                 found[value] = None
     return all(
         isinstance(part, _PLAIN) or not isinstance(part, Node)
-        for part in occurring(found)
+        for part in subterms(found)
     )
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ttr.errors import IllFormedError
 from ttr.safety.budgets import spend
-from ttr.types.paths import escaping, rebuilt
+from ttr.types.paths import free_paths, map_parts
 from ttr.types.syntax import (
     Basic,
     EventString,
@@ -70,7 +70,7 @@ def _names(definitions: Mapping[str, Object]) -> dict[object, str]:
     """
     names: dict[object, str] = {}
     for name, value in definitions.items():
-        if _is_long(value) and not escaping(value):
+        if _is_long(value) and not free_paths(value):
             names.setdefault(identity(value), name)
     return names
 
@@ -90,4 +90,4 @@ def _folded(value: Object, names: Mapping[object, str], unfold: int) -> Object:
     if name is not None and unfold == 0:
         return Basic(name)
     inner = unfold if name is None else unfold - 1
-    return rebuilt(value, lambda part, _: _folded(part, names, inner))
+    return map_parts(value, lambda part, _: _folded(part, names, inner))

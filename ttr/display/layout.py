@@ -22,7 +22,7 @@ from ttr.types.precedence import (
     is_loose,
     is_loose_beside,
 )
-from ttr.types.printing import Scope, as_object, head, notation, variable
+from ttr.types.printing import Scope, as_object, format_head, notation, variable
 from ttr.types.syntax import (
     BOUND,
     Application,
@@ -441,6 +441,6 @@ def _function_type(value: FunType, scope: Scope) -> Layout:
 def _head(function: Object, scope: Scope) -> Layout:
     """The function that is applied, in brackets unless it binds tightly enough."""
     if isinstance(function, Path | str):
-        return Word(head(function, scope), _role(function))
+        return Word(format_head(function, scope), _role(function))
     layout = laid_out(function, scope)
     return layout if holds_as_head(function) else _in_brackets(layout)

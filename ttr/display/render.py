@@ -15,7 +15,7 @@ from ttr.errors import IllFormedError
 from ttr.judging.judgements import Judgement, Why, mark
 from ttr.safety.budgets import within_budget
 from ttr.types.interning import Node
-from ttr.types.notebooks import Drawn, as_html, as_latex
+from ttr.types.notebooks import NotebookValue, as_html, as_latex
 from ttr.types.syntax import Object, Record, freeze
 
 if TYPE_CHECKING:
@@ -120,7 +120,9 @@ def _drawable(value: object) -> Object:
     found = behind if isinstance(behind, Record) else freeze(value)
     kind: type = type(found)
     is_ours = kind.__module__.startswith("ttr.")
-    if isinstance(found, _OF_PYTHON) or (is_ours and not isinstance(found, Drawn)):
+    if isinstance(found, _OF_PYTHON) or (
+        is_ours and not isinstance(found, NotebookValue)
+    ):
         raise IllFormedError(
             "types, objects, judgements and derivations are drawn, "
             f"found {kind.__name__}"

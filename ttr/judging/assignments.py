@@ -25,9 +25,9 @@ from ttr.probability import (
     degree,
 )
 from ttr.safety.budgets import spend
-from ttr.signature.axioms import above, below, excluding, match_schema
+from ttr.signature.axioms import find_exclusion, match_schema, subtypes, supertypes
 from ttr.signature.signature import Signature
-from ttr.types.paths import escaping, occurring
+from ttr.types.paths import free_paths, subterms
 from ttr.types.printing import notation
 from ttr.types.syntax import Basic, Object, Pred, PType, TypeNode, identity
 
@@ -104,7 +104,7 @@ class Assignment:
 
     def _is_open(self, T: Atom) -> bool:
         """May other objects be of T than the facts say, by itself or by an axiom?"""
-        heads = [head(T), *(head(one) for _, one in below(T, self.theory.axioms))]
+        heads = [head(T), *(head(one) for _, one in subtypes(T, self.theory.axioms))]
         return any(one in self.opened or one in self.functions for one in heads)
 
     def can_be(self, sit: Object, pred: Pred) -> bool:
@@ -172,7 +172,7 @@ class Assignment:
 
     def leaves_open(self, T: TypeNode) -> bool:
         """Does a type mention atoms that other objects may be of than the facts say?"""
-        atoms = (part for part in occurring([T]) if isinstance(part, Atom))
+        atoms = (part for part in subterms([T]) if isinstance(part, Atom))
         return any(map(self._is_open, atoms))
 
     def witnesses(self, T: Atom) -> Iterator[Object]:
@@ -182,7 +182,7 @@ class Assignment:
     def told_of(self, T: Atom, enough: Callable[[Degree], bool]) -> Iterator[Object]:
         """The objects with a fact for T whose degree is enough."""
         kinds = [T]
-        for _, lower in below(T, self.theory.axioms):
+        for _, lower in subtypes(T, self.theory.axioms):
             kinds += _instances(lower, self.told)
         told = {
             key: entry
@@ -277,7 +277,7 @@ class Assignment:
 
     def _check(self, sit: Object, T: Atom, p: Degree) -> None:
         facts = self.known.get(identity(sit), _EMPTY)
-        kinds = (T, *(upper for _, upper in above(T, self.theory.axioms)))
+        kinds = (T, *(upper for _, upper in supertypes(T, self.theory.axioms)))
         for kind in kinds:
             if p.lo > 0.0 and self._refuses(sit, kind, p):
                 raise RefusedError(
@@ -322,7 +322,7 @@ class Assignment:
     def _bound_below(self, facts: Facts, sit: Object, T: Atom) -> Bound:
         """a : T is at least as probable as a : S, wherever S <: T; and by which."""
         best, why = 0.0, ""
-        for axiom, lower in below(T, self.theory.axioms):
+        for axiom, lower in subtypes(T, self.theory.axioms):
             seen = self.perceived(sit, lower) if isinstance(lower, Basic) else None
             if seen is not None and seen.lo > best and lower not in facts:
                 best, why = seen.lo, f"by {axiom} and the witness function of {lower}"
@@ -335,7 +335,7 @@ class Assignment:
     def _bound_above(self, facts: Facts, sit: Object, T: Atom) -> Bound:
         """a : T is at most as probable as a : U, wherever T <: U; and by which."""
         best, why = 1.0, ""
-        for axiom, upper in above(T, self.theory.axioms):
+        for axiom, upper in supertypes(T, self.theory.axioms):
             seen = self.perceived(sit, upper) if isinstance(upper, Basic) else None
             if seen is not None and seen.hi < best and upper not in facts:
                 best, why = seen.hi, f"by {axiom} and the witness function of {upper}"
@@ -348,17 +348,19 @@ class Assignment:
 
     def _bound_by_exclusion(self, facts: Facts, sit: Object, T: Atom) -> Bound:
         """a : T is as probable as what is left by a : S, wherever S <: ~T."""
-        itself = excluding(T, T, self.theory)
+        itself = find_exclusion(T, T, self.theory)
         if itself:
             return 0.0, f"by {itself}"
         found = [(1.0, "")]
         for kind, p in facts.items():
-            exclusion = excluding(T, kind, self.theory) if p.lo > 0.0 else None
+            exclusion = find_exclusion(T, kind, self.theory) if p.lo > 0.0 else None
             if exclusion:
                 why = f"by {exclusion} and {notation(sit)} : {kind}"
                 found.append((complement(p.lo), why))
         for one in self.seen_types() if self.theory.exclusions else ():
-            exclusion = excluding(T, one, self.theory) if one not in facts else None
+            exclusion = (
+                find_exclusion(T, one, self.theory) if one not in facts else None
+            )
             seen = self.perceived(sit, one) if exclusion else None
             if seen is not None and seen.lo > 0.0:
                 why = f"by {exclusion} and the witness function of {one}"
@@ -368,7 +370,7 @@ class Assignment:
 
 def _instances(schema: Atom, facts: Map[Atom, Any]) -> list[Atom]:
     """The types of facts that one side of an axiom stands for, in a fixed order."""
-    if not escaping(schema):
+    if not free_paths(schema):
         return [schema] if schema in facts else []
     return sorted((T for T in facts if match_schema(schema, T) is not None), key=str)
 

@@ -11,7 +11,13 @@ from typing import TypeAlias
 from immutables import Map
 
 from ttr.computing.strings.automata import Automaton
-from ttr.computing.strings.beliefs import NOWHERE, Beliefs, States, frechet, independent
+from ttr.computing.strings.beliefs import (
+    NOWHERE,
+    Beliefs,
+    States,
+    frechet_conjunction,
+    independent_conjunction,
+)
 from ttr.judging.judgements import Why
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.types.syntax import TypeNode, identity, meet
@@ -60,7 +66,9 @@ class Following:
         again = any(sit in self.doubted for sit in event.doubted)
         apart = not again and not (self.linked and self.doubted)
         doubted = self.doubted.update(dict.fromkeys(event.doubted, True))
-        beliefs = self.beliefs.after(steps, independent if apart else frechet)
+        beliefs = self.beliefs.after(
+            steps, independent_conjunction if apart else frechet_conjunction
+        )
         return replace(self, beliefs=beliefs, doubted=doubted)
 
     def _steps(self, event: _Event, states: States) -> Iterator[tuple[States, Degree]]:

@@ -18,8 +18,8 @@ from ttr.judging.evaluator import Evaluator, derivation
 from ttr.judging.judgements import How
 from ttr.judging.rule_index import Sieve, demands_of
 from ttr.probability import CERTAIN, REFUTED, Degree
-from ttr.types.objects import Unresolved, lasts
-from ttr.types.paths import occurring
+from ttr.types.objects import Unresolved, is_immutable
+from ttr.types.paths import subterms
 from ttr.types.substitution import Around
 from ttr.types.syntax import (
     Basic,
@@ -249,7 +249,7 @@ same objects, the same records are of types made of those basic types."""
 def note(facts: Assignment, sit: Record, T: RecordType) -> None:
     """Remember that a record is certainly of T, so that it is not judged again."""
     basics = _basics(T)
-    if basics is None or not lasts(sit) or not _need_no_axioms(facts, basics):
+    if basics is None or not is_immutable(sit) or not _need_no_axioms(facts, basics):
         return
     noted = sit._noted
     if noted is None:
@@ -286,7 +286,7 @@ def _basics(T: RecordType) -> tuple[Basic, ...] | None:
     Its fields may be set to names and to lists of names.
     """
     within = (Basic, Universe, ListOf, RecordType, Singleton, str, tuple)
-    found = list(occurring([T]))
+    found = list(subterms([T]))
     if not all(isinstance(part, within) for part in found):
         return None
     return tuple(part for part in found if isinstance(part, Basic))

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from functools import partial
 from itertools import product
 
-from ttr.computing.cycles import straightened
+from ttr.computing.cycles import break_cycles
 from ttr.computing.generic_witness import ITSELF, Assumption, elements
 from ttr.computing.strings.pieces import is_of_strings
 from ttr.computing.subtyping import Refutation, counterexample
@@ -20,7 +20,7 @@ from ttr.safety.budgets import spend
 from ttr.signature.signature import Signature
 from ttr.types.objects import Unresolved
 from ttr.types.paths import replace_paths
-from ttr.types.substitution import along
+from ttr.types.substitution import follow_path
 from ttr.types.syntax import Object, Path, RecordType, TypeNode, meet
 
 __all__ = ["find_counterexample"]
@@ -53,7 +53,7 @@ def _starts(refutation: Refutation) -> list[Start]:
     """
     S, assumed = refutation.S, refutation.assumed
     if not assumed:
-        return [(one, ()) for one in dict.fromkeys((S, straightened(S)))]
+        return [(one, ()) for one in dict.fromkeys((S, break_cycles(S)))]
     of_it = [T for term, T in assumed if term is ITSELF]
     others = tuple([pair for pair in assumed if pair[0] is not ITSELF])
     narrower = [one for pair in others if (one := _with_string(S, *pair)) is not None]
@@ -137,7 +137,7 @@ def _part(sit: Object, labels: tuple[str, ...]) -> Object:
     for label in labels:
         inside = elements(sit)
         if inside is None:
-            sit = along(sit, (label,))
+            sit = follow_path(sit, (label,))
             continue
         number = int(label) if label.isdigit() else 0
         if number >= len(inside):

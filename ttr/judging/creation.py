@@ -8,8 +8,8 @@ from itertools import count, cycle, islice
 from typing import assert_never
 
 from ttr.building.merging import merge
-from ttr.computing.case_analysis import cases, splits
-from ttr.computing.cycles import circle
+from ttr.computing.case_analysis import cases, has_cases
+from ttr.computing.cycles import describe_cycle
 from ttr.computing.generic_witness import ITSELF, GenericWitness, step
 from ttr.computing.strings.automata import automaton_above
 from ttr.computing.strings.pieces import (
@@ -18,7 +18,7 @@ from ttr.computing.strings.pieces import (
     is_of_strings,
     string_of,
 )
-from ttr.computing.strings.runs import shortest
+from ttr.computing.strings.runs import shortest_words
 from ttr.errors import RefusedError, TTRError
 from ttr.judging.assignments import Assignment
 from ttr.judging.certainty import certainly
@@ -26,9 +26,9 @@ from ttr.judging.evaluator import derivation, is_reduced, make_witness, reduced
 from ttr.probability import CERTAIN, REFUTED
 from ttr.safety.budgets import spend
 from ttr.types.objects import Unresolved
-from ttr.types.paths import escaping, mentions, moved, replace_paths
+from ttr.types.paths import free_paths, mentions, replace_paths, shift_paths
 from ttr.types.printing import notation
-from ttr.types.substitution import grounded
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     BOUND,
     Application,
@@ -143,7 +143,7 @@ def _with_fields(facts: Assignment, sit: Record, T: RecordType) -> Assignment:
                 f"{notation(sit)} : {T} cannot be given: there is no {label}"
             )
         try:
-            ground = grounded(field, (sit._fields,))
+            ground = resolve_paths(field, (sit._fields,))
         except Unresolved as unresolved:
             raise RefusedError(
                 f"{notation(sit)} : {T} cannot be given: {unresolved.message}"
@@ -183,7 +183,7 @@ def _settled(T: TypeNode) -> TypeNode:
     fields: list[tuple[str, TypeNode]] = []
     for label, field in T.fields:
         value = witness.normalise(step(ITSELF, label))
-        known = not isinstance(field, Singleton) and not escaping(value)
+        known = not isinstance(field, Singleton) and not free_paths(value)
         fields.append((label, Singleton(field, value) if known else field))
     return RecordType(tuple(fields))
 
@@ -285,9 +285,9 @@ class _WitnessMaker:
                     facts = _with_certainty(facts, value, field.base)
                 continue
             try:
-                ground = grounded(field, (fields,))
+                ground = resolve_paths(field, (fields,))
             except Unresolved as unresolved:
-                around = circle(T)
+                around = describe_cycle(T)
                 why = f"its fields go in a circle: {around}" * bool(around)
                 raise RefusedError(
                     f"the field {label} cannot be created: {why or unresolved.message}",
@@ -312,7 +312,9 @@ class _WitnessMaker:
         """Bodies to try; constants come last where lists have one element."""
         constants = partial(self._constants, facts, T)
         x = Path(0, (BOUND,))
-        of_x = RecordType((("i", Singleton(moved(T.domain, 2), Path(1, x.labels))),))
+        of_x = RecordType(
+            (("i", Singleton(shift_paths(T.domain, 2), Path(1, x.labels))),)
+        )
         if self._size != 1:
             yield from constants()
         yield from ((x, facts), (of_x, facts))
@@ -322,7 +324,7 @@ class _WitnessMaker:
         """A body that is the same for every argument, or that the type prescribes."""
         if isinstance(T.result, Singleton):
             yield T.result.value, facts
-        if all(path.up > 0 for path in escaping(T.result)):
+        if all(path.up > 0 for path in free_paths(T.result)):
             yield self.make(facts, replace_paths(T.result, _further_out))
 
     # --- meets, joins, negations ---
@@ -340,7 +342,7 @@ class _WitnessMaker:
         raise refused
 
     def _case(self, facts: Assignment, T: TypeNode) -> Made:
-        if splits(T) and isinstance(T, Join):
+        if has_cases(T) and isinstance(T, Join):
             raise RefusedError(f"{T} has too many cases for a witness to be made up")
         if not isinstance(T, Meet | Negation):
             return self.make(facts, T)
@@ -364,7 +366,7 @@ class _WitnessMaker:
         """A string as an automaton above T says, judged to be of the rest of T, too."""
         refused = RefusedError(f"a witness of {T} cannot be made up, only be given")
         found = automaton_above(T)
-        for labels in islice(shortest(found, self._size), TRIED):
+        for labels in islice(shortest_words(found, self._size), TRIED):
             try:
                 sit, known = self._string(facts, Str(*labels))
                 return sit, _with_certainty(known, sit, T)

@@ -24,7 +24,7 @@ from ttr.probability import (
     Not,
     feasible,
 )
-from ttr.signature.axioms import excluding, uppers
+from ttr.signature.axioms import find_exclusion, supertype_set
 from ttr.signature.signature import Signature
 from ttr.types.syntax import Object, identity
 
@@ -108,11 +108,13 @@ def _definitions(
     said: list[tuple[Claim, Event]] = list(known)
     found: dict[Hashable, Event] = {}
     for claim in untold:
-        T, above_it = claim.type, uppers(claim.type, theory)
+        T, above_it = claim.type, supertype_set(claim.type, theory)
         mine = [pair for pair in said if _of_same(pair[0], claim)]
-        enough = [event for one, event in mine if T in uppers(one.type, theory)]
+        enough = [event for one, event in mine if T in supertype_set(one.type, theory)]
         needed = [event for one, event in mine if one.type in above_it]
-        apart = [Not(event) for one, event in mine if excluding(one.type, T, theory)]
+        apart = [
+            Not(event) for one, event in mine if find_exclusion(one.type, T, theory)
+        ]
         if not (enough or needed or apart):
             said.append((claim, Atomic(claim.key, UNKNOWN)))
             continue
@@ -215,9 +217,9 @@ def _others(facts: Assignment, sit: Object) -> Iterator[Claim]:
 
 
 def _is_related(theory: Signature, S: Atom, T: Atom) -> bool:
-    if T in uppers(S, theory) or S in uppers(T, theory):
+    if T in supertype_set(S, theory) or S in supertype_set(T, theory):
         return True
-    return excluding(S, T, theory) is not None
+    return find_exclusion(S, T, theory) is not None
 
 
 def _entailments(
@@ -227,7 +229,7 @@ def _entailments(
     for mine in _by_object(claims).values():
         types = [claim for claim in mine if head(claim.type) in heads]
         for one, other in permutations(types, 2):
-            if other.type in uppers(one.type, facts.theory):
+            if other.type in supertype_set(one.type, facts.theory):
                 yield one.key, other.key
 
 
@@ -238,7 +240,7 @@ def _exclusions(
         return
     for mine in _by_object(claims).values():
         for one, other in combinations(mine, 2):
-            if excluding(one.type, other.type, facts.theory):
+            if find_exclusion(one.type, other.type, facts.theory):
                 yield one.key, other.key
 
 

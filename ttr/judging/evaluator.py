@@ -33,9 +33,9 @@ from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import spend
 from ttr.types.interning import cache_on_node
 from ttr.types.objects import Missing, Unresolved
-from ttr.types.paths import escaping, mentions, rebuilt
+from ttr.types.paths import free_paths, map_parts, mentions
 from ttr.types.printing import notation
-from ttr.types.substitution import Around, grounded
+from ttr.types.substitution import Around, resolve_paths
 from ttr.types.syntax import (
     BOUND,
     Application,
@@ -182,7 +182,7 @@ class Evaluator(ABC, Generic[Answer]):
         self, sit: Object, T: Application, around: Around, where: str
     ) -> Answer:
         try:
-            value = _reduce_head(self.facts, grounded(T, around))
+            value = _reduce_head(self.facts, resolve_paths(T, around))
         except (Unresolved, RefusedError) as wrong:
             return self.conclude(sit, T, REFUTED, wrong.message, where)
         if isinstance(value, TypeNode):
@@ -280,7 +280,7 @@ class Evaluator(ABC, Generic[Answer]):
         self, sit: Object, T: FunType, around: Around, where: str
     ) -> Answer:
         try:
-            ground = grounded(T, around)
+            ground = resolve_paths(T, around)
             if not isinstance(sit, Function):
                 return self.conclude(sit, ground, REFUTED, "it is no function", where)
             return self.judge_function(sit, ground, where)
@@ -317,8 +317,8 @@ class Evaluator(ABC, Generic[Answer]):
 
     def _value_of(self, value: Object, around: Around) -> Any:
         """The value without paths and applications."""
-        if escaping(value):
-            value = grounded(value, around)
+        if free_paths(value):
+            value = resolve_paths(value, around)
         return reduced(self.facts, value)
 
     def _value_in(self, T: Singleton, around: Around) -> Object:
@@ -397,7 +397,7 @@ class _Derivation(Evaluator[Why]):
 
     def judge_missing(self, label: str, T: TypeNode, around: Around) -> Why:
         with suppress(Unresolved):
-            T = grounded(T, around)
+            T = resolve_paths(T, around)
         rule = f"there is no {label}"
         return Why(Missing(), T, REFUTED, rule, where=label, facts=self.facts)
 
@@ -475,7 +475,7 @@ class _Derivation(Evaluator[Why]):
             return [inside]
         scope: Around = ({BOUND: x},)
         try:
-            value = reduced(self.facts, grounded(sit.body, scope))
+            value = reduced(self.facts, resolve_paths(sit.body, scope))
         except (Unresolved, RefusedError) as wrong:
             return [inside, Why(sit.body, T.result, REFUTED, wrong.message)]
         return [inside, self.of(value, T.result, scope)]
@@ -515,8 +515,8 @@ def reduced(facts: Assignment, value: Object) -> Object:
     spend()
     if not mentions(value, Application):
         return value
-    value = rebuilt(value, lambda part, _: reduced(facts, part))
-    if not isinstance(value, Application) or escaping(value):
+    value = map_parts(value, lambda part, _: reduced(facts, part))
+    if not isinstance(value, Application) or free_paths(value):
         return value
     return reduced(facts, _apply(facts, value.function, value.argument))
 
@@ -549,7 +549,7 @@ def _apply(facts: Assignment, function: Object, argument: Object) -> Object:
             f"{notation(argument)} is not{_where(inside)}: "
             f"{(inside.failure() or inside).rule}"
         )
-    return grounded(function.body, ({BOUND: argument},))
+    return resolve_paths(function.body, ({BOUND: argument},))
 
 
 def _where(why: Why) -> str:
@@ -564,4 +564,4 @@ def is_reduced(T: TypeNode) -> bool:
     >>> is_reduced(Ind @ "a"), is_reduced(Ind @ this.x)
     (True, False)
     """
-    return not mentions(T, Application) and not escaping(T)
+    return not mentions(T, Application) and not free_paths(T)

@@ -20,7 +20,7 @@ from ttr.probability import (
     Not,
     degree,
 )
-from ttr.types.notebooks import Drawn
+from ttr.types.notebooks import NotebookValue
 from ttr.types.printing import notation
 from ttr.types.syntax import Basic, Object, PType, TypeNode, identity
 
@@ -38,7 +38,7 @@ SHOWN = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Why(Drawn):
+class Why(NotebookValue):
     """A step of a derivation: the claim, its probability, the rule and the grounds.
 
     `where` is the label of the field that the step is about, and `how` what the claim
@@ -178,7 +178,7 @@ def mark(p: Degree) -> str:
 
 
 @dataclass(frozen=True, eq=False)
-class Judgement(Drawn):
+class Judgement(NotebookValue):
     """s : T with a probability: a situation, a type, an interval and the reason.
 
     Two judgements are equal if situation, type and probability are. `model` is the

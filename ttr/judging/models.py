@@ -45,7 +45,7 @@ from ttr.safety.budgets import (
     within_budget,
 )
 from ttr.signature.signature import Expected, Given, Signature
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import (
     Application,
@@ -546,7 +546,7 @@ def _closed(sit: object, T: object) -> tuple[Object, TypeNode]:
     """The object and the type; `IllFormedError` if a path leads out of either."""
     sit, kind = freeze(sit), as_type(T)
     for value in (sit, kind):
-        if escaping(value):
+        if free_paths(value):
             raise IllFormedError(
                 f"{notation(value)} has paths that lead nowhere, so nothing is judged"
             )

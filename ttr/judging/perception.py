@@ -7,7 +7,7 @@ from ttr.judging.assignments import Assignment
 from ttr.judging.evaluator import reduced
 from ttr.safety.budgets import spend
 from ttr.types.objects import Unresolved
-from ttr.types.substitution import grounded
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import Join, Meet, Object, PType, Record, RecordType, TypeNode
 
 __all__ = ["fill_fields"]
@@ -38,7 +38,7 @@ def _fill_record(
     fields = dict(sit._fields)
     for label, field in T.fields:
         try:
-            ground = reduced(facts, grounded(field, (fields,)))
+            ground = reduced(facts, resolve_paths(field, (fields,)))
         except (Unresolved, RefusedError):
             continue
         seen, facts = _perceive_field(facts, fields.get(label), ground)

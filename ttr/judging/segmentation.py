@@ -9,16 +9,22 @@ from functools import partial
 from typing import overload
 
 from ttr.computing.strings.automata import Automaton
-from ttr.computing.strings.runs import Division, Piece, Stop, a_way, all_ways
+from ttr.computing.strings.runs import (
+    Division,
+    Piece,
+    Stop,
+    find_division,
+    find_divisions,
+)
 from ttr.judging.assignments import Assignment, Atom
 from ttr.judging.automaton_filter import followed_from
 from ttr.judging.judgements import Why
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import spend
 from ttr.types.objects import Unresolved
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.printing import notation
-from ttr.types.substitution import Around, grounded
+from ttr.types.substitution import Around, resolve_paths
 from ttr.types.syntax import (
     Application,
     Basic,
@@ -81,9 +87,11 @@ class Segmentation:
         """The grounds of a certain way to divide the string, if there is one."""
         length = len(self._events)
         if any(found.wholes.values()):
-            ways = all_ways(length, found, self._is_certain, self._is_certain_whole)
+            ways = find_divisions(
+                length, found, self._is_certain, self._is_certain_whole
+            )
             return None if isinstance(ways, Stop) else self.grounds(ways.ways[0])
-        way = a_way(length, found, self._is_certain)
+        way = find_division(length, found, self._is_certain)
         if isinstance(way, Stop):
             return None
         return _LazyGrounds(self._why, self._events, way)
@@ -92,10 +100,10 @@ class Segmentation:
         """The ways to divide the string that are possible."""
         length = len(self._events)
         if not any(found.wholes.values()):
-            way = a_way(length, found, self._may_be)
+            way = find_division(length, found, self._may_be)
             if isinstance(way, Stop):
                 return way
-        return all_ways(length, found, self._may_be, self._may_be_whole)
+        return find_divisions(length, found, self._may_be, self._may_be_whole)
 
     def chance(self, found: Automaton) -> Degree:
         """The probability that there is a way to divide the string, or its bounds.
@@ -172,8 +180,8 @@ class Segmentation:
 
     def _reduce_to_atom(self, T: TypeNode) -> Atom | None:
         with suppress(Unresolved):
-            ground = grounded(T, self._around) if isinstance(T, PType) else T
-            applies = any(isinstance(part, Application) for part in occurring([ground]))
+            ground = resolve_paths(T, self._around) if isinstance(T, PType) else T
+            applies = any(isinstance(part, Application) for part in subterms([ground]))
             if isinstance(ground, Basic | PType) and not applies:
                 return ground
         return None

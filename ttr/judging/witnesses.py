@@ -16,7 +16,7 @@ from ttr.judging.evaluator import derivation, reduced
 from ttr.probability import Degree
 from ttr.safety.budgets import spend
 from ttr.types.objects import Unresolved
-from ttr.types.substitution import grounded
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     Application,
     Basic,
@@ -144,7 +144,7 @@ class _Listing:
         """The fields extended by each witness of the next field."""
         spend(4)
         try:
-            field = grounded(T[label], (fields,))
+            field = resolve_paths(T[label], (fields,))
         except Unresolved as unresolved:
             raise UnsupportedError(
                 f"the records of {T} cannot be listed: {unresolved.message}",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from ttr.errors import IllFormedError
 from ttr.signature.signature import Opening, Signature
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.syntax import Basic, Object, Pred
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ def vocabulary_of(*values: object) -> Vocabulary:
     basics: dict[str, Basic] = {}
     predicates: dict[str, Pred] = {}
     objects: set[str] = set()
-    for value in occurring(values):
+    for value in subterms(values):
         match value:
             case Basic(name):
                 basics[name] = value

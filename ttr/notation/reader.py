@@ -58,7 +58,7 @@ from ttr.signature.signature import Interval, Signature
 from ttr.types.forms import function_type, star
 from ttr.types.objects import Unresolved, check_label, concat, fst, rst
 from ttr.types.printing import RESERVED, Scope
-from ttr.types.substitution import along
+from ttr.types.substitution import follow_path
 from ttr.types.syntax import (
     BOUND,
     Application,
@@ -84,7 +84,7 @@ from ttr.types.syntax import (
     Type,
     TypeNode,
     Universe,
-    applied,
+    apply_to,
     join,
     kind_of,
     meet,
@@ -261,7 +261,7 @@ class Reader:
             way_out = self.way_out.format(name=head)
             self._refuse_unknown(name, head, scope, f"{way_out}, or {quoted}")
         try:
-            return along(value, rest)
+            return follow_path(value, rest)
         except Unresolved as error:
             raise error.at(self.source.span(name)) from None
 
@@ -294,7 +294,7 @@ class Reader:
             case Pred():
                 return self._apply(term, function, args)
             case Path() | Function() | Application() | Operation() | str():
-                return self._apply(term, applied, (function, *args))
+                return self._apply(term, apply_to, (function, *args))
         written = self.text_of(term.head)
         kind = "a type" if isinstance(function, TypeNode) else "no function"
         self.refuse(

@@ -18,7 +18,7 @@ from ttr.semantics.quantifiers.thresholds import Thresholds
 from ttr.semantics.quantifiers.truth import truth
 from ttr.signature.signature import Signature
 from ttr.types.objects import Object, Record, record
-from ttr.types.paths import moved, replace_paths
+from ttr.types.paths import replace_paths, shift_paths
 from ttr.types.syntax import (
     BOUND,
     Application,
@@ -70,7 +70,7 @@ def weak(of: Record, /) -> RecordType:
     [bg : [x : Ind, c : donkey(x)], fg : bray(bg.x)]
     """
     bg, fg = _parts(of)
-    return rectype(bg=as_type(moved(bg, 1)), fg=as_type(_body_at(fg, "bg")))
+    return rectype(bg=as_type(shift_paths(bg, 1)), fg=as_type(_body_at(fg, "bg")))
 
 
 def strong(of: Record, /) -> FunType:
@@ -94,7 +94,7 @@ def apply(function: Record, argument: Record, /) -> Record:
     """
     bg_f, fg_f = _parts(function)
     bg_a, fg_a = _parts(argument)
-    bg = rectype(f=as_type(moved(bg_f, 1)), a=as_type(moved(bg_a, 1)))
+    bg = rectype(f=as_type(shift_paths(bg_f, 1)), a=as_type(shift_paths(bg_a, 1)))
     body = Application(_body_at(fg_f, "r", "f"), _body_at(fg_a, "r", "a"))
     return record(bg=bg, fg=fun(r=bg)(body))
 

@@ -26,7 +26,7 @@ from ttr.judging.models import Model
 from ttr.safety.budgets import spend
 from ttr.semantics.argument_checks import as_tuple
 from ttr.types.objects import Unresolved
-from ttr.types.substitution import grounded
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     BOUND,
     Basic,
@@ -302,7 +302,7 @@ def _as_argument(answer: Object, domain: TypeNode) -> Record | None:
 
 
 def _apply(question: Function, argument: Record) -> TypeNode:
-    found: TypeNode = grounded(question.body, ({BOUND: argument},))
+    found: TypeNode = resolve_paths(question.body, ({BOUND: argument},))
     return found
 
 
@@ -335,7 +335,7 @@ def _with_values_inlined(P: TypeNode) -> TypeNode:
     known: dict[str, Object] = {}
     for label, field in P.fields:
         with suppress(Unresolved):
-            field = grounded(field, (known,))
+            field = resolve_paths(field, (known,))
         fields[label] = field
         if isinstance(field, Singleton):
             known[label] = field.value

@@ -22,7 +22,7 @@ from ttr.judging.segmentation import events_in_words
 from ttr.probability import REFUTED, Degree
 from ttr.safety.budgets import within_budget
 from ttr.types.forms import star
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, TypeNode, as_type, freeze, join
 
@@ -57,7 +57,7 @@ def start_course(T: TypeNode, model: Model, /) -> Course:
     """
     T = as_type(T)
     as_model(model)
-    if not is_of_strings(T) or escaping(T):
+    if not is_of_strings(T) or free_paths(T):
         raise UnsupportedError(
             f"{T} is no type of strings that can be predicted",
             hint="write one with str(…), plus(…) or star(…), without paths outwards",

@@ -22,9 +22,9 @@ from ttr.safety.budgets import within_budget
 from ttr.semantics.modality.necessity import ModalAnswer
 from ttr.signature.signature import Signature
 from ttr.types.objects import Unresolved
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.printing import notation
-from ttr.types.substitution import grounded
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     BOUND,
     Function,
@@ -64,7 +64,7 @@ class Topos:
                 "a topos is a function from situations to types, as in "
                 rf"\r:[x : Ind]. [e : run(r.x)], found {kind_of(fg)}"
             )
-        if escaping(fg):
+        if free_paths(fg):
             raise IllFormedError(f"the topos {fg} has paths that lead nowhere")
 
     @property
@@ -146,7 +146,7 @@ def _apply_to_situation(
     if background.p == REFUTED:
         return ModalAnswer(REFUTED, outside)
     try:
-        body = grounded(warrant.fg.body, ({BOUND: freeze(sit)},))
+        body = resolve_paths(warrant.fg.body, ({BOUND: freeze(sit)},))
         return background, as_type(model.reduced(body))
     except (Unresolved, RefusedError) as wrong:
         raise RefusedError(

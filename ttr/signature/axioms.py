@@ -10,14 +10,14 @@ from ttr.signature.signature import Axiom, Exclusion, Signature
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import Basic, Object, Path, Pred, PType, identity
 
-__all__ = ["above", "below", "excluding", "match_schema", "uppers"]
+__all__ = ["supertypes", "subtypes", "find_exclusion", "match_schema", "supertype_set"]
 
 _Binding = Mapping[Path, Object]
 
 _Atom = Basic | PType
 
 
-def above(
+def supertypes(
     T: Basic | PType, axioms: tuple[Axiom, ...]
 ) -> Iterator[tuple[Axiom, Basic | PType]]:
     """Each type that the axioms put above T, once, with the last axiom used.
@@ -25,14 +25,14 @@ def above(
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> dog, puppy = Pred("dog", Ind), Pred("puppy", Ind)
     >>> axioms = (Axiom(puppy(this.x), dog(this.x)),)
-    >>> for axiom, upper in above(puppy("rex"), axioms):
+    >>> for axiom, upper in supertypes(puppy("rex"), axioms):
     ...     print(upper, "by", axiom)
     dog(rex) by puppy(x) <: dog(x)
     """
     yield from _closure(T, [(axiom, axiom.lower, axiom.upper) for axiom in axioms])
 
 
-def below(
+def subtypes(
     T: Basic | PType, axioms: tuple[Axiom, ...]
 ) -> Iterator[tuple[Axiom, Basic | PType]]:
     """Each type that the axioms put below T, once, with the last axiom used.
@@ -42,24 +42,24 @@ def below(
     yield from _closure(T, [(axiom, axiom.upper, axiom.lower) for axiom in axioms])
 
 
-def uppers(T: _Atom, theory: Signature) -> frozenset[_Atom]:
+def supertype_set(T: _Atom, theory: Signature) -> frozenset[_Atom]:
     """The types that the axioms put above T."""
     found = theory._memo.get(T)
     if found is None:
-        found = frozenset(upper for _, upper in above(T, theory.axioms))
+        found = frozenset(upper for _, upper in supertypes(T, theory.axioms))
         theory._memo[T] = found
     return cast(frozenset[_Atom], found)
 
 
-def excluding(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
+def find_exclusion(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
     """The exclusion of the two types, or of types above them; None if there is none.
 
     >>> from ttr.types.syntax import Ind, Pred, this
     >>> dog, cat = Pred("dog", Ind), Pred("cat", Ind)
     >>> theory = Signature(exclusions=(Exclusion(dog(this.x), cat(this.x)),))
-    >>> print(excluding(cat("felix"), dog("felix"), theory))
+    >>> print(find_exclusion(cat("felix"), dog("felix"), theory))
     dog(x) <: ~cat(x)
-    >>> excluding(cat("felix"), dog("fido"), theory)
+    >>> find_exclusion(cat("felix"), dog("fido"), theory)
     """
     if not theory.exclusions:
         return None
@@ -69,7 +69,7 @@ def excluding(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
 
 
 def _find_exclusion(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
-    mine, theirs = (S, *uppers(S, theory)), (T, *uppers(T, theory))
+    mine, theirs = (S, *supertype_set(S, theory)), (T, *supertype_set(T, theory))
     for exclusion in theory.exclusions:
         sides = exclusion.left, exclusion.right
         for one, other in product(mine, theirs):

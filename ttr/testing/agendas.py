@@ -14,7 +14,7 @@ from ttr.testing.event_subjects import (
 )
 from ttr.testing.properties import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import NonEmpty, Object, Singleton, TypeNode, identity
 from ttr.updates.running import Step
@@ -89,7 +89,7 @@ def _looks_at(step: Step, path: str) -> bool:
     if isinstance(field_at(step.rule.when, path), Singleton | NonEmpty):
         return True
     labels = tuple(path.split("."))
-    bound = escaping(step.rule.where) if step.rule.where is not None else ()
+    bound = free_paths(step.rule.where) if step.rule.where is not None else ()
     return any(one.labels[1:][: len(labels)] == labels for one in bound)
 
 

@@ -14,7 +14,7 @@ from ttr.judging.certainty import certainly
 from ttr.judging.models import Model
 from ttr.testing.strategies.discourse_roles import value_at
 from ttr.testing.strategies.random_states import heard_by
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.printing import notation
 from ttr.types.syntax import (
     Basic,
@@ -184,7 +184,7 @@ def mentions(event: Object, model: Model) -> tuple[Object, ...]:
 
 def _within(values: Iterable[Object]) -> Iterator[Object]:
     for value in values:
-        for part in occurring((value,)):
+        for part in subterms((value,)):
             if isinstance(part, str | TypeNode | Record):
                 yield part
 

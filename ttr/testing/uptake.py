@@ -9,7 +9,7 @@ from ttr.testing.coverage import Coverage
 from ttr.testing.properties import Property
 from ttr.testing.strategies.random_states import heard_by
 from ttr.theories.theory import Theory
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.syntax import Object, PType, RecordType, TypeNode
 from ttr.updates.algorithms import rules_of
 from ttr.updates.games import Game
@@ -76,11 +76,11 @@ def _types_used_as_objects(theory: Theory) -> frozenset[TypeNode]:
     for opening in theory.openings.values():
         values += [opening.start, opening.type]
     for T in theory.definitions.values():
-        values += [part for part in occurring((T,)) if isinstance(part, PType)]
+        values += [part for part in subterms((T,)) if isinstance(part, PType)]
     return frozenset(
         part
         for value in values
-        for part in occurring((value,))
+        for part in subterms((value,))
         if isinstance(part, RecordType)
     )
 

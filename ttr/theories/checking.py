@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, assert_never
 
 from ttr.building.merging import amerge, merge
-from ttr.computing.cycles import circle
+from ttr.computing.cycles import describe_cycle
 from ttr.computing.subtyping import subtype
 from ttr.errors import Span, TooLargeError, TTRError, UndecidedError
 from ttr.judging.models import model_of
@@ -201,7 +201,9 @@ def _updates(query: Updates, model: Model) -> _Answer:
 def _is_well_formed(T: TypeNode | TTRError) -> _Answer:
     if isinstance(T, TTRError):
         return _Answer("no", "no", T.message)
-    return _yes_or_no(not circle(T), f"its paths go in a circle: {circle(T)}")
+    return _yes_or_no(
+        not describe_cycle(T), f"its paths go in a circle: {describe_cycle(T)}"
+    )
 
 
 def _has_degree(query: HasDegree | Expects, p: Interval, why: str) -> _Answer:

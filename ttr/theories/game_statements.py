@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from ttr.building.formation import target
+from ttr.building.formation import field_at_path
 from ttr.errors import IllFormedError, TTRError
 from ttr.judging.models import model_of
 from ttr.notation.reader import Reader
@@ -62,7 +62,7 @@ def _agenda(term: Term, state: RecordType, reader: Reader) -> str:
                 "write acts on agenda, or acts on shared.next",
             )
     try:
-        found_type = target(path, state)
+        found_type = field_at_path(path, state)
     except IllFormedError as error:
         raise error.at(reader.source.span(term)) from None
     if not _may_be_list(found_type):

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NoReturn
 
-from ttr.building.formation import checked_within, target
+from ttr.building.formation import check_value, field_at_path
 from ttr.building.merging import merge
 from ttr.errors import IllFormedError, TTRError
 from ttr.notation.error_location import is_ill_formed, locate_error
@@ -29,7 +29,7 @@ from ttr.notation.syntax_trees import (
 )
 from ttr.probability import CERTAIN
 from ttr.probability import Degree as Probability
-from ttr.types.paths import escaping, replace_paths
+from ttr.types.paths import free_paths, replace_paths
 from ttr.types.syntax import (
     Application,
     Meet,
@@ -154,7 +154,7 @@ class _RuleReader:
     def _event_type(self, term: Term, state: Word) -> TypeNode:
         """The type of the events, which must not depend on the state."""
         found = self.reader.type(term, (frozenset((state.text,)),))
-        for path in sorted(escaping(found), key=lambda one: one.labels):
+        for path in sorted(free_paths(found), key=lambda one: one.labels):
             self.reader.refuse(
                 _locate_path(term, path),
                 "the type of an event cannot mention the state, found "
@@ -223,17 +223,17 @@ class _RuleReader:
     def _check_fits(self, term: Term, value: Object, around: RecordType) -> None:
         """Refuse a path that leads nowhere, or to a value of the wrong type."""
         signature = self.reader.theory.signature
-        for path in sorted(escaping(value), key=lambda one: one.labels):
+        for path in sorted(free_paths(value), key=lambda one: one.labels):
             try:
-                target(path, around)
+                field_at_path(path, around)
             except IllFormedError as error:
                 self._refuse_path(term, path, error)
         try:
-            checked_within(value, around, signature)
+            check_value(value, around, signature)
         except IllFormedError as error:
 
             def is_wrong(part: Object) -> bool:
-                return is_ill_formed(lambda: checked_within(part, around, signature))
+                return is_ill_formed(lambda: check_value(part, around, signature))
 
             wrong = locate_error(term, value, is_wrong)
             raise error.at(self.reader.source.span(wrong)) from None
@@ -268,7 +268,7 @@ def _self_references(value: Object) -> Iterator[Path]:
     for label, field in value.fields:
         if isinstance(field, RecordType):
             yield from _self_references(field)
-        for path in sorted(escaping(field), key=lambda one: one.labels):
+        for path in sorted(free_paths(field), key=lambda one: one.labels):
             if (path.up, path.labels[0]) == (0, label):
                 yield path
 

@@ -26,7 +26,7 @@ from ttr.theories.drafts import Draft
 from ttr.theories.game_statements import read_game
 from ttr.theories.rule_statements import read_rule
 from ttr.theories.strategy_statements import gathered, read_strategy
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.printing import RESERVED
 from ttr.types.syntax import Basic, Object, Path, Pred, PType
 
@@ -206,7 +206,7 @@ class Declaring:
             self.draft.exclusions[Exclusion(lower, excluded)] = None
             return
         upper = self._schema(tree.upper)
-        for path in sorted(escaping(upper) - escaping(lower), key=str):
+        for path in sorted(free_paths(upper) - free_paths(lower), key=str):
             self.reader.refuse(
                 tree.upper,
                 f"the variable {path.labels[0]} stands on the right only",
@@ -228,7 +228,7 @@ class Declaring:
         variables = frozenset(name for name in heads if not self._is_type(name))
         found = self.reader.type(term, (variables,))
         args = found.args if isinstance(found, PType) else ()
-        nested = any(not isinstance(arg, Path) and escaping(arg) for arg in args)
+        nested = any(not isinstance(arg, Path) and free_paths(arg) for arg in args)
         if nested or not isinstance(found, Basic | PType):
             self.reader.refuse(
                 term,

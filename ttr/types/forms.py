@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from heapq import heapify, heappop, heappush
 
 from ttr.safety.budgets import spend
-from ttr.types.paths import escaping, moved
+from ttr.types.paths import free_paths, shift_paths
 from ttr.types.syntax import FunType, Plus, Str, TypeNode, as_function_type, join
 
 __all__ = ["function_type", "order_fields", "star"]
@@ -18,7 +18,7 @@ def order_fields(fields: Mapping[str, TypeNode]) -> tuple[tuple[str, TypeNode], 
     waits: dict[str, int] = {}
     needed_by: dict[str, list[str]] = {}
     for label, T in fields.items():
-        needs = {path.labels[0] for path in escaping(T) if path.up == 0}
+        needs = {path.labels[0] for path in free_paths(T) if path.up == 0}
         needs &= fields.keys()
         waits[label] = len(needs)
         for need in needs:
@@ -56,7 +56,7 @@ def function_type(domain: TypeNode, result: TypeNode) -> FunType:
     >>> print(function_type(Ind, Type))
     (Ind -> Type)
     """
-    return FunType(domain, moved(result, 1))
+    return FunType(domain, shift_paths(result, 1))
 
 
 as_function_type.provided_by(function_type)

@@ -18,7 +18,7 @@ from weakref import ref
 from ttr.errors import IllFormedError, TTRError
 from ttr.hooks import hook
 from ttr.safety.budgets import Spent, open_purse, within_budget
-from ttr.types.notebooks import Drawn
+from ttr.types.notebooks import NotebookValue
 
 __all__ = ["Node", "as_notation", "as_python", "cache_on_node", "identity", "node"]
 
@@ -114,7 +114,7 @@ def _refuse_deleting(_: Node, name: str) -> None:
     raise TTRError(f"types and predicates do not change, so {name} cannot be deleted")
 
 
-class Node(Drawn, metaclass=_Interning):
+class Node(NotebookValue, metaclass=_Interning):
     """An interned value: it prints as notation, and its repr as Python."""
 
     __slots__ = ("__weakref__", "_cache")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ttr.hooks import hook
 
-__all__ = ["Drawn", "as_html", "as_latex"]
+__all__ = ["NotebookValue", "as_html", "as_latex"]
 
 
 @hook
@@ -19,7 +19,7 @@ def as_latex(value: object) -> str:
     raise NotImplementedError
 
 
-class Drawn:
+class NotebookValue:
     """A value that a notebook shows as it is drawn in papers.
 
     >>> from ttr.types.syntax import Ind

@@ -24,7 +24,7 @@ from ttr.types.interning import (
     identity,
     node,
 )
-from ttr.types.notebooks import Drawn
+from ttr.types.notebooks import NotebookValue
 
 __all__ = [
     "BOUND",
@@ -41,8 +41,8 @@ __all__ = [
     "freeze",
     "fst",
     "sort_canonically",
-    "labelled",
-    "lasts",
+    "combine_labels",
+    "is_immutable",
     "outer",
     "record",
     "rst",
@@ -123,7 +123,7 @@ class Applied:
 
 @hook
 def as_application(function: object, *args: object) -> Any:
-    """f(a), as written: `ttr.types.syntax.applied`."""
+    """f(a), as written: `ttr.types.syntax.apply_to`."""
     raise NotImplementedError
 
 
@@ -359,7 +359,7 @@ def _is_symbolic(value: Object) -> bool:
 # --- records -------------------------------------------------------------------------
 
 
-class Record(Drawn):
+class Record(NotebookValue):
     """A record {ℓ = a, …}: labels are its attributes, and it has no public methods.
 
     Two records are equal when they have the same labels with the same objects.
@@ -465,7 +465,7 @@ def record(fields: Mapping[str, object] | None = None, /, **labels: object) -> R
     >>> print(record(x="fido", c="s1"))
     {c = s1, x = fido}
     """
-    return Record(labelled("record", fields, labels))
+    return Record(combine_labels("record", fields, labels))
 
 
 # --- the canonical order --------------------------------------------------------------
@@ -520,21 +520,21 @@ def _compose_key(sign: str, kind: str, parts: list[_OrderKey]) -> _OrderKey:
     return (sign + parts[0][0] if parts else sign, kind, *parts)
 
 
-def lasts(value: Object) -> bool:
+def is_immutable(value: Object) -> bool:
     """Can nothing inside the object change? Objects of foreign classes may.
 
-    >>> lasts(record(x=("a", 1))), lasts(record(x=bytearray()))
+    >>> is_immutable(record(x=("a", 1))), is_immutable(record(x=bytearray()))
     (True, False)
     """
     if type(value) is str:
         return True
     if isinstance(value, Record):
         if value._is_immutable is None:
-            found = all(map(lasts, value._fields.values()))
+            found = all(map(is_immutable, value._fields.values()))
             object.__setattr__(value, "_is_immutable", found)
         return value._is_immutable  # type: ignore[return-value]
     if isinstance(value, tuple):
-        return all(map(lasts, value))
+        return all(map(is_immutable, value))
     return isinstance(value, _LASTING)
 
 
@@ -542,7 +542,7 @@ _LASTING = (str, int, float, complex, bytes, NoneType, Node)
 """The kinds of objects that never change."""
 
 
-def labelled(
+def combine_labels(
     what: str, fields: Mapping[str, _Value] | None, labels: Mapping[str, _Value]
 ) -> dict[str, _Value]:
     """The labels of a mapping and of keywords together; none may occur twice."""

@@ -39,12 +39,12 @@ from ttr.types.syntax import (
 )
 
 __all__ = [
-    "escaping",
+    "free_paths",
     "mentions",
-    "moved",
-    "occurring",
+    "shift_paths",
+    "subterms",
     "parts",
-    "rebuilt",
+    "map_parts",
     "replace_paths",
 ]
 
@@ -88,7 +88,7 @@ def parts(value: Object) -> tuple[Parts, Parts]:
     return (), ()
 
 
-def rebuilt(value: Object, change: Callable[[Object, int], Object]) -> Object:
+def map_parts(value: Object, change: Callable[[Object, int], Object]) -> Object:
     """The value rebuilt with change(part, deeper) in place of each of its parts.
 
     `deeper` is 1 for a part that stands one scope further in, else 0. The fields of a
@@ -135,7 +135,7 @@ def _apply_operation(name: str, args: Parts) -> Object:
         return Operation(name, args)
 
 
-def occurring(values: Iterable[Object]) -> Iterator[Object]:
+def subterms(values: Iterable[Object]) -> Iterator[Object]:
     """The values and everything in them, each node once; without recursion."""
     waiting, seen = list(values), set()
     while waiting:
@@ -184,16 +184,16 @@ _NO_KINDS: frozenset[type] = frozenset()
 # --- paths that lead out -------------------------------------------------------------
 
 
-def escaping(value: Object) -> frozenset[Path]:
+def free_paths(value: Object) -> frozenset[Path]:
     """The paths in a type or object that start outside it.
 
     Paths are as seen from where the value stands: `up` 0 is the scope around it.
 
     >>> from ttr.types.syntax import Ind, this
     >>> dog = Pred("dog", Ind)
-    >>> escaping(dog(this.x))
+    >>> free_paths(dog(this.x))
     frozenset({this.x})
-    >>> escaping(RecordType((("x", Ind), ("c", dog(this.x)))))
+    >>> free_paths(RecordType((("x", Ind), ("c", dog(this.x)))))
     frozenset()
     """
     if type(value) is str:
@@ -207,9 +207,9 @@ def escaping(value: Object) -> frozenset[Path]:
 
 def _find_free_paths(value: Object) -> frozenset[Path]:
     same, inner = parts(value)
-    found = frozenset[Path]().union(*map(escaping, same)) if same else _NO_PATHS
+    found = frozenset[Path]().union(*map(free_paths, same)) if same else _NO_PATHS
     if inner:
-        further = _NO_PATHS.union(*map(escaping, inner))
+        further = _NO_PATHS.union(*map(free_paths, inner))
         found |= {Path(path.up - 1, path.labels) for path in further if path.up > 0}
     return found
 
@@ -234,7 +234,7 @@ def replace_paths(
             return at(value)
         if value.up < depth:
             return value
-        return moved(at(Path(value.up - depth, value.labels)), depth)
+        return shift_paths(at(Path(value.up - depth, value.labels)), depth)
     if isinstance(value, TypeNode) and not _reaches_out(value, depth):
         return value
     if isinstance(value, str):
@@ -243,16 +243,16 @@ def replace_paths(
     def change(part: Object, deeper: int) -> Object:
         return replace_paths(part, at, depth + deeper)
 
-    return rebuilt(value, change)
+    return map_parts(value, change)
 
 
 def _reaches_out(T: TypeNode, depth: int) -> bool:
     """Does a path in T lead at least so many scopes out?"""
-    found = escaping(T)
+    found = free_paths(T)
     return bool(found) and (depth == 0 or any(path.up >= depth for path in found))
 
 
-def moved(value: Object, depth: int) -> Object:
+def shift_paths(value: Object, depth: int) -> Object:
     """The value as it must be written `depth` scopes further in."""
     if depth == 0:
         return value

@@ -6,7 +6,7 @@ negation, `@`, application. An arrow always stands in brackets of its own.
 
 from __future__ import annotations
 
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.syntax import (
     Application,
     Basic,
@@ -114,4 +114,4 @@ def binds(inside: Object) -> bool:
     >>> binds(dog(this.x)), binds(dog("fido"))
     (True, False)
     """
-    return any(path.up == 0 for path in escaping(inside))
+    return any(path.up == 0 for path in free_paths(inside))

@@ -15,8 +15,8 @@ from ttr.escapes import json_text
 from ttr.safety.budgets import spend
 from ttr.types.interning import as_notation, as_python
 from ttr.types.objects import Missing
-from ttr.types.paths import occurring, replace_paths
 from ttr.types.paths import parts as contents
+from ttr.types.paths import replace_paths, subterms
 from ttr.types.precedence import (
     WORDS,
     begins_with_bracket,
@@ -53,7 +53,15 @@ from ttr.types.syntax import (
     Universe,
 )
 
-__all__ = ["RESERVED", "Scope", "as_object", "head", "notation", "python", "variable"]
+__all__ = [
+    "RESERVED",
+    "Scope",
+    "as_object",
+    "format_head",
+    "notation",
+    "python",
+    "variable",
+]
 
 Scope = tuple[frozenset[str] | str, ...]
 """The scopes around, innermost first: the labels of a record type, or a variable."""
@@ -93,7 +101,7 @@ def notation(value: Object, scope: Scope = ()) -> str:
         case FunType() | Function():
             return _binder(value, scope)
         case Application(function, argument):
-            return f"{head(function, scope)}({_objects((argument,), scope)})"
+            return f"{format_head(function, scope)}({_objects((argument,), scope)})"
         case Operation("+", args):
             return " + ".join([_object_beside(arg, scope) for arg in args])
         case Operation(name, args):
@@ -196,7 +204,7 @@ def variable(value: FunType | Function, scope: Scope) -> str:
     """
     inside = value.body if isinstance(value, Function) else value.result
     taken = {name for name in scope if isinstance(name, str)} | RESERVED
-    for part in occurring([inside]):
+    for part in subterms([inside]):
         match part:
             case RecordType():
                 taken.update(part)
@@ -208,14 +216,14 @@ def variable(value: FunType | Function, scope: Scope) -> str:
     return name
 
 
-def head(function: Object, scope: Scope) -> str:
+def format_head(function: Object, scope: Scope) -> str:
     """The notation of a function before its argument.
 
     A path has a dot and a name has quotes, so that neither is read as a predicate.
 
-    >>> print(head(Path(0, ("f",)), (frozenset({"f"}),)))
+    >>> print(format_head(Path(0, ("f",)), (frozenset({"f"}),)))
     .f
-    >>> print(head("f", ()), head(3, ()))
+    >>> print(format_head("f", ()), format_head(3, ()))
     "f" (3)
     """
     match function:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from ttr.errors import TTRError, suggestion
 from ttr.safety.budgets import spend
-from ttr.types.objects import labelled, lasts
+from ttr.types.objects import combine_labels, is_immutable
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, Record, freeze, identity
 
@@ -27,7 +27,7 @@ def replace(
     {bg = {size = 4}, x = sam}
     """
     new = _RecordEditor(r)
-    for path, value in labelled("replace", changes, labels).items():
+    for path, value in combine_labels("replace", changes, labels).items():
         if not isinstance(path, str):
             raise TTRError(f"a path is written as a text, as in 'bg.x', found {path!r}")
         new.set(path.split("."), freeze(value))
@@ -56,7 +56,7 @@ class _RecordEditor:
             on_the_way.append(here)
         _value_at(here, last, path)
         here._fields[last] = value
-        if not lasts(value):
+        if not is_immutable(value):
             for one in on_the_way:
                 _write(one, "_is_immutable", None)
 

@@ -17,10 +17,10 @@ from ttr.types.syntax import TypeNode
 
 __all__ = [
     "Around",
-    "along",
+    "follow_path",
     "field_type",
     "follow_labels",
-    "grounded",
+    "resolve_paths",
     "substitute_variable",
 ]
 
@@ -28,11 +28,11 @@ Around = tuple[Mapping[str, Object], ...]
 """The values of labels and of bound variables, scope by scope, innermost first."""
 
 
-def along(value: Object, labels: tuple[str, ...]) -> Object:
+def follow_path(value: Object, labels: tuple[str, ...]) -> Object:
     """r.ℓ₁.….ℓₙ; raises `Unresolved` where a step is missing.
 
     >>> from ttr.types.syntax import record
-    >>> along(record(bg=record(x="fido")), ("bg", "x"))
+    >>> follow_path(record(bg=record(x="fido")), ("bg", "x"))
     'fido'
     """
     for label in labels:
@@ -44,13 +44,13 @@ def along(value: Object, labels: tuple[str, ...]) -> Object:
     return value
 
 
-def grounded(value: Object, around: Around) -> Object:
+def resolve_paths(value: Object, around: Around) -> Object:
     """A field's type or object with its paths replaced by what they lead to.
 
     Raises `Unresolved` for a path that leads nowhere.
 
     >>> from ttr.types.syntax import Ind, Pred, this
-    >>> print(grounded(Pred("dog", Ind)(this.x), ({"x": "fido"},)))
+    >>> print(resolve_paths(Pred("dog", Ind)(this.x), ({"x": "fido"},)))
     dog(fido)
     """
 
@@ -61,7 +61,7 @@ def grounded(value: Object, around: Around) -> Object:
         first, *rest = path.labels
         if first not in around[path.up]:
             raise Unresolved(f"the path {name} leads nowhere: there is no {first}")
-        return along(around[path.up][first], tuple(rest))
+        return follow_path(around[path.up][first], tuple(rest))
 
     return replace_paths(value, at)
 

@@ -67,7 +67,7 @@ __all__ = [
     "Type",
     "TypeNode",
     "Universe",
-    "applied",
+    "apply_to",
     "as_type",
     "freeze",
     "identity",
@@ -402,7 +402,7 @@ class Function(_Binder):
 
     def __call__(self, *args: object) -> Application:
         """The application of the function, as written; `Model.apply` works it out."""
-        return applied(self, *args)
+        return apply_to(self, *args)
 
 
 @node
@@ -418,13 +418,13 @@ class Application(Applied, TypeNode):
 
     def __call__(self, *args: object) -> Application:
         """The result, a function, applied to another argument: f(a)(b)."""
-        return applied(self, *args)
+        return apply_to(self, *args)
 
     def __add__(self, other: object) -> Object:
         return concat(self, other)
 
 
-def applied(function: object, *args: object) -> Application:
+def apply_to(function: object, *args: object) -> Application:
     """f(a), or f(a)(b) and so on where there are more arguments."""
     if not args:
         raise IllFormedError(f"a function is applied to an argument: {function}(…)")
@@ -433,7 +433,7 @@ def applied(function: object, *args: object) -> Application:
     return function  # type: ignore[return-value]
 
 
-as_application.provided_by(applied)
+as_application.provided_by(apply_to)
 
 
 # --- records and predicates ----------------------------------------------------------

@@ -14,7 +14,7 @@ from ttr.judging.certainty import certainly
 from ttr.judging.evaluator import derivation, reduced
 from ttr.judging.models import Model
 from ttr.types.printing import notation
-from ttr.types.substitution import Around, grounded
+from ttr.types.substitution import Around, resolve_paths
 from ttr.types.syntax import Object, Record, RecordType, Singleton, TypeNode
 from ttr.updates.rules import Rule
 from ttr.updates.user_functions import excerpt
@@ -81,7 +81,7 @@ def _realise_field(
     field: TypeNode, model: Model, around: Around, path: str
 ) -> tuple[Object, Model, bool]:
     """The value of a field, set or created; the model; and was it created?"""
-    T = reduced(model.facts, grounded(field, around))
+    T = reduced(model.facts, resolve_paths(field, around))
     if not isinstance(T, Singleton):
         value, model = model.create(T)
         return value, model, True

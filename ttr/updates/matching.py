@@ -11,8 +11,8 @@ from ttr.judging.evaluator import reduced
 from ttr.judging.models import Model
 from ttr.safety.budgets import spend
 from ttr.types.objects import Unresolved
-from ttr.types.paths import escaping
-from ttr.types.substitution import grounded
+from ttr.types.paths import free_paths
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import Object, PType, RecordType, Singleton, TypeNode
 
 __all__ = ["find_bindings"]
@@ -58,7 +58,7 @@ def _in_order_of_need(where: RecordType) -> tuple[tuple[str, TypeNode], ...]:
 
 def _bindings_mentioned(T: TypeNode) -> set[str]:
     """The labels of the bindings that a field mentions."""
-    return {path.labels[0] for path in escaping(T) if path.up == 0}
+    return {path.labels[0] for path in free_paths(T) if path.up == 0}
 
 
 def _search(
@@ -87,10 +87,10 @@ def _candidates(
     try:
         around = (bound, variables)
         if isinstance(field, Singleton):
-            value = reduced(model.facts, grounded(field.value, around))
-            base = grounded(field.base, around)
+            value = reduced(model.facts, resolve_paths(field.value, around))
+            base = resolve_paths(field.base, around)
             return [(value, model)] if certainly(model.facts, value, base) else []
-        T = reduced(model.facts, grounded(field, around))
+        T = reduced(model.facts, resolve_paths(field, around))
         known = [(one, model) for one in model.witnesses(T)]
         return known or _situations_seen(T, model)
     except (Unresolved, RefusedError):

@@ -12,8 +12,8 @@ from ttr.errors import Span, TTRError, UpdateError
 from ttr.judging.evaluator import reduced
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, Degree, degree
-from ttr.types.paths import escaping, replace_paths
-from ttr.types.substitution import grounded
+from ttr.types.paths import free_paths, replace_paths
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     BOUND,
     Function,
@@ -80,7 +80,7 @@ class Body:
     def __call__(self, /, *args: Object, model: Model, **bound: Object) -> Object:
         """The type or record for a state, an event and bindings."""
         around = {**dict(zip(self.names, args, strict=False)), **bound}
-        return reduced(model.facts, grounded(self.value, (around,)))
+        return reduced(model.facts, resolve_paths(self.value, (around,)))
 
 
 def rule(
@@ -274,7 +274,7 @@ def update(
         )
     names, on, inside = [function.hint], None, function.body
     if isinstance(inside, Function):
-        if escaping(inside.domain):
+        if free_paths(inside.domain):
             raise UpdateError(f"the event's type depends on the state in {function}")
         on = inside.domain
         names.append(inside.hint + "_" * (inside.hint == function.hint))

@@ -9,8 +9,8 @@ from operator import is_
 from ttr.errors import NoStateError, UpdateError
 from ttr.judging.certainty import certainly, note
 from ttr.judging.models import Model
-from ttr.types.objects import lasts
-from ttr.types.paths import escaping
+from ttr.types.objects import is_immutable
+from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import ListOf, Object, Record, RecordType, TypeNode
 
@@ -65,7 +65,7 @@ _NOTHING = object()
 @lru_cache(4096)
 def _has_dependent_fields(T: RecordType) -> bool:
     """Does the type of any field depend on another field, or on paths out of T?"""
-    return any(escaping(field) for _, field in T.fields)
+    return any(free_paths(field) for _, field in T.fields)
 
 
 def _is_part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> bool:
@@ -89,7 +89,7 @@ def _cannot_change(value: Object, model: Model) -> bool:
 
     Facts are about objects as such; only witness functions look inside them.
     """
-    return not model.facts.functions or lasts(value)
+    return not model.facts.functions or is_immutable(value)
 
 
 def _possibly_new_elements(

@@ -10,7 +10,7 @@ from ttr.cli.session.repl import COMMANDS
 from ttr.cli.session.replies import ASKED
 from ttr.cli.session.sessions import Session
 from ttr.notation.syntax_errors import KEYWORDS
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.printing import RESERVED
 from ttr.types.syntax import Record, RecordType
 
@@ -45,7 +45,7 @@ def _starting_with(start: str, words: Iterable[str]) -> list[str]:
 
 def _labels(session: Session) -> Iterator[str]:
     """The labels of all named types and records."""
-    for value in occurring(session.theory.definitions.values()):
+    for value in subterms(session.theory.definitions.values()):
         if isinstance(value, RecordType | Record):
             yield from value
 

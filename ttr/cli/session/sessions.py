@@ -40,7 +40,7 @@ from ttr.theories.theory import (
     theory_of_file,
     theory_of_text,
 )
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.printing import notation
 from ttr.types.syntax import Basic, Object, PType, TypeNode
 
@@ -430,7 +430,7 @@ def _atoms(why: Why, p: Degree) -> Iterable[tuple[Object, TypeNode, Degree]]:
 def _fact_statement(theory: Theory, sit: Object, T: TypeNode, p: Degree) -> str:
     """The statement of a fact; objects whose names mean something else are quoted."""
     meant = theory.names - theory.objects
-    named = (part for part in occurring([T]) if isinstance(part, str))
+    named = (part for part in subterms([T]) if isinstance(part, str))
     unheard = [name for name in named if name not in theory.objects]
     degree = " = 0" * (p == REFUTED)
     kind = notation(T, (meant.union(unheard),))

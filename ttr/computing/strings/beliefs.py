@@ -12,7 +12,13 @@ from typing import TypeAlias
 
 from ttr.probability import CERTAIN, REFUTED, Degree
 
-__all__ = ["NOWHERE", "Beliefs", "States", "frechet", "independent"]
+__all__ = [
+    "NOWHERE",
+    "Beliefs",
+    "States",
+    "frechet_conjunction",
+    "independent_conjunction",
+]
 
 SETS = 32
 """How many sets of states are distinguished."""
@@ -26,19 +32,19 @@ _Conjunction: TypeAlias = Callable[[Degree, Degree], Degree]
 """The probability of a conjunction, from those of its two parts."""
 
 
-def independent(p: Degree, q: Degree) -> Degree:
+def independent_conjunction(p: Degree, q: Degree) -> Degree:
     """p · q: the probability of both of two independent events.
 
-    >>> print(independent(Degree(0.5, 0.5), Degree(0.25, 1.0)))
+    >>> print(independent_conjunction(Degree(0.5, 0.5), Degree(0.25, 1.0)))
     [0.125, 0.5]
     """
     return Degree(p.lo * q.lo, p.hi * q.hi)
 
 
-def frechet(p: Degree, q: Degree) -> Degree:
+def frechet_conjunction(p: Degree, q: Degree) -> Degree:
     """[max(0, p + q − 1), min(p, q)]: the Fréchet bounds of the probability of both.
 
-    >>> print(frechet(Degree(0.75, 0.75), Degree(0.5, 0.5)))
+    >>> print(frechet_conjunction(Degree(0.75, 0.75), Degree(0.5, 0.5)))
     [0.25, 0.5]
     """
     return Degree(max(0.0, p.lo + q.lo - 1.0), min(p.hi, q.hi))

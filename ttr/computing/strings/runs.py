@@ -20,8 +20,8 @@ __all__ = [
     "Division",
     "Piece",
     "Stop",
-    "a_way",
-    "all_ways",
+    "find_division",
+    "find_divisions",
     "accepts",
 ]
 
@@ -112,7 +112,7 @@ class _States:
         return found
 
 
-def a_way(
+def find_division(
     length: int, automaton: Automaton, fits: _Fits
 ) -> tuple[TypeNode, ...] | Stop:
     """The types of the events of a string, one by one, or where it fails.
@@ -123,9 +123,9 @@ def a_way(
     >>> from ttr.types.syntax import Basic, Plus, Str
     >>> A, B = Basic("A"), Basic("B")
     >>> ends_in_B = automaton(Str(Plus(A), B))
-    >>> print(*a_way(3, ends_in_B, lambda number, T: T is (A, A, B)[number]))
+    >>> print(*find_division(3, ends_in_B, lambda number, T: T is (A, A, B)[number]))
     A A B
-    >>> a_way(3, ends_in_B, lambda number, T: T is A).furthest
+    >>> find_division(3, ends_in_B, lambda number, T: T is A).furthest
     3
     """
     states = _States(automaton)
@@ -157,7 +157,7 @@ def _stop_at(number: int, states: tuple[int, ...], automaton: Automaton) -> Stop
 # --- all ways ------------------------------------------------------------------------
 
 
-def all_ways(
+def find_divisions(
     length: int, automaton: Automaton, fits: _Fits, fits_whole: _FitsWhole
 ) -> Division | Stop:
     """The ways to divide a string into pieces of types, or where it fails."""
@@ -314,7 +314,9 @@ def accepts(length: int, automaton: Automaton, fits: _Fits) -> bool:
 # --- strings of a type ---------------------------------------------------------------
 
 
-def shortest(automaton: Automaton, length: int = 0) -> Iterator[tuple[TypeNode, ...]]:
+def shortest_words(
+    automaton: Automaton, length: int = 0
+) -> Iterator[tuple[TypeNode, ...]]:
     """The event types of the strings of a type, shortest first.
 
     Strings of at least `length` events come first, if there are any.
@@ -322,7 +324,7 @@ def shortest(automaton: Automaton, length: int = 0) -> Iterator[tuple[TypeNode, 
     >>> from ttr.computing.strings.automata import automaton
     >>> from ttr.types.syntax import Basic, Plus, Str
     >>> A, B = Basic("A"), Basic("B")
-    >>> for labels in islice(shortest(automaton(Str(Plus(A), B)), 3), 2):
+    >>> for labels in islice(shortest_words(automaton(Str(Plus(A), B)), 3), 2):
     ...     print(*labels)
     A A B
     A A A B

@@ -9,7 +9,7 @@ from ttr.errors import TTRError
 from ttr.notation.reader import read_term
 from ttr.safety.consent import Consent
 from ttr.theories.theory import Theory, theory_of_text
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, Pred
 
@@ -71,7 +71,7 @@ def _in_order(predicates: list[Pred]) -> Iterator[Pred]:
     waiting = dict.fromkeys(predicates)
     while waiting:
         for one in [*waiting]:
-            mentioned = [part for part in occurring(one.arities) if part is not one]
+            mentioned = [part for part in subterms(one.arities) if part is not one]
             if not any(part in waiting for part in mentioned if isinstance(part, Pred)):
                 yield one
                 del waiting[one]

@@ -7,7 +7,7 @@ from itertools import count
 from typing import TypeAlias
 
 from ttr.building.constructors import rectype
-from ttr.types.paths import rebuilt
+from ttr.types.paths import map_parts
 from ttr.types.syntax import (
     BOUND,
     Function,
@@ -66,7 +66,7 @@ def replace_name(said: TypeNode, name: str, *labels: str) -> Object:
     def at(value: Object, depth: int) -> Object:
         if isinstance(value, str):
             return Path(depth, labels) if value == name else value
-        return rebuilt(value, lambda part, deeper: at(part, depth + deeper))
+        return map_parts(value, lambda part, deeper: at(part, depth + deeper))
 
     return at(said, 0)
 

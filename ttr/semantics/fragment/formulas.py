@@ -15,8 +15,8 @@ from ttr.semantics.fragment.content_types import abstract_over
 from ttr.semantics.quantifiers import Thresholds, absent, determiner_of, number
 from ttr.semantics.quantifiers.determiners import demands, properties
 from ttr.semantics.quantifiers.thresholds import Threshold
-from ttr.types.paths import escaping
-from ttr.types.substitution import grounded
+from ttr.types.paths import free_paths
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     BOUND,
     Function,
@@ -138,7 +138,7 @@ def property_formula(P: Function | TypeNode) -> Formula:
 
 def apply_property(P: Function, thing: str) -> TypeNode:
     """The type that a property gives of the thing with this name."""
-    body = grounded(P.body, ({BOUND: thing},))
+    body = resolve_paths(P.body, ({BOUND: thing},))
     return body if isinstance(body, TypeNode) else Singleton(P.domain, thing)
 
 
@@ -173,7 +173,7 @@ def _is_name(value: Object) -> TypeGuard[str]:
 
 def _is_conjunction(T: RecordType) -> bool:
     """Is no field dependent on another, and none manifest?"""
-    paths = {path.labels[0] for _, field in T.fields for path in escaping(field)}
+    paths = {path.labels[0] for _, field in T.fields for path in free_paths(field)}
     plain = all(not isinstance(field, Singleton) for _, field in T.fields)
     return plain and paths.isdisjoint(T.labels)
 

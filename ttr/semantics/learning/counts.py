@@ -24,7 +24,7 @@ from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import within_budget
 from ttr.semantics.learning.smoothing import NO_SMOOTHING, Smoothing, as_smoothing
 from ttr.signature.signature import Signature, signature_of
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import (
     Negation,
@@ -205,7 +205,7 @@ class Counts:
 
     def _with(self, evidence: Record) -> Counts:
         sit, T, p = probabilistic_claim(evidence)
-        if escaping(T):
+        if free_paths(T):
             raise IllFormedError(
                 f"{T} has paths that lead nowhere, so it is no evidence"
             )

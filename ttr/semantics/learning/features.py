@@ -10,7 +10,7 @@ from ttr.computing.subtyping import consistent, subtype
 from ttr.errors import IllFormedError, RefusedError
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Signature
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.syntax import Meet, RecordType, TypeNode, as_type, kind_of
 
 __all__ = ["Features", "feature_types", "features_of", "features_below", "types_of"]
@@ -54,7 +54,7 @@ def _labels_needed(T: RecordType, label: str) -> set[str]:
     needed, waiting = {label}, [label]
     while waiting:
         field = T[waiting.pop()]
-        found = {path.labels[0] for path in escaping(field) if path.up == 0} - needed
+        found = {path.labels[0] for path in free_paths(field) if path.up == 0} - needed
         needed |= found
         waiting += found
     return needed
@@ -93,7 +93,7 @@ def features_below(
     (True, False)
     """
     x = as_type(x)
-    if escaping(x):
+    if free_paths(x):
         raise IllFormedError(f"{x} has paths that lead nowhere, so it is no evidence")
     if consistent(x, theory=theory).no:
         raise RefusedError(f"nothing can be of {x}, so it is no evidence")

@@ -18,8 +18,8 @@ from ttr.safety.budgets import within_budget
 from ttr.semantics.argument_checks import in_notation
 from ttr.semantics.modality.necessity import modal_claims, nec
 from ttr.semantics.modality.notions import Notion, everywhere, where_they_exist
-from ttr.types.objects import labelled
-from ttr.types.paths import occurring
+from ttr.types.objects import combine_labels
+from ttr.types.paths import subterms
 from ttr.types.syntax import (
     Basic,
     Object,
@@ -122,7 +122,7 @@ class ModalSystem:
         if not lacked:
             return True
         return lacked.isdisjoint(
-            one for one in occurring([value]) if isinstance(one, Basic | Pred)
+            one for one in subterms([value]) if isinstance(one, Basic | Pred)
         )
 
     @within_budget
@@ -179,7 +179,7 @@ def modal_system(
     Raises `IllFormedError` where there is none, and where they are of different
     theories: they must share axioms, exclusions and open types.
     """
-    found = labelled("modal_system", models, named)
+    found = combine_labels("modal_system", models, named)
     if not found:
         raise IllFormedError("a modal system has at least one possibility, found none")
     for name, model in found.items():

@@ -14,8 +14,8 @@ from ttr.judging.judgements import Judgement
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.safety.budgets import spend
 from ttr.types.objects import Unresolved
-from ttr.types.paths import occurring
-from ttr.types.substitution import Around, grounded
+from ttr.types.paths import subterms
+from ttr.types.substitution import Around, resolve_paths
 from ttr.types.syntax import (
     Join,
     Meet,
@@ -83,7 +83,7 @@ def is_modal(T: TypeNode) -> bool:
 
 def mentions_modal(T: Object) -> bool:
     """Does nec or poss occur in a type?"""
-    return any(one is nec or one is poss for one in occurring([T]))
+    return any(one is nec or one is poss for one in subterms([T]))
 
 
 def modal_claims(
@@ -102,7 +102,7 @@ def modal_claims(
     match T:
         case PType(pred, _) if pred in (nec, poss):
             with suppress(Unresolved):
-                yield sit, grounded(T, around)
+                yield sit, resolve_paths(T, around)
         case Meet(parts) | Join(parts):
             for part in parts:
                 yield from modal_claims(sit, part, around)

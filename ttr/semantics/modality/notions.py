@@ -26,8 +26,8 @@ from ttr.semantics.modality.necessity import (
     nec,
     poss,
 )
-from ttr.signature.axioms import below
-from ttr.types.paths import occurring
+from ttr.signature.axioms import subtypes
+from ttr.types.paths import subterms
 from ttr.types.printing import notation
 from ttr.types.syntax import (
     Basic,
@@ -237,8 +237,8 @@ def _merge_parts(T: TypeNode) -> TypeNode:
 
 def _leaves_open(facts: Assignment, T: TypeNode) -> bool:
     """May there be more witnesses of T than are known, also by an axiom?"""
-    atoms = [part for part in occurring([T]) if isinstance(part, Basic | PType)]
-    lower = [kind for atom in atoms for _, kind in below(atom, facts.theory.axioms)]
+    atoms = [part for part in subterms([T]) if isinstance(part, Basic | PType)]
+    lower = [kind for atom in atoms for _, kind in subtypes(atom, facts.theory.axioms)]
     return any(map(facts.leaves_open, (T, *lower)))
 
 
@@ -262,7 +262,7 @@ def _is_flat(T: TypeNode) -> bool:
 
 
 def _mentions_records(T: TypeNode) -> bool:
-    return any(isinstance(part, RecordType) for part in occurring([T]))
+    return any(isinstance(part, RecordType) for part in subterms([T]))
 
 
 def _describe_success(P: Object, names: tuple[str, ...]) -> str:

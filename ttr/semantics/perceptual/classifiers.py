@@ -14,7 +14,7 @@ from ttr.errors import TTRError
 from ttr.semantics.argument_checks import in_notation
 from ttr.types.objects import Unresolved
 from ttr.types.printing import notation
-from ttr.types.substitution import along
+from ttr.types.substitution import follow_path
 from ttr.types.syntax import Object, Record
 
 __all__ = ["Classifier", "Method"]
@@ -114,7 +114,7 @@ def _are_paths(value: object) -> bool:
 
 def _value_at(r: Record, path: str) -> Object:
     try:
-        return along(r, tuple(path.split(".")))
+        return follow_path(r, tuple(path.split(".")))
     except Unresolved:
         raise TTRError(
             f"the percept is looked for at {path}, which {notation(r)} lacks"

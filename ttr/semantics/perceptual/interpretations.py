@@ -3,7 +3,7 @@ r"""Interpretations λr:bg. [c : p(r.x)]: the type that a word gives a situation
 from __future__ import annotations
 
 from ttr.building.constructors import fun
-from ttr.building.formation import checked
+from ttr.building.formation import check_record_type
 from ttr.errors import IllFormedError
 from ttr.semantics.argument_checks import in_notation
 from ttr.types.forms import order_fields
@@ -45,7 +45,7 @@ def interpretation(T: RecordType, label: str) -> Function:
             "an interpretation is of a record type with a ptype at "
             f"{in_notation(label)}, found {found}"
         )
-    bg = checked(
+    bg = check_record_type(
         RecordType(order_fields({k: S for k, S in T.fields if k != label})), None
     )
     return fun(r=bg)(RecordType(((label, replace_paths(claim, _path_into_situation)),)))

@@ -23,9 +23,9 @@ from ttr.semantics.perceptual.interpretations import claim_of
 from ttr.semantics.perceptual.meaning_form import check_record
 from ttr.semantics.perceptual.vectors import RealVector, is_vector
 from ttr.types.objects import Unresolved
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.printing import notation
-from ttr.types.substitution import grounded
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     BOUND,
     Function,
@@ -220,7 +220,7 @@ class Meaning:
     def in_model(self, M: Model, /, *situations: Record) -> Model:
         """The model in which the classifier judges what the predicate holds of."""
         M = as_model(M)
-        if any(part is RealVector for part in occurring([self.bg])):
+        if any(part is RealVector for part in subterms([self.bg])):
             M = M.witnessed(RealVector, by=is_vector)
         return M.witnessed(self.predicate, by=self.witness(*situations))
 
@@ -287,7 +287,7 @@ class Meaning:
 
     def _ground(self, value: Object, around: tuple[Mapping[str, Object], ...]) -> Any:
         try:
-            return grounded(value, around)
+            return resolve_paths(value, around)
         except Unresolved as error:
             raise self._with_word(TTRError(error.message)) from None
 

@@ -19,7 +19,7 @@ from ttr.judging.models import Model, as_model
 from ttr.semantics.argument_checks import as_tuple
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
 from ttr.semantics.perceptual.vectors import Vector, finite_number, vector
-from ttr.types.substitution import grounded
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     BOUND,
     Basic,
@@ -227,5 +227,5 @@ def _with_claim_applied(T: RecordType, pfun: Function) -> RecordType:
     """The type of the individual, with p(a) for (λx:Ind. p(x))(a)."""
     if not isinstance(pfun.body, PType):
         return T
-    claim = grounded(pfun.body, ({BOUND: Path(0, ("a",))},))
+    claim = resolve_paths(pfun.body, ({BOUND: Path(0, ("a",))},))
     return rectype({**dict(T.fields), "c": claim})

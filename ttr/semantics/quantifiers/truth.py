@@ -28,9 +28,9 @@ from ttr.semantics.quantifiers.degrees_of_truth import (
 from ttr.semantics.quantifiers.determiners import determiner_of
 from ttr.semantics.quantifiers.thresholds import Thresholds, thresholds_of
 from ttr.types.objects import Missing, Unresolved
-from ttr.types.paths import escaping, occurring
+from ttr.types.paths import free_paths, subterms
 from ttr.types.printing import notation
-from ttr.types.substitution import grounded
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     BOUND,
     Application,
@@ -89,7 +89,7 @@ def truth(M: Model, T: TypeNode, thresholds: Thresholds | None = None) -> Truth:
     """
     as_model(M)
     T = as_type(T)
-    if escaping(T):
+    if free_paths(T):
         raise IllFormedError(
             f"{T} has paths that lead nowhere, so it is not true or false"
         )
@@ -129,7 +129,7 @@ class _Truths:
 
     def _record(self, T: RecordType) -> Truth:
         """A record type is true if its fields can be filled."""
-        needed = {path.labels[0] for _, S in T.fields for path in escaping(S)}
+        needed = {path.labels[0] for _, S in T.fields for path in free_paths(S)}
         if needed.isdisjoint(T.labels):
             parts = [(label, self.of(S)) for label, S in T.fields]
             return conjoin_fields(T, parts)
@@ -151,7 +151,7 @@ class _Truths:
 
     def ways(self, T: RecordType) -> Iterator[list[tuple[str, Truth]]]:
         """The ways to fill the fields with known objects, without recursion."""
-        paths = [path for _, S in T.fields for path in escaping(S)]
+        paths = [path for _, S in T.fields for path in free_paths(S)]
         needed = {path.labels[0] for path in paths if path.up == 0}
         needed |= {label for label, S in T.fields if not isinstance(S, PType)}
         waiting: list[Iterator[list[tuple[str, Truth]]]] = [iter(([],))]
@@ -171,7 +171,7 @@ class _Truths:
         spend()
         label, field = T.fields[len(way)]
         try:
-            S = grounded(field, ({k: found.witness for k, found in way},))
+            S = resolve_paths(field, ({k: found.witness for k, found in way},))
         except Unresolved as lost:
             raise UnsupportedError(f"{T} cannot be followed: {lost.message}") from None
         if label not in needed:
@@ -186,7 +186,9 @@ class _Truths:
         """((x : S) → T) is true if T is true for every x of S."""
         grounds = []
         for sit, p in known_objects(self._M, domain, self._thresholds):
-            found = self.of(_reduce_to_type(self._M, grounded(result, ({BOUND: sit},))))
+            found = self.of(
+                _reduce_to_type(self._M, resolve_paths(result, ({BOUND: sit},)))
+            )
             if p != CERTAIN:
                 found = Truth(Degree(found.p.lo, 1.0), found.why, found.atoms)
             grounds.append(found)
@@ -269,7 +271,7 @@ def _may_have_more(M: Model, T: TypeNode) -> bool:
     """May other objects be of T than the known ones, by the types in it?"""
     return any(
         M.facts.leaves_open(part)
-        for part in occurring([T])
+        for part in subterms([T])
         if isinstance(part, Basic | PType)
     )
 
@@ -283,7 +285,7 @@ def truth_of_instance(
     M: Model, f: Function, sit: Object, thresholds: Thresholds
 ) -> Truth:
     """How certain it is that the type a function gives for an object is true."""
-    body = _reduce_to_type(M, grounded(f.body, ({BOUND: sit},)))
+    body = _reduce_to_type(M, resolve_paths(f.body, ({BOUND: sit},)))
     return _Truths(M, thresholds).of(body)
 
 
@@ -298,4 +300,4 @@ def _reduce_to_type(M: Model, value: Object) -> TypeNode:
 def _parts_to_search(value: Object) -> Iterable[Object]:
     if isinstance(value, PType) and all(isinstance(arg, str) for arg in value.args):
         return ()
-    return occurring([value])
+    return subterms([value])

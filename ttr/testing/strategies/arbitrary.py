@@ -13,11 +13,11 @@ from typing import Any, TypeAlias
 from hypothesis import strategies as st
 
 from ttr.building.constructors import rectype
-from ttr.building.formation import checked_binder
+from ttr.building.formation import check_binder
 from ttr.errors import TTRError
 from ttr.theories.theory import Theory
 from ttr.types.objects import concat, fst, rst
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.syntax import (
     BOUND,
     Application,
@@ -120,7 +120,7 @@ def _visible(scopes: Scopes) -> list[tuple[Path, TypeNode]]:
 def _inside(label: str, T: TypeNode) -> dict[tuple[str, ...], TypeNode]:
     """The paths that start at a label or a variable, and the types they lead to."""
     found: dict[tuple[str, ...], TypeNode] = {}
-    if not escaping(T):
+    if not free_paths(T):
         found[label,] = T
     if isinstance(T, RecordType):
         for inner, field in T.fields:
@@ -215,7 +215,7 @@ def _function_types(
     domain = draw(_domains(words, scopes, depth))
     kind = draw(_RESULT_KIND)
     result = draw(kind(words, (_inside(BOUND, domain), *scopes), depth))
-    return checked_binder(FunType(domain, result, draw(_LABEL)))
+    return check_binder(FunType(domain, result, draw(_LABEL)))
 
 
 @st.composite
@@ -375,7 +375,7 @@ def _functions(
     domain = draw(_domains(words, scopes, depth))
     within = (_inside(BOUND, domain), *scopes)
     body = draw(bodies(words, within, depth))
-    return checked_binder(Function(domain, body, draw(_LABEL)))
+    return check_binder(Function(domain, body, draw(_LABEL)))
 
 
 @st.composite
@@ -435,7 +435,7 @@ def _record_forms(
     words: Words, scopes: Scopes, depth: int, T: RecordType
 ) -> st.SearchStrategy[Object]:
     """Records with the labels of a type; their paths do not lead into the record."""
-    closed = {k: field for k, field in T.fields if not escaping(field)}
+    closed = {k: field for k, field in T.fields if not free_paths(field)}
     parts = {k: forms(words, scopes, depth, field) for k, field in closed.items()}
     others = dict.fromkeys(T.labels, st.sampled_from(words.names))
     return st.fixed_dictionaries({**others, **parts}).map(Record)

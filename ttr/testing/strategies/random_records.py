@@ -16,7 +16,7 @@ from ttr.testing.strategies.arbitrary import Words
 from ttr.testing.strategies.random_models import facts
 from ttr.theories.theory import Theory
 from ttr.types.objects import Unresolved
-from ttr.types.substitution import grounded
+from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     Basic,
     FiniteSet,
@@ -161,6 +161,6 @@ def _shapes_of_field(
 ) -> st.SearchStrategy[Object]:
     """Objects of the shape of a field, in a record that already has other fields."""
     try:
-        return _shapes(grounded(T, (fields,)), M, names)
+        return _shapes(resolve_paths(T, (fields,)), M, names)
     except Unresolved:
         return st.sampled_from(names)

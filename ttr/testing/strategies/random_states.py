@@ -15,7 +15,7 @@ from ttr.computing.subtyping import subtype
 from ttr.errors import IllFormedError, TTRError
 from ttr.judging.models import Model, as_model
 from ttr.testing.strategies.random_records import objects_of_shape, records, with_fact
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.syntax import (
     Basic,
     Join,
@@ -208,7 +208,7 @@ def _known(
     T: TypeNode, M: Model, among: Container[object] | None = None
 ) -> tuple[Object, ...]:
     """Objects that the model knows of a type; of many, the first and the last ones."""
-    if not isinstance(T, Basic | PType) or escaping(T):
+    if not isinstance(T, Basic | PType) or free_paths(T):
         return ()
     found = M.witnesses(T)
     if among is not None:

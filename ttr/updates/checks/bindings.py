@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ttr.computing.cycles import round_about
+from ttr.computing.cycles import find_cycle
 from ttr.judging.witnesses import can_be_listed
-from ttr.types.paths import occurring
+from ttr.types.paths import subterms
 from ttr.types.syntax import Object, RecordType, Singleton
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
@@ -45,8 +45,8 @@ def find_circular_fields(rules: RuleSet) -> Iterator[Fault]:
 
 
 def _find_cycle(rule: Rule, value: Object, role: str) -> Iterator[Fault]:
-    types = (part for part in occurring([value]) if isinstance(part, RecordType))
-    around = next(filter(None, map(round_about, types)), ())
+    types = (part for part in subterms([value]) if isinstance(part, RecordType))
+    around = next(filter(None, map(find_cycle, types)), ())
     if not around:
         return
     (first, *others), cycle = around, " → ".join(around)

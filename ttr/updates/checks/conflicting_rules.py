@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import identity
 from ttr.updates.algorithms import Algorithm, All, ByClass, Maybe, Repeat
@@ -78,16 +78,16 @@ def _conflicting_writes(
 def _surely_differ(rules: RuleSet, one: Write, other: Write) -> bool:
     """Do two writes surely set different values?"""
     if one.term is not None and other.term is not None:
-        if escaping(one.term.value) or escaping(other.term.value):
+        if free_paths(one.term.value) or free_paths(other.term.value):
             return False
         return identity(one.term.value) != identity(other.term.value)
     if one.type is None or other.type is None:
         return False
-    closed = not escaping(one.type) and not escaping(other.type)
+    closed = not free_paths(one.type) and not free_paths(other.type)
     return closed and not rules.are_compatible(one.type, other.type)
 
 
 def _format_write(write: Write) -> str:
-    if write.term is not None and not escaping(write.term.value):
+    if write.term is not None and not free_paths(write.term.value):
         return notation(write.term.value)
     return f"something of {write.type}"

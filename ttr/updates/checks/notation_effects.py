@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ttr.types.paths import escaping, replace_paths
+from ttr.types.paths import free_paths, replace_paths
 from ttr.types.syntax import (
     Object,
     Path,
@@ -32,7 +32,7 @@ def summarise_notation(rule: Rule, body: Body) -> EffectSummary:
 
 
 def _reads(rule: Rule, value: Object) -> Iterator[Access]:
-    for path in sorted(escaping(value), key=lambda path: path.labels):
+    for path in sorted(free_paths(value), key=lambda path: path.labels):
         variable, *labels = path.labels
         spans = [
             span_of_label(rule, label, path.labels[: i + 2])
@@ -71,6 +71,6 @@ def _seen_from_outside(term: Object, depth: int) -> Term | None:
 
     None where it depends on other fields of these records.
     """
-    if any(path.up < depth for path in escaping(term)):
+    if any(path.up < depth for path in free_paths(term)):
         return None
     return Term(replace_paths(term, lambda path: Path(path.up - depth, path.labels)))

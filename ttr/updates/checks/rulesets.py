@@ -16,7 +16,7 @@ from ttr.errors import TTRError
 from ttr.judging.models import Model
 from ttr.probability import REFUTED
 from ttr.signature.signature import Signature
-from ttr.types.paths import escaping, occurring
+from ttr.types.paths import free_paths, subterms
 from ttr.types.syntax import (
     Basic,
     Object,
@@ -96,7 +96,7 @@ class RuleSet:
         if self.start is None or rule.when is self.type:
             return
         for path, T in leaf_fields(rule.when):
-            if not path or escaping(T) or T in views_along(self.type, path):
+            if not path or free_paths(T) or T in views_along(self.type, path):
                 continue
             found = views_along(Term(self.start), path)
             if all(self.excludes(view, T) for view in found):
@@ -124,7 +124,7 @@ class RuleSet:
     def views_brought_by(self, rule: Rule, write: Write) -> Views:
         """The views of what a write sets; none if it may be anything."""
         if write.term is None or not isinstance(write.term.value, Path):
-            if write.term is not None and not escaping(write.term.value):
+            if write.term is not None and not free_paths(write.term.value):
                 return (write.term,)
             return () if write.type is None else (write.type,)
         variable, *labels = write.term.value.labels
@@ -179,7 +179,7 @@ class RuleSet:
         facts = self.model.facts
         heads = dict.fromkeys(
             part.pred if isinstance(part, PType) else part
-            for part in occurring(self._all_types())
+            for part in subterms(self._all_types())
             if isinstance(part, Basic | PType | Pred)
         )
         opened = facts.opened.update(Map(dict.fromkeys(heads, True)))
@@ -200,11 +200,11 @@ class RuleSet:
 
     def excludes(self, found: View, T: TypeNode) -> bool:
         """Is something with this view surely not of a type?"""
-        if escaping(T) or found is T:
+        if free_paths(T) or found is T:
             return False
         if isinstance(found, Term):
             return self._is_refuted(found.value, T)
-        return not escaping(found) and not self.are_compatible(found, T)
+        return not free_paths(found) and not self.are_compatible(found, T)
 
     def _is_refuted(self, value: Object, T: TypeNode) -> bool:
         """Is an object not of a type, whatever else may become known?"""

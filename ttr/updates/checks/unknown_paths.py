@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ttr.errors import Span, suggestion
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.syntax import Meet, Object, Record, RecordType, Singleton
 from ttr.updates.algorithms import Algorithm, ByClass, Maybe, Repeat
 from ttr.updates.checks.effect_summaries import Access, Built
@@ -53,7 +53,7 @@ def _misread_paths(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
 
 def _paths_in_bindings(rule: Rule) -> Iterator[Access]:
     """The paths in the bindings of a rule; they start at its other variables."""
-    for path in sorted(escaping(rule.where), key=lambda path: path.labels):
+    for path in sorted(free_paths(rule.where), key=lambda path: path.labels):
         variable, *labels = path.labels
         steps = [path.labels[: i + 2] for i in range(len(labels))]
         spans = [span_of_label(rule, step[-1], step, "where") for step in steps]

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from itertools import chain
 
 from ttr.probability import CERTAIN
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import Path, Singleton, TypeNode, meet
 from ttr.updates.algorithms import (
@@ -83,7 +83,7 @@ def _impossible_bindings(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
     """Bindings that are set to something that cannot be of their types."""
     for label, field in rule.where.fields if rule.where else ():
         match field:
-            case Singleton(base, Path(1, (variable, *labels))) if not escaping(base):
+            case Singleton(base, Path(1, (variable, *labels))) if not free_paths(base):
                 found = rules.views_at(rule, variable, tuple(labels))
             case _:
                 continue

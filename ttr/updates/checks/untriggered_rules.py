@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import Path, Singleton, TypeNode
 from ttr.updates.checks.effect_summaries import Write
@@ -163,7 +163,11 @@ def _planned_moves(
             shared = min(len(write.path), len(agenda))
             if write.path[:shared] != agenda[:shared]:
                 continue
-            if write.path != agenda or write.term is None or escaping(write.term.value):
+            if (
+                write.path != agenda
+                or write.term is None
+                or free_paths(write.term.value)
+            ):
                 return None
             values.append(write.term.value)
     lists = (value for value in values if isinstance(value, tuple))

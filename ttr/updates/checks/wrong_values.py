@@ -9,7 +9,7 @@ from functools import reduce
 from ttr.building.merging import merge
 from ttr.errors import Span
 from ttr.probability import REFUTED
-from ttr.types.paths import escaping
+from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import (
     Basic,
@@ -121,7 +121,7 @@ def _misfit(
 
 
 def _format_value(term: Term | None, view: View) -> str:
-    if term is not None and not escaping(term.value):
+    if term is not None and not free_paths(term.value):
         return notation(term.value)
     if isinstance(view, Term):
         return notation(view.value)
@@ -178,7 +178,7 @@ def declared_type(rules: RuleSet, path: Labels) -> TypeNode | None:
 def views_of(T: TypeNode) -> tuple[View, ...]:
     """What a field says of its value: which object it is, and of which type."""
     if isinstance(T, Singleton):
-        own = () if escaping(T.value) else (Term(T.value),)
+        own = () if free_paths(T.value) else (Term(T.value),)
         return (*own, T.base)
     return (T,)
 
