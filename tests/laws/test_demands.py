@@ -11,8 +11,8 @@ from kille.dialogue.meanings import adjective, noun, relation, theory, word_of
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
 from ttr import Ind, Model, Pred, record, rectype
-from ttr.judging.certainty import certainly
-from ttr.judging.rule_index import Sieve, demands_of
+from ttr.judging.certainty import is_certain
+from ttr.judging.rule_index import RuleIndex, demands_of
 from ttr.semantics.gameboards import kos
 from ttr.semantics.questions import which
 from ttr.updates import First
@@ -22,16 +22,16 @@ from ttr.updates import First
 
 @given(st.lists(types(), min_size=1, max_size=5), objects(), models())
 def test_what_is_left_out_is_certainly_not_so(several, a, M):
-    left = Sieve(map(demands_of, several)).left(a, M.facts)
+    left = RuleIndex(map(demands_of, several)).left(a, M.facts)
     assert list(left) == sorted(set(left))
     for number, T in enumerate(several):
-        assert number in left or not certainly(M.facts, a, T)
+        assert number in left or not is_certain(M.facts, a, T)
 
 
 def test_what_is_open_is_left():
     ask, tell = Pred("ask", Ind), Pred("tell", Ind)
     asks, tells = rectype(e=ask("a")), rectype(e=tell("a"))
-    sieve = Sieve(map(demands_of, (asks, tells)))
+    sieve = RuleIndex(map(demands_of, (asks, tells)))
     told = Model().given("a", Ind).given("s1", ask("a"))
     assert list(sieve.left(record(e="s1"), told.facts)) == [0]
     assert list(sieve.left(record(e="s2"), told.facts)) == []
@@ -45,7 +45,7 @@ def test_what_is_open_is_left():
 
 def without_sieves():
     """Every part is tried, of strategies and of joins."""
-    return patch.object(Sieve, "left", lambda self, sit, facts: range(len(self)))
+    return patch.object(RuleIndex, "left", lambda self, sit, facts: range(len(self)))
 
 
 def traced(game, events):

@@ -16,18 +16,18 @@ from ttr import (
     record,
     rectype,
 )
-from ttr.judging.certainty import certainly, certainly_also
+from ttr.judging.certainty import is_certain, is_certain_given
 from ttr.probability import CERTAIN
 
 
 @given(types(), objects(), models())
 def test_certainty_is_that_of_the_derivation(T, a, M):
-    assert certainly(M.facts, a, T) == (M.judge(a, T).p == CERTAIN)
+    assert is_certain(M.facts, a, T) == (M.judge(a, T).p == CERTAIN)
 
 
 @given(record_types(), records(), models())
 def test_certainty_of_records_is_that_of_the_derivation(T, r, M):
-    assert certainly(M.facts, r, T) == (M.judge(r, T).p == CERTAIN)
+    assert is_certain(M.facts, r, T) == (M.judge(r, T).p == CERTAIN)
 
 
 @given(types(), types(), models())
@@ -38,8 +38,8 @@ def test_what_is_known_need_not_be_judged_again(T, known, M):
         assume(False)
     for asked in (T, known, meet(T, known), ListOf(T), NonEmpty(known)):
         for sit, given_ in ((a, known), ((a, a), ListOf(known)), ((), ListOf(known))):
-            found = certainly_also(M.facts, sit, asked, given_)
-            assert found == certainly(M.facts, sit, asked)
+            found = is_certain_given(M.facts, sit, asked, given_)
+            assert found == is_certain(M.facts, sit, asked)
 
 
 @given(record_types(), record_types(), models())
@@ -49,8 +49,8 @@ def test_what_is_known_of_records_need_not_be_judged_again(T, known, M):
     except TTRError:
         assume(False)
     for asked in (T, known, merge(T, known), amerge(known, T)):
-        found = certainly_also(M.facts, r, asked, known)
-        assert found == certainly(M.facts, r, asked)
+        found = is_certain_given(M.facts, r, asked, known)
+        assert found == is_certain(M.facts, r, asked)
 
 
 @given(record_types(), models(), st.sampled_from([0.0, 0.5, 1.0]), st.data())
@@ -59,22 +59,22 @@ def test_what_was_told_anew_is_judged_anew(T, M, p, data):
         r, M = M.create(T)
     except TTRError:
         assume(False)
-    assert certainly(M.facts, r, T)
+    assert is_certain(M.facts, r, T)
     told = [(r[label], F) for label, F in T.fields if isinstance(F, Basic)]
     assume(told)
     try:
         M = M.given(*data.draw(st.sampled_from(told)), p)
     except TTRError:
         assume(False)
-    assert certainly(M.facts, r, T) == (M.judge(r, T).p == CERTAIN)
+    assert is_certain(M.facts, r, T) == (M.judge(r, T).p == CERTAIN)
 
 
 def test_other_witness_functions_judge_anew():
     A = Basic("A")
     r, T = record(x="a"), rectype(x=A)
     short = Model().witnessed(A, by=lambda a: len(a) == 1)
-    assert certainly(short.facts, r, T)
+    assert is_certain(short.facts, r, T)
     long = short.witnessed(A, by=lambda a: len(a) > 1)
-    assert not certainly(long.facts, r, T)
-    assert not certainly(short.given("a", A, 0.5).facts, r, T)
-    assert certainly(short.facts, r, T)
+    assert not is_certain(long.facts, r, T)
+    assert not is_certain(short.given("a", A, 0.5).facts, r, T)
+    assert is_certain(short.facts, r, T)

@@ -525,6 +525,7 @@ def test_what_certainly_is_not_of_a_type_is_no_candidate():
         ("tabled", "with_table"),
         ("dependent", "with_unknown_dependence"),
         ("stated", "with_given"),
+        ("reduced", "reduce"),
     ],
 )
 def test_former_names_of_methods_work_and_warn(former, now):

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from ttr import ListOf, Model, NonEmpty, RecordType, Singleton, Theory
-from ttr.judging.certainty import certainly, certainly_also
+from ttr.judging.certainty import is_certain, is_certain_given
 from ttr.probability import CERTAIN
 
 FOLDER = Path(__file__).parent / "recorded_judgements"
@@ -60,7 +60,7 @@ def outline(derivation):
 @pytest.mark.parametrize(("M", "sit", "T", "derivation"), RECORDED)
 def test_what_is_certain_is_as_recorded(M, sit, T, derivation):
     found = derivation.startswith("✓")
-    assert certainly(M.facts, sit, T) is found
+    assert is_certain(M.facts, sit, T) is found
     assert (M.judge(sit, T).p == CERTAIN) is found
 
 
@@ -68,5 +68,5 @@ def test_what_is_certain_is_as_recorded(M, sit, T, derivation):
 def test_what_is_certain_given_what_is_known_is_as_recorded(M, sit, T, derivation):
     found = derivation.startswith("✓")
     for known in KNOWN:
-        if certainly(M.facts, sit, known):
-            assert certainly_also(M.facts, sit, T, known) is found
+        if is_certain(M.facts, sit, known):
+            assert is_certain_given(M.facts, sit, T, known) is found

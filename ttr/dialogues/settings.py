@@ -67,7 +67,7 @@ class Setting:
         known = (name for name in model.facts.known if isinstance(name, str))
         names = self.theory.objects.union(known)
         value = read_term(text, replace(self.theory, objects=names), source)
-        return model.reduced(value)
+        return model.reduce(value)
 
 
 def setting(reference: str, folder: Path, consent: Consent | None = None) -> Setting:

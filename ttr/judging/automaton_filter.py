@@ -22,7 +22,7 @@ from ttr.judging.judgements import Why
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.types.syntax import TypeNode, identity, meet
 
-__all__ = ["Following", "followed_from"]
+__all__ = ["AutomatonFilter", "start_filter"]
 
 TOLD_APART = 4
 """The number of uncertain types of one event for which all cases are distinguished."""
@@ -34,8 +34,8 @@ _NOTHING: Map[object, bool] = Map()
 
 
 @dataclass(frozen=True, eq=False)
-class Following:
-    """The states an automaton may be in, with their degrees; made by `followed_from`.
+class AutomatonFilter:
+    """The states an automaton may be in, with their degrees; made by `start_filter`.
 
     `doubted` are the objects of which something uncertain was asked. Uncertain
     judgements of different objects are independent, unless they are `linked`.
@@ -57,7 +57,7 @@ class Following:
         final = self.automaton.final
         return self.beliefs.probability(lambda states: not states.isdisjoint(final))
 
-    def after(self, reads: Reads) -> Following:
+    def after(self, reads: Reads) -> AutomatonFilter:
         """The filter after one more event, which may lead nowhere."""
         event = _Event(reads)
         steps = partial(self._steps, event)
@@ -79,10 +79,10 @@ class Following:
             yield frozenset(edge.target for edge in edges if edge.label in fitting), p
 
 
-def followed_from(automaton: Automaton, linked: bool) -> Following:
+def start_filter(automaton: Automaton, linked: bool) -> AutomatonFilter:
     """The filter before the first event, for an automaton that asks for no wholes."""
     start = NOWHERE if automaton.empty else frozenset((automaton.start,))
-    return Following(automaton, linked, Beliefs.certain(start))
+    return AutomatonFilter(automaton, linked, Beliefs.certain(start))
 
 
 class _Event:

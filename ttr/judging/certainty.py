@@ -1,7 +1,7 @@
 """Is a judgement certain? The clauses of `Evaluator`, without deriving why.
 
 Updates ask this of every rule and state, and mostly the answer is plain from the form
-of the type. Law: `certainly(facts, a, T)` iff the derivation of a : T ends in [1, 1].
+of the type. Law: `is_certain(facts, a, T)` iff the derivation of a : T ends in [1, 1].
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ttr.errors import RefusedError
 from ttr.judging.assignments import Assignment, Atom
 from ttr.judging.evaluator import Evaluator, derivation
 from ttr.judging.judgements import How
-from ttr.judging.rule_index import Sieve, demands_of
+from ttr.judging.rule_index import RuleIndex, demands_of
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.types.objects import Unresolved, is_immutable
 from ttr.types.paths import subterms
@@ -41,34 +41,34 @@ from ttr.types.syntax import (
     identity,
 )
 
-__all__ = ["certainly", "certainly_also", "note"]
+__all__ = ["is_certain", "is_certain_given", "remember_certain"]
 
 
-def certainly(facts: Assignment, sit: Object, T: TypeNode) -> bool:
+def is_certain(facts: Assignment, sit: Object, T: TypeNode) -> bool:
     """Is sit : T certain by the facts?
 
     >>> from ttr.building.constructors import rectype
     >>> from ttr.judging.models import Model
     >>> from ttr.types.syntax import Ind, record
     >>> M = Model().given("a", Ind)
-    >>> certainly(M.facts, record(x="a"), rectype(x=Ind))
+    >>> is_certain(M.facts, record(x="a"), rectype(x=Ind))
     True
     """
     return _Certainty(facts).of(sit, T, ())
 
 
-def certainly_also(
+def is_certain_given(
     facts: Assignment, sit: Object, T: TypeNode, known: TypeNode
 ) -> bool:
     """Is sit : T certain by the facts, given that sit : known certainly holds?
 
     What the known type says is not judged again. Law: where sit : known is certain,
-    the answer is that of `certainly`.
+    the answer is that of `is_certain`.
 
     >>> from ttr.judging.models import Model
     >>> from ttr.types.syntax import Ind
     >>> M = Model().given("a", Ind)
-    >>> certainly_also(M.facts, ("a", "a"), NonEmpty(Ind), ListOf(Ind))
+    >>> is_certain_given(M.facts, ("a", "a"), NonEmpty(Ind), ListOf(Ind))
     True
     """
     if T is known:
@@ -150,7 +150,7 @@ class _Certainty(Evaluator[bool]):
             return True
         found = Evaluator._judge_record(self, sit, T, around, where)
         if found:
-            note(self.facts, sit, T)
+            remember_certain(self.facts, sit, T)
         return found
 
     def _judge_ptype(self, sit: Object, T: PType, around: Around, where: str) -> bool:
@@ -201,9 +201,9 @@ def _most_telling_first(T: RecordType) -> tuple[tuple[str, TypeNode], ...]:
 
 
 @lru_cache(4096)
-def _index_of_parts(T: Join) -> Sieve:
+def _index_of_parts(T: Join) -> RuleIndex:
     """An index that finds the parts of a join that an object may be of."""
-    return Sieve(map(demands_of, T.parts))
+    return RuleIndex(map(demands_of, T.parts))
 
 
 Claims: TypeAlias = tuple[
@@ -246,7 +246,7 @@ Grounds: TypeAlias = tuple[object, ...]
 same objects, the same records are of types made of those basic types."""
 
 
-def note(facts: Assignment, sit: Record, T: RecordType) -> None:
+def remember_certain(facts: Assignment, sit: Record, T: RecordType) -> None:
     """Remember that a record is certainly of T, so that it is not judged again."""
     basics = _basics(T)
     if basics is None or not is_immutable(sit) or not _need_no_axioms(facts, basics):

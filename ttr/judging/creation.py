@@ -21,8 +21,13 @@ from ttr.computing.strings.pieces import (
 from ttr.computing.strings.runs import shortest_words
 from ttr.errors import RefusedError, TTRError
 from ttr.judging.assignments import Assignment
-from ttr.judging.certainty import certainly
-from ttr.judging.evaluator import derivation, is_reduced, make_witness, reduced
+from ttr.judging.certainty import is_certain
+from ttr.judging.evaluator import (
+    derivation,
+    is_reduced,
+    make_witness,
+    reduce_applications,
+)
 from ttr.probability import CERTAIN, REFUTED
 from ttr.safety.budgets import spend
 from ttr.types.objects import Unresolved
@@ -130,7 +135,7 @@ def _with_denial(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
 
 def _reduce_to_type(facts: Assignment, T: Application) -> TypeNode:
     """The type that a function gives; raises `RefusedError` where it gives none."""
-    found = reduced(facts, T)
+    found = reduce_applications(facts, T)
     if isinstance(found, TypeNode) and not isinstance(found, Application):
         return found
     raise RefusedError(f"{T} is no type, so nothing is of it")
@@ -218,7 +223,7 @@ class _WitnessMaker:
             case Meet() | Join() | Negation():
                 return self._combined(facts, T)
             case Singleton(base, value):
-                value = reduced(facts, value)
+                value = reduce_applications(facts, value)
                 return value, _with_certainty(facts, value, base)
             case ListOf(item):
                 return self._list(facts, item, self._size)
@@ -349,7 +354,7 @@ class _WitnessMaker:
         parts = T.parts if isinstance(T, Meet) else (T,)
         values = [part.value for part in parts if isinstance(part, Singleton)]
         if values:
-            value = reduced(facts, values[0])
+            value = reduce_applications(facts, values[0])
             return value, _with_certainty(facts, value, T)
         if any(map(is_of_strings, parts)):
             return self._by_events(facts, T)
@@ -410,7 +415,7 @@ def _further_out(path: Path) -> Path:
 
 def _with_certainty(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
     """The assignment itself if sit is certainly of T, else one in which it is."""
-    return facts if certainly(facts, sit, T) else with_judgement(facts, sit, T)
+    return facts if is_certain(facts, sit, T) else with_judgement(facts, sit, T)
 
 
 def _merged(facts: Assignment, S: TypeNode, T: TypeNode) -> TypeNode:

@@ -69,7 +69,7 @@ __all__ = [
     "derivation",
     "is_reduced",
     "make_witness",
-    "reduced",
+    "reduce_applications",
 ]
 
 Answer = TypeVar("Answer")
@@ -319,7 +319,7 @@ class Evaluator(ABC, Generic[Answer]):
         """The value without paths and applications."""
         if free_paths(value):
             value = resolve_paths(value, around)
-        return reduced(self.facts, value)
+        return reduce_applications(self.facts, value)
 
     def _value_in(self, T: Singleton, around: Around) -> Object:
         """The object that a singleton type is of."""
@@ -475,7 +475,7 @@ class _Derivation(Evaluator[Why]):
             return [inside]
         scope: Around = ({BOUND: x},)
         try:
-            value = reduced(self.facts, resolve_paths(sit.body, scope))
+            value = reduce_applications(self.facts, resolve_paths(sit.body, scope))
         except (Unresolved, RefusedError) as wrong:
             return [inside, Why(sit.body, T.result, REFUTED, wrong.message)]
         return [inside, self.of(value, T.result, scope)]
@@ -506,7 +506,7 @@ def _decide(how: How, degrees: list[Degree]) -> Degree | None:
 # --- applications --------------------------------------------------------------------
 
 
-def reduced(facts: Assignment, value: Object) -> Object:
+def reduce_applications(facts: Assignment, value: Object) -> Object:
     """The value with every application in it reduced, except those that mention paths.
 
     Raises `RefusedError` where an argument is not certainly of the function's domain,
@@ -515,10 +515,10 @@ def reduced(facts: Assignment, value: Object) -> Object:
     spend()
     if not mentions(value, Application):
         return value
-    value = map_parts(value, lambda part, _: reduced(facts, part))
+    value = map_parts(value, lambda part, _: reduce_applications(facts, part))
     if not isinstance(value, Application) or free_paths(value):
         return value
-    return reduced(facts, _apply(facts, value.function, value.argument))
+    return reduce_applications(facts, _apply(facts, value.function, value.argument))
 
 
 def _reduce_head(facts: Assignment, T: Application) -> Object:
@@ -528,7 +528,7 @@ def _reduce_head(facts: Assignment, T: Application) -> Object:
     """
     value: Object = T
     while isinstance(value, Application):
-        function, argument = value.function, reduced(facts, value.argument)
+        function, argument = value.function, reduce_applications(facts, value.argument)
         if isinstance(function, Application):
             function = _reduce_head(facts, function)
         value = _apply(facts, function, argument)

@@ -31,7 +31,7 @@ from ttr.judging.conditioning import (
 )
 from ttr.judging.creation import create_witness, with_judgement
 from ttr.judging.dependence_analysis import check_together
-from ttr.judging.evaluator import derivation, reduced
+from ttr.judging.evaluator import derivation, reduce_applications
 from ttr.judging.existential import Range, probability_of_any, probability_of_some
 from ttr.judging.judgements import Judgement, Why
 from ttr.judging.perception import fill_fields
@@ -359,12 +359,12 @@ class Model:
         Traceback (most recent call last):
         ttr...RefusedError: \\x:Ind. run(x) takes objects of Ind, which zz is not: ...
         """
-        return self.reduced(Application(function, argument))
+        return self.reduce(Application(function, argument))
 
     @within_budget
-    def reduced(self, value: object, /) -> Object:
+    def reduce(self, value: object, /) -> Object:
         """The type or object with every application in it reduced."""
-        return reduced(self._facts, freeze(value))
+        return reduce_applications(self._facts, freeze(value))
 
     @within_budget
     def witnesses(self, T: TypeNode, /) -> tuple[Object, ...]:
@@ -452,6 +452,7 @@ class Model:
     tabled = Alias("with_table")
     dependent = Alias("with_unknown_dependence")
     stated = Alias("with_given")
+    reduced = Alias("reduce")
 
     def _truth_of_proposition(self, proposition: Object) -> Degree:
         """How certain it is that an Austinian proposition is true."""

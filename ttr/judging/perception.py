@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ttr.errors import RefusedError
 from ttr.judging.assignments import Assignment
-from ttr.judging.evaluator import reduced
+from ttr.judging.evaluator import reduce_applications
 from ttr.safety.budgets import spend
 from ttr.types.objects import Unresolved
 from ttr.types.substitution import resolve_paths
@@ -38,7 +38,7 @@ def _fill_record(
     fields = dict(sit._fields)
     for label, field in T.fields:
         try:
-            ground = reduced(facts, resolve_paths(field, (fields,)))
+            ground = reduce_applications(facts, resolve_paths(field, (fields,)))
         except (Unresolved, RefusedError):
             continue
         seen, facts = _perceive_field(facts, fields.get(label), ground)

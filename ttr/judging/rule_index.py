@@ -23,7 +23,7 @@ from ttr.types.syntax import (
     TypeNode,
 )
 
-__all__ = ["Demands", "Sieve", "any_of", "demands_of"]
+__all__ = ["Demands", "RuleIndex", "demands_of_any", "demands_of"]
 
 Labels: TypeAlias = tuple[str, ...]
 """The labels of a path, from the state inwards."""
@@ -53,17 +53,17 @@ def demands_of(T: TypeNode) -> Demands:
                 for path, preds in demands_of(field).items()
             }
         case Join(parts):
-            return any_of(map(demands_of, parts))
+            return demands_of_any(map(demands_of, parts))
         case Meet(parts):
             return {k: v for part in parts for k, v in demands_of(part).items()}
     return {}
 
 
-def any_of(demands: Iterable[Demands]) -> Demands:
+def demands_of_any(demands: Iterable[Demands]) -> Demands:
     """What an object has at some paths if it meets any of several demands.
 
     >>> P, Q = Pred("p"), Pred("q")
-    >>> any_of([{("x",): {P}, ("y",): {P}}, {("x",): {Q}}]) == {("x",): {P, Q}}
+    >>> demands_of_any([{("x",): {P}, ("y",): {P}}, {("x",): {Q}}]) == {("x",): {P, Q}}
     True
     """
     first, *others = demands
@@ -74,7 +74,7 @@ def any_of(demands: Iterable[Demands]) -> Demands:
     }
 
 
-class Sieve:
+class RuleIndex:
     """Finds the demands that a state may meet by looking at one of its paths.
 
     That is the path that most demands mention. Law: a demand that is left out is not

@@ -17,7 +17,7 @@ from ttr.computing.strings.runs import (
     find_divisions,
 )
 from ttr.judging.assignments import Assignment, Atom
-from ttr.judging.automaton_filter import followed_from
+from ttr.judging.automaton_filter import start_filter
 from ttr.judging.judgements import Why
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import spend
@@ -112,7 +112,7 @@ class Segmentation:
         """
         if any(found.wholes.values()):
             return UNKNOWN
-        following = followed_from(found, bool(self._facts.links))
+        following = start_filter(found, bool(self._facts.links))
         for event in self._events:
             following = following.after(partial(self._why, event))
         return following.may_end

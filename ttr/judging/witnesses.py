@@ -12,7 +12,7 @@ from ttr.building.merging import merge
 from ttr.computing.strings.pieces import string_of
 from ttr.errors import RefusedError, UnsupportedError
 from ttr.judging.assignments import Assignment
-from ttr.judging.evaluator import derivation, reduced
+from ttr.judging.evaluator import derivation, reduce_applications
 from ttr.probability import Degree
 from ttr.safety.budgets import spend
 from ttr.types.objects import Unresolved
@@ -87,7 +87,7 @@ class _Listing:
             case Basic() | PType():
                 yield from facts.told_of(T, self._enough)
             case Singleton(_, value):
-                value = reduced(facts, value)
+                value = reduce_applications(facts, value)
                 if self._is_of(value, T):
                     yield value
             case Join(parts):
@@ -113,7 +113,7 @@ class _Listing:
     def _of_application(self, T: Application) -> Iterator[Object]:
         """The objects of the type that a function gives, if it gives one."""
         try:
-            value = reduced(self.facts, T)
+            value = reduce_applications(self.facts, T)
         except RefusedError:
             return
         if isinstance(value, TypeNode):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from typing import NamedTuple, TypeAlias
 
-from ttr.probability.degrees import CERTAIN, REFUTED, UNKNOWN, Degree, ordered
+from ttr.probability.degrees import CERTAIN, REFUTED, UNKNOWN, Degree, order_ends
 from ttr.probability.dependence import INDEPENDENT, Component, Dependence
 from ttr.probability.events import (
     SURE,
@@ -105,7 +105,7 @@ def _quotient(event: Event, known: Dependence, given: Event) -> Chance:
     hi = both.p.hi / (both.p.hi + only.p.lo) if both.p.hi > 0.0 else 0.0
     points = both.p.lo == both.p.hi and only.p.lo == only.p.hi
     rests_on = tuple(dict.fromkeys((*both.rests_on, *only.rests_on)))
-    return Chance(ordered(lo, hi), points and both.exact and only.exact, rests_on)
+    return Chance(order_ends(lo, hi), points and both.exact and only.exact, rests_on)
 
 
 Joint: TypeAlias = Network | Polytope

@@ -15,7 +15,7 @@ __all__ = [
     "Degree",
     "complement",
     "degree",
-    "ordered",
+    "order_ends",
     "shown",
 ]
 
@@ -88,10 +88,10 @@ def complement(x: float) -> float:
     return float(1 - Fraction(repr(float(x))))
 
 
-def ordered(lo: float, hi: float) -> Degree:
+def order_ends(lo: float, hi: float) -> Degree:
     """The interval of two ends that rounding may have put out of order.
 
-    >>> ordered(0.3000000001, 0.3)
+    >>> order_ends(0.3000000001, 0.3)
     Degree(lo=0.3, hi=0.3000000001)
     """
     lo, hi = min(max(lo, 0.0), 1.0), min(max(hi, 0.0), 1.0)

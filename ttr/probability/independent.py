@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Hashable, Mapping
 from itertools import product
 
-from ttr.probability.degrees import Degree, ordered
+from ttr.probability.degrees import Degree, order_ends
 from ttr.probability.events import All, AnyOf, Atomic, Event, Not, atoms, signs
 from ttr.safety.budgets import spend
 
@@ -36,7 +36,7 @@ def sum_over_cases(event: Event) -> Degree | None:
     """
     names = _shared_atoms(event)
     if not names:
-        return ordered(*_separate(event, {}))
+        return order_ends(*_separate(event, {}))
     degrees = {one.atom: one.p for one in atoms(event)}
     rising: dict[Hashable, set[bool]] = {}
     for one, sign in signs(event):
@@ -51,7 +51,7 @@ def sum_over_cases(event: Event) -> Degree | None:
         high = {a: fixed.get(a, degrees[a][True in rising[a]]) for a in names}
         lows.append(_weigh(event, low)[0])
         highs.append(_weigh(event, high)[1])
-    return ordered(min(lows), max(highs))
+    return order_ends(min(lows), max(highs))
 
 
 def _weigh(event: Event, p: Mapping[Hashable, float]) -> tuple[float, float]:
@@ -106,8 +106,8 @@ def bounds(event: Event) -> Degree:
         case All(parts):
             found = [bounds(part) for part in parts]
             low = sum(p.lo for p in found) - (len(found) - 1)
-            return ordered(max(0.0, low), min((p.hi for p in found), default=1.0))
+            return order_ends(max(0.0, low), min((p.hi for p in found), default=1.0))
         case AnyOf(parts):
             found = [bounds(part) for part in parts]
             high = min(1.0, sum(p.hi for p in found))
-            return ordered(max((p.lo for p in found), default=0.0), high)
+            return order_ends(max((p.lo for p in found), default=0.0), high)

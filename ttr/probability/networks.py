@@ -14,7 +14,7 @@ from fractions import Fraction
 from itertools import product
 from math import prod
 
-from ttr.probability.degrees import REFUTED, UNKNOWN, Degree, ordered
+from ttr.probability.degrees import REFUTED, UNKNOWN, Degree, order_ends
 from ttr.probability.dependence import Component
 from ttr.probability.events import Truth
 from ttr.probability.linear_programs import units
@@ -72,7 +72,7 @@ class Network:
                 highs.append(Fraction(high, whole))
         if not lows:
             raise Impossible
-        return ordered(float(min(lows)), float(max(highs)))
+        return order_ends(float(min(lows)), float(max(highs)))
 
 
 def network(component: Component, needed: Sequence[Hashable]) -> Network | None:
@@ -129,7 +129,7 @@ def conjunction(component: Component, truth: Truth, given: Truth) -> Degree | No
             found.append(Fraction(mine[()], whole[()]))
     if corners is not None and not found:
         raise Impossible
-    return ordered(float(min(found)), float(max(found))) if found else None
+    return order_ends(float(min(found)), float(max(found))) if found else None
 
 
 def _product(component: Component, parents: Parents, truth: Truth) -> Degree:
@@ -139,7 +139,7 @@ def _product(component: Component, parents: Parents, truth: Truth) -> Degree:
         p = _degree(component, parents, (atom, tuple([truth[one] for one in on])))
         ends = (p.lo, p.hi) if truth[atom] else (1.0 - p.hi, 1.0 - p.lo)
         lo, hi = lo * ends[0], hi * ends[1]
-    return ordered(lo, hi)
+    return order_ends(lo, hi)
 
 
 def _corners(component: Component, parents: Parents) -> Iterator[list[Table]] | None:

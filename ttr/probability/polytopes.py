@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
 
-from ttr.probability.degrees import Degree, ordered
+from ttr.probability.degrees import Degree, order_ends
 from ttr.probability.dependence import Component
 from ttr.probability.events import Truth
 from ttr.probability.linear_programs import (
@@ -60,7 +60,7 @@ class Polytope:
                 raise
             raise Impossible from None
         hi = -minimise(high, inside, rows)
-        return ordered(float(lo / unit), float(hi / unit))
+        return order_ends(float(lo / unit), float(hi / unit))
 
     def feasible(self) -> bool:
         """Does some distribution over the worlds fit all degrees?"""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ttr.computing.subtyping import Answer, subtype
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
 from ttr.probability import CERTAIN, Degree, complement
-from ttr.probability.degrees import ordered
+from ttr.probability.degrees import order_ends
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Signature
 from ttr.types.printing import notation
@@ -91,4 +91,4 @@ def _bounds(p: Degree, S: TypeNode, T: TypeNode, theory: Signature | None) -> De
         least.append(complement(p.hi))
     if subtype(S, ~T, theory).yes:
         most.append(complement(p.lo))
-    return ordered(max(least), min(most))
+    return order_ends(max(least), min(most))

@@ -21,7 +21,7 @@ from ttr.aliases import former_names
 from ttr.building.constructors import fun, rectype
 from ttr.building.merging import merge
 from ttr.errors import TTRError
-from ttr.judging.certainty import certainly
+from ttr.judging.certainty import is_certain
 from ttr.judging.models import Model
 from ttr.safety.budgets import spend
 from ttr.semantics.argument_checks import as_tuple
@@ -250,7 +250,7 @@ def asked_of(question: Function, P: TypeNode, model: Model) -> Record | None:
     if not isinstance(question, Function):
         raise _no_question(question)
     found = _matching_argument(question, P) if isinstance(P, TypeNode) else None
-    if found is None or not certainly(model.facts, found, question.domain):
+    if found is None or not is_certain(model.facts, found, question.domain):
         return None
     return found
 
@@ -288,7 +288,7 @@ def _conveyed_proposition(
         body = as_type(question.body)
         return body if answer == YES else ~body
     given = _as_argument(answer, question.domain)
-    if given is None or not certainly(model.facts, given, question.domain):
+    if given is None or not is_certain(model.facts, given, question.domain):
         return None
     return _apply(question, given)
 

@@ -14,7 +14,7 @@ from ttr.errors import IllFormedError, RefusedError
 from ttr.judging.judgements import Judgement, Why
 from ttr.judging.models import Conditions, Model, as_model, conditions
 from ttr.probability import CERTAIN, REFUTED, Degree
-from ttr.probability.degrees import ordered, shown
+from ttr.probability.degrees import order_ends, shown
 from ttr.types.printing import notation
 from ttr.types.syntax import (
     Join,
@@ -179,7 +179,7 @@ def _share(
     ends = dict.fromkeys(((mine.lo, rest.hi), (mine.hi, rest.lo)))
     said = ", ".join(f"{shown(x)} / ({shown(x)} + {shown(y)})" for x, y in ends)
     lo, hi = (x / (x + y) for x, y in ((mine.lo, rest.hi), (mine.hi, rest.lo)))
-    return ordered(lo, hi), said
+    return order_ends(lo, hi), said
 
 
 def _sums(whys: Mapping[TypeNode, Why], values: Iterable[TypeNode]) -> Degree:

@@ -16,7 +16,7 @@ from ttr.aliases import former_names
 from ttr.computing.strings.automata import automaton
 from ttr.computing.strings.pieces import is_of_strings
 from ttr.errors import UnexpectedError, UnsupportedError
-from ttr.judging.automaton_filter import Following, followed_from
+from ttr.judging.automaton_filter import AutomatonFilter, start_filter
 from ttr.judging.models import Model, as_model
 from ttr.judging.segmentation import events_in_words
 from ttr.probability import REFUTED, Degree
@@ -68,7 +68,7 @@ def start_course(T: TypeNode, model: Model, /) -> Course:
             f"{T} says something of a string as a whole, which no single event shows",
             hint="judge the string when it is complete",
         )
-    return Course(T, model, followed_from(found, bool(model.facts.links)))
+    return Course(T, model, start_filter(found, bool(model.facts.links)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +82,7 @@ class Course:
 
     type: TypeNode
     model: Model
-    _filter: Following = field(repr=False)
+    _filter: AutomatonFilter = field(repr=False)
     length: int = 0
 
     @within_budget

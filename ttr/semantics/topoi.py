@@ -147,7 +147,7 @@ def _apply_to_situation(
         return ModalAnswer(REFUTED, outside)
     try:
         body = resolve_paths(warrant.fg.body, ({BOUND: freeze(sit)},))
-        return background, as_type(model.reduced(body))
+        return background, as_type(model.reduce(body))
     except (Unresolved, RefusedError) as wrong:
         raise RefusedError(
             f"the topos {warrant} fails there: {wrong.message}"

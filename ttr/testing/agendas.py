@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ttr.dialogues.dialogue import Dialogue, Trial
-from ttr.judging.certainty import certainly
+from ttr.judging.certainty import is_certain
 from ttr.testing.event_subjects import (
     field_at,
     format_objects,
@@ -97,7 +97,7 @@ def _is_made(planned: Object, step: Step) -> bool:
     return (
         step.rule.on is not None
         and isinstance(planned, TypeNode)
-        and certainly(step.model.facts, step.event, planned)
+        and is_certain(step.model.facts, step.event, planned)
     )
 
 

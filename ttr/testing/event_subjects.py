@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 
-from ttr.judging.certainty import certainly
+from ttr.judging.certainty import is_certain
 from ttr.judging.models import Model
 from ttr.testing.strategies.discourse_roles import value_at
 from ttr.testing.strategies.random_states import heard_by
@@ -200,11 +200,11 @@ def mentions_of_sort(
     parts = mentions(event, model)
     if isinstance(item, str) and isinstance(T, Basic):
         agents = agents_of(game)
-        if any(certainly(model.facts, who, T) for who in agents):
+        if any(is_certain(model.facts, who, T) for who in agents):
             return ()
         named = (one for one in parts if isinstance(one, str))
         return tuple(
-            dict.fromkeys(one for one in named if certainly(model.facts, one, T))
+            dict.fromkeys(one for one in named if is_certain(model.facts, one, T))
         )
     if isinstance(item, RecordType):
         return tuple(part for part in parts if isinstance(part, RecordType))

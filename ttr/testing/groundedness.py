@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from ttr.computing.subtyping import subtype
 from ttr.dialogues.dialogue import Dialogue, Trial
-from ttr.judging.certainty import certainly
+from ttr.judging.certainty import is_certain
 from ttr.testing.event_subjects import (
     SPEAKERS,
     agents_of,
@@ -79,7 +79,10 @@ def _why_move_not_made(item: RecordType, step: Step) -> str:
     """Why a move that counts as made was not made."""
     if step.rule.on is None or not isinstance(step.event, Record):
         return ""
-    if certainly(step.model.facts, step.event, item) or subtype(item, step.rule.on).yes:
+    if (
+        is_certain(step.model.facts, step.event, item)
+        or subtype(item, step.rule.on).yes
+    ):
         return ""
     in_state = (part for part in mentions(step.before, step.model))
     if any(is_same(item, part) for part in in_state):

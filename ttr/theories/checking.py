@@ -125,7 +125,7 @@ def _reduce(query: Query, model: Model) -> Query:
     if isinstance(query, IsWellFormed | Updates):
         return query
     inside = {part.name: getattr(query, part.name) for part in fields(query)}
-    return replace(query, **{k: model.reduced(v) for k, v in inside.items()})
+    return replace(query, **{k: model.reduce(v) for k, v in inside.items()})
 
 
 def _evaluate(query: Query, theory: Theory, model: Model) -> _Answer:
@@ -191,8 +191,8 @@ def _merges(query: Merges, theory: Theory) -> _Answer:
 
 def _updates(query: Updates, model: Model) -> _Answer:
     """Does the rule give this state? Raises `TTRError` if it does not apply."""
-    wanted = model.reduced(query.result)
-    after = stepped(query.rule, [*map(model.reduced, query.args)], model).state
+    wanted = model.reduce(query.result)
+    after = stepped(query.rule, [*map(model.reduce, query.args)], model).state
     if identity(after) == identity(wanted):
         return _Answer("yes", "yes")
     return _Answer("no", notation(after), "\n".join(differences(wanted, after)))

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import TypeAlias
 
 from ttr.errors import UpdateError, suggestion
-from ttr.judging.rule_index import Demands, Sieve, any_of, demands_of
+from ttr.judging.rule_index import Demands, RuleIndex, demands_of, demands_of_any
 from ttr.types.syntax import Record, kind_of
 from ttr.updates.rules import Rule
 
@@ -55,9 +55,9 @@ class First:
         return _format_call("first", self.parts)
 
     @cached_property
-    def sieve(self) -> Sieve:
+    def sieve(self) -> RuleIndex:
         """An index of the parts that excludes those that cannot apply to a state."""
-        return Sieve(map(_demands_of_strategy, self.parts))
+        return RuleIndex(map(_demands_of_strategy, self.parts))
 
 
 @dataclass(frozen=True)
@@ -267,9 +267,9 @@ def _demands_of_strategy(algorithm: Algorithm) -> Demands:
         case Repeat(part) | Seq((part, *_)):
             return _demands_of_strategy(part)
         case ByClass(classes):
-            return any_of(
+            return demands_of_any(
                 _demands_of_strategy(one) for _, members in classes for one in members
             )
         case First(parts) | All(parts) | Ask(parts) if parts:
-            return any_of(map(_demands_of_strategy, parts))
+            return demands_of_any(map(_demands_of_strategy, parts))
     return {}

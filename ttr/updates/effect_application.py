@@ -10,8 +10,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ttr.errors import RuleFailedError, TTRError
-from ttr.judging.certainty import certainly
-from ttr.judging.evaluator import derivation, reduced
+from ttr.judging.certainty import is_certain
+from ttr.judging.evaluator import derivation, reduce_applications
 from ttr.judging.models import Model
 from ttr.types.printing import notation
 from ttr.types.substitution import Around, resolve_paths
@@ -81,12 +81,12 @@ def _realise_field(
     field: TypeNode, model: Model, around: Around, path: str
 ) -> tuple[Object, Model, bool]:
     """The value of a field, set or created; the model; and was it created?"""
-    T = reduced(model.facts, resolve_paths(field, around))
+    T = reduce_applications(model.facts, resolve_paths(field, around))
     if not isinstance(T, Singleton):
         value, model = model.create(T)
         return value, model, True
     value = T.value
-    if certainly(model.facts, value, T.base):
+    if is_certain(model.facts, value, T.base):
         return value, model, False
     why = derivation(model.facts, value, T.base)
     failed = why.failure() or why

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
 from ttr.errors import EndlessError, NotHeardError, TTRError, UpdateError, suggestion
-from ttr.judging.certainty import certainly
+from ttr.judging.certainty import is_certain
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model, as_model
 from ttr.probability import CERTAIN, REFUTED
@@ -255,7 +255,7 @@ class Game:
         types = self.hears or tuple(
             dict.fromkeys(rule.on for rule in self.rules if rule.on is not None)
         )
-        if any(certainly(model.facts, event, T) for T in types):
+        if any(is_certain(model.facts, event, T) for T in types):
             return
         if any(model.judge(event, T).p != REFUTED for T in types):
             return
@@ -305,7 +305,7 @@ class Game:
         Its reasons are found when they are asked for. What was created is of its type,
         but an `act` may have made something else.
         """
-        if self.act is not None and not certainly(model.facts, move, T):
+        if self.act is not None and not is_certain(model.facts, move, T):
             return model.judge(move, T)
         return Judgement(move, T, CERTAIN, lambda: model.judge(move, T).why, model)
 

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from functools import lru_cache
 
 from ttr.errors import RefusedError
-from ttr.judging.certainty import certainly
-from ttr.judging.evaluator import reduced
+from ttr.judging.certainty import is_certain
+from ttr.judging.evaluator import reduce_applications
 from ttr.judging.models import Model
 from ttr.safety.budgets import spend
 from ttr.types.objects import Unresolved
@@ -87,10 +87,10 @@ def _candidates(
     try:
         around = (bound, variables)
         if isinstance(field, Singleton):
-            value = reduced(model.facts, resolve_paths(field.value, around))
+            value = reduce_applications(model.facts, resolve_paths(field.value, around))
             base = resolve_paths(field.base, around)
-            return [(value, model)] if certainly(model.facts, value, base) else []
-        T = reduced(model.facts, resolve_paths(field, around))
+            return [(value, model)] if is_certain(model.facts, value, base) else []
+        T = reduce_applications(model.facts, resolve_paths(field, around))
         known = [(one, model) for one in model.witnesses(T)]
         return known or _situations_seen(T, model)
     except (Unresolved, RefusedError):
@@ -105,4 +105,4 @@ def _situations_seen(T: TypeNode, model: Model) -> Iterable[tuple[Object, Model]
         seen, extended = model.create(T)
     except RefusedError:
         return []
-    return [(seen, extended)] if certainly(extended.facts, seen, T) else []
+    return [(seen, extended)] if is_certain(extended.facts, seen, T) else []

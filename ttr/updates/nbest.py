@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ttr.errors import UpdateError
-from ttr.judging.certainty import certainly
+from ttr.judging.certainty import is_certain
 from ttr.judging.evaluator import derivation
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
@@ -94,7 +94,7 @@ def match_event(
 ) -> MatchedEvent | None:
     """The event as one of the type `on`; None if that is not as probable as wanted."""
     if not isinstance(event, NBest):
-        if certainly(model.facts, event, on):
+        if is_certain(model.facts, event, on):
             found = MatchedEvent(event, CERTAIN)
         elif wanted.lo == 1.0 or _plainly_lacks_labels(event, on):
             return None
@@ -144,6 +144,6 @@ def _is_within(p: Degree, wanted: Degree) -> bool:
 
 
 def _degree_of(event: Object, on: TypeNode, model: Model) -> Degree:
-    if certainly(model.facts, event, on):
+    if is_certain(model.facts, event, on):
         return CERTAIN
     return derivation(model.facts, event, on).p

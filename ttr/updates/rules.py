@@ -9,7 +9,7 @@ from linecache import checkcache, getlines
 from typing import TypeAlias
 
 from ttr.errors import Span, TTRError, UpdateError
-from ttr.judging.evaluator import reduced
+from ttr.judging.evaluator import reduce_applications
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, Degree, degree
 from ttr.types.paths import free_paths, replace_paths
@@ -80,7 +80,7 @@ class Body:
     def __call__(self, /, *args: Object, model: Model, **bound: Object) -> Object:
         """The type or record for a state, an event and bindings."""
         around = {**dict(zip(self.names, args, strict=False)), **bound}
-        return reduced(model.facts, resolve_paths(self.value, (around,)))
+        return reduce_applications(model.facts, resolve_paths(self.value, (around,)))
 
 
 def rule(

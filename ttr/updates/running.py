@@ -14,7 +14,7 @@ from time import perf_counter
 from typing import NamedTuple
 
 from ttr.errors import EndlessError, UpdateError
-from ttr.judging.certainty import certainly_also
+from ttr.judging.certainty import is_certain_given
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, Degree
@@ -359,7 +359,9 @@ class _Player:
         answers = self.conditions.about(state, model)
         known = answers.get(when)
         if known is None:
-            known = answers[when] = certainly_also(model.facts, state, when, self.type)
+            known = answers[when] = is_certain_given(
+                model.facts, state, when, self.type
+            )
         return known
 
     def _find_bindings(

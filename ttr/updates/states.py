@@ -7,7 +7,7 @@ from functools import lru_cache
 from operator import is_
 
 from ttr.errors import NoStateError, UpdateError
-from ttr.judging.certainty import certainly, note
+from ttr.judging.certainty import is_certain, remember_certain
 from ttr.judging.models import Model
 from ttr.types.objects import is_immutable
 from ttr.types.paths import free_paths
@@ -27,7 +27,7 @@ def check_state(state: Object, type: RecordType, model: Model, when: str) -> Non
         raise UpdateError(f"the type of a state is a record type, found {type!r}")
     if not isinstance(state, Record):
         raise NoStateError(f"{when} the state is no record, but {notation(state)}")
-    if certainly(model.facts, state, type):
+    if is_certain(model.facts, state, type):
         return
     why = model.judge(state, type).why
     failed = why.failure()
@@ -54,7 +54,7 @@ def is_still_of(before: Record, after: Record, T: RecordType, model: Model) -> b
             continue
         if has is _NOTHING or not _is_part_still_of(had, has, field, model):
             return False
-    note(model.facts, after, T)
+    remember_certain(model.facts, after, T)
     return True
 
 
@@ -70,7 +70,7 @@ def _has_dependent_fields(T: RecordType) -> bool:
 
 def _is_part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> bool:
     if was is found:
-        return _cannot_change(found, model) or certainly(model.facts, found, T)
+        return _cannot_change(found, model) or is_certain(model.facts, found, T)
     if isinstance(T, RecordType):
         if isinstance(was, Record) and isinstance(found, Record):
             return is_still_of(was, found, T, model)
@@ -80,8 +80,8 @@ def _is_part_still_of(was: Object, found: Object, T: TypeNode, model: Model) -> 
         and _cannot_change(was, model)
     ):
         new = _possibly_new_elements(found, was)
-        return all(certainly(model.facts, element, T.item) for element in new)
-    return certainly(model.facts, found, T)
+        return all(is_certain(model.facts, element, T.item) for element in new)
+    return is_certain(model.facts, found, T)
 
 
 def _cannot_change(value: Object, model: Model) -> bool:

@@ -66,7 +66,7 @@ def answer(session: Session, text: str) -> Reply:
 @within_budget
 def evaluate_term(session: Session, text: str) -> Object:
     """The type or object that a text stands for, with its applications computed."""
-    return session.model.reduced(read_term(text, session.theory, INPUT))
+    return session.model.reduce(read_term(text, session.theory, INPUT))
 
 
 def list_changes(names: Iterable[str]) -> str:
@@ -179,7 +179,7 @@ def _answer_check(session: Session, question: Check) -> Reply:
         case TTRError():
             raise query
         case IsOf(sit, T):
-            return _judge(session, model.reduced(sit), _reduced_type(session, T))
+            return _judge(session, model.reduce(sit), _reduced_type(session, T))
         case IsBelow(lower, upper):
             return _compare_types(
                 session, _reduced_type(session, lower), _reduced_type(session, upper)
@@ -195,7 +195,7 @@ def _answer_check(session: Session, question: Check) -> Reply:
 
 
 def _reduced_type(session: Session, T: TypeNode) -> TypeNode:
-    return as_type(session.model.reduced(T))
+    return as_type(session.model.reduce(T))
 
 
 def _judge(session: Session, sit: Object, T: TypeNode) -> Reply:
@@ -211,9 +211,9 @@ def _answer_probability(
     model = session.model
     sit, T = reader.object(asked.sit, ()), reader.type(asked.type, ())
     when = [(reader.object(one, ()), reader.type(S, ())) for one, S in asked.when]
-    conditions = [(model.reduced(one), _reduced_type(session, S)) for one, S in when]
+    conditions = [(model.reduce(one), _reduced_type(session, S)) for one, S in when]
     judgement = model.judge(
-        model.reduced(sit), _reduced_type(session, T), when=conditions
+        model.reduce(sit), _reduced_type(session, T), when=conditions
     )
     text = f"{judgement.p}: {judgement.why.because}"
     return Reply(replace(session, last=judgement), text)
@@ -271,13 +271,13 @@ def _answer_term(session: Session, claim: trees.Term, reader: Reader) -> Reply:
             name in session.theory.rules
         ):
             rule, args = Asking(reader).step(claim, name)
-            args = tuple(map(session.model.reduced, args))
+            args = tuple(map(session.model.reduce, args))
             return _show(session, stepped(rule, args, session.model).state)
         case Application(_, _, Name(_, _, (name,), None), args) if (
             name in session.theory.openings
         ):
             return _play_game(session, name, [reader.object(arg, ()) for arg in args])
-    return _show(session, session.model.reduced(reader.object(claim, ())))
+    return _show(session, session.model.reduce(reader.object(claim, ())))
 
 
 def _show(session: Session, value: LastAnswer) -> Reply:
@@ -298,7 +298,7 @@ def _declaration_of(session: Session, name: str) -> str:
 def _play_game(session: Session, name: str, events: list[Object]) -> Reply:
     """The turns of a game from its start: one for each event, or one empty turn."""
     game = session.theory.games[name]
-    turns = game.play([session.model.reduced(event) for event in events] or [None])
+    turns = game.play([session.model.reduce(event) for event in events] or [None])
     state = notation(turns[-1].state)
     return Reply(session, "\n".join([*map(str, turns), f"state: {state}"]))
 

@@ -13,7 +13,7 @@ from typing import TypeAlias, TypeGuard
 
 from ttr.semantics.fragment.content_types import abstract_over
 from ttr.semantics.quantifiers import Thresholds, absent, determiner_of, number
-from ttr.semantics.quantifiers.determiners import demands, properties
+from ttr.semantics.quantifiers.determiners import properties, threshold_of
 from ttr.semantics.quantifiers.thresholds import Threshold
 from ttr.types.paths import free_paths
 from ttr.types.substitution import resolve_paths
@@ -190,7 +190,7 @@ def content_formula(
     """
     if isinstance(T, PType) and determiner_of(T) is not None:
         P, Q = map(property_formula, properties(T))
-        asked = demands(T, thresholds)
+        asked = threshold_of(T, thresholds)
         some = [Count(P, P, AT_ALL)] if any(one.presupposes for one in asked) else []
         return Conjunction((*[Count(P, Q, one) for one in asked], *some))
     match T:

@@ -150,7 +150,7 @@ class ModalSystem:
 
         Its argument is reduced first; raises `RefusedError` where that cannot be done.
         """
-        kind = PType(box.pred, (model.reduced(box.args[0]),))
+        kind = PType(box.pred, (model.reduce(box.args[0]),))
         notion = self.restrictive
         asks = notion.necessary if kind.pred is nec else notion.possible
         return model.given(sit, kind, asks(kind.args[0]).p)

@@ -217,7 +217,7 @@ def individuate(M: Model, region: Record) -> Individual:
     seeing = as_model(M).witnessed(Points, by=lambda value: isinstance(value, PointMap))
     T = seeing.apply(INDIVIDUATE, region)
     sit, after = seeing.create(T)
-    claim = after.reduced(region.pfun(sit.a))
+    claim = after.reduce(region.pfun(sit.a))
     if "p" in region and isinstance(claim, PType):
         after = after.given(sit.c, claim, region.p)
     return Individual(sit, _with_claim_applied(T, region.pfun), after)

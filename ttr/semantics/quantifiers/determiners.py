@@ -34,7 +34,7 @@ __all__ = [
     "as_quantified",
     "at_least",
     "at_most",
-    "demands",
+    "threshold_of",
     "determiner_of",
     "every",
     "exactly",
@@ -138,13 +138,13 @@ _BY_PRED = {one.pred: one for one in DETERMINERS}
 _BY_NUMBER = {one(0).pred: one(0).name for one in (at_least, at_most, exactly)}
 
 
-def demands(T: PType, thresholds: Thresholds) -> tuple[Threshold, ...]:
+def threshold_of(T: PType, thresholds: Thresholds) -> tuple[Threshold, ...]:
     """What a quantified type asks of the number of those of P that are Q.
 
     One threshold where it rises or falls, two for `exactly`, which does neither.
 
     >>> two = exactly(2)(Basic("P"), Basic("Q"))
-    >>> print(*demands(two, Thresholds()), sep=", ")
+    >>> print(*threshold_of(two, Thresholds()), sep=", ")
     at least 2, at most 2
     """
     match determiner_of(T):

@@ -23,8 +23,8 @@ from ttr.semantics.quantifiers.determiners import (
     Determiner,
     Property,
     as_quantified,
-    demands,
     properties,
+    threshold_of,
 )
 from ttr.semantics.quantifiers.extension_pairs import Case, Split, split
 from ttr.semantics.quantifiers.extensions import (
@@ -218,7 +218,7 @@ def _domain(P: Property) -> object:
 
 
 def _quantification(T: PType, found: Split, thresholds: Thresholds) -> Quantification:
-    asked = demands(T, thresholds)
+    asked = threshold_of(T, thresholds)
     if not found.P and any(one.presupposes for one in asked):
         P, _ = properties(T)
         raise UndefinedError(

@@ -291,7 +291,7 @@ def truth_of_instance(
 
 def _reduce_to_type(M: Model, value: Object) -> TypeNode:
     if any(isinstance(part, Application) for part in _parts_to_search(value)):
-        value = M.reduced(value)
+        value = M.reduce(value)
     if isinstance(value, TypeNode):
         return value
     raise RefusedError(f"{notation(value)} is no type, so it is neither true nor false")

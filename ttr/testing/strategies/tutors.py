@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import TTRError
-from ttr.judging.certainty import certainly
+from ttr.judging.certainty import is_certain
 from ttr.judging.models import Model
 from ttr.testing.strategies.discourse_roles import Acts, acts_in
 from ttr.testing.strategies.random_states import event_of, heard_by
@@ -178,7 +178,7 @@ class _Talk:
 
     def _is_awaited(self, T: TypeNode, state: Record, model: Model) -> bool:
         return any(
-            rule.when is self.game.type or certainly(model.facts, state, rule.when)
+            rule.when is self.game.type or is_certain(model.facts, state, rule.when)
             for rule in self._takers[T]
         )
 
