@@ -16,7 +16,7 @@ from kille.dialogue.reference import thing_at
 from kille.simulation.perceiving import glanced
 from kille.simulation.playing import simulated
 from kille.simulation.worlds import Thing, World
-from ttr.updates import replaced, rule
+from ttr.updates import replace_rules, rule
 
 CHANCE = Random(7)
 
@@ -29,7 +29,7 @@ def make_up(s):
     return plan(s, "AssertName", content, signs=[noun(name)], teaches=[content])
 
 
-rules = replaced(TUTORING, {"admit_name": make_up})
+rules = replace_rules(TUTORING, {"admit_name": make_up})
 kinds = ("cup", "book", "box")
 things = [Thing(kind, "red", place=(3 * n, 3)) for n, kind in enumerate(kinds)]
 world = World(tuple(things))

@@ -102,6 +102,9 @@ FORMER_NAMES: Mapping[str, Mapping[str, str]] = {
     "ttr.semantics.quantifiers": _errors(" Undefined"),
     "ttr.semantics.questions": {"resolving": "find_answer"},
     "ttr.semantics.string_prediction": {"begun": "start_course"},
+    "ttr.updates": {"replaced": "replace_rules"},
+    "ttr.updates.rule_application": {"stepped": "apply_rule"},
+    "ttr.updates.rule_notation": {"written": "format_rule"},
     "ttr.semantics.topoi": {"combined": "combine_topoi", "expected": "expectation"},
 }
 """What was renamed in a module: its name there now, or where it is instead."""

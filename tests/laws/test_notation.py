@@ -48,9 +48,9 @@ from ttr.notation.parser import parse_statement
 from ttr.notation.syntax_trees import Source
 from ttr.probability import CERTAIN, Degree
 from ttr.theories.drafts import Draft
-from ttr.theories.statements import Declaring
+from ttr.theories.statements import StatementReader
 from ttr.types.syntax import BOUND, Object, RecordType
-from ttr.updates.rule_notation import written
+from ttr.updates.rule_notation import format_rule
 from ttr.updates.rules import Body, Rule
 
 A, B = Basic("A"), Basic("B")
@@ -315,11 +315,13 @@ def test_a_rule_reads_back_as_itself(rule):
     parts = (rule.when, rule.on or (), rule.where or (), rule.effect.value)
     draft = Draft.of(Theory.of(*parts))
     assume(rule.name not in draft.names)
-    source = Source(written(rule))
+    source = Source(format_rule(rule))
     try:
-        Declaring(draft, source).declare(parse_statement(source, 0, len(source.text)))
+        StatementReader(draft, source).declare(
+            parse_statement(source, 0, len(source.text))
+        )
     except IllFormedError:
         reject()  # a path leads to what does not fit, as the types of the rule say
     found = draft.rules[rule.name]
     assert replace(found, span=None, text="") == rule
-    assert written(found) == written(rule)
+    assert format_rule(found) == format_rule(rule)

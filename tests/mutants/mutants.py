@@ -22,7 +22,7 @@ from ttr import ListOf, Model, Record, RecType, TypeNode, rectype, replace
 from ttr.semantics.questions import top
 from ttr.testing import ALL, Property
 from ttr.updates import Game, Rule
-from ttr.updates.algorithms import replaced
+from ttr.updates.algorithms import replace_rules
 
 __all__ = ["GAMES", "MUTANTS", "Mutant", "properties_of"]
 
@@ -82,7 +82,7 @@ def rule_of(game: Game, name: str) -> Rule:
 
 def with_rules(game: Game, *rules: Rule) -> Game:
     """The game with these rules in place of those of their names."""
-    algorithm = replaced(game.algorithm, {rule.name: rule for rule in rules})
+    algorithm = replace_rules(game.algorithm, {rule.name: rule for rule in rules})
     return dataclasses.replace(game, algorithm=algorithm)
 
 
@@ -373,7 +373,7 @@ def unpacks_nothing(game: Game) -> Game:
 def never_guesses(game: Game) -> Game:
     guess, admit = rule_of(game, "guess_name"), rule_of(game, "admit_name")
     swapped = {"guess_name": admit, "admit_name": guess}
-    algorithm = replaced(game.algorithm, swapped)
+    algorithm = replace_rules(game.algorithm, swapped)
     return dataclasses.replace(game, algorithm=algorithm)
 
 

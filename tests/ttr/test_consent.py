@@ -17,7 +17,7 @@ from ttr.cli.session.sessions import Session
 from ttr.dialogues.logs import LogError, read_logs
 from ttr.dialogues.stories import play, read_stories, setting
 from ttr.safety.consent import Consent, NotAllowedError, is_below
-from ttr.testing.hash_seeds import differing
+from ttr.testing.hash_seeds import first_difference
 
 GAMES = Path(__file__).parent.parent / "games"
 
@@ -140,7 +140,7 @@ def test_what_lies_in_the_working_directory_is_not_run(home: Path) -> None:
     for module in ("random", "hashlib", "hypothesis", "ttr"):
         (home / f"{module}.py").write_text(GAME.format(door=""))
     place = setting("door.ttr door", GAMES)
-    assert differing(place, examples=2, start=0) == ""
+    assert first_difference(place, examples=2, start=0) == ""
     assert ran(home) == []
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from ttr.cli.session.repl import is_complete, respond
 from ttr.cli.session.sessions import Session
-from ttr.display.abbreviations import folding
+from ttr.display.abbreviations import abbreviator
 from ttr.errors import (
     NoStateError,
     NotationError,
@@ -24,8 +24,8 @@ from ttr.theories.checking import check
 from ttr.theories.theory import MistakesError, Theory, load
 from ttr.types.syntax import Record, RecordType, record
 from ttr.updates import all_, by_class, first, maybe, nbest, repeat, rule, run, seq
-from ttr.updates.rule_application import stepped, why_not
-from ttr.updates.rule_notation import declaration, written
+from ttr.updates.rule_application import apply_rule, why_not
+from ttr.updates.rule_notation import declaration, format_rule
 
 BOARD = """\
 basic Ind, Act
@@ -82,13 +82,13 @@ def test_a_rule_has_all_that_is_written() -> None:
 
 def test_a_rule_is_called_as_one_likes() -> None:
     found = board("rule größe(état : State) := [spkr = état.addr : Ind]")
-    after = stepped(found.rules["größe"], [state()], Model(found))
+    after = apply_rule(found.rules["größe"], [state()], Model(found))
     assert after.state == state(spkr="b")
 
 
 def test_a_rule_that_gives_a_type_changes_what_is_in_it() -> None:
     found = board()
-    after = stepped(found.rules["turn"], [state()], Model(found))
+    after = apply_rule(found.rules["turn"], [state()], Model(found))
     assert after.state == state(spkr="b", addr="a")
     assert [str(step.rule) for step in after.trace] == ["turn"]
     assert after.trace[0].rule.doc == "Who was spoken to speaks."
@@ -97,13 +97,13 @@ def test_a_rule_that_gives_a_type_changes_what_is_in_it() -> None:
 def test_a_rule_that_gives_a_record_gives_the_next_state() -> None:
     text = "(s : State) := {spkr = s.addr, addr = s.in.deep, plan = [], in = s.in}"
     found = rules(text)
-    after = stepped(found.rules["r"], [state(spkr="b")], Model(found))
+    after = apply_rule(found.rules["r"], [state(spkr="b")], Model(found))
     assert after.state == state(spkr="b", addr="a")
 
 
 def test_a_rule_that_gives_a_part_of_the_state_gives_it() -> None:
     found = rules("(s : [old : Rec]) := s.old")
-    after = stepped(found.rules["r"], [record(old=state())], Model(found))
+    after = apply_rule(found.rules["r"], [record(old=state())], Model(found))
     assert after.state == state()
 
 
@@ -114,9 +114,9 @@ def test_what_is_bound_is_found() -> None:
     )
     one, M = found.rules["r"], Model(found)
     heard = record(act="hi", c="c1")
-    assert stepped(one, [state(addr="a"), heard], M).state == state(addr="a")
+    assert apply_rule(one, [state(addr="a"), heard], M).state == state(addr="a")
     with pytest.raises(UpdateError) as caught:
-        stepped(one, [state(), heard], M)
+        apply_rule(one, [state(), heard], M)
     assert caught.value.message == (
         "r does not apply: nothing is found for c : by(e.act, who)"
     )
@@ -148,12 +148,12 @@ def test_a_variable_hides_what_is_called_so_and_a_label_hides_a_variable() -> No
     assert str(body) == (
         "[plan = [[a : Ind, c : p(a)]] : list(RecType), spkr = ^.a.addr : Ind]"
     )
-    plan = stepped(found.rules["r"], [state()], Model(found)).state.plan
+    plan = apply_rule(found.rules["r"], [state()], Model(found)).state.plan
     assert str(plan[0]) == "[a : Ind, c : p(a)]"
     inner = rules(
         "(s : State) := [plan = [[s : Ind, c : p(^^.s.spkr)]] : list(RecType)]"
     )
-    plan = stepped(inner.rules["r"], [state()], Model(inner)).state.plan
+    plan = apply_rule(inner.rules["r"], [state()], Model(inner)).state.plan
     assert str(plan[0]) == "[c : p(a), s : Ind]"
 
 
@@ -165,12 +165,14 @@ def test_a_meet_of_record_types_is_one() -> None:
 
 def test_what_is_bound_may_be_called_as_one_likes() -> None:
     found = rules("(p : State) where [nbest = p.addr : Ind] := [spkr = nbest : Ind]")
-    assert stepped(found.rules["r"], [state()], Model(found)).state == state(spkr="b")
+    assert apply_rule(found.rules["r"], [state()], Model(found)).state == state(
+        spkr="b"
+    )
     labels = rules("(s : State, e : [s : Ind, c : p(s)]) := State")
     assert str(labels.rules["r"].on) == "[s : Ind, c : p(s)]"
     quoted = rules("(a : State, e : p('a')) := State")
     assert quoted.rules["r"].on is quoted.p("a")
-    assert 'e : p("a")' in written(quoted.rules["r"])
+    assert 'e : p("a")' in format_rule(quoted.rules["r"])
 
 
 # --- strategies ----------------------------------------------------------------------
@@ -797,13 +799,14 @@ def test_a_rule_is_shown_with_the_names_of_its_types() -> None:
         " := [spkr = who.name : Ind]\n"
         "rule t(s : State) := State\n"
     )
-    assert declaration(found, "r", folding(found, 0)) == (
+    assert declaration(found, "r", abbreviator(found, 0)) == (
         "rule r(s : State, e : Move)\n"
         "    where [who = s.in : Named]\n"
         "    := [spkr = who.name : Ind]"
     )
     assert (
-        declaration(found, "t", folding(found, 0)) == "rule t(s : State)\n    := State"
+        declaration(found, "t", abbreviator(found, 0))
+        == "rule t(s : State)\n    := State"
     )
 
 
@@ -813,7 +816,7 @@ def test_a_python_rule_is_not_written() -> None:
         return None
 
     with pytest.raises(UnsupportedError) as caught:
-        written(nothing)
+        format_rule(nothing)
     assert caught.value.message == (
         "the effect of nothing is a Python function, not notation"
     )

@@ -20,7 +20,7 @@ from ttr.notation.syntax_trees import Part, Source
 from ttr.theories.checking import check
 from ttr.theories.drafts import Draft
 from ttr.theories.loading import UnreadableError
-from ttr.theories.statements import Declaring
+from ttr.theories.statements import StatementReader
 from ttr.theories.theory import Axiom, MistakesError, Theory, load, theory_of_draft
 from ttr.types.syntax import Basic, Ind, Pred, this
 from ttr.types.syntax import Path as LabelPath
@@ -430,7 +430,9 @@ def test_a_mistake_in_a_statement_adds_nothing_of_it() -> None:
     ):
         source = Source(text)
         with pytest.raises(TTRError):
-            Declaring(draft, source).declare(parse_statement(source, 0, len(text)))
+            StatementReader(draft, source).declare(
+                parse_statement(source, 0, len(text))
+            )
     left, before = theory_of_draft(draft), theory("")
     assert left.names == before.names
     assert (left.givens, left.axioms, left.opened, left.checks) == ((), (), set(), ())
@@ -440,7 +442,7 @@ def test_a_finished_theory_does_not_follow_its_draft() -> None:
     draft = Draft.of(theory("Dog := [x : Ind, c : dog(x)]"))
     kennel = theory_of_draft(draft)
     source = Source("Cat := [y : Ind]")
-    Declaring(draft, source).declare(parse_statement(source, 0, len(source.text)))
+    StatementReader(draft, source).declare(parse_statement(source, 0, len(source.text)))
     assert "Cat" in theory_of_draft(draft).names - kennel.names
 
 

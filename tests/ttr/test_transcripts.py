@@ -14,7 +14,7 @@ from ttr.cli.main import main
 from ttr.dialogues.dialogue import Dialogue, play
 from ttr.dialogues.stories import Setting, setting
 from ttr.dialogues.transcripts import transcript
-from ttr.display.differences import compared
+from ttr.display.differences import layout_of_changes
 from ttr.display.layout import Matrix
 
 GAMES = Path(__file__).parent.parent / "games"
@@ -92,7 +92,7 @@ def test_the_fields_that_a_turn_has_changed_are_marked(door: Setting) -> None:
 def test_only_innermost_fields_are_marked() -> None:
     before = record(a=record(x="a", y="b"), b="c", gone="d")
     after = record(a=record(x="a", y="c"), b="c", new=rectype())
-    layout = compared(before, after)
+    layout = layout_of_changes(before, after)
     assert isinstance(layout, Matrix)
     assert [(row.label.text, row.changed) for row in layout.rows] == [
         ("a", False),

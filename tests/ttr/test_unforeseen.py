@@ -10,7 +10,7 @@ import pytest
 
 import kille.interfaces.cli as kille_cli
 import ttr.cli.main as ttr_cli
-from ttr.safety.unforeseen_errors import DEBUG, guarded, report_unforeseen
+from ttr.safety.unforeseen_errors import DEBUG, report_unforeseen, run_guarded
 
 MAINS: dict[str, tuple[object, Callable[[list[str]], int]]] = {
     "ttr": (ttr_cli, ttr_cli.main),
@@ -95,4 +95,4 @@ def test_who_wants_to_end_is_not_kept(wanted: type[BaseException]) -> None:
         raise wanted
 
     with pytest.raises(wanted):
-        guarded("ttr", end)
+        run_guarded("ttr", end)

@@ -41,7 +41,7 @@ from ttr.updates import (
     seq,
     update,
 )
-from ttr.updates.algorithms import replaced
+from ttr.updates.algorithms import replace_rules
 
 Count = Basic("Count")
 Counter = rectype(n=Count, log=ListOf(Ind))
@@ -617,9 +617,9 @@ def test_strategies_print_as_they_are_written():
 def test_a_rule_is_replaced_by_its_name():
     algorithm = seq(up, maybe(repeat(first(up, at_three))), all_(never))
     other = renamed(still, "up")
-    after = replaced(algorithm, {"up": other})
+    after = replace_rules(algorithm, {"up": other})
     assert rules_of(after) == (other, at_three, never)
-    assert replaced(after, {"up": up}) == algorithm
+    assert replace_rules(after, {"up": up}) == algorithm
 
 
 def test_all_applies_where_a_part_does():

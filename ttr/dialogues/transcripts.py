@@ -11,8 +11,8 @@ from warnings import warn
 
 from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.dialogues.settings import Setting
-from ttr.display.abbreviations import folding
-from ttr.display.differences import compared
+from ttr.display.abbreviations import abbreviator
+from ttr.display.differences import layout_of_changes
 from ttr.display.html import STYLE, page, part_of_page
 from ttr.escapes import html_text
 from ttr.safety.budgets import within_budget
@@ -65,7 +65,7 @@ def _difference_mark(one: Dialogue) -> str:
 
 
 def _section(number: int, one: Dialogue) -> str:
-    fold = folding(one.setting.theory, 0)
+    fold = abbreviator(one.setting.theory, 0)
     before: Object = fold(one.start.state)
     start = _article(f"d{number}t0", "", "<p>the start</p>", before, before)
     parts = [
@@ -84,7 +84,7 @@ def _section(number: int, one: Dialogue) -> str:
 
 def _article(name: str, number: str, told: str, before: Object, after: Object) -> str:
     link = f'<a class="number" href="#{name}">{number}</a>' if number else ""
-    state = part_of_page(compared(before, after))
+    state = part_of_page(layout_of_changes(before, after))
     return (
         f'<article id="{name}">{link}<div class="talk">{told}</div>'
         f'<div class="state">{state}</div></article>'

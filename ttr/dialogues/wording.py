@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ttr.dialogues.settings import Setting
-from ttr.display.abbreviations import folding
+from ttr.display.abbreviations import abbreviator
 from ttr.errors import UpdateError
 from ttr.judging.judgements import Judgement
 from ttr.types.printing import notation
@@ -47,4 +47,4 @@ def line_of_event(event: object, setting: Setting) -> str:
 
 
 def _folded(value: Object, setting: Setting) -> str:
-    return notation(folding(setting.theory, 0)(value))
+    return notation(abbreviator(setting.theory, 0)(value))

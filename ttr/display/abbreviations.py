@@ -25,10 +25,12 @@ from ttr.types.syntax import (
 if TYPE_CHECKING:
     from ttr.signature.signature import Signature
 
-__all__ = ["folding"]
+__all__ = ["abbreviator"]
 
 
-def folding(theory: Signature | None, unfold: int | None) -> Callable[[Object], Object]:
+def abbreviator(
+    theory: Signature | None, unfold: int | None
+) -> Callable[[Object], Object]:
     """A function that replaces what the theory defines by its name.
 
     `unfold` is the number of definitions, one inside another, that are shown in full
@@ -42,7 +44,7 @@ def folding(theory: Signature | None, unfold: int | None) -> Callable[[Object], 
     ...     Dog  := [x : Ind, c : dog(x)]
     ...     Pair := [a : Dog, b : Dog]
     ... ''')
-    >>> print(folding(kennel, 0)(kennel.Pair), folding(kennel, 1)(kennel.Pair))
+    >>> print(abbreviator(kennel, 0)(kennel.Pair), abbreviator(kennel, 1)(kennel.Pair))
     Pair [a : Dog, b : Dog]
     """
     if unfold is None:

@@ -4,24 +4,24 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ttr.display.layout import Layout, Matrix, laid_out
+from ttr.display.layout import Layout, Matrix, layout_of
 from ttr.types.interning import identity
 from ttr.types.syntax import Object, Record
 
-__all__ = ["compared"]
+__all__ = ["layout_of_changes"]
 
 
-def compared(before: Object, after: Object) -> Layout:
+def layout_of_changes(before: Object, after: Object) -> Layout:
     """The layout of a value, with the fields marked that have changed.
 
     In nested records, the innermost fields that have changed are marked.
 
     >>> from ttr.types.syntax import record
-    >>> layout = compared(record(x="a", y="b"), record(x="a", y="c"))
+    >>> layout = layout_of_changes(record(x="a", y="b"), record(x="a", y="c"))
     >>> [(row.label.text, row.changed) for row in layout.rows]
     [('x', False), ('y', True)]
     """
-    return _marked(laid_out(after), before, after)
+    return _marked(layout_of(after), before, after)
 
 
 def _marked(layout: Layout, before: Object, after: Object) -> Layout:

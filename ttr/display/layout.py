@@ -1,6 +1,6 @@
 """How values are laid out, however they are drawn: as words, rows and matrices.
 
-`laid_out` turns a type or an object into a few kinds of layout, which are drawn as
+`layout_of` turns a type or an object into a few kinds of layout, which are drawn as
 text, LaTeX or HTML. Read from left to right, a layout is the value in notation.
 """
 
@@ -65,7 +65,7 @@ __all__ = [
     "Step",
     "Word",
     "fill_lines",
-    "laid_out",
+    "layout_of",
 ]
 
 Role = Literal["type", "predicate", "label", "object", "variable", "text"]
@@ -297,7 +297,7 @@ _COMMA = Sign(", ")
 _COLON = Sign(" : ")
 
 
-def laid_out(value: Object, scope: Scope = ()) -> Layout:
+def layout_of(value: Object, scope: Scope = ()) -> Layout:
     """The layout of a type or an object; its variables are named as in print."""
     spend(4)  # the layout is kept, and drawn later
     match value:
@@ -337,7 +337,7 @@ def laid_out(value: Object, scope: Scope = ()) -> Layout:
         case ListOf() | NonEmpty() | SetOf() | Plus() | Str():
             types, _ = contents(value)
             word = Word(WORDS[type(value)], "text")
-            return _call(word, tuple([laid_out(T, scope) for T in types]))
+            return _call(word, tuple([layout_of(T, scope) for T in types]))
     return _object(value, scope)
 
 
@@ -373,12 +373,12 @@ def _row(label: str, field: TypeNode, scope: Scope) -> Row:
     match field:
         case Singleton(base, obj):
             (given,) = _objects((obj,), scope)
-            return Row(Word(label, "label"), given, laid_out(base, scope))
-    return Row(Word(label, "label"), None, laid_out(field, scope))
+            return Row(Word(label, "label"), given, layout_of(base, scope))
+    return Row(Word(label, "label"), None, layout_of(field, scope))
 
 
 def _objects(values: Iterable[Object], scope: Scope) -> tuple[Layout, ...]:
-    return tuple([laid_out(as_object(v, scope), scope) for v in values])
+    return tuple([layout_of(as_object(v, scope), scope) for v in values])
 
 
 def _call(applied: Layout, args: tuple[Layout, ...]) -> Line:
@@ -401,7 +401,7 @@ def _in_brackets(layout: Layout) -> Layout:
 
 def _operand(value: Object, scope: Scope) -> Layout:
     """A part of a meet, join or negation: in brackets unless it binds more tightly."""
-    layout = laid_out(value, scope)
+    layout = layout_of(value, scope)
     return _in_brackets(layout) if is_loose(value) else layout
 
 
@@ -411,7 +411,7 @@ def _operands(values: Iterable[Object], scope: Scope) -> tuple[Layout, ...]:
 
 def _tight(value: Object, scope: Scope) -> Layout:
     """A part beside @, + or an arrow: in brackets unless it binds tightly enough."""
-    layout = laid_out(value, scope)
+    layout = layout_of(value, scope)
     return _in_brackets(layout) if is_loose_beside(value) else layout
 
 
@@ -430,7 +430,7 @@ def _function_type(value: FunType, scope: Scope) -> Layout:
     domain: Layout
     if binds(value.result):
         name = variable(value, scope)
-        of = laid_out(value.domain, scope)
+        of = layout_of(value.domain, scope)
         domain = _in_brackets(Line((Word(name, "variable"), _COLON, of)))
     else:
         name, domain = "", _tight(value.domain, scope)
@@ -442,5 +442,5 @@ def _head(function: Object, scope: Scope) -> Layout:
     """The function that is applied, in brackets unless it binds tightly enough."""
     if isinstance(function, Path | str):
         return Word(format_head(function, scope), _role(function))
-    layout = laid_out(function, scope)
+    layout = layout_of(function, scope)
     return layout if holds_as_head(function) else _in_brackets(layout)

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from types import BuiltinFunctionType, FunctionType, ModuleType, NoneType
 from typing import TYPE_CHECKING
 
-from ttr.display.abbreviations import folding
+from ttr.display.abbreviations import abbreviator
 from ttr.display.html import derivation_as_html, layout_as_html
 from ttr.display.latex import derivation_as_latex, layout_as_latex
-from ttr.display.layout import Layout, Line, Sign, Step, Word, laid_out
+from ttr.display.layout import Layout, Line, Sign, Step, Word, layout_of
 from ttr.display.text import derivation_as_text, layout_as_text
 from ttr.errors import IllFormedError
 from ttr.judging.judgements import Judgement, Why, mark
@@ -93,8 +93,8 @@ _ToLayout = Callable[[Object], Layout]
 
 
 def _layout_function(theory: Signature | None, unfold: int | None) -> _ToLayout:
-    fold = folding(theory, unfold)
-    return lambda value: laid_out(fold(value))
+    fold = abbreviator(theory, unfold)
+    return lambda value: layout_of(fold(value))
 
 
 def _layout(value: object, to_layout: _ToLayout) -> Layout:

@@ -14,7 +14,7 @@ from collections.abc import Callable
 
 from ttr.errors import NotationError
 from ttr.notation import syntax_trees as trees
-from ttr.notation.scanning import LETTER_OR_DIGIT, vetted
+from ttr.notation.scanning import LETTER_OR_DIGIT, check_characters
 from ttr.notation.syntax_trees import Source, Statement, Term
 from ttr.notation.term_parser import ANY, FUNCTION, SIMPLE, TermParser
 from ttr.notation.tokens import NAME, PATH, QUOTED
@@ -24,7 +24,7 @@ __all__ = ["parse_statement", "parse_term"]
 
 def parse_term(source: Source) -> Term:
     """The whole text as a type or an object; raises `NotationError`."""
-    vetted(source)
+    check_characters(source)
     return _Parser(source, 0, len(source.text)).whole_term()
 
 

@@ -17,9 +17,9 @@ __all__ = [
     "DEPTH",
     "LETTER",
     "LETTER_OR_DIGIT",
-    "blocks",
+    "find_statements",
     "find_excess_depth",
-    "vetted",
+    "check_characters",
     "with_backslashes",
 ]
 
@@ -45,7 +45,7 @@ _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f]")
 """Control characters other than tabs and line ends."""
 
 
-def vetted(source: Source) -> None:
+def check_characters(source: Source) -> None:
     """Refuse a text with control characters."""
     stray = _CONTROL.search(source.text)
     if stray:
@@ -165,14 +165,14 @@ _STARTS = re.compile(
 )
 
 
-def blocks(text: str) -> Iterator[tuple[int, int]]:
+def find_statements(text: str) -> Iterator[tuple[int, int]]:
     """The statements of a theory: [start, end) of each.
 
     A statement continues on lines that are indented further than the first statement,
     and inside brackets. But a line that looks like a statement always starts one, so
     that a forgotten bracket spoils one statement and not the rest of the text.
 
-    >>> list(blocks("basic A\\nX :=\\n  [x : A]\\n"))
+    >>> list(find_statements("basic A\\nX :=\\n  [x : A]\\n"))
     [(0, 7), (8, 22)]
     """
     start, end, depth, margin = -1, -1, 0, None

@@ -21,7 +21,7 @@ from ttr.probability.events import (
     simplify,
 )
 from ttr.probability.independent import bounds, sum_over_cases
-from ttr.probability.linear_programs import Infeasible
+from ttr.probability.linear_programs import InfeasibleError
 from ttr.probability.networks import Impossible, Network, conjunction, network
 from ttr.probability.polytopes import Polytope, polytope
 from ttr.safety.budgets import spend
@@ -212,7 +212,7 @@ class _Solving:
         self._exact = self._exact and joint.exact and not (wide and branches > 1)
         try:
             return joint.share(worth, mine)
-        except Infeasible:
+        except InfeasibleError:
             raise Contradiction(component) from None
 
     def _is_mixed(self, event: Event) -> bool:

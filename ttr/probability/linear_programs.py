@@ -17,21 +17,21 @@ from fractions import Fraction
 
 from ttr.safety.budgets import spend
 
-__all__ = ["Infeasible", "Row", "feasible_point", "minimise", "units"]
+__all__ = ["InfeasibleError", "Row", "feasible_point", "minimise", "scale_to_integers"]
 
 Row = Sequence[int]
 
 
-class Infeasible(Exception):
+class InfeasibleError(Exception):
     """No v meets the conditions of a linear program."""
 
 
-def units(numbers: Iterable[float]) -> tuple[list[int], int]:
+def scale_to_integers(numbers: Iterable[float]) -> tuple[list[int], int]:
     """The numbers as integers over one power of ten, and that power.
 
     A float stands for its shortest decimal, so 0.1 is a tenth.
 
-    >>> units([0.1, 0.25, 1.0])
+    >>> scale_to_integers([0.1, 0.25, 1.0])
     ([10, 25, 100], 100)
     """
     decimals = [Decimal(repr(float(x))).as_tuple() for x in numbers]
@@ -46,7 +46,7 @@ def units(numbers: Iterable[float]) -> tuple[list[int], int]:
 def minimise(f: Row, g: Row, rows: Sequence[Row]) -> Fraction:
     """The least f · v over the v ≥ 0 with g · v = 1 and r · v ≥ 0 for each row r.
 
-    Raises `Infeasible` where there is no such v. f must be bounded below on them.
+    Raises `InfeasibleError` where there is no such v. f must be bounded below on them.
 
     >>> minimise([1, 0], [1, 1], [[3, -1]])
     Fraction(1, 4)
@@ -58,7 +58,7 @@ def minimise(f: Row, g: Row, rows: Sequence[Row]) -> Fraction:
 
 
 def feasible_point(g: Row, rows: Sequence[Row]) -> tuple[Fraction, ...]:
-    """Some v ≥ 0 with g · v = 1 and r · v ≥ 0 for each row r; else `Infeasible`.
+    """Some v ≥ 0 with g · v = 1 and r · v ≥ 0 for each row r; else `InfeasibleError`.
 
     >>> print(*feasible_point([1, 1], [[3, -1], [-2, 1]]))
     1/3 2/3
@@ -91,10 +91,10 @@ class _Table:
         self.columns = self.width + slacks
 
     def make_feasible(self) -> None:
-        """Pivot until nothing is missing of g · v = 1; raises `Infeasible`."""
+        """Pivot until nothing is missing of g · v = 1; raises `InfeasibleError`."""
         self.minimise(self.missing)
         if self.missing[-1] != 0:
-            raise Infeasible
+            raise InfeasibleError
 
     def minimise(self, cost: list[int]) -> None:
         """Pivot until no column lowers the cost.

@@ -17,7 +17,7 @@ from math import prod
 from ttr.probability.degrees import REFUTED, UNKNOWN, Degree, order_ends
 from ttr.probability.dependence import Component
 from ttr.probability.events import Truth
-from ttr.probability.linear_programs import units
+from ttr.probability.linear_programs import scale_to_integers
 from ttr.safety.budgets import spend
 
 __all__ = ["Impossible", "Network", "conjunction", "network"]
@@ -60,7 +60,7 @@ class Network:
         `given` is what is so for sure. Raises `Impossible` where that cannot be.
         """
         inside = [all(case[a] == so for a, so in given.items()) for case in self.cases]
-        ends, unit = units([x for p in worth for x in p])
+        ends, unit = scale_to_integers([x for p in worth for x in p])
         lows, highs = [], []
         for weights in self.weights:
             mine = [w if one else 0 for w, one in zip(weights, inside, strict=True)]
@@ -145,7 +145,7 @@ def _product(component: Component, parents: Parents, truth: Truth) -> Degree:
 def _corners(component: Component, parents: Parents) -> Iterator[list[Table]] | None:
     """The tables of a network at the ends of all intervals; None if they are many."""
     rows = {row: _degree(component, parents, row) for row in _rows(parents)}
-    counts, unit = units([x for p in rows.values() for x in p])
+    counts, unit = scale_to_integers([x for p in rows.values() for x in p])
     ends = dict(zip(rows, zip(counts[::2], counts[1::2], strict=True), strict=True))
     wide = [row for row, (lo, hi) in ends.items() if lo < hi]
     if 2 ** len(wide) * len(parents) > EFFORT:

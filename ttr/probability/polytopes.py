@@ -14,11 +14,11 @@ from ttr.probability.degrees import Degree, order_ends
 from ttr.probability.dependence import Component
 from ttr.probability.events import Truth
 from ttr.probability.linear_programs import (
-    Infeasible,
+    InfeasibleError,
     Row,
     feasible_point,
     minimise,
-    units,
+    scale_to_integers,
 )
 from ttr.probability.networks import Impossible
 from ttr.safety.budgets import spend
@@ -43,19 +43,19 @@ class Polytope:
     def share(self, worth: Sequence[Degree], given: Truth) -> Degree:
         """The bounds of p(E | given), where `worth` has p(E | world) for each world.
 
-        Raises `Impossible` where what is given cannot be, and `Infeasible`
+        Raises `Impossible` where what is given cannot be, and `InfeasibleError`
         where the degrees of the component contradict one another.
         """
         inside = [
             int(all(case[a] == so for a, so in given.items())) for case in self.cases
         ]
         rows = list(_rows(self.component, self.cases))
-        ends, unit = units([x for p in worth for x in p])
+        ends, unit = scale_to_integers([x for p in worth for x in p])
         low = [x * one for x, one in zip(ends[::2], inside, strict=True)]
         high = [-x * one for x, one in zip(ends[1::2], inside, strict=True)]
         try:
             lo = minimise(low, inside, rows)
-        except Infeasible:
+        except InfeasibleError:
             if all(inside) or not self.feasible():
                 raise
             raise Impossible from None
@@ -68,7 +68,7 @@ class Polytope:
         try:
             rows = list(_rows(self.component, self.cases))
             feasible_point([1] * count, rows)
-        except Infeasible:
+        except InfeasibleError:
             return False
         return True
 
@@ -155,7 +155,7 @@ def _rows(component: Component, known: Sequence[Truth]) -> Iterator[Row]:
 
 def _between(p: Degree, part: Sequence[int], whole: Sequence[int]) -> Iterator[Row]:
     """The rows for: the part is between p.lo and p.hi of the whole."""
-    (lo, hi), unit = units(p)
+    (lo, hi), unit = scale_to_integers(p)
     if lo > 0:
         yield [unit * x - lo * y for x, y in zip(part, whole, strict=True)]
     if hi < unit:

@@ -17,7 +17,7 @@ from tempfile import NamedTemporaryFile
 
 from ttr.escapes import terminal_line, terminal_text
 
-__all__ = ["DEBUG", "guarded", "report_unforeseen", "state_folder"]
+__all__ = ["DEBUG", "run_guarded", "report_unforeseen", "state_folder"]
 
 DEBUG = "KILLE_DEBUG"
 """The environment variable that makes a command print tracebacks."""
@@ -30,10 +30,10 @@ _SHOWN = 120
 """How many characters of the error's message are shown."""
 
 
-def guarded(program: str, run: Callable[[], int | None]) -> int:
+def run_guarded(program: str, run: Callable[[], int | None]) -> int:
     """Runs a command and gives the exit code, also after an unforeseen error.
 
-    >>> guarded("ttr", lambda: 0)
+    >>> run_guarded("ttr", lambda: 0)
     0
     """
     try:

@@ -22,12 +22,12 @@ from ttr.testing.game_settings import tutor_of
 from ttr.testing.strategies.random_dialogues import dialogues
 from ttr.types.printing import notation
 
-__all__ = ["differing"]
+__all__ = ["first_difference"]
 
 HASH_SEEDS = ("1", "2")
 
 
-def differing(place: Setting, *, examples: int, start: int) -> str:
+def first_difference(place: Setting, *, examples: int, start: int) -> str:
     """The first dialogue that differs between two processes; empty if none does.
 
     The game is one that the user has named. Raises `TTRError` if a process fails.

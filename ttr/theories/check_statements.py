@@ -27,13 +27,13 @@ from ttr.types.objects import Unresolved
 from ttr.types.syntax import Object, TypeNode
 from ttr.updates.rules import Rule
 
-__all__ = ["Asking"]
+__all__ = ["CheckReader"]
 
 _MERGES = ("merge", "amerge")
 
 
 @dataclass(frozen=True)
-class Asking:
+class CheckReader:
     """Reads the questions of `check` statements."""
 
     reader: Reader

@@ -32,7 +32,7 @@ from ttr.types.printing import notation
 from ttr.types.records import differences
 from ttr.types.syntax import TypeNode, identity, kind_of
 from ttr.updates.checks import Fault, faults_alone, faults_of
-from ttr.updates.rule_application import stepped
+from ttr.updates.rule_application import apply_rule
 from ttr.updates.rules import Rule
 
 if TYPE_CHECKING:
@@ -192,7 +192,7 @@ def _merges(query: Merges, theory: Theory) -> _Answer:
 def _updates(query: Updates, model: Model) -> _Answer:
     """Does the rule give this state? Raises `TTRError` if it does not apply."""
     wanted = model.reduce(query.result)
-    after = stepped(query.rule, [*map(model.reduce, query.args)], model).state
+    after = apply_rule(query.rule, [*map(model.reduce, query.args)], model).state
     if identity(after) == identity(wanted):
         return _Answer("yes", "yes")
     return _Answer("no", notation(after), "\n".join(differences(wanted, after)))

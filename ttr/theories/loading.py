@@ -15,7 +15,7 @@ from ttr.errors import MistakesError, NotationError, Span, TooLargeError, TTRErr
 from ttr.notation import syntax_trees as trees
 from ttr.notation.names import Names, is_declared, meaning_of
 from ttr.notation.parser import parse_statement
-from ttr.notation.scanning import blocks, vetted
+from ttr.notation.scanning import check_characters, find_statements
 from ttr.notation.syntax_trees import Part, Source
 from ttr.safety.budgets import SharedPurse, one_of_several, purse_of_several
 from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError, check_called
@@ -23,7 +23,7 @@ from ttr.safety.files import why_unread
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import THEORY
 from ttr.theories.drafts import Draft
-from ttr.theories.statements import Declaring, mentioned
+from ttr.theories.statements import StatementReader, names_mentioned
 from ttr.types.interning import identity
 
 __all__ = ["UnreadableError", "draft_of_file", "draft_of_text"]
@@ -118,17 +118,17 @@ class _Files:
     ) -> _Reading:
         """What a text declares; its imports are relative to `folder`."""
         try:
-            vetted(source)
+            check_characters(source)
         except NotationError as error:
             return _Reading(Draft(source.name), mistakes=(error,))
-        places = list(blocks(source.text))
+        places = list(find_statements(source.text))
         self.purse.allow(len(places))
         later: dict[str, int] = {}
         for start, _ in places:
             for name in _names_declared(source.text, start):
                 later.setdefault(name, source.line(start))
         draft = Draft(source.name)
-        file = _File(Declaring(draft, source, later), folder, chain, self)
+        file = _File(StatementReader(draft, source, later), folder, chain, self)
         for start, end in places:
             if len(file.mistakes) >= _MISTAKES:
                 file.give_up(start, end)
@@ -182,7 +182,7 @@ class _File:
     `spoilt` are the names that statements with mistakes should have declared.
     """
 
-    declaring: Declaring
+    declaring: StatementReader
     folder: Path
     chain: tuple[Path, ...]
     files: _Files
@@ -203,7 +203,7 @@ class _File:
         """Reads the statement text[start:end]."""
         try:
             tree = parse_statement(self.source, start, end)
-            if not mentioned(tree).isdisjoint(self.spoilt):
+            if not names_mentioned(tree).isdisjoint(self.spoilt):
                 self._spoil(start)
             elif isinstance(tree, trees.Import):
                 self._import(tree)

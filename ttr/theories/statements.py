@@ -21,20 +21,20 @@ from ttr.notation.syntax_trees import (
     inside,
 )
 from ttr.signature.signature import Axiom, Exclusion, Expected, Given
-from ttr.theories.check_statements import Asking
+from ttr.theories.check_statements import CheckReader
 from ttr.theories.drafts import Draft
 from ttr.theories.game_statements import read_game
 from ttr.theories.rule_statements import read_rule
-from ttr.theories.strategy_statements import gathered, read_strategy
+from ttr.theories.strategy_statements import kinds_gathered, read_strategy
 from ttr.types.paths import free_paths
 from ttr.types.printing import RESERVED
 from ttr.types.syntax import Basic, Object, Path, Pred, PType
 
-__all__ = ["Declaring", "mentioned"]
+__all__ = ["StatementReader", "names_mentioned"]
 
 
 @dataclass(frozen=True)
-class Declaring:
+class StatementReader:
     """Reads the statements of one text into a draft.
 
     `later` has the line of each declaration that is still to come.
@@ -80,10 +80,10 @@ class Declaring:
             case trees.AxiomClaim():
                 self._axiom(tree)
             case trees.Question():
-                self.draft.checks.append(Asking(self.reader).check(tree))
+                self.draft.checks.append(CheckReader(self.reader).check(tree))
             case _:
                 raise AssertionError(tree)
-        self.draft.used |= mentioned(tree)
+        self.draft.used |= names_mentioned(tree)
 
     def _basic(self, names: tuple[Word, ...]) -> None:
         for word in names:
@@ -196,7 +196,7 @@ class Declaring:
 
     def _gather(self, name: Word, value: Term) -> None:
         """Remember which kinds of rules have been gathered, and where."""
-        for kind in sorted(gathered(value)):
+        for kind in sorted(kinds_gathered(value)):
             self.draft.gathered.setdefault(kind, name.text)
 
     def _axiom(self, tree: trees.AxiomClaim) -> None:
@@ -263,7 +263,7 @@ class Declaring:
         return next((k for k, names in kinds.items() if name in names), "an object")
 
 
-def mentioned(tree: Statement) -> frozenset[str]:
+def names_mentioned(tree: Statement) -> frozenset[str]:
     """The names that a statement mentions, but not those it declares."""
     match tree:
         case trees.OpenNames(_, _, words):

@@ -31,7 +31,7 @@ from ttr.updates.algorithms import (
     seq,
 )
 
-__all__ = ["gathered", "read_strategy"]
+__all__ = ["kinds_gathered", "read_strategy"]
 
 _SEVERAL: Mapping[str, Callable[..., Algorithm]] = {
     "first": first,
@@ -76,7 +76,7 @@ def _why_too_large(algorithm: Algorithm) -> str:
     return ""
 
 
-def gathered(part: Part) -> frozenset[str]:
+def kinds_gathered(part: Part) -> frozenset[str]:
     """The kinds of rules that `by_class` gathers in a part of a text."""
     return frozenset(
         arg.labels[0]

@@ -10,6 +10,9 @@ binds, `effect_application` makes the next state, and `checks` finds faults in r
 without running them. This room may use `judging` and what is below it.
 """
 
+from typing import TYPE_CHECKING
+
+from ttr.aliases import former_names
 from ttr.updates.algorithms import (
     Algorithm,
     All,
@@ -25,7 +28,7 @@ from ttr.updates.algorithms import (
     first,
     maybe,
     repeat,
-    replaced,
+    replace_rules,
     rules_of,
     seq,
 )
@@ -57,10 +60,13 @@ __all__ = [
     "maybe",
     "nbest",
     "repeat",
-    "replaced",
+    "replace_rules",
     "rule",
     "rules_of",
     "run",
     "seq",
     "update",
 ]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)

@@ -33,7 +33,7 @@ __all__ = [
     "maybe",
     "rule_occurrences",
     "repeat",
-    "replaced",
+    "replace_rules",
     "rules_of",
     "seq",
 ]
@@ -245,17 +245,17 @@ def rule_occurrences(algorithm: Algorithm) -> Iterator[Rule]:
                 yield from rule_occurrences(part)
 
 
-def replaced(algorithm: Algorithm, rules: Mapping[str, Rule]) -> Algorithm:
+def replace_rules(algorithm: Algorithm, rules: Mapping[str, Rule]) -> Algorithm:
     """The strategy with these rules in place of those with the same names."""
     match algorithm:
         case Rule():
             return rules.get(algorithm.name, algorithm)
         case Maybe(part) | Repeat(part):
-            return replace(algorithm, part=replaced(part, rules))
+            return replace(algorithm, part=replace_rules(part, rules))
         case ByClass(classes):
             new = [(k, tuple(rules.get(r.name, r) for r in rs)) for k, rs in classes]
             return ByClass(tuple(new))
-    parts = tuple(replaced(part, rules) for part in algorithm.parts)
+    parts = tuple(replace_rules(part, rules) for part in algorithm.parts)
     return replace(algorithm, parts=parts)
 
 

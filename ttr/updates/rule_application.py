@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
+from ttr.aliases import former_names
 from ttr.errors import UpdateError
 from ttr.judging.models import Model
 from ttr.types.printing import notation
@@ -13,10 +15,13 @@ from ttr.updates.nbest import NBest, match_event
 from ttr.updates.rules import Rule
 from ttr.updates.running import Run, run
 
-__all__ = ["stepped", "why_not"]
+__all__ = ["apply_rule", "why_not"]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)
 
 
-def stepped(rule: Rule, args: Sequence[Object], model: Model) -> Run:
+def apply_rule(rule: Rule, args: Sequence[Object], model: Model) -> Run:
     """Apply a rule to a state and, if it takes one, an event.
 
     The state may be of any record type, as only a game says which one. Raises
@@ -30,9 +35,9 @@ def stepped(rule: Rule, args: Sequence[Object], model: Model) -> Run:
     ...     rule forget(s : [told : nelist(Int)]) := [told = rst(s.told) : list(Int)]
     ... ''')
     >>> M, forget = Model(count).given(1, count.Int), count.rules["forget"]
-    >>> print(stepped(forget, [record(told=[1])], M).state)
+    >>> print(apply_rule(forget, [record(told=[1])], M).state)
     {told = []}
-    >>> stepped(forget, [record(told=[])], M)
+    >>> apply_rule(forget, [record(told=[])], M)
     Traceback (most recent call last):
     ttr.errors.UpdateError: forget does not apply: told: [] : nelist(Int), it is empty
     """

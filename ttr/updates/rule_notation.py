@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from ttr.aliases import former_names
 from ttr.errors import UnsupportedError
 from ttr.escapes import json_text
 from ttr.probability import CERTAIN, Degree
@@ -17,13 +18,16 @@ from ttr.updates.rules import Body, Rule
 if TYPE_CHECKING:
     from ttr.theories.theory import Theory
 
-__all__ = ["declaration", "written"]
+__all__ = ["declaration", "format_rule"]
+
+if not TYPE_CHECKING:
+    __getattr__ = former_names(__name__)
 
 Fold = Callable[[Object], Object]
 """Replaces types by their names (`ttr.display.abbreviations`)."""
 
 
-def written(rule: Rule) -> str:
+def format_rule(rule: Rule) -> str:
     r"""The statement that declares the rule.
 
     Where the names in it are declared, reading it gives the same rule. Raises
@@ -37,7 +41,7 @@ def written(rule: Rule) -> str:
     ...     rule turn(s : Board) 'Who was spoken to speaks.' of floor
     ...         where [a = s.addr : Ind] := [spkr = a : Ind, addr = s.spkr : Ind]
     ... ''')
-    >>> print(written(board.rules["turn"]))
+    >>> print(format_rule(board.rules["turn"]))
     rule turn(s : [addr : Ind, spkr : Ind]) "Who was spoken to speaks." of floor
         where [a = s.addr : Ind]
         := [addr = s.spkr : Ind, spkr = a : Ind]
@@ -103,7 +107,7 @@ def declaration(theory: Theory, name: str, fold: Fold = lambda value: value) -> 
     game oblivion({l = []} : [l : list(Ind)]) := maybe(forget)
     """
     if name in theory.rules:
-        return written(_abbreviate(theory.rules[name], fold))
+        return format_rule(_abbreviate(theory.rules[name], fold))
     if name in theory.strategies:
         return f"strategy {name} := {theory.strategies[name]}"
     return _declare_game(theory.openings[name], fold)

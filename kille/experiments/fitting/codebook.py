@@ -23,7 +23,7 @@ from kille.perception.segment import region_of
 from kille.scene import Frame
 from kille.sensors.captures import description_of, read_scenes, read_sequence
 from kille.sensors.synthetic.sensor import open_synthetic
-from ttr.safety.unforeseen_errors import guarded
+from ttr.safety.unforeseen_errors import run_guarded
 
 _EACH = 150  # descriptors of a window
 _WINDOWS = 8  # by chance of a frame
@@ -147,4 +147,4 @@ def _some(found: Descriptors, chance: np.random.Generator) -> Descriptors:
 
 
 if __name__ == "__main__":
-    sys.exit(guarded("kille", lambda: main(Path(sys.argv[1]))))
+    sys.exit(run_guarded("kille", lambda: main(Path(sys.argv[1]))))

@@ -33,7 +33,7 @@ from kille.perception.colours.space import even
 from kille.perception.colours.words import ColourWords, read
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import TABLE
-from ttr.safety.unforeseen_errors import guarded
+from ttr.safety.unforeseen_errors import run_guarded
 
 Numbers = NDArray[np.float64]
 
@@ -250,4 +250,4 @@ def main(data: Path, out: Path) -> None:
 
 if __name__ == "__main__":
     written_to = Path(sys.argv[2]) if len(sys.argv) > 2 else SHIPPED
-    sys.exit(guarded("kille", lambda: main(Path(sys.argv[1]), written_to)))
+    sys.exit(run_guarded("kille", lambda: main(Path(sys.argv[1]), written_to)))

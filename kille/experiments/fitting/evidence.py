@@ -37,7 +37,7 @@ from kille.perception.votes import beyond_chance, votes
 from kille.scene import Frame, Region
 from kille.sensors.sensor import Stage
 from kille.sensors.sources import open_sensor
-from ttr.safety.unforeseen_errors import guarded
+from ttr.safety.unforeseen_errors import run_guarded
 
 Numbers = NDArray[np.float64]
 
@@ -363,4 +363,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(guarded("kille", main))
+    sys.exit(run_guarded("kille", main))

@@ -53,7 +53,7 @@ from kille.perception.surfaces.relief import (
 )
 from kille.scene import Frame
 from kille.sensors.synthetic import obj
-from ttr.safety.unforeseen_errors import guarded
+from ttr.safety.unforeseen_errors import run_guarded
 
 HEAPS, SCREENS, TIDY = range(700), range(200), range(200)
 MORE_HEAPS = (*HEAPS, *range(1000, 1700))
@@ -247,4 +247,4 @@ def _told(them: Score) -> str:
 
 
 if __name__ == "__main__":
-    sys.exit(guarded("kille", lambda: main(Path(sys.argv[1]))))
+    sys.exit(run_guarded("kille", lambda: main(Path(sys.argv[1]))))

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from kille.experiments.strokes import HUES
 from ttr import Record, TypeNode
 from ttr.display.html import part_of_page
-from ttr.display.layout import Layout, Matrix, Row, Word, laid_out
+from ttr.display.layout import Layout, Matrix, Row, Word, layout_of
 from ttr.escapes import html_text
 
 __all__ = ["Described", "apart", "shortened", "side_by_side"]
@@ -97,7 +97,7 @@ def apart(layout: Layout, others: Sequence[Layout]) -> Layout:
     Of fields that are matrices everywhere, the innermost fields are marked.
 
     >>> from ttr import record
-    >>> one, other = laid_out(record(x="a", y="b")), laid_out(record(x="a", y="c"))
+    >>> one, other = layout_of(record(x="a", y="b")), layout_of(record(x="a", y="c"))
     >>> [(row.label.text, row.changed) for row in apart(one, [other]).rows]
     [('x', False), ('y', True)]
     """
@@ -186,12 +186,12 @@ def _same(one: object, other: object) -> bool:
 
 
 def _layout(value: object) -> Layout | None:
-    return laid_out(value) if isinstance(value, TypeNode | Record) else None
+    return layout_of(value) if isinstance(value, TypeNode | Record) else None
 
 
 def _value(value: object) -> str:
     if isinstance(value, TypeNode | Record):
-        return part_of_page(laid_out(value))
+        return part_of_page(layout_of(value))
     if isinstance(value, Mapping):
         return _names(value)
     return f"<div>{_text(str(value))}</div>" if value else "<p>–</p>"

@@ -25,7 +25,7 @@ from ttr.updates import (
     Repeat,
     Rule,
     Seq,
-    replaced,
+    replace_rules,
     rules_of,
     seq,
 )
@@ -233,4 +233,4 @@ def _in_place(whole: Algorithm, rules: Mapping[str, Rule], reference: str) -> Al
                 f"{reference}: there is no rule {name} that it could stand for: "
                 f"{unknown(name, known)}"
             )
-    return replaced(whole, rules)
+    return replace_rules(whole, rules)

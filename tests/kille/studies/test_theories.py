@@ -47,7 +47,7 @@ RULES = [rule.name for rule in rules_of(TUTORING)]
 
 LESSON = """\
 from kille.dialogue.moves import answering, plan
-from ttr.updates import replaced, rule
+from ttr.updates import replace_rules, rule
 
 @rule(when=answering("AskName"))
 def admit_name(s):
@@ -58,7 +58,7 @@ several = [admit_name]
 renamed = {"admit_name": admit_name}
 
 def changed(games):
-    return replaced(games, renamed)
+    return replace_rules(games, renamed)
 
 whole = admit_name
 nothing = 3

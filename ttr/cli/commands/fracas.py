@@ -11,7 +11,7 @@ from ttr.cli.consent_options import add_allow
 from ttr.errors import TTRError
 
 if TYPE_CHECKING:
-    from ttr.semantics.fragment.fracas import Answered
+    from ttr.semantics.fragment.fracas import AnsweredProblem
 
 __all__ = ["add"]
 
@@ -34,7 +34,7 @@ def add(commands: Commands) -> None:
 
 
 def _fracas(options: argparse.Namespace) -> int:
-    from ttr.semantics.fragment.fracas import answered, problems
+    from ttr.semantics.fragment.fracas import answer_problems, problems
     from ttr.semantics.fragment.lexicon import english
 
     try:
@@ -45,7 +45,7 @@ def _fracas(options: argparse.Namespace) -> int:
     except TTRError as error:
         return complain(str(error))
     found = []
-    for one in answered(some, words):
+    for one in answer_problems(some, words):
         found.append(one)
         if not options.json:
             say(_answer_line(one))
@@ -61,7 +61,7 @@ def _fracas(options: argparse.Namespace) -> int:
     return FAILED if totals["wrong"] else FINE
 
 
-def _answer_line(one: Answered) -> str:
+def _answer_line(one: AnsweredProblem) -> str:
     """A line on one problem."""
     number = f"{one.problem.number:03}"
     match one.outcome:
@@ -74,7 +74,7 @@ def _answer_line(one: Answered) -> str:
     return f"{number}  right: {one.found}"
 
 
-def _json_answers(found: list[Answered], totals: Counter[str]) -> dict[str, Any]:
+def _json_answers(found: list[AnsweredProblem], totals: Counter[str]) -> dict[str, Any]:
     outcomes = ("right", "wrong", "outside", "open")
     return {
         "problems": [

@@ -71,7 +71,7 @@ def _show(options: argparse.Namespace) -> int:
 
 def _text_of(theory: Theory, options: argparse.Namespace) -> str:
     """What the name stands for, in the form asked for; `KeyError` if unknown."""
-    from ttr.display.abbreviations import folding
+    from ttr.display.abbreviations import abbreviator
     from ttr.display.html import page
     from ttr.display.render import box, html, latex
 
@@ -79,7 +79,7 @@ def _text_of(theory: Theory, options: argparse.Namespace) -> str:
         return _rule_text(theory, options)
     # The definition asked for is always unfolded itself.
     unfold = None if options.unfold is None else options.unfold + 1
-    value = folding(theory, unfold)(theory[options.name])
+    value = abbreviator(theory, unfold)(theory[options.name])
     match options.form:
         case "box":
             return box(value)
@@ -92,12 +92,12 @@ def _text_of(theory: Theory, options: argparse.Namespace) -> str:
 
 def _rule_text(theory: Theory, options: argparse.Namespace) -> str:
     """The statement that declares a rule, a strategy or a game."""
-    from ttr.display.abbreviations import folding
+    from ttr.display.abbreviations import abbreviator
     from ttr.updates.rule_notation import declaration
 
     if options.form != "text":
         raise UnsupportedError(f"{options.name} is shown as text only: it is no type")
-    return declaration(theory, options.name, folding(theory, options.unfold))
+    return declaration(theory, options.name, abbreviator(theory, options.unfold))
 
 
 def _declaration(theory: Theory, name: str, value: Object) -> str:

@@ -273,7 +273,7 @@ def _outcome(
 ) -> _Outcome:
     from ttr.testing import Suite
     from ttr.testing.game_settings import starts_of, tutor_of
-    from ttr.testing.hash_seeds import differing
+    from ttr.testing.hash_seeds import first_difference
 
     watch = _Progress(place.game, options.examples)
     suite = Suite(
@@ -291,7 +291,7 @@ def _outcome(
         try:
             report = suite.run()
             if report.holds and place.reference:
-                across = differing(place, examples=PROCESSED, start=options.seed)
+                across = first_difference(place, examples=PROCESSED, start=options.seed)
         except KeyboardInterrupt:
             report = None
         except TTRError as error:

@@ -8,23 +8,23 @@ from dataclasses import dataclass, replace
 from ttr.building.merging import amerge, merge
 from ttr.cli.session.sessions import INPUT, LastAnswer, Session, create_witness, declare
 from ttr.computing.subtyping import subtype
-from ttr.display.abbreviations import folding
+from ttr.display.abbreviations import abbreviator
 from ttr.errors import NotationError, Span, TTRError
 from ttr.judging.judgements import Why
 from ttr.notation import syntax_trees as trees
 from ttr.notation.parser import parse_statement
 from ttr.notation.reader import Reader, read_term
-from ttr.notation.scanning import vetted
+from ttr.notation.scanning import check_characters
 from ttr.notation.syntax_trees import Application, Name, Source, Statement
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import within_budget
-from ttr.theories.check_statements import Asking
+from ttr.theories.check_statements import CheckReader
 from ttr.theories.checking import asked
 from ttr.theories.game_statements import opened
 from ttr.theories.queries import Check, IsBelow, IsOf
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, TypeNode, as_type
-from ttr.updates.rule_application import stepped
+from ttr.updates.rule_application import apply_rule
 from ttr.updates.rule_notation import declaration
 
 __all__ = ["ASKED", "Reply", "answer", "list_changes", "evaluate_term"]
@@ -55,7 +55,7 @@ def answer(session: Session, text: str) -> Reply:
     counter-example: a1
     """
     source = Source.of(text, INPUT)
-    vetted(source)
+    check_characters(source)
     try:
         tree = parse_statement(source, 0, len(source.text))
     except NotationError as mistake:
@@ -165,7 +165,7 @@ def _answer_tree(session: Session, tree: Statement, reader: Reader) -> Reply:
         case trees.Question(_, _, "yes", trees.Expectation(degree=None) as asked):
             return _answer_expectation(session, asked, reader)
         case trees.Question(_, _, "yes"):
-            return _answer_check(session, Asking(reader).check(tree))
+            return _answer_check(session, CheckReader(reader).check(tree))
     reader.refuse(
         tree,
         "a question is asked as it is: the answer says yes, no or unknown",
@@ -270,9 +270,9 @@ def _answer_term(session: Session, claim: trees.Term, reader: Reader) -> Reply:
         case Application(_, _, Name(_, _, (name,), None)) if (
             name in session.theory.rules
         ):
-            rule, args = Asking(reader).step(claim, name)
+            rule, args = CheckReader(reader).step(claim, name)
             args = tuple(map(session.model.reduce, args))
-            return _show(session, stepped(rule, args, session.model).state)
+            return _show(session, apply_rule(rule, args, session.model).state)
         case Application(_, _, Name(_, _, (name,), None), args) if (
             name in session.theory.openings
         ):
@@ -292,7 +292,7 @@ def _is_rule_or_game(session: Session, name: str) -> bool:
 
 def _declaration_of(session: Session, name: str) -> str:
     """The declaration of a rule, strategy or game; defined types by name."""
-    return declaration(session.theory, name, folding(session.theory, 0))
+    return declaration(session.theory, name, abbreviator(session.theory, 0))
 
 
 def _play_game(session: Session, name: str, events: list[Object]) -> Reply:
@@ -313,7 +313,7 @@ def _answer_about_types(
     if word == "wellformed":
         place = claim.start, claim.end
         question = trees.Question(*place, "yes", trees.Claim(*place, claim))
-        return _answer_check(session, Asking(reader).check(question))
+        return _answer_check(session, CheckReader(reader).check(question))
     types = [_reduced_type(session, reader.type(arg, ())) for arg in claim.args]
     match word, types:
         case "create", [T]:

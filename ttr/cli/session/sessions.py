@@ -20,7 +20,7 @@ from ttr.judging.judgements import Judgement, Why
 from ttr.judging.models import Model
 from ttr.notation import syntax_trees as trees
 from ttr.notation.parser import parse_statement
-from ttr.notation.scanning import blocks
+from ttr.notation.scanning import find_statements
 from ttr.notation.syntax_trees import Source, Statement
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.safety.budgets import within_budget
@@ -29,8 +29,8 @@ from ttr.safety.files import write_whole
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import THEORY
 from ttr.theories.drafts import Draft
-from ttr.theories.statements import Declaring, mentioned
-from ttr.theories.strategy_statements import gathered
+from ttr.theories.statements import StatementReader, names_mentioned
+from ttr.theories.strategy_statements import kinds_gathered
 from ttr.theories.theory import (
     Expected,
     Given,
@@ -144,7 +144,7 @@ def _theory_with(
     """The theory of the entries with one more statement."""
     draft = Draft.of(theory)
     draft.used.update(*(one.rests_on for one in entries))
-    Declaring(draft, source).declare(tree)
+    StatementReader(draft, source).declare(tree)
     return theory_of_draft(draft)
 
 
@@ -163,7 +163,7 @@ def _make_entry(
         text = f"import {json_text(str(path))}"
         return Entry(text, theory.names, frozenset(), kinds)
     text = _indent(_text_of(source, tree))
-    rests_on = mentioned(tree) | _kind_marks(gathered(tree))
+    rests_on = names_mentioned(tree) | _kind_marks(kinds_gathered(tree))
     return Entry(text, _declared_names(tree), rests_on, _kinds_of(tree))
 
 
@@ -459,7 +459,7 @@ def load_file(session: Session, path: Path) -> tuple[Session, frozenset[str]]:
 
 def _entries_of_file(path: Path, consent: Consent) -> Iterator[Entry]:
     source = Source.of(read_text(path, THEORY), str(path))
-    for start, end in blocks(source.text):
+    for start, end in find_statements(source.text):
         yield _make_entry(
             parse_statement(source, start, end), source, path.parent, consent
         )

@@ -24,11 +24,11 @@ from ttr.semantics.fragment.sentence_parsing import OutsideFragmentError
 from ttr.semantics.quantifiers import Thresholds
 
 __all__ = [
-    "Answered",
+    "AnsweredProblem",
     "Outcome",
     "Problem",
     "UnreadableError",
-    "answered",
+    "answer_problems",
     "problems",
 ]
 
@@ -59,7 +59,7 @@ class Problem:
 
 
 @dataclass(frozen=True)
-class Answered:
+class AnsweredProblem:
     """A problem, how it came out, the answer that was found, and why."""
 
     problem: Problem
@@ -128,9 +128,9 @@ def _text(element: ET.Element | None) -> str:
     return "" if element is None else " ".join("".join(element.itertext()).split())
 
 
-def answered(
+def answer_problems(
     some: tuple[Problem, ...], words: Lexicon, thresholds: Thresholds | None = None
-) -> Iterator[Answered]:
+) -> Iterator[AnsweredProblem]:
     """Answer the problems one after the other."""
     for problem in some:
         yield _answer_problem(problem, words, thresholds)
@@ -138,15 +138,17 @@ def answered(
 
 def _answer_problem(
     problem: Problem, words: Lexicon, thresholds: Thresholds | None
-) -> Answered:
+) -> AnsweredProblem:
     if not problem.hypothesis:
-        return Answered(problem, "outside", "", "the problem has no hypothesis")
+        return AnsweredProblem(problem, "outside", "", "the problem has no hypothesis")
     try:
         found = follows(problem.premises, problem.hypothesis, words, thresholds)
     except OutsideFragmentError as outside:
         why = "; ".join(filter(None, (outside.message, outside.hint)))
-        return Answered(problem, "outside", "", why)
+        return AnsweredProblem(problem, "outside", "", why)
     if problem.answer not in _ANSWERS:
-        return Answered(problem, "open", found.verdict, found.why)
+        return AnsweredProblem(problem, "open", found.verdict, found.why)
     right = found.verdict == problem.answer
-    return Answered(problem, "right" if right else "wrong", found.verdict, found.why)
+    return AnsweredProblem(
+        problem, "right" if right else "wrong", found.verdict, found.why
+    )

@@ -11,7 +11,7 @@ from fractions import Fraction
 from math import floor, gcd
 from typing import TypeAlias
 
-from ttr.probability.linear_programs import Infeasible, feasible_point
+from ttr.probability.linear_programs import InfeasibleError, feasible_point
 
 __all__ = ["Demand", "UndecidedError", "integer_solution"]
 
@@ -71,5 +71,5 @@ def _rational_solution(
     rows = [[*weights, -bound] for weights, bound in demands]
     try:
         return feasible_point(one, rows)[:size]
-    except Infeasible:
+    except InfeasibleError:
         return None
