@@ -13,9 +13,9 @@ from ttr.probability import (
     AnyOf,
     Atomic,
     Conditional,
-    Contradiction,
+    ContradictionError,
     Dependence,
-    Impossible,
+    ImpossibleError,
     Not,
     chance,
     degree,
@@ -112,14 +112,14 @@ def test_atoms_that_exclude_each_other():
 
 def test_degrees_that_contradict_each_other():
     known = Dependence({"a": A.p, "b": Degree(0.7, 0.7)}, exclusive=(("a", "b"),))
-    with pytest.raises(Contradiction):
+    with pytest.raises(ContradictionError):
         odds(A, known)
 
 
 def test_what_cannot_be_is_no_condition():
-    with pytest.raises(Impossible):
+    with pytest.raises(ImpossibleError):
         odds(A, given=All((B, Not(B))))
-    with pytest.raises(Impossible):
+    with pytest.raises(ImpossibleError):
         odds(A, given=number("c", 0.0))
 
 

@@ -23,7 +23,7 @@ from ttr.probability import (
     Degree,
     Dependence,
     Event,
-    Impossible,
+    ImpossibleError,
     are_apart,
     chance,
 )
@@ -59,7 +59,7 @@ def derive_conditional(
     event, condition = claim.event(), combine_events("all", conditions)
     try:
         found = probability_of(event, known, condition)
-    except Impossible:
+    except ImpossibleError:
         raise RefusedError(
             f"nothing follows given {given}, as that cannot be",
             hint="judge under conditions that are possible",

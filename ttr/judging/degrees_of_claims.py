@@ -12,11 +12,11 @@ from ttr.probability import (
     REFUTED,
     All,
     Chance,
-    Contradiction,
+    ContradictionError,
     Degree,
     Dependence,
     Event,
-    Impossible,
+    ImpossibleError,
     are_apart,
     chance,
 )
@@ -35,7 +35,7 @@ def probability_of(event: Event, known: Dependence, given: Event = SURE) -> Chan
     """The probability of an event; `RefusedError` where the facts are contradictory."""
     try:
         return chance(event, known, given)
-    except Contradiction as wrong:
+    except ContradictionError as wrong:
         raise contradiction(wrong.component) from None
 
 
@@ -78,7 +78,7 @@ def _chain(grounds: Sequence[Why], known: Dependence) -> str:
     try:
         pairs = zip(events, before, strict=True)
         factors = [chance(event, known, given).p for event, given in pairs]
-    except Impossible:
+    except ImpossibleError:
         return ""
     return f"{' × '.join(map(str, factors))}, each given those before"
 

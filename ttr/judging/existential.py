@@ -28,7 +28,7 @@ from ttr.probability import (
     Atomic,
     Degree,
     Event,
-    Impossible,
+    ImpossibleError,
 )
 from ttr.probability.events import SURE
 from ttr.types.printing import notation
@@ -115,7 +115,7 @@ def probability_of_some(
     known = dependence(facts, claims_of([*whys, *more]))
     try:
         found = probability_of(event, known, SURE if given is None else given)
-    except Impossible:
+    except ImpossibleError:
         raise RefusedError(
             f"nothing is of {when}, so nothing follows from it"
         ) from None

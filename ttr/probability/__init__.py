@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from ttr.aliases import former_names
 from ttr.probability.chances import (
     Chance,
-    Contradiction,
-    Impossible,
+    ContradictionError,
+    ImpossibleError,
     are_apart,
     chance,
 )
@@ -44,11 +44,11 @@ __all__ = [
     "Chance",
     "Component",
     "Conditional",
-    "Contradiction",
+    "ContradictionError",
     "Degree",
     "Dependence",
     "Event",
-    "Impossible",
+    "ImpossibleError",
     "Not",
     "are_apart",
     "chance",

@@ -22,11 +22,11 @@ from ttr.probability.events import (
 )
 from ttr.probability.independent import bounds, sum_over_cases
 from ttr.probability.linear_programs import InfeasibleError
-from ttr.probability.networks import Impossible, Network, conjunction, network
+from ttr.probability.networks import ImpossibleError, Network, conjunction, network
 from ttr.probability.polytopes import Polytope, polytope
 from ttr.safety.budgets import spend
 
-__all__ = ["Chance", "Contradiction", "Impossible", "are_apart", "chance"]
+__all__ = ["Chance", "ContradictionError", "ImpossibleError", "are_apart", "chance"]
 
 BRANCHES = 1024
 """The number of cases of linked atoms that are distinguished, in all."""
@@ -40,7 +40,7 @@ class Chance(NamedTuple):
     rests_on: tuple[Component, ...] = ()
 
 
-class Contradiction(Exception):
+class ContradictionError(Exception):
     """The degrees of a component contradict one another."""
 
     def __init__(self, component: Component) -> None:
@@ -54,8 +54,9 @@ def chance(
     """The probability of an event, given another one.
 
     Exact where at most ten atoms are shared between parts of the event, and components
-    are small; else bounds that hold whatever depends on what. Raises `Impossible` where
-    what is given cannot be, and `Contradiction` where degrees do not go together.
+    are small; else bounds that hold whatever depends on what. Raises `ImpossibleError`
+    where what is given cannot be, and `ContradictionError` where degrees do not go
+    together.
 
     >>> a, b = Atomic("a", Degree(0.4, 0.4)), Atomic("b", Degree(0.5, 0.5))
     >>> print(chance(All((a, b))).p, chance(AnyOf((a, Not(a)))).p)
@@ -95,12 +96,12 @@ def _quotient(event: Event, known: Dependence, given: Event) -> Chance:
     """p(E ∧ C) / (p(E ∧ C) + p(¬E ∧ C)), for a condition that is no conjunction."""
     if are_apart((event, given), known):
         if chance(given, known).p.hi == 0.0:
-            raise Impossible
+            raise ImpossibleError
         return chance(event, known)
     both = chance(All((event, given)), known)
     only = chance(All((Not(event), given)), known)
     if both.p.hi == 0.0 == only.p.hi:
-        raise Impossible
+        raise ImpossibleError
     lo = both.p.lo / (both.p.lo + only.p.hi) if only.p.hi > 0.0 else 1.0
     hi = both.p.hi / (both.p.hi + only.p.lo) if both.p.hi > 0.0 else 0.0
     points = both.p.lo == both.p.hi and only.p.lo == only.p.hi
@@ -146,7 +147,7 @@ class _Solving:
         place = self._known.place
         free = {a: so for a, so in self._condition.items() if a not in place}
         if simplify(given, {}) == AnyOf(()):
-            raise Impossible
+            raise ImpossibleError
         for number in dict.fromkeys(place[a] for a in self._condition if a in place):
             self._in_cases(number, SURE)
         self._rests_on.clear()
@@ -213,7 +214,7 @@ class _Solving:
         try:
             return joint.share(worth, mine)
         except InfeasibleError:
-            raise Contradiction(component) from None
+            raise ContradictionError(component) from None
 
     def _is_mixed(self, event: Event) -> bool:
         """May the event both rise and fall with an unlinked atom with an interval?

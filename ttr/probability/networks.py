@@ -20,7 +20,7 @@ from ttr.probability.events import Truth
 from ttr.probability.linear_programs import scale_to_integers
 from ttr.safety.budgets import spend
 
-__all__ = ["Impossible", "Network", "conjunction", "network"]
+__all__ = ["ImpossibleError", "Network", "conjunction", "network"]
 
 CASES = 256
 """The number of cases of the atoms asked for that are distinguished."""
@@ -42,7 +42,7 @@ Table = tuple[tuple[Hashable, ...], dict[Case, int]]
 """Some atoms, and a weight for each case of them."""
 
 
-class Impossible(Exception):
+class ImpossibleError(Exception):
     """The condition is certainly not met."""
 
 
@@ -57,7 +57,7 @@ class Network:
     def share(self, worth: Sequence[Degree], given: Truth) -> Degree:
         """How probable an event is of which we have the worth in each case.
 
-        `given` is what is so for sure. Raises `Impossible` where that cannot be.
+        `given` is what is so for sure. Raises `ImpossibleError` where that cannot be.
         """
         inside = [all(case[a] == so for a, so in given.items()) for case in self.cases]
         ends, unit = scale_to_integers([x for p in worth for x in p])
@@ -71,7 +71,7 @@ class Network:
                 lows.append(Fraction(low, whole))
                 highs.append(Fraction(high, whole))
         if not lows:
-            raise Impossible
+            raise ImpossibleError
         return order_ends(float(min(lows)), float(max(highs)))
 
 
@@ -107,7 +107,7 @@ def conjunction(component: Component, truth: Truth, given: Truth) -> Degree | No
     """How probable it is that some atoms of a network are so, and others not.
 
     None where it is no network, or where too much of it is known in intervals only.
-    Raises `Impossible` where what is given cannot be.
+    Raises `ImpossibleError` where what is given cannot be.
     """
     everything = component.parents
     if everything is None:
@@ -128,7 +128,7 @@ def conjunction(component: Component, truth: Truth, given: Truth) -> Degree | No
         if whole[()] > 0:
             found.append(Fraction(mine[()], whole[()]))
     if corners is not None and not found:
-        raise Impossible
+        raise ImpossibleError
     return order_ends(float(min(found)), float(max(found))) if found else None
 
 

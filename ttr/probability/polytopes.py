@@ -20,7 +20,7 @@ from ttr.probability.linear_programs import (
     minimise,
     scale_to_integers,
 )
-from ttr.probability.networks import Impossible
+from ttr.probability.networks import ImpossibleError
 from ttr.safety.budgets import spend
 
 __all__ = ["Polytope", "feasible", "polytope"]
@@ -43,7 +43,7 @@ class Polytope:
     def share(self, worth: Sequence[Degree], given: Truth) -> Degree:
         """The bounds of p(E | given), where `worth` has p(E | world) for each world.
 
-        Raises `Impossible` where what is given cannot be, and `InfeasibleError`
+        Raises `ImpossibleError` where what is given cannot be, and `InfeasibleError`
         where the degrees of the component contradict one another.
         """
         inside = [
@@ -58,7 +58,7 @@ class Polytope:
         except InfeasibleError:
             if all(inside) or not self.feasible():
                 raise
-            raise Impossible from None
+            raise ImpossibleError from None
         hi = -minimise(high, inside, rows)
         return order_ends(float(lo / unit), float(hi / unit))
 
