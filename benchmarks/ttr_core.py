@@ -28,13 +28,11 @@ from _measuring import (
 )
 
 from ttr import (
-    EventString,
     Ind,
     ListOf,
     Model,
     Plus,
     Pred,
-    PType,
     Record,
     RecordType,
     Str,
@@ -45,6 +43,7 @@ from ttr import (
     subtype,
     this,
 )
+from ttr.types import EventString, PType
 
 FIELDS = (5, 20, 80, 320, 1280, 5000)
 COUNTS = (10, 100, 1_000, 10_000, 100_000)

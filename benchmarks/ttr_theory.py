@@ -25,14 +25,11 @@ from _measuring import (
 
 from ttr import (
     Basic,
-    EventString,
     Ind,
     Model,
     Plus,
     Pred,
-    RefusedError,
     Str,
-    TypeNode,
     fun,
     join,
     meet,
@@ -41,6 +38,7 @@ from ttr import (
     rectype,
     this,
 )
+from ttr.errors import RefusedError
 from ttr.semantics.perceptual import Perceptron, RealVector, meaning
 from ttr.semantics.quantifiers import (
     Determiner,
@@ -51,6 +49,7 @@ from ttr.semantics.quantifiers import (
     settle,
 )
 from ttr.theories.theory import Axiom, Exclusion, Signature
+from ttr.types import EventString, TypeNode
 
 FIELDS = (5, 20, 80, 320)
 p, q = Pred("p", Ind), Pred("q", Ind)

@@ -5,7 +5,6 @@ Run it with `python examples/01_records.py`, and read along.
 
 from ttr import (
     Basic,
-    EventString,
     ListOf,
     Model,
     Plus,
@@ -19,6 +18,7 @@ from ttr import (
     rectype,
     this,
 )
+from ttr.types import EventString
 
 # A basic type, and predicates with the types of their arguments. `dog("fido")` is a
 # ptype: the type of the situations in which Fido is a dog.

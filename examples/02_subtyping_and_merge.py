@@ -3,19 +3,8 @@
 Run it with `python examples/02_subtyping_and_merge.py`, and read along.
 """
 
-from ttr import (
-    Basic,
-    Pred,
-    amerge,
-    common_supertype,
-    consistent,
-    merge,
-    rectype,
-    relabel,
-    subtract,
-    subtype,
-    this,
-)
+from ttr import Basic, Pred, amerge, consistent, merge, rectype, relabel, subtype, this
+from ttr.building import common_supertype, subtract
 from ttr.theories.theory import Axiom, Signature
 
 Ind = Basic("Ind")

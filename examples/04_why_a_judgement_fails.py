@@ -3,17 +3,8 @@
 Run it with `python examples/04_why_a_judgement_fails.py`, and read along.
 """
 
-from ttr import (
-    Basic,
-    Model,
-    Pred,
-    RefusedError,
-    UndecidedError,
-    latex,
-    record,
-    rectype,
-    this,
-)
+from ttr import Basic, Model, Pred, latex, record, rectype, this
+from ttr.errors import RefusedError, UndecidedError
 from ttr.theories.theory import Signature
 
 Ind = Basic("Ind")

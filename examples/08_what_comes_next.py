@@ -3,9 +3,10 @@
 Run it with `python examples/08_what_comes_next.py`, and read along.
 """
 
-from ttr import Basic, EventString, Model, Plus, Pred, Str, subtype
+from ttr import Basic, Model, Plus, Pred, Str, subtype
 from ttr.errors import UnexpectedError
 from ttr.semantics.string_prediction import star, start_course
+from ttr.types import EventString
 
 Ind = Basic("Ind")
 pick_up, throw = Pred("pick_up", Ind, Ind), Pred("throw", Ind, Ind)

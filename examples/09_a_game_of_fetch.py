@@ -5,8 +5,9 @@ Run it with `python examples/09_a_game_of_fetch.py`, and read along in `fetch.tt
 
 from pathlib import Path
 
-from ttr import UpdateError, load
+from ttr import load
 from ttr.dialogues.encounters import Participant, meeting
+from ttr.errors import UpdateError
 from ttr.judging.type_acts import Create, Query, performed
 from ttr.updates import run
 

@@ -3,19 +3,8 @@
 Run it with `python examples/10_your_own_gameboard.py`, and read along.
 """
 
-from ttr import (
-    Ind,
-    ListOf,
-    Model,
-    Pred,
-    RecType,
-    UpdateError,
-    fst,
-    outer,
-    record,
-    rectype,
-    replace,
-)
+from ttr import Ind, ListOf, Model, Pred, RecType, outer, record, rectype, replace
+from ttr.errors import UpdateError
 from ttr.semantics.questions import (
     Question,
     combine,
@@ -25,6 +14,7 @@ from ttr.semantics.questions import (
     which,
     with_questions,
 )
+from ttr.types import fst
 from ttr.updates import Game, all_, first, rule
 from ttr.updates.checks import faults_of
 

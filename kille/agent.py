@@ -32,10 +32,12 @@ from kille.recollection import sign_of
 from kille.sensors.sensor import Sensor, SensorError
 from kille.witness import Witnesses, thing
 from kille.words import Vocabulary
-from ttr import Judgement, Model, Record, RecType, Singleton, TTRError, record
+from ttr import Model, Record, RecType, TTRError, record
 from ttr.errors import UpdateError
+from ttr.judging import Judgement
 from ttr.probability import CERTAIN
 from ttr.semantics.perceptual import Meaning, Speaker
+from ttr.types import Singleton
 from ttr.updates import Game, Run, Step
 
 __all__ = ["Agent"]

@@ -14,7 +14,8 @@ from kille.memory import Word
 from kille.recollection import Recollection, sign_of
 from kille.scene import Percept
 from kille.witness import Witnesses, number_of
-from ttr import Model, PType, Record, RecordType, TypeNode, replace
+from ttr import Model, Record, RecordType, replace
+from ttr.types import PType, TypeNode
 
 __all__ = ["Body"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ttr import Judgement
+from ttr.judging import Judgement
 from ttr.updates import Step
 
 __all__ = ["Exchange", "Said"]

@@ -12,7 +12,7 @@ from kille.dialogue.language import LANGUAGES
 from kille.dialogue.meanings import theory
 from kille.memory import Memory
 from kille.sensors.sensor import SensorError
-from ttr import TTRError, TypeNode
+from ttr import TTRError
 from ttr.dialogues.stories import (
     SILENCE,
     Line,
@@ -24,6 +24,7 @@ from ttr.dialogues.stories import (
 )
 from ttr.errors import UpdateError
 from ttr.probability import CERTAIN
+from ttr.types import TypeNode
 
 __all__ = ["Echo", "play"]
 

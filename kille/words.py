@@ -16,7 +16,7 @@ from kille.perception.objects import ObjectMemory
 from kille.perception.relations import RelationMemory
 from kille.scene import Configuration
 from kille.witness import Witnesses
-from ttr import Path, PType, Record
+from ttr import Record
 from ttr.semantics.perceptual import (
     ByLearner,
     Meaning,
@@ -25,6 +25,7 @@ from ttr.semantics.perceptual import (
     learner_params,
     meaning,
 )
+from ttr.types import Path, PType
 
 __all__ = ["Pupil", "Vocabulary"]
 

@@ -266,6 +266,13 @@ def public(value: object) -> set[str]:
     return {name for name in dir(value) if not name.startswith("_")} - former
 
 
+def rooms() -> dict[str, set[str]]:
+    """The public names of the inner rooms that are not at the top."""
+    named = ("types", "computing", "building", "judging", "errors")
+    found = {f"ttr.{it}": importlib.import_module(f"ttr.{it}") for it in named}
+    return {name: {*room.__all__} - {*ttr.__all__} for name, room in found.items()}
+
+
 def rules() -> dict[str, set[str]]:
     """The public names of what is done with single rules."""
     named = ("ttr.updates.rule_application", "ttr.updates.rule_notation")
@@ -322,6 +329,7 @@ def test_the_python_reference_names_what_is_public() -> None:
         robot.hear("This is a cup.")
         expected = {
             "ttr": set(ttr.__all__),
+            **rooms(),
             "ttr.updates": set(importlib.import_module("ttr.updates").__all__),
             "ttr.semantics.perceptual": set(perceptual.__all__),
             "ttr.semantics.perceptual.Meaning": public(robot.meaning("cup")),
@@ -342,9 +350,9 @@ def test_the_python_reference_names_what_is_public() -> None:
             **studying(),
             **talking(),
             "ttr.Model": public(ttr.Model()),
-            "ttr.Judgement": public(ttr.Model().judge("a", ttr.Ind)),
-            "ttr.Why": public(ttr.Model().judge("a", ttr.Ind).why),
-            "ttr.Answer": public(ttr.subtype(ttr.Ind, ttr.Ind)),
+            "ttr.judging.Judgement": public(ttr.Model().judge("a", ttr.Ind)),
+            "ttr.judging.Why": public(ttr.Model().judge("a", ttr.Ind).why),
+            "ttr.computing.Answer": public(ttr.subtype(ttr.Ind, ttr.Ind)),
             "ttr.Theory": public(ttr.Theory()),
             "kille.Agent": public(robot),
             "kille.Memory": public(memory),

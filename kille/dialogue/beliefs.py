@@ -11,7 +11,8 @@ from collections.abc import Iterable, Sequence
 
 from kille.dialogue.meanings import word_of
 from kille.dialogue.reference.perspectives import front_of
-from ttr import Model, PType, Record, record
+from ttr import Model, Record, record
+from ttr.types import PType
 
 __all__ = [
     "Beliefs",

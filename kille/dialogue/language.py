@@ -33,7 +33,8 @@ from kille.dialogue.meanings import (
 from kille.dialogue.parsing import Grammar, Tree, Word, parts, words
 from kille.dialogue.sources import source
 from kille.dialogue.transcribing import CLOSELY, LOOSELY, robot_rules
-from ttr import Rec, Record, RecordType, RecType, TypeNode, rectype
+from ttr import Rec, Record, RecordType, RecType, rectype
+from ttr.types import TypeNode
 
 __all__ = [
     "LANGUAGES",

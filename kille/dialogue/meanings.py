@@ -14,21 +14,8 @@ from collections.abc import Iterator
 from functools import cache, lru_cache
 
 from kille.dialogue.redefining import ALLOWED, VARIABLE, types_of
-from ttr import (
-    Meet,
-    Negation,
-    Pred,
-    PType,
-    Record,
-    RecordType,
-    Singleton,
-    Theory,
-    TypeNode,
-    meet,
-    merge,
-    record,
-    rectype,
-)
+from ttr import Pred, Record, RecordType, Theory, meet, merge, record, rectype
+from ttr.types import Meet, Negation, PType, Singleton, TypeNode
 from ttr.types.paths import free_paths
 from ttr.types.syntax import Object
 

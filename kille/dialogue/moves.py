@@ -16,7 +16,8 @@ from kille.dialogue.meanings import (
     theory,
 )
 from kille.dialogue.reference.perspectives import front_of
-from ttr import Rec, Record, RecordType, RecType, TypeNode, record, rectype, replace
+from ttr import Rec, Record, RecordType, RecType, record, rectype, replace
+from ttr.types import TypeNode
 from ttr.types.syntax import Object
 
 __all__ = [

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from kille.dialogue.lexicon import Lexicon
-from ttr import Join, Meet, Negation, Pred, PType, Record, RecordType, TypeNode
+from ttr import Pred, Record, RecordType
+from ttr.types import Join, Meet, Negation, PType, TypeNode
 
 __all__ = ["Words", "claimed", "noun_phrase", "phrase"]
 

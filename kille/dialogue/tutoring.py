@@ -17,7 +17,8 @@ from kille.dialogue.meanings import named, predicate_at, theory
 from kille.dialogue.state import STATE, blank_model, initial
 from kille.dialogue.strategies import strategy
 from kille.dialogue.wording import say as worded
-from ttr import Judgement, Model, Record, RecordType
+from ttr import Model, Record, RecordType
+from ttr.judging import Judgement
 from ttr.updates import Algorithm, Game, NBest, nbest
 from ttr.updates.games import Act
 

@@ -17,7 +17,8 @@ from kille.dialogue.beliefs import degree, knows
 from kille.dialogue.meanings import CLAIMS, claims, is_denial, theory, value_at, word_of
 from kille.dialogue.reference import PARTS, contents, phrases, thing_at
 from kille.dialogue.state import words
-from ttr import Model, Pred, PType, Record, RecordType
+from ttr import Model, Pred, Record, RecordType
+from ttr.types import PType
 from ttr.updates import NBest
 
 __all__ = ["FAINTLY", "Weighed", "weighed"]

@@ -19,8 +19,9 @@ from kille.dialogue.listing import either, listed
 from kille.dialogue.meanings import word_of
 from kille.dialogue.mending import suggested
 from kille.dialogue.phrases import Words, claimed, noun_phrase, phrase
-from ttr import Join, Negation, Rec, Record, RecordType, Singleton
+from ttr import Rec, Record, RecordType
 from ttr.escapes import terminal_text
+from ttr.types import Join, Negation, Singleton
 
 __all__ = ["did_not_understand", "lexicon", "say", "tell"]
 

@@ -8,16 +8,9 @@ from kille.dialogue.meanings import predicate_at
 from kille.exchange import Exchange
 from kille.gaze import View
 from kille.interfaces.terminal import hanging_type
-from ttr import (
-    Judgement,
-    PType,
-    Rec,
-    Record,
-    RecordType,
-    Singleton,
-    record,
-    rectype,
-)
+from ttr import Rec, Record, RecordType, record, rectype
+from ttr.judging import Judgement
+from ttr.types import PType, Singleton
 from ttr.types.printing import notation
 from ttr.types.records import differences
 from ttr.types.substitution import resolve_paths

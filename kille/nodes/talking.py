@@ -22,7 +22,9 @@ from kille.nodes.topics import (
     USER_INPUT,
 )
 from kille.sensors.sensor import SensorError
-from ttr import Judgement, RecordType, TTRError, TypeNode
+from ttr import RecordType, TTRError
+from ttr.judging import Judgement
+from ttr.types import TypeNode
 
 __all__ = ["Talking"]
 

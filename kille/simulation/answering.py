@@ -11,7 +11,8 @@ from functools import lru_cache
 
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import predicate_at, value_at
-from ttr import PType, Record, RecordType
+from ttr import Record, RecordType
+from ttr.types import PType
 from ttr.types.syntax import Object
 
 __all__ = ["DROPPING", "answers_in"]

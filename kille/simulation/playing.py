@@ -18,7 +18,8 @@ from kille.simulation.learning import Taught, Word, observed
 from kille.simulation.perceiving import across, number_of, thing, view
 from kille.simulation.vocabulary import vocabulary
 from kille.simulation.worlds import World
-from ttr import Model, Pred, Record, RecordType, TypeNode, record, replace
+from ttr import Model, Pred, Record, RecordType, record, replace
+from ttr.types import TypeNode
 from ttr.updates import Game
 
 __all__ = ["act", "known", "simulated", "word", "world_of"]

@@ -9,7 +9,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from kille.dialogue.meanings import named, predicate_at, value_at
 from kille.simulation.playing import words
-from ttr import Judgement, Record, RecordType
+from ttr import Record, RecordType
+from ttr.judging import Judgement
 from ttr.testing import Property
 from ttr.testing.strategies import Dialogue, Trial
 from ttr.testing.strategies.discourse_roles import Roles

@@ -32,8 +32,9 @@ from kille.simulation.sayings import (
 )
 from kille.simulation.vocabulary import vocabulary
 from kille.simulation.worlds import World
-from ttr import Model, Negation, Pred, PType, Record, RecordType
+from ttr import Model, Pred, Record, RecordType
 from ttr.testing.strategies import Tutor
+from ttr.types import Negation, PType
 
 __all__ = ["NONSENSE", "happenings", "is_true", "tutoring"]
 

@@ -8,7 +8,8 @@ import pytest
 
 from kille import Agent
 from kille.dialogue.meanings import noun
-from ttr import Record, TTRError, UnsupportedError, box, record
+from ttr import Record, TTRError, box, record
+from ttr.errors import UnsupportedError
 from ttr.probability import UNKNOWN
 from ttr.semantics.perceptual import (
     agreement,

@@ -13,30 +13,23 @@ from hypothesis import strategies as st
 
 from ttr import (
     Basic,
-    FunType,
-    IllFormedError,
     ListOf,
     Model,
-    Negation,
-    NonEmpty,
-    Path,
     Plus,
     Pred,
-    PType,
     Record,
     RecordType,
-    RefusedError,
     SetOf,
     Str,
-    TypeNode,
-    UnsupportedError,
     join,
     meet,
     merge,
     record,
     rectype,
 )
+from ttr.errors import IllFormedError, RefusedError, UnsupportedError
 from ttr.testing.strategies import models, objects, types
+from ttr.types import FunType, Negation, NonEmpty, Path, PType, TypeNode
 from ttr.types.paths import subterms
 from ttr.types.syntax import Object
 

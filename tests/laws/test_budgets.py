@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ttr
-from ttr import TooLargeError, merge, subtype
+from ttr import merge, subtype
+from ttr.errors import TooLargeError
 
 
 @given(types(), types(), st.integers(1, 400))

@@ -10,8 +10,8 @@ from itertools import count, product
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ttr import Basic, ListOf, Model, Record, RecordType, UpdateError, record, rectype
-from ttr.errors import EndlessError
+from ttr import Basic, ListOf, Model, Record, RecordType, record, rectype
+from ttr.errors import EndlessError, UpdateError
 from ttr.types.syntax import Operation, Path
 from ttr.updates import Rule, by_class, first, maybe, repeat, rule, run, seq
 from ttr.updates.checks import faults

@@ -7,7 +7,8 @@ from generators import names, types
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ttr import Basic, RefusedError, meet
+from ttr import Basic, meet
+from ttr.errors import RefusedError
 from ttr.judging.propositions import probabilistic
 from ttr.semantics.learning import (
     JEFFREYS,

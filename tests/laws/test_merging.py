@@ -12,7 +12,8 @@ from generators import (
 )
 from hypothesis import given
 
-from ttr import IllFormedError, RecordType, amerge, merge
+from ttr import RecordType, amerge, merge
+from ttr.errors import IllFormedError
 
 
 @given(related(), models(), records())

@@ -19,7 +19,8 @@ from generators import (
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ttr import Model, RefusedError, merge, record, rectype, subtype, this
+from ttr import Model, merge, record, rectype, subtype, this
+from ttr.errors import RefusedError
 
 
 @given(types(), models())

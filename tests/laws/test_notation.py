@@ -9,31 +9,19 @@ from hypothesis import assume, example, given, reject
 from hypothesis import strategies as st
 
 from ttr import (
-    Application,
     Basic,
-    EventString,
-    FiniteSet,
-    IllFormedError,
     Ind,
     ListOf,
-    Negation,
-    NonEmpty,
-    Path,
     Pi,
     Plus,
     Pred,
     Rec,
     RecType,
     SetOf,
-    Singleton,
     Str,
     Theory,
     Type,
-    TypeNode,
-    Universe,
     amerge,
-    concat,
-    fst,
     fun,
     join,
     meet,
@@ -41,14 +29,28 @@ from ttr import (
     outer,
     record,
     rectype,
-    rst,
     this,
 )
+from ttr.errors import IllFormedError
 from ttr.notation.parser import parse_statement
 from ttr.notation.syntax_trees import Source
 from ttr.probability import CERTAIN, Degree
 from ttr.theories.drafts import Draft
 from ttr.theories.statements import StatementReader
+from ttr.types import (
+    Application,
+    EventString,
+    FiniteSet,
+    Negation,
+    NonEmpty,
+    Path,
+    Singleton,
+    TypeNode,
+    Universe,
+    concat,
+    fst,
+    rst,
+)
 from ttr.types.syntax import BOUND, Object, RecordType
 from ttr.updates.rule_notation import format_rule
 from ttr.updates.rules import Body, Rule

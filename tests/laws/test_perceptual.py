@@ -8,7 +8,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ttr import Ind, Model, Pred, fix, record, rectype, this
+from ttr import Ind, Model, Pred, record, rectype, this
+from ttr.building import fix
 from ttr.semantics.perceptual import (
     GradedPerceptron,
     Perceptron,

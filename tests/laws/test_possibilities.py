@@ -18,16 +18,12 @@ from generators import (
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ttr import (
-    Application,
-    RefusedError,
-    UnsupportedError,
-    proposition,
-    rectype,
-    subtype,
-)
+from ttr import rectype, subtype
 from ttr.computing.subtyping import consistent
+from ttr.errors import RefusedError, UnsupportedError
+from ttr.judging import proposition
 from ttr.semantics.modality import modal_system, necessarily, possibly
+from ttr.types import Application
 from ttr.types.paths import subterms
 
 systems = st.lists(models(), min_size=1, max_size=3).map(

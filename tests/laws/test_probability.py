@@ -4,7 +4,8 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ttr import Basic, Model, RefusedError, join, meet, subtype
+from ttr import Basic, Model, join, meet, subtype
+from ttr.errors import RefusedError
 from ttr.semantics.random_variables import RandomVariable
 from ttr.theories.theory import Axiom, Exclusion, Signature
 

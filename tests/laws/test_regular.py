@@ -6,21 +6,11 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ttr import (
-    Basic,
-    EventString,
-    Join,
-    Meet,
-    Model,
-    Negation,
-    Plus,
-    RefusedError,
-    Str,
-    Theory,
-    subtype,
-)
+from ttr import Basic, Model, Plus, Str, Theory, subtype
 from ttr.computing.strings.pieces import is_of_strings
+from ttr.errors import RefusedError
 from ttr.semantics.string_prediction import start_course
+from ttr.types import EventString, Join, Meet, Negation
 from ttr.types.forms import star
 
 A, B = Basic("A"), Basic("B")

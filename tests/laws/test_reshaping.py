@@ -14,12 +14,13 @@ from generators import (
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ttr import IllFormedError, Record, merge, subtype
+from ttr import Record, merge, subtype
 from ttr.building.flattening import flatten, unflatten
 from ttr.building.generalisation import common_supertype
 from ttr.building.relabelling import relabel
 from ttr.building.subtraction import subtract
 from ttr.computing.normal_forms import join_normal_form, meet_normal_form
+from ttr.errors import IllFormedError
 from ttr.testing.strategies import record_types as any_record_types
 from ttr.testing.strategies import records as any_records
 

@@ -4,8 +4,10 @@ from generators import record_types
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ttr import Model, RefusedError, Singleton, UpdateError, amerge, rectype
+from ttr import Model, amerge, rectype
 from ttr.building.merging import singleton_type
+from ttr.errors import RefusedError, UpdateError
+from ttr.types import Singleton
 from ttr.types.paths import free_paths
 from ttr.updates import rule, run
 

@@ -4,20 +4,10 @@ from generators import models, objects, record_types, records, types
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ttr import (
-    Basic,
-    ListOf,
-    Model,
-    NonEmpty,
-    TTRError,
-    amerge,
-    meet,
-    merge,
-    record,
-    rectype,
-)
+from ttr import Basic, ListOf, Model, TTRError, amerge, meet, merge, record, rectype
 from ttr.judging.certainty import is_certain, is_certain_given
 from ttr.probability import CERTAIN
+from ttr.types import NonEmpty
 
 
 @given(types(), objects(), models())

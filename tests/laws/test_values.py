@@ -14,11 +14,14 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import ttr
-from ttr import Function, FunType, Theory, join, meet, record, rectype, subtype
+from ttr import Theory, join, meet, record, rectype, subtype
+from ttr.types import Function, FunType
 from ttr.types.interning import identity
 from ttr.types.paths import map_parts
 
-NAMES = {name: getattr(ttr, name) for name in ttr.__all__}
+NAMES = {
+    name: getattr(room, name) for room in (ttr, ttr.types) for name in room.__all__
+}
 
 
 @given(types())
@@ -95,7 +98,8 @@ ANSWERS = """
 import json, sys
 import ttr
 from ttr import *
-names = {name: getattr(ttr, name) for name in ttr.__all__}
+from ttr.types import *
+names = {name: value for name, value in globals().items() if name[0] != "_"}
 types = [eval(text, dict(names)) for text in json.load(sys.stdin)]
 def said(ask):
     try:

@@ -5,18 +5,10 @@ It is correct, and its rules are what the mutants are made of.
 
 from __future__ import annotations
 
-from ttr import (
-    Judgement,
-    Model,
-    Record,
-    Theory,
-    TypeNode,
-    merge,
-    record,
-    rectype,
-    replace,
-)
+from ttr import Model, Record, Theory, merge, record, rectype, replace
+from ttr.judging import Judgement
 from ttr.testing import Roles, Tutor
+from ttr.types import TypeNode
 from ttr.updates import Game, by_class, first, maybe, repeat, rule, seq
 
 theory = Theory.parse(

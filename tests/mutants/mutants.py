@@ -18,9 +18,10 @@ import talking
 import travelling
 
 from kille.dialogue.moves import answering, plan
-from ttr import ListOf, Model, Record, RecType, TypeNode, rectype, replace
+from ttr import ListOf, Model, Record, RecType, rectype, replace
 from ttr.semantics.questions import top
 from ttr.testing import ALL, Property
+from ttr.types import TypeNode
 from ttr.updates import Game, Rule
 from ttr.updates.algorithms import replace_rules
 

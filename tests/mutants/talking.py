@@ -44,8 +44,10 @@ from kille.dialogue.meanings import noun, predicate_at, relation, theory, word_o
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
 from kille.simulation.properties import RETRACTED
-from ttr import Judgement, Model, PType, Record, RecordType, TypeNode, record
+from ttr import Model, Record, RecordType, record
+from ttr.judging import Judgement
 from ttr.testing import ALL, Roles, Tutor
+from ttr.types import PType, TypeNode
 from ttr.updates import first, maybe, seq
 
 SIGNS = [*map(noun, ("cup", "book", "box")), relation("to the left of")]

@@ -2,7 +2,8 @@
 
 import pytest
 
-from ttr import Ind, Model, Pred, RefusedError, TTRError, record, rectype
+from ttr import Ind, Model, Pred, TTRError, record, rectype
+from ttr.errors import RefusedError
 from ttr.judging.type_acts import Create, Judge, JudgeSome, Query, QuerySome, performed
 from ttr.probability import UNKNOWN
 

@@ -2,8 +2,10 @@
 
 import pytest
 
-from ttr import Basic, EventString, Model, Plus, Str, UnsupportedError, join, subtype
+from ttr import Basic, Model, Plus, Str, join, subtype
 from ttr.computing.strings.automata import automaton, automaton_above
+from ttr.errors import UnsupportedError
+from ttr.types import EventString
 from ttr.types.forms import star
 
 A, B, C = map(Basic, "ABC")

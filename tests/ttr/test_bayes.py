@@ -2,17 +2,9 @@
 
 import pytest
 
-from ttr import (
-    Basic,
-    IllFormedError,
-    Ind,
-    Pred,
-    RefusedError,
-    TTRError,
-    proposition,
-    rectype,
-    this,
-)
+from ttr import Basic, Ind, Pred, TTRError, rectype, this
+from ttr.errors import IllFormedError, RefusedError
+from ttr.judging import proposition
 from ttr.judging.propositions import probabilistic
 from ttr.semantics.learning import LAPLACE, Counts, NaiveBayes, posterior
 

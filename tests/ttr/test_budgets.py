@@ -10,7 +10,6 @@ import pytest
 
 import ttr
 from ttr import (
-    Answer,
     Basic,
     Ind,
     ListOf,
@@ -19,9 +18,7 @@ from ttr import (
     Pred,
     Str,
     Theory,
-    TooLargeError,
     TTRError,
-    TypeNode,
     consistent,
     join,
     meet,
@@ -32,9 +29,12 @@ from ttr import (
     this,
 )
 from ttr.cli.main import main
+from ttr.computing import Answer
+from ttr.errors import TooLargeError
 from ttr.safety import budgets
 from ttr.safety.budgets import open_purse, spend, within_budget
 from ttr.theories.checking import check
+from ttr.types import TypeNode
 from ttr.updates import rule
 from ttr.updates.games import Game
 
@@ -116,13 +116,13 @@ def test_what_is_too_large_is_unknown(name):
 def test_degrees_are_unknown_where_the_budget_ends():
     M, circle = friends(12)
     with ttr.budget(steps=FEW):
-        assert M.true(circle) == ttr.Degree(0.0, 1.0)
+        assert M.true(circle) == ttr.probability.Degree(0.0, 1.0)
         judged = M.judge(deep_record(25), doubled(25, Ind))
-        assert judged.p == ttr.Degree(0.0, 1.0)
+        assert judged.p == ttr.probability.Degree(0.0, 1.0)
         assert "too large" in str(judged.why.rule)
         chance = M.given("o", A).chance(doubled(40, A | B), when=A)
-        assert chance.p == ttr.Degree(0.0, 1.0)
-    assert M.true(rectype(x=Ind, y=Ind)) == ttr.Degree(1.0, 1.0)
+        assert chance.p == ttr.probability.Degree(0.0, 1.0)
+    assert M.true(rectype(x=Ind, y=Ind)) == ttr.probability.Degree(1.0, 1.0)
 
 
 RAISED: dict[str, Callable[[], object]] = {
@@ -133,13 +133,15 @@ RAISED: dict[str, Callable[[], object]] = {
     "repr": lambda: repr(doubled(40, A)),
     "box": lambda: ttr.box(doubled(40, A)),
     "latex": lambda: ttr.latex(doubled(40, A)),
-    "flatten": lambda: ttr.flatten(doubled(40, A)),
-    "common supertype": lambda: ttr.common_supertype(doubled(40, A), doubled(40, B)),
+    "flatten": lambda: ttr.building.flatten(doubled(40, A)),
+    "common supertype": lambda: ttr.building.common_supertype(
+        doubled(40, A), doubled(40, B)
+    ),
     "judge an object that is too large": lambda: Model().judge(_pairs(40), ListOf(A)),
     "list witnesses": lambda: friends(9)[0].witnesses(
         rectype({f"x{i}": Ind for i in range(9)})
     ),
-    "a normal form": lambda: ttr.join_normal_form(_negated(30)),
+    "a normal form": lambda: ttr.computing.join_normal_form(_negated(30)),
 }
 
 
@@ -194,7 +196,7 @@ def test_a_question_inside_another_shares_its_budget_and_its_end():
         judged = (
             Model().witnessed(Pred("p", Ind), by=by).judge("s", Pred("p", Ind)("a"))
         )
-    assert judged.p == ttr.Degree(0.0, 1.0)
+    assert judged.p == ttr.probability.Degree(0.0, 1.0)
     assert answers == []
 
 

@@ -4,8 +4,6 @@ import pytest
 
 from ttr import (
     Basic,
-    EventString,
-    IllFormedError,
     Ind,
     ListOf,
     Model,
@@ -13,26 +11,25 @@ from ttr import (
     Pred,
     Rec,
     RecType,
-    RefusedError,
     SetOf,
     Str,
     Theory,
     TTRError,
     Type,
-    Universe,
     amerge,
     check,
     fun,
     merge,
     outer,
-    proposition,
     record,
     rectype,
-    subtract,
     subtype,
     this,
 )
+from ttr.building import subtract
 from ttr.computing.cycles import describe_cycle
+from ttr.errors import IllFormedError, RefusedError
+from ttr.judging import proposition
 from ttr.semantics import quantifiers
 from ttr.semantics.learning import Counts, posterior
 from ttr.semantics.parametric_content import content, strong, weak
@@ -50,6 +47,7 @@ from ttr.semantics.quantifiers import (
 )
 from ttr.semantics.random_variables import RandomVariable
 from ttr.theories.theory import Axiom, Signature
+from ttr.types import EventString, Universe
 
 man, run, dog, boy = (Pred(name, Ind) for name in ("man", "run", "dog", "boy"))
 love, hug = Pred("love", Ind, Ind), Pred("hug", Ind, Ind)

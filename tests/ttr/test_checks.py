@@ -11,12 +11,10 @@ from ttr import (
     Basic,
     ListOf,
     Model,
-    NonEmpty,
     Pred,
     Rec,
     RecType,
     Theory,
-    UpdateError,
     load,
     outer,
     record,
@@ -24,6 +22,8 @@ from ttr import (
     replace,
     this,
 )
+from ttr.errors import UpdateError
+from ttr.types import NonEmpty
 from ttr.types.objects import fst
 from ttr.types.records import differences
 from ttr.updates import (

@@ -2,18 +2,9 @@
 
 import pytest
 
-from ttr import (
-    Basic,
-    IllFormedError,
-    Ind,
-    Model,
-    Pred,
-    Record,
-    TTRError,
-    proposition,
-    record,
-    rectype,
-)
+from ttr import Basic, Ind, Model, Pred, Record, TTRError, record, rectype
+from ttr.errors import IllFormedError
+from ttr.judging import proposition
 from ttr.judging.propositions import judged, probabilistic, probabilistic_claim
 from ttr.semantics.propositional_entailment import entails, equivalent
 from ttr.theories.theory import Axiom, Exclusion, Signature

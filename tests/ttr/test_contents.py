@@ -2,17 +2,8 @@
 
 import pytest
 
-from ttr import (
-    IllFormedError,
-    Ind,
-    Model,
-    Pred,
-    RefusedError,
-    fun,
-    record,
-    rectype,
-    this,
-)
+from ttr import Ind, Model, Pred, fun, record, rectype, this
+from ttr.errors import IllFormedError, RefusedError
 from ttr.semantics.parametric_content import apply, content, in_context, strong, weak
 from ttr.semantics.quantifiers import truth
 

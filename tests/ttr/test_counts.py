@@ -5,18 +5,9 @@ from fractions import Fraction
 
 import pytest
 
-from ttr import (
-    Basic,
-    IllFormedError,
-    Ind,
-    Model,
-    Pred,
-    RefusedError,
-    TTRError,
-    proposition,
-    rectype,
-    this,
-)
+from ttr import Basic, Ind, Model, Pred, TTRError, rectype, this
+from ttr.errors import IllFormedError, RefusedError
+from ttr.judging import proposition
 from ttr.judging.propositions import probabilistic
 from ttr.semantics.learning import (
     JEFFREYS,

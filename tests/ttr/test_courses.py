@@ -2,20 +2,9 @@
 
 import pytest
 
-from ttr import (
-    Basic,
-    Ind,
-    Model,
-    Plus,
-    Pred,
-    RefusedError,
-    Str,
-    TTRError,
-    UnsupportedError,
-    this,
-)
+from ttr import Basic, Ind, Model, Plus, Pred, Str, TTRError, this
 from ttr.building.constructors import rectype
-from ttr.errors import UnexpectedError
+from ttr.errors import RefusedError, UnexpectedError, UnsupportedError
 from ttr.semantics.string_prediction import start_course
 from ttr.types.forms import star
 

@@ -11,7 +11,6 @@ from ttr import (
     Ind,
     Model,
     Pred,
-    RefusedError,
     Theory,
     TTRError,
     check,
@@ -21,6 +20,7 @@ from ttr import (
     subtype,
     this,
 )
+from ttr.errors import RefusedError
 from ttr.semantics.random_variables import RandomVariable
 from ttr.theories.theory import Axiom, Exclusion, Signature
 

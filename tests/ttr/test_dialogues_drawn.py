@@ -16,7 +16,6 @@ from ttr import (
     Record,
     RecordType,
     Theory,
-    TypeNode,
     record,
     rectype,
     replace,
@@ -24,6 +23,7 @@ from ttr import (
 )
 from ttr.dialogues.snapshots import copy_of, first_change, snapshot
 from ttr.testing import strategies as tst
+from ttr.types import TypeNode
 from ttr.updates import Game, NBest, first, rule
 
 few = settings(

@@ -2,7 +2,8 @@
 
 import pytest
 
-from ttr import Basic, EventString, Ind, Model, Plus, Pred, Str, rectype, this
+from ttr import Basic, Ind, Model, Plus, Pred, Str, rectype, this
+from ttr.types import EventString
 from ttr.types.forms import star
 
 A, B, C = map(Basic, "ABC")

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from ttr import IllFormedError, RecType, UpdateError, load, rectype
+from ttr import RecType, load, rectype
 from ttr.dialogues.encounters import Participant, meeting
+from ttr.errors import IllFormedError, UpdateError
 from ttr.updates import Game
 
 FETCH = Path(__file__).parents[2] / "examples" / "fetch.ttr"

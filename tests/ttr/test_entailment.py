@@ -3,12 +3,9 @@
 import pytest
 
 from ttr import (
-    Application,
     Basic,
-    EventString,
     ListOf,
     Model,
-    NonEmpty,
     Pi,
     Plus,
     Pred,
@@ -17,15 +14,13 @@ from ttr import (
     SetOf,
     Str,
     Type,
-    Universe,
     consistent,
-    fst,
     fun,
     rectype,
-    rst,
     subtype,
     this,
 )
+from ttr.types import Application, EventString, NonEmpty, Universe, fst, rst
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 p = Pred("p", A)

@@ -4,8 +4,8 @@ import pickle
 
 import pytest
 
-from ttr import IllFormedError, RefusedError, TTRError
-from ttr.errors import Span, UnsupportedError, suggestion
+from ttr import TTRError
+from ttr.errors import IllFormedError, RefusedError, Span, UnsupportedError, suggestion
 from ttr.safety.budgets import within_budget
 
 TEXT = "basic Ind\nX := [x : Idn]\n"

@@ -2,22 +2,10 @@
 
 import pytest
 
-from ttr import (
-    Application,
-    Basic,
-    IllFormedError,
-    Ind,
-    ListOf,
-    Path,
-    Pred,
-    Rec,
-    meet,
-    outer,
-    record,
-    rectype,
-    this,
-)
+from ttr import Basic, Ind, ListOf, Pred, Rec, meet, outer, record, rectype, this
 from ttr.building.flattening import flatten, unflatten
+from ttr.errors import IllFormedError
+from ttr.types import Application, Path
 
 A = Basic("A")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

@@ -4,7 +4,6 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormedError,
     Ind,
     ListOf,
     Pred,
@@ -17,6 +16,7 @@ from ttr import (
     wellformed,
 )
 from ttr.computing.cycles import has_fields_in_order
+from ttr.errors import IllFormedError
 from ttr.theories.theory import Axiom, Signature
 
 Dog, Image = Basic("Dog"), Basic("Image")

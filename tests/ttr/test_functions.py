@@ -2,19 +2,9 @@
 
 import pytest
 
-from ttr import (
-    Basic,
-    IllFormedError,
-    Ind,
-    Model,
-    Pred,
-    fun,
-    outer,
-    record,
-    rectype,
-    this,
-)
+from ttr import Basic, Ind, Model, Pred, fun, outer, record, rectype, this
 from ttr.building.functions import fix, restrict
+from ttr.errors import IllFormedError
 
 A = Basic("A")
 man, run, hug = Pred("man", Ind), Pred("run", Ind), Pred("hug", Ind, Ind)

@@ -16,7 +16,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from ttr import NotationError, Theory, TTRError
+from ttr import Theory, TTRError
+from ttr.errors import NotationError
 from ttr.theories.theory import MistakesError
 from ttr.types.printing import notation
 from ttr.types.syntax import Object, identity

@@ -4,20 +4,8 @@ import dataclasses
 
 import pytest
 
-from ttr import (
-    EndlessError,
-    Ind,
-    ListOf,
-    Model,
-    NotHeardError,
-    Rec,
-    RecType,
-    TTRError,
-    UpdateError,
-    record,
-    rectype,
-    replace,
-)
+from ttr import Ind, ListOf, Model, Rec, RecType, TTRError, record, rectype, replace
+from ttr.errors import EndlessError, NotHeardError, UpdateError
 from ttr.probability import Degree
 from ttr.updates import Game, maybe, nbest, rule
 

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from ttr import Basic, Ind, ListOf, Model, Pred, UndecidedError, record, rectype, this
+from ttr import Basic, Ind, ListOf, Model, Pred, record, rectype, this
+from ttr.errors import UndecidedError
 from ttr.probability import All, AnyOf
 
 A = Basic("A")

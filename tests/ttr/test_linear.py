@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from ttr import Basic, RefusedError, TTRError
+from ttr import Basic, TTRError
+from ttr.errors import RefusedError
 from ttr.semantics.learning import LAPLACE, LogOdds, NaiveBayes
 from ttr.semantics.learning.logistic_regression import Example, fit_weights, logistic
 

@@ -4,7 +4,6 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormedError,
     Ind,
     ListOf,
     Pred,
@@ -17,7 +16,7 @@ from ttr import (
     this,
 )
 from ttr.building.merging import singleton_type
-from ttr.errors import TTRError
+from ttr.errors import IllFormedError, TTRError
 from ttr.theories.theory import Axiom, Signature
 
 A, B, Dog = Basic("A"), Basic("B"), Basic("Dog")

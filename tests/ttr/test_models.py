@@ -6,33 +6,28 @@ import numpy as np
 import pytest
 
 from ttr import (
-    Application,
     Basic,
-    Degree,
-    IllFormedError,
     Ind,
     ListOf,
     Model,
-    NonEmpty,
     Plus,
     Pred,
     Rec,
     RecType,
-    RefusedError,
     Str,
     TTRError,
     Type,
-    UndecidedError,
-    UnsupportedError,
-    fst,
     fun,
     outer,
     record,
     rectype,
     this,
 )
+from ttr.errors import IllFormedError, RefusedError, UndecidedError, UnsupportedError
 from ttr.judging.witnesses import candidates
+from ttr.probability import Degree
 from ttr.theories.theory import Axiom, Given, Signature
+from ttr.types import Application, NonEmpty, fst
 from ttr.types.forms import star
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")

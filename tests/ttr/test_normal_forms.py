@@ -2,9 +2,11 @@
 
 import pytest
 
-from ttr import Basic, IllFormedError, Negation, UnsupportedError, join, meet, rectype
+from ttr import Basic, join, meet, rectype
 from ttr.computing.case_analysis import cases
 from ttr.computing.normal_forms import join_normal_form, meet_normal_form
+from ttr.errors import IllFormedError, UnsupportedError
+from ttr.types import Negation
 
 A, B, C, D = map(Basic, "ABCD")
 

@@ -5,16 +5,9 @@ from __future__ import annotations
 import pytest
 
 from ttr import (
-    Application,
     Basic,
-    EventString,
-    FiniteSet,
-    IllFormedError,
     Ind,
     ListOf,
-    Negation,
-    NonEmpty,
-    NotationError,
     Pi,
     Plus,
     Pred,
@@ -25,9 +18,6 @@ from ttr import (
     Theory,
     TTRError,
     Type,
-    Universe,
-    concat,
-    fst,
     fun,
     join,
     meet,
@@ -35,8 +25,19 @@ from ttr import (
     parse,
     record,
     rectype,
-    rst,
     this,
+)
+from ttr.errors import IllFormedError, NotationError
+from ttr.types import (
+    Application,
+    EventString,
+    FiniteSet,
+    Negation,
+    NonEmpty,
+    Universe,
+    concat,
+    fst,
+    rst,
 )
 from ttr.types.printing import notation
 from ttr.types.syntax import Object

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from ttr import FiniteSet, IllFormedError, Ind, Record, TTRError, outer, record, this
+from ttr import Ind, Record, TTRError, outer, record, this
+from ttr.errors import IllFormedError
+from ttr.types import FiniteSet
 from ttr.types.objects import freeze
 from ttr.types.syntax import Path
 

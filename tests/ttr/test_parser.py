@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from ttr import NotationError
+from ttr.errors import NotationError
 from ttr.notation import syntax_trees
 from ttr.notation.parser import parse_statement, parse_term
 from ttr.notation.syntax_errors import KEYWORDS

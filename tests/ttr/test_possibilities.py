@@ -3,23 +3,9 @@
 import numpy as np
 import pytest
 
-from ttr import (
-    Basic,
-    IllFormedError,
-    Ind,
-    ListOf,
-    Model,
-    Pred,
-    RefusedError,
-    Theory,
-    UndecidedError,
-    UnsupportedError,
-    fun,
-    proposition,
-    record,
-    rectype,
-    this,
-)
+from ttr import Basic, Ind, ListOf, Model, Pred, Theory, fun, record, rectype, this
+from ttr.errors import IllFormedError, RefusedError, UndecidedError, UnsupportedError
+from ttr.judging import proposition
 from ttr.judging.propositions import probabilistic
 from ttr.semantics.modality import (
     ModalSystem,

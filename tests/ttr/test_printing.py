@@ -7,9 +7,7 @@ import pytest
 
 import ttr
 from ttr import (
-    Application,
     Basic,
-    EventString,
     Ind,
     ListOf,
     Pi,
@@ -17,14 +15,14 @@ from ttr import (
     Rec,
     RecType,
     Type,
-    Universe,
-    UnsupportedError,
     fun,
     outer,
     record,
     rectype,
     this,
 )
+from ttr.errors import UnsupportedError
+from ttr.types import Application, EventString, Universe
 from ttr.types.printing import notation
 
 dog, hug, asks = Pred("dog", Ind), Pred("hug", Ind, Ind), Pred("asks", Type)

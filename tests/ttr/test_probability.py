@@ -7,13 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ttr import Degree, TTRError
+from ttr import TTRError
 from ttr.probability import (
     All,
     AnyOf,
     Atomic,
     Conditional,
     ContradictionError,
+    Degree,
     Dependence,
     ImpossibleError,
     Not,

@@ -4,20 +4,18 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormedError,
     Ind,
     Model,
     Pred,
-    RefusedError,
     Theory,
     TTRError,
-    UndecidedError,
     fun,
     outer,
     record,
     rectype,
     this,
 )
+from ttr.errors import IllFormedError, RefusedError, UndecidedError
 from ttr.semantics.quantifiers import (
     DETERMINERS,
     Extension,

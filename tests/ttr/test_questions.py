@@ -6,7 +6,6 @@ from hypothesis import strategies as st
 
 from ttr import (
     Basic,
-    FiniteSet,
     Ind,
     Model,
     Pred,
@@ -37,6 +36,7 @@ from ttr.semantics.questions import (
     which_of,
     with_questions,
 )
+from ttr.types import FiniteSet
 
 City, Month = Basic("City"), Basic("Month")
 dest, depart, month = Pred("dest", City), Pred("depart", City), Pred("month", Month)

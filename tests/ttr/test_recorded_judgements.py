@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from ttr import ListOf, Model, NonEmpty, RecordType, Singleton, Theory
+from ttr import ListOf, Model, RecordType, Theory
 from ttr.judging.certainty import is_certain, is_certain_given
 from ttr.probability import CERTAIN
+from ttr.types import NonEmpty, Singleton
 
 FOLDER = Path(__file__).parent / "recorded_judgements"
 

@@ -3,12 +3,9 @@
 import pytest
 
 from ttr import (
-    Application,
     Basic,
-    IllFormedError,
     Ind,
     ListOf,
-    Path,
     Pi,
     Pred,
     Type,
@@ -21,6 +18,8 @@ from ttr import (
     this,
 )
 from ttr.building.relabelling import relabel
+from ttr.errors import IllFormedError
+from ttr.types import Application, Path
 
 A, B = Basic("A"), Basic("B")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

@@ -8,21 +8,10 @@ from xml.etree import ElementTree
 import pytest
 
 import ttr
-from ttr import (
-    Application,
-    Basic,
-    IllFormedError,
-    Ind,
-    Model,
-    Pred,
-    Type,
-    UnsupportedError,
-    outer,
-    record,
-    rectype,
-    this,
-)
+from ttr import Basic, Ind, Model, Pred, Type, outer, record, rectype, this
+from ttr.errors import IllFormedError, UnsupportedError
 from ttr.escapes import columns
+from ttr.types import Application
 
 KENNEL = ttr.Theory.parse(
     r"""
@@ -540,7 +529,7 @@ def test_other_objects_are_drawn_by_their_kind() -> None:
 
 def test_values_draw_themselves_in_a_notebook() -> None:
     j = MODEL.judge(SAM, KENNEL.Dog)
-    for value in (KENNEL.Dog, SAM, ttr.FiniteSet("a"), j, j.why):
+    for value in (KENNEL.Dog, SAM, ttr.types.FiniteSet("a"), j, j.why):
         assert value._repr_html_() == ttr.html(value)
         assert value._repr_latex_() == f"$\\displaystyle {ttr.latex(value)}$"
 

@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ttr import Basic, Ind, ListOf, Model, NoStateError, Pred, record, rectype, this
+from ttr import Basic, Ind, ListOf, Model, Pred, record, rectype, this
+from ttr.errors import NoStateError
 from ttr.updates.states import check_state, is_still_of
 
 Number = Basic("Number")

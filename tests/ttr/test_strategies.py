@@ -9,31 +9,32 @@ from hypothesis import strategies as st
 
 from ttr import (
     Basic,
-    EventString,
-    FiniteSet,
-    Function,
-    FunType,
-    IllFormedError,
     Ind,
     ListOf,
     Model,
-    Operation,
-    Path,
     Pred,
     Record,
     RecordType,
-    RefusedError,
-    Singleton,
     Theory,
     TTRError,
-    TypeNode,
     record,
     rectype,
     this,
     wellformed,
 )
 from ttr.computing.cycles import describe_cycle
+from ttr.errors import IllFormedError, RefusedError
 from ttr.testing import strategies as tst
+from ttr.types import (
+    EventString,
+    FiniteSet,
+    Function,
+    FunType,
+    Operation,
+    Path,
+    Singleton,
+    TypeNode,
+)
 from ttr.types.paths import free_paths, parts, subterms
 
 many = settings(

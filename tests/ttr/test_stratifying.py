@@ -5,8 +5,6 @@ from hypothesis import given
 
 from ttr import (
     Basic,
-    EventString,
-    IllFormedError,
     Ind,
     ListOf,
     Model,
@@ -16,7 +14,6 @@ from ttr import (
     SetOf,
     Str,
     Type,
-    Universe,
     fun,
     outer,
     record,
@@ -25,7 +22,9 @@ from ttr import (
 )
 from ttr.building.level_inference import levelled_judgement, with_levels, without_levels
 from ttr.computing.universe_levels import level_of
+from ttr.errors import IllFormedError
 from ttr.testing.strategies import types
+from ttr.types import EventString, Universe
 
 T1, T2, T3 = (Universe("Type", n) for n in (1, 2, 3))
 Of_types = rectype(x=Type)

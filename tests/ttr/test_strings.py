@@ -2,18 +2,8 @@
 
 import pytest
 
-from ttr import (
-    Basic,
-    EventString,
-    Model,
-    Plus,
-    Rec,
-    Str,
-    Theory,
-    common_supertype,
-    join,
-    rectype,
-)
+from ttr import Basic, Model, Plus, Rec, Str, Theory, join, rectype
+from ttr.building import common_supertype
 from ttr.computing.strings.pieces import (
     alternatives,
     events_of,
@@ -22,6 +12,7 @@ from ttr.computing.strings.pieces import (
     regular_above,
     string_of,
 )
+from ttr.types import EventString
 from ttr.types.forms import star
 
 A, B, C = map(Basic, "ABC")

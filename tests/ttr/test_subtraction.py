@@ -2,19 +2,9 @@
 
 import pytest
 
-from ttr import (
-    Basic,
-    IllFormedError,
-    Ind,
-    Pred,
-    Rec,
-    meet,
-    outer,
-    record,
-    rectype,
-    this,
-)
+from ttr import Basic, Ind, Pred, Rec, meet, outer, record, rectype, this
 from ttr.building.subtraction import subtract
+from ttr.errors import IllFormedError
 
 A = Basic("A")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

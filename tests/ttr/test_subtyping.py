@@ -6,18 +6,14 @@ import pytest
 
 import ttr
 from ttr import (
-    Application,
     Basic,
-    IllFormedError,
     Ind,
     ListOf,
-    NonEmpty,
     Pred,
     Rec,
     RecType,
     Str,
     Type,
-    UnsupportedError,
     fun,
     outer,
     record,
@@ -26,7 +22,9 @@ from ttr import (
     this,
 )
 from ttr.computing import prover
+from ttr.errors import IllFormedError, UnsupportedError
 from ttr.theories.theory import Axiom, Signature
+from ttr.types import Application, NonEmpty
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 p, q = Pred("p", (A,), (B,)), Pred("q", (A, A), (B, B))

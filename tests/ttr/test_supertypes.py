@@ -4,10 +4,8 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormedError,
     Ind,
     ListOf,
-    NonEmpty,
     Pi,
     Plus,
     Pred,
@@ -23,6 +21,8 @@ from ttr import (
     this,
 )
 from ttr.building.generalisation import common_supertype
+from ttr.errors import IllFormedError
+from ttr.types import NonEmpty
 
 A, B, C = map(Basic, "ABC")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

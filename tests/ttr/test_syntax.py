@@ -8,26 +8,20 @@ import pytest
 
 from ttr import (
     Basic,
-    FiniteSet,
-    FunType,
-    IllFormedError,
     Ind,
     ListOf,
-    Meet,
     Pred,
-    PType,
     Rec,
     RecordType,
-    Singleton,
     TTRError,
-    Universe,
     meet,
     outer,
     record,
     rectype,
     this,
 )
-from ttr.types import interning
+from ttr.errors import IllFormedError
+from ttr.types import FiniteSet, FunType, Meet, PType, Singleton, Universe, interning
 from ttr.types.paths import free_paths
 from ttr.types.syntax import Path, identity
 

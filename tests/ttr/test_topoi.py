@@ -4,11 +4,9 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormedError,
     Ind,
     Model,
     Pred,
-    RefusedError,
     TTRError,
     fun,
     merge,
@@ -18,6 +16,7 @@ from ttr import (
     subtype,
     this,
 )
+from ttr.errors import IllFormedError, RefusedError
 from ttr.semantics.topoi import (
     Topos,
     combine_topoi,

@@ -6,19 +6,15 @@ import pytest
 
 from ttr import (
     Basic,
-    EndlessError,
     Ind,
     ListOf,
     Model,
-    NoStateError,
     Pred,
     Rec,
     Record,
     RecType,
-    RuleFailedError,
     TTRError,
     Type,
-    UpdateError,
     fun,
     merge,
     outer,
@@ -27,6 +23,7 @@ from ttr import (
     replace,
     this,
 )
+from ttr.errors import EndlessError, NoStateError, RuleFailedError, UpdateError
 from ttr.updates import (
     all_,
     ask,

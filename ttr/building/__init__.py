@@ -4,3 +4,28 @@ Read `constructors` and `formation` (when is a type well-formed?), then `merging
 each of the others does one thing to given types. May import: computing and
 all below it.
 """
+
+from ttr.building.constructors import Pi, fun, rectype
+from ttr.building.flattening import flatten, unflatten
+from ttr.building.formation import wellformed
+from ttr.building.functions import fix, restrict
+from ttr.building.generalisation import common_supertype
+from ttr.building.merging import amerge, merge
+from ttr.building.relabelling import relabel
+from ttr.building.subtraction import subtract
+
+__all__ = [
+    "Pi",
+    "amerge",
+    "common_supertype",
+    "fix",
+    "flatten",
+    "fun",
+    "merge",
+    "rectype",
+    "relabel",
+    "restrict",
+    "subtract",
+    "unflatten",
+    "wellformed",
+]

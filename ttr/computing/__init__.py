@@ -4,3 +4,14 @@ Read `normal_forms` and `case_analysis`, then `generic_witness` (an arbitrary wi
 a type), `prover` (what it is surely of) and `subtyping`; `strings` has the automata of
 types of strings. May import: signature, types, safety.
 """
+
+from ttr.computing.normal_forms import join_normal_form, meet_normal_form
+from ttr.computing.subtyping import Answer, consistent, subtype
+
+__all__ = [
+    "Answer",
+    "consistent",
+    "join_normal_form",
+    "meet_normal_form",
+    "subtype",
+]

@@ -6,3 +6,14 @@ them; `certainty` asks the same clauses for yes or no). `creation` makes witness
 `counterexamples` refutes with one. May import: building, computing,
 signature, types, probability, safety.
 """
+
+from ttr.judging.judgements import Judgement, Why
+from ttr.judging.models import Model
+from ttr.judging.propositions import proposition
+
+__all__ = [
+    "Judgement",
+    "Model",
+    "Why",
+    "proposition",
+]

@@ -316,7 +316,7 @@ def _size(value: object) -> object:
 
 
 def python(value: Object) -> str:
-    """The value as Python that evaluates back, with the names of `ttr` imported.
+    """The value as Python that evaluates back, with the names of `ttr` and `ttr.types`.
 
     >>> from ttr import *
     >>> T = rectype(x=Ind, c=Pred("run", Ind)(this.x))

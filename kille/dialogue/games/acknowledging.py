@@ -17,7 +17,8 @@ from kille.dialogue.meanings import (
 from kille.dialogue.moves import answering, changed_act, plan
 from kille.dialogue.reference import PARTS, thing_at
 from kille.dialogue.state import STATE
-from ttr import Model, Negation, PType, Record, RecordType, replace
+from ttr import Model, Record, RecordType, replace
+from ttr.types import Negation, PType
 from ttr.updates import first, rule
 
 __all__ = ["ACKNOWLEDGING", "EXEMPLIFYING"]

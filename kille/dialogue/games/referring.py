@@ -28,7 +28,8 @@ from kille.dialogue.reference import (
     things_in,
 )
 from kille.dialogue.state import words
-from ttr import Model, Record, RecordType, TypeNode, rectype, replace
+from ttr import Model, Record, RecordType, rectype, replace
+from ttr.types import TypeNode
 from ttr.updates import first, rule
 
 __all__ = ["REFERRING", "UNANSWERED", "about", "asking", "differing", "unanswered"]

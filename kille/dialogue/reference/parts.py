@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeVar
 
-from ttr import Meet, Pred, PType, RecordType, Singleton, TypeNode
+from ttr import Pred, RecordType
+from ttr.types import Meet, PType, Singleton, TypeNode
 from ttr.types.objects import Object, Path
 
 __all__ = ["Claim", "Part", "put_together", "taken_apart"]

@@ -18,7 +18,8 @@ from kille.dialogue.reference.salience import (
     in_talk,
     just_mentioned,
 )
-from ttr import Model, Pred, Record, RecordType, Singleton, rectype
+from ttr import Model, Pred, Record, RecordType, rectype
+from ttr.types import Singleton
 from ttr.types.objects import Object
 
 __all__ = [

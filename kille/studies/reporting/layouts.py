@@ -8,10 +8,11 @@ from itertools import cycle
 from typing import NamedTuple
 
 from kille.experiments.strokes import HUES
-from ttr import Record, TypeNode
+from ttr import Record
 from ttr.display.html import part_of_page
 from ttr.display.layout import Layout, Matrix, Row, Word, layout_of
 from ttr.escapes import html_text
+from ttr.types import TypeNode
 
 __all__ = ["Described", "apart", "shortened", "side_by_side"]
 

@@ -18,7 +18,8 @@ from kille.studies.persons.views import viewed
 from kille.studies.robots.replies import Reply
 from kille.studies.scenes.happening import after
 from kille.studies.scenes.occasions import Occasion
-from ttr import Judgement, Model, record
+from ttr import Model, record
+from ttr.judging import Judgement
 from ttr.probability import CERTAIN
 
 __all__ = ["Typed"]

@@ -9,7 +9,9 @@ from functools import cached_property
 from kille.dialogue.beliefs import degree
 from kille.dialogue.meanings import CLAIMS, claims, predicate_at, value_at, word_of
 from kille.dialogue.reference.perspectives import front_of
-from ttr import Judgement, Model, Negation, Record, RecordType
+from ttr import Model, Record, RecordType
+from ttr.judging import Judgement
+from ttr.types import Negation
 
 __all__ = ["OWN", "Reply", "WAYS", "degrees"]
 

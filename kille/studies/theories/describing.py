@@ -18,7 +18,8 @@ from kille.studies.apart import ask, is_apart
 from kille.studies.study import PERSON, Theory
 from kille.studies.theories.games import strategy_of
 from kille.studies.theories.rules import algorithm_of, told
-from ttr import Record, TypeNode, record
+from ttr import Record, record
+from ttr.types import TypeNode
 from ttr.updates import rules_of
 
 __all__ = ["Shown", "described", "rules_apart"]

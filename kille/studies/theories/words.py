@@ -18,7 +18,8 @@ from kille.simulation.learning import Observation, Word
 from kille.simulation.perceiving import Vector
 from kille.simulation.playing import act, word, words
 from kille.studies.theories.pupils import Heard, Pupil
-from ttr import Model, Record, RecordType, TypeNode
+from ttr import Model, Record, RecordType
+from ttr.types import TypeNode
 
 __all__ = ["Guest", "MakeWord", "Prototype", "acting", "known_by"]
 

@@ -19,7 +19,8 @@ from kille.dialogue.meanings import (
 )
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import heard, tutoring
-from ttr import Judgement, Model, Record, record
+from ttr import Model, Record, record
+from ttr.judging import Judgement
 from ttr.updates import Game, Run, Turn
 
 Degrees = Mapping[tuple[str, ...], float]

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from kille.dialogue.details import details
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import noun
-from ttr import Model, Record, TypeNode, record, replace
+from ttr import Model, Record, record, replace
+from ttr.types import TypeNode
 
 KNOWN = {
     ("cup", "o1"): 0.87,

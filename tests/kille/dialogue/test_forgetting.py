@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 
 from kille.dialogue.meanings import noun, word_of
-from ttr import Model, Record, TypeNode, replace
+from ttr import Model, Record, replace
+from ttr.types import TypeNode
 
 
 def taught(s: Record) -> list[str]:

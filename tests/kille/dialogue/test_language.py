@@ -22,7 +22,8 @@ from kille.dialogue.meanings import (
     word_of,
 )
 from kille.dialogue.parsing import Grammar, GrammarError
-from ttr import IllFormedError, Ind, Pred, rectype, this
+from ttr import Ind, Pred, rectype, this
+from ttr.errors import IllFormedError
 
 MOVES = {
     "en": {

@@ -39,7 +39,8 @@ from kille.studies.theories.judging import learners_of
 from kille.studies.theories.pupils import Heard, Pupil
 from kille.studies.theories.rules import algorithm_of, lacking
 from kille.studies.theories.words import Prototype
-from ttr import TTRError, TypeNode
+from ttr import TTRError
+from ttr.types import TypeNode
 from ttr.updates import Game, first, maybe, rules_of, seq
 
 WORLD = World((Thing("cup", "red", 0.9, (2, 3)), Thing("car", "blue", 0.1, (7, 3))))

@@ -7,7 +7,8 @@ import warnings
 
 import pytest
 
-from ttr import Ind, Pred, TTRError, UnsupportedError, record, rectype, this
+from ttr import Ind, Pred, TTRError, record, rectype, this
+from ttr.errors import UnsupportedError
 from ttr.probability import UNKNOWN
 from ttr.semantics.perceptual import (
     ByLearner,

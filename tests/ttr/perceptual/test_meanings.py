@@ -6,17 +6,12 @@ import pytest
 
 from ttr import (
     Basic,
-    IllFormedError,
     Ind,
-    Meet,
     Model,
     Pred,
     TTRError,
-    UndecidedError,
-    UnsupportedError,
     amerge,
     box,
-    fix,
     fun,
     html,
     merge,
@@ -26,6 +21,8 @@ from ttr import (
     replace,
     this,
 )
+from ttr.building import fix
+from ttr.errors import IllFormedError, UndecidedError, UnsupportedError
 from ttr.probability import UNKNOWN
 from ttr.semantics.perceptual import (
     Classifier,
@@ -40,6 +37,7 @@ from ttr.semantics.perceptual import (
     meaning,
     perceive,
 )
+from ttr.types import Meet
 
 right = Pred("right", Ind)
 BG = rectype(foo=Ind, spkr=Ind, pos=RealVector)

@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from ttr import Ind, Model, Pred, RefusedError, TTRError, fun, record, rectype, this
+from ttr import Ind, Model, Pred, TTRError, fun, record, rectype, this
+from ttr.errors import RefusedError
 from ttr.semantics.perceptual import (
     INDIVIDUATE,
     Frame,

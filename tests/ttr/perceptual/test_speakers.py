@@ -2,7 +2,8 @@
 
 import pytest
 
-from ttr import Ind, Pred, TTRError, UnsupportedError, record, rectype, this
+from ttr import Ind, Pred, TTRError, record, rectype, this
+from ttr.errors import UnsupportedError
 from ttr.semantics.perceptual import (
     Agreement,
     ByLearner,
