@@ -138,8 +138,7 @@ KEY_LINES = {
         "turn 3: strike takes back 2 dishes",
         "U> Order",
         "U> Cancel",
-        "P17 no crash: whatever happens gives a state; no rule, move or text raises an "
-        "error.",
+        "P17 no crash: whatever happens, no rule, move or text raises an error.",
         "turn 1: the rule strike failed: ValueError: list.remove(x): x not in list",
         "all is well: True, never applied: ()",
         "what was not covered: ()",

@@ -8,6 +8,7 @@ import pytest
 
 PROGRAM = r"""
 from ttr import *
+from ttr.errors import IllFormedError
 from ttr.theories.theory import Axiom, Signature
 from ttr.updates import first, maybe, repeat, rule, run, seq
 

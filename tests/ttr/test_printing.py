@@ -118,7 +118,7 @@ def test_notation_reads_back(text):
     ],
 )
 def test_python_is_its_own_repr(text):
-    names = {name: getattr(ttr, name) for name in ttr.__all__}
+    names = {name: getattr(it, name) for it in (ttr, ttr.types) for name in it.__all__}
     assert repr(eval(text, names)) == text
 
 

@@ -80,7 +80,7 @@ def kinds_in(value):
             case FunType(_, result) if any(p.up == 0 for p in free_paths(result)):
                 yield "dependent function type"
     if describe_cycle(value):
-        yield "describe_cycle"
+        yield "circle"
 
 
 def nesting(value):
@@ -101,7 +101,7 @@ def test_every_constructor_is_reached_in_1000_draws():
     seen = Counter(kind for T in found for kind in set(kinds_in(T)))
     for kind in REACHED.split():
         assert seen[kind] >= 5, (kind, seen)
-    for kind in ("+", "fst", "rst", "describe_cycle", "dependent function type"):
+    for kind in ("+", "fst", "rst", "circle", "dependent function type"):
         assert seen[kind] >= 5, (kind, seen)
     for kind in ("path 0 out", "path 1 out", "path of 2", "variable 0 out"):
         assert seen[kind] >= 3, (kind, seen)
@@ -112,7 +112,7 @@ def test_types_are_closed_and_well_formed():
     for T in drawn(tst.types(), few):
         assert not free_paths(T)
         answer = wellformed(T)
-        assert answer.yes or "describe_cycle" in answer.why
+        assert answer.yes or "circle" in answer.why
 
 
 def test_depth_is_how_deep_constructors_nest():

@@ -8,7 +8,7 @@ that can be done, will never be taken up.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from ttr.dialogues.dialogue import Dialogue
@@ -57,6 +57,9 @@ class FlowCounts:
     popped: Counter[str] = field(default_factory=Counter)
     wrong_end: tuple[Dialogue, int] | None = None
     last: tuple[Dialogue, int] | None = None
+    names_put: Counter[str] = field(default_factory=Counter)
+    names_taken: Counter[str] = field(default_factory=Counter)
+    first_of_name: dict[str, tuple[Dialogue, int]] = field(default_factory=dict)
 
 
 @dataclass
@@ -102,12 +105,17 @@ class DialogueCounts:
             return
         flow = self.by_path.setdefault(path, FlowCounts())
         here = (dialogue, turn)
-        if items_added(before, after):
+        if added := items_added(before, after):
             flow.put += 1
             flow.first = _earlier(flow.first, here)
-        if items_added(after, before):
+            for name in _names_among(added):
+                flow.names_put[name] += 1
+                first = flow.first_of_name.get(name)
+                flow.first_of_name[name] = _earlier(first, here)
+        if removed := items_added(after, before):
             flow.taken += 1
             flow.last = _earlier(flow.last, here)
+            flow.names_taken.update(_names_among(removed))
         if before and len(after) == len(before) + 1:
             flow.pushed[_end_of_difference(before, after)] += 1
         if len(before) > 1 and len(after) == len(before) - 1:
@@ -158,6 +166,10 @@ class DialogueCounts:
             found.example = _earlier(found.example, here)
 
 
+def _names_among(items: Iterable[Object]) -> list[str]:
+    return [one for one in items if isinstance(one, str)]
+
+
 def _earlier(
     known: tuple[Dialogue, int] | None, found: tuple[Dialogue, int]
 ) -> tuple[Dialogue, int]:
@@ -188,6 +200,19 @@ def _check_emptying(flows: DialogueCounts) -> Iterator[Finding]:
                 f"it was put there {flow.put} times in {flows.dialogues} dialogues"
             )
             yield Finding(*flow.first, why)
+        elif flow is not None:
+            yield from _names_that_stay(flow, path, flows.dialogues)
+
+
+def _names_that_stay(flow: FlowCounts, path: str, dialogues: int) -> Iterator[Finding]:
+    """Objects that are put on a list, and never taken off as others are."""
+    for name, count in sorted(flow.names_put.items()):
+        if count >= ENOUGH and not flow.names_taken[name]:
+            why = (
+                f"{name} is never taken off {path}: "
+                f"it was put there {count} times in {dialogues} dialogues"
+            )
+            yield Finding(*flow.first_of_name[name], why)
 
 
 # --- P26 -----------------------------------------------------------------------------
