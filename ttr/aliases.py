@@ -143,7 +143,7 @@ FORMER_NAMES: Mapping[str, Mapping[str, str]] = {
 }
 """What was renamed in a module: its name there now, or where it is instead."""
 
-_NEVER_WARN = ("ttr.Undecided", "ttr.errors.Undecided")
+_NEVER_WARN = ("ttr.Undecided", "ttr.errors.Undecided", "ttr.strategies")
 """Former names that may be used for good."""
 
 
@@ -224,8 +224,9 @@ class _Renamed(Loader):
 
     def exec_module(self, module: ModuleType) -> None:
         """Puts the module that is meant in the place of the one to be loaded."""
-        message = f"{module.__name__} is now {self.now}"
-        warn(message, DeprecationWarning, stacklevel=2)
+        if module.__name__ not in _NEVER_WARN:
+            message = f"{module.__name__} is now {self.now}"
+            warn(message, DeprecationWarning, stacklevel=2)
         sys.modules[module.__name__] = import_module(self.now)
 
 
