@@ -35,7 +35,7 @@ def written(value: object) -> str:
     return repr(value)
 
 
-def parsed(kind: str, text: str) -> Part:
+def parse_as(kind: str, text: str) -> Part:
     source = Source(text)
     if kind == "term":
         return parse_term(source)
@@ -44,7 +44,7 @@ def parsed(kind: str, text: str) -> Part:
 
 @pytest.mark.parametrize(("kind", "text", "tree"), [x for x in RECORDED if len(x) == 3])
 def test_trees_are_those_recorded(kind: str, text: str, tree: str) -> None:
-    assert written(parsed(kind, text)) == tree
+    assert written(parse_as(kind, text)) == tree
 
 
 @pytest.mark.parametrize(
@@ -54,13 +54,13 @@ def test_errors_are_those_recorded(
     kind: str, text: str, column: int, message: str
 ) -> None:
     with pytest.raises(NotationError) as caught:
-        parsed(kind, text)
+        parse_as(kind, text)
     assert caught.value.span is not None
     assert (caught.value.span.column, caught.value.message) == (column, message)
 
 
 def test_every_kind_of_part_is_recorded() -> None:
-    trees = [parsed(kind, text) for kind, text, *rest in RECORDED if len(rest) == 1]
+    trees = [parse_as(kind, text) for kind, text, *rest in RECORDED if len(rest) == 1]
     seen = {type(part) for tree in trees for part in inside(tree)}
     kinds = {x for x in vars(syntax_trees).values() if isinstance(x, type)}
     parts = {kind for kind in kinds if issubclass(kind, Part)}
@@ -72,5 +72,5 @@ def test_every_keyword_begins_a_statement() -> None:
     rests = {"game": " g", "rule": " r", "strategy": " s"}
     for word in KEYWORDS:
         with pytest.raises(NotationError) as caught:
-            parsed("statement", word + rests.get(word, ""))
+            parse_as("statement", word + rests.get(word, ""))
         assert ":= or <:" not in caught.value.message

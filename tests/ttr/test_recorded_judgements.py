@@ -17,7 +17,7 @@ from ttr.types import NonEmpty, Singleton
 FOLDER = Path(__file__).parent / "recorded_judgements"
 
 
-def recorded():
+def recorded_judgements():
     """The model, object, type and derivation of each block."""
     for file in sorted(FOLDER.glob("*.txt")):
         text, *blocks = file.read_text(encoding="utf-8").rstrip("\n").split("\n\n")
@@ -30,7 +30,7 @@ def recorded():
             yield pytest.param(*value, id=f"{file.stem}: {claim}")
 
 
-RECORDED = list(recorded())
+RECORDED = list(recorded_judgements())
 
 KNOWN = [
     one.values[2]

@@ -99,7 +99,7 @@ class _Scope:
         return {name: role for name, role in self.roles.items() if name not in again}
 
     @cached_property
-    def assigned(self) -> dict[str, ast.expr]:
+    def assignments(self) -> dict[str, ast.expr]:
         """The values of the names that are set exactly once."""
         values: dict[str, ast.expr] = {}
         for node in walk_untried(self.source.body):
@@ -116,7 +116,7 @@ class _Scope:
     def follow(self, node: ast.expr) -> ast.expr:
         """The value of a name that is set once; any other expression itself."""
         if isinstance(node, ast.Name):
-            return self.assigned.get(node.id, node)
+            return self.assignments.get(node.id, node)
         return node
 
     # --- other functions --------------------------------------------------------------
@@ -155,8 +155,8 @@ class _Scope:
         match node:
             case ast.Name(name) if name in self.variables:
                 return _Chain(Access(self.variables[name], (), ()))
-            case ast.Name(name) if name in self.assigned and depth < DEPTH:
-                return self.access(self.assigned[name], depth + 1)
+            case ast.Name(name) if name in self.assignments and depth < DEPTH:
+                return self.access(self.assignments[name], depth + 1)
             case ast.Attribute(value, label):
                 chain, steps = self.access(value, depth), [label]
                 spans = [self.source.span(node, len(label))]
@@ -317,8 +317,8 @@ def _returned_replacements(
             yield from _returned_replacements(scope, other, depth)
         case ast.Tuple([state, _]):
             yield from _returned_replacements(scope, state, depth)
-        case ast.Name(name) if name in scope.assigned and depth < DEPTH:
-            yield from _returned_replacements(scope, scope.assigned[name], depth + 1)
+        case ast.Name(name) if name in scope.assignments and depth < DEPTH:
+            yield from _returned_replacements(scope, scope.assignments[name], depth + 1)
         case ast.Call() if scope.is_replace(node):
             yield node
             yield from _returned_replacements(scope, node.args[0], depth)
@@ -407,8 +407,8 @@ def _results_of(
             yield from map(_not_none, _results_of(scope, state, depth))
         case ast.Name(name) if scope.variables.get(name) == scope.state:
             yield ()
-        case ast.Name(name) if name in scope.assigned and depth < DEPTH:
-            yield from _results_of(scope, scope.assigned[name], depth + 1)
+        case ast.Name(name) if name in scope.assignments and depth < DEPTH:
+            yield from _results_of(scope, scope.assignments[name], depth + 1)
         case ast.Call() if scope.is_replace(node):
             yield from _results_of_replace(scope, node, depth)
         case ast.Call() if scope.is_rectype(node):

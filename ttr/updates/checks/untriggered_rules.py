@@ -45,11 +45,15 @@ def _stuck_rules(
         others = [*firing, *(one for one in waiting if one is not rule)]
         unmet = _first_unmet(rules, rule, others)
         if unmet is not None:
-            found[rule] = _untriggered(rules, rule, unmet)
+            found[rule] = _untriggered_fault(rules, rule, unmet)
     if found:
         return found
     unmet = _first_unmet(rules, waiting[0], firing)
-    return {} if unmet is None else {waiting[0]: _untriggered(rules, waiting[0], unmet)}
+    return (
+        {}
+        if unmet is None
+        else {waiting[0]: _untriggered_fault(rules, waiting[0], unmet)}
+    )
 
 
 def _first_unmet(rules: RuleSet, rule: Rule, firing: list[Rule]) -> Demand | None:
@@ -65,7 +69,7 @@ def _first_unmet(rules: RuleSet, rule: Rule, firing: list[Rule]) -> Demand | Non
     return None
 
 
-def _untriggered(rules: RuleSet, rule: Rule, unmet: Demand) -> Fault:
+def _untriggered_fault(rules: RuleSet, rule: Rule, unmet: Demand) -> Fault:
     path, T = unmet
     if not path:
         message = f"the rule {rule} waits for an event of {T} that nobody sends"
