@@ -48,7 +48,7 @@ from ttr.semantics.quantifiers import (
     quantify,
     settle,
 )
-from ttr.theories.theory import Axiom, Exclusion, Signature
+from ttr.signature.signature import Axiom, Exclusion, Signature
 from ttr.types import EventString, TypeNode
 
 FIELDS = (5, 20, 80, 320)

@@ -5,7 +5,7 @@ Run it with `python examples/02_subtyping_and_merge.py`, and read along.
 
 from ttr import Basic, Pred, amerge, consistent, merge, rectype, relabel, subtype, this
 from ttr.building import common_supertype, subtract
-from ttr.theories.theory import Axiom, Signature
+from ttr.signature.signature import Axiom, Signature
 
 Ind = Basic("Ind")
 dog, puppy, run = Pred("dog", Ind), Pred("puppy", Ind), Pred("run", Ind)

@@ -5,7 +5,7 @@ Run it with `python examples/04_why_a_judgement_fails.py`, and read along.
 
 from ttr import Basic, Model, Pred, latex, record, rectype, this
 from ttr.errors import RefusedError, UndecidedError
-from ttr.theories.theory import Signature
+from ttr.signature.signature import Signature
 
 Ind = Basic("Ind")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

@@ -13,6 +13,7 @@ from typing import Self
 from kille.body import Body
 from kille.dialogue.games.clarifying import asked_which
 from kille.dialogue.language import Sentence, understand
+from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import (
     set_to,
     sign,
@@ -21,7 +22,7 @@ from kille.dialogue.meanings import (
 )
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import heard, tutoring
-from kille.dialogue.wording import did_not_understand, lexicon
+from kille.dialogue.wording import did_not_understand
 from kille.exchange import Exchange, Said
 from kille.gaze import Gaze, View
 from kille.journal import Journal
@@ -39,8 +40,6 @@ from ttr.probability import CERTAIN
 from ttr.semantics.perceptual import Meaning, Speaker
 from ttr.types import Singleton
 from ttr.updates import Game, Run, Step
-
-__all__ = ["Agent"]
 
 _POINTING = re.compile(r"#([0-9]{1,6})\b")
 

@@ -23,18 +23,6 @@ from numpy.typing import NDArray
 from ttr.safety.inputs import open_file
 from ttr.safety.limits import ARRAYS, DIRECTORY, Limit
 
-__all__ = [
-    "Damaged",
-    "Head",
-    "check_sizes",
-    "damage_told",
-    "opened_zip",
-    "read_array",
-    "read_arrays",
-    "read_head",
-    "read_member",
-]
-
 _SUFFIX = ".npy"
 _WAYS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _DAMAGE = (

@@ -17,8 +17,6 @@ from kille.witness import Witnesses, number_of
 from ttr import Model, Record, RecordType, replace
 from ttr.types import PType, TypeNode
 
-__all__ = ["Body"]
-
 
 class Body:
     """Makes the moves of a game by what it knows and sees, and writes down from where.

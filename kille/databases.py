@@ -16,18 +16,6 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, suppress
 from pathlib import Path
 
-__all__ = [
-    "LARGEST_VALUE",
-    "Schema",
-    "has_strange_journal",
-    "made_by",
-    "restrict",
-    "row_faults",
-    "schema_faults",
-    "schema_of",
-    "shown",
-]
-
 LARGEST_VALUE = 2**27
 """Bytes of the largest text, blob or row that is read or written: 128 MiB."""
 

@@ -11,11 +11,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from kille.agent import Agent
-from kille.dialogue.wording import lexicon
+from kille.dialogue.lexicon import lexicon
 from kille.exchange import Exchange
 from kille.gaze import View
-
-__all__ = ["OBJECTS", "PLACES", "Answer", "Event", "demonstration"]
 
 OBJECTS = (
     "apple",

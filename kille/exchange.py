@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from ttr.judging import Judgement
 from ttr.updates import Step
 
-__all__ = ["Exchange", "Said"]
-
 
 @dataclass(frozen=True)
 class Said:

@@ -15,8 +15,6 @@ from kille.sensors.sensor import Sensor, SensorError
 from kille.sensors.sources import open_sensor
 from kille.sensors.stage import perform
 
-__all__ = ["Attention", "Gaze", "Looker", "View"]
-
 _NUMBER = re.compile(r"[0-9]{1,6}")
 _SAME = 0.5  # overlap of a thing with itself in another look
 

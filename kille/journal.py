@@ -9,8 +9,6 @@ from datetime import datetime
 
 from kille.memory import Memory, Turn
 
-__all__ = ["Journal"]
-
 
 class Journal:
     """The turns of one dialogue, numbered from 1; `turn` is what goes on now.

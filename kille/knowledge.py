@@ -35,8 +35,6 @@ from kille.perception.thumbnails import evidence_of, restored
 from kille.reasons import Reasons, Share, best_rival, shares_of
 from kille.scene import Configuration, Percept, Region, Traits
 
-__all__ = ["Evidence", "Knowledge", "Learners", "Named", "colour_named"]
-
 SAID_OF_THINGS = "is_"
 """How the predicates of words for how things are begin."""
 

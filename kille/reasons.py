@@ -7,8 +7,6 @@ from dataclasses import dataclass
 
 from kille.memory import Lesson
 
-__all__ = ["Reasons", "Share", "best_rival", "shares_of"]
-
 
 @dataclass(frozen=True)
 class Share:

@@ -18,8 +18,6 @@ from kille.reasons import Reasons
 from kille.witness import Witnesses
 from ttr import Record, RecordType, record
 
-__all__ = ["KINDS", "Recollection", "sign_of"]
-
 KINDS: dict[str, Kind] = {
     "noun": "object",
     "adjective": "attribute",

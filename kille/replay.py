@@ -26,8 +26,6 @@ from ttr.errors import UpdateError
 from ttr.probability import CERTAIN
 from ttr.types import TypeNode
 
-__all__ = ["Echo", "play"]
-
 Echo = Callable[[str], None]
 
 _DEFAULT_SCENE = "synthetic:empty"

@@ -13,8 +13,6 @@ from kille.perception.relations.memory import template_odds
 from kille.perception.relations.seeing import configurations
 from kille.scene import Configuration, Look
 
-__all__ = ["Seen"]
-
 Pair = tuple[int, int]
 """The numbers of a target and a landmark in a look, from 0."""
 

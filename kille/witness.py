@@ -27,8 +27,6 @@ from kille.scene import Configuration, Look, Percept
 from kille.seen import Seen
 from ttr import Model, Record
 
-__all__ = ["Witnesses", "number_of", "thing"]
-
 Degree = float | tuple[float, float]
 """A degree in [0, 1], or the least and the greatest it may be."""
 

@@ -27,8 +27,6 @@ from ttr.semantics.perceptual import (
 )
 from ttr.types import Path, PType
 
-__all__ = ["Pupil", "Vocabulary"]
-
 X = TypeVar("X")
 X_contra = TypeVar("X_contra", contravariant=True)
 

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from ttr.safety.budgets import budget
     from ttr.theories.checking import check
     from ttr.theories.theory import Theory, load
+    from ttr.types.objects import Record, outer, record, this
     from ttr.types.records import replace
     from ttr.types.syntax import (
         Basic,
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
         Plus,
         Pred,
         Rec,
-        Record,
         RecordType,
         RecType,
         SetOf,
@@ -43,9 +43,6 @@ if TYPE_CHECKING:
         Type,
         join,
         meet,
-        outer,
-        record,
-        this,
     )
 
 PROVIDERS = {
@@ -99,12 +96,11 @@ _HOMES = {
     "ttr.safety.budgets": "budget",
     "ttr.theories.checking": "check",
     "ttr.theories.theory": "Theory load",
-    "ttr.types.objects": "concat fst rst",
+    "ttr.types.objects": "EventString FiniteSet Record concat fst outer record rst this",
     "ttr.types.records": "replace",
     "ttr.types.syntax": (
-        "Application Basic EventString FiniteSet Ind ListOf Negation NonEmpty "
-        "Plus Pred Rec RecType Record RecordType SetOf Singleton Str Type "
-        "Universe join meet outer record this"
+        "Application Basic Ind ListOf Negation NonEmpty Plus Pred Rec RecType "
+        "RecordType SetOf Singleton Str Type Universe join meet"
     ),
 }
 """Where the names are that users need every day, and those that `repr` prints."""

@@ -25,14 +25,6 @@ from types import ModuleType
 from typing import Any
 from warnings import warn
 
-__all__ = [
-    "FORMER_MODULES",
-    "FORMER_NAMES",
-    "Alias",
-    "find_former_modules",
-    "former_names",
-]
-
 FORMER_MODULES = {
     "ttr.acts": "ttr.judging.type_acts",
     "ttr.claims": "ttr.semantics.propositional_entailment",
@@ -54,7 +46,7 @@ FORMER_MODULES = {
     "ttr.stories": "ttr.dialogues.stories",
     "ttr.strategies": "ttr.testing.strategies",
     "ttr.stratifying": "ttr.building.level_inference",
-    "ttr.syntax": "ttr.types.syntax",
+    "ttr.syntax": "ttr.types",
     "ttr.topoi": "ttr.semantics.topoi",
     "ttr.transcripts": "ttr.dialogues.transcripts",
     "ttr.updates.stepping": "ttr.updates.rule_application",

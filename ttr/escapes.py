@@ -33,17 +33,6 @@ from html import escape
 from typing import Any
 from urllib.parse import quote
 
-__all__ = [
-    "columns",
-    "csv_line",
-    "html_address",
-    "html_text",
-    "json_text",
-    "terminal_line",
-    "terminal_text",
-    "terminal_word",
-]
-
 
 def terminal_text(text: str) -> str:
     r"""A text of one line or several, as it may be printed.

@@ -13,8 +13,6 @@ from functools import update_wrapper
 from importlib import import_module
 from typing import Generic, ParamSpec, TypeVar
 
-__all__ = ["Hook", "hook", "set_providers"]
-
 P = ParamSpec("P")
 R = TypeVar("R")
 

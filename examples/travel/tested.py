@@ -13,7 +13,8 @@ from ttr.semantics.gameboards.ibis import utterance
 from ttr.semantics.gameboards.ibis.moves import USR, Program, content_of
 from ttr.semantics.questions import relevant, resolves, top
 from ttr.testing import Roles, Tutor
-from ttr.types.syntax import Object, PType
+from ttr.types.objects import Object
+from ttr.types.syntax import PType
 
 PHRASES = {
     move: " ".join(words) for words, move in reversed(list(book.phrases.items()))

@@ -21,8 +21,6 @@ from uuid import uuid4
 from kille.bus.bus import Bus, Publisher, Subscription
 from kille.bus.messages import Bundle, BusError, Facts, Topic
 
-__all__ = ["Asking", "Service", "serve"]
-
 _logger = logging.getLogger("kille.bus")
 
 A = TypeVar("A", bound=Facts | Bundle)

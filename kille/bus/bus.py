@@ -9,8 +9,6 @@ from typing import Generic, Protocol, TypeVar
 
 from kille.bus.messages import BusError, Message, Topic
 
-__all__ = ["Bus", "Kinds", "Publisher", "Subscription", "Taking"]
-
 _logger = logging.getLogger("kille.bus")
 
 M = TypeVar("M", bound=Message)

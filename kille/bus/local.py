@@ -10,8 +10,6 @@ from typing import Any, Generic, TypeVar
 from kille.bus.bus import Kinds, Publisher, Subscription, Taking
 from kille.bus.messages import Message, Topic
 
-__all__ = ["LocalBus"]
-
 M = TypeVar("M", bound=Message)
 
 

@@ -14,8 +14,6 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Bundle", "BusError", "Camera", "Facts", "Image", "Message", "Text", "Topic"]
-
 Array = NDArray[Any]
 
 _NAME = re.compile(r"/?[A-Za-z]\w*(/[A-Za-z]\w*)*", re.ASCII)

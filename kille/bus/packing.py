@@ -16,8 +16,6 @@ from kille.archives import read_arrays
 from kille.bus.messages import Bundle, BusError
 from ttr.safety.inputs import parse_json
 
-__all__ = ["facts_in", "packed", "unpacked", "written"]
-
 _FACTS = "facts"
 
 

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from kille.bus.messages import BusError
 
-__all__ = ["encoding_of", "pixels_of"]
-
 Array = NDArray[Any]
 
 

@@ -14,23 +14,6 @@ from kille.dialogue.reference.perspectives import front_of
 from ttr import Model, Record, record
 from ttr.types import PType
 
-__all__ = [
-    "Beliefs",
-    "about",
-    "believed",
-    "certainty",
-    "degree",
-    "doubt",
-    "has_rival",
-    "is_sure",
-    "knows",
-    "lead",
-    "nouns_of",
-    "recognised",
-    "relations_of",
-    "thinks",
-]
-
 Beliefs = Sequence[Record]
 
 

@@ -23,24 +23,6 @@ from kille.dialogue.reference import PARTS, thing_at, things_in
 from kille.dialogue.state import words
 from ttr import Pred, Record, RecordType, replace
 
-__all__ = [
-    "LEARNED",
-    "REJECTED",
-    "act_of",
-    "affirmed",
-    "as_told",
-    "is_here",
-    "kind_of",
-    "learning",
-    "lessons_in",
-    "remaining",
-    "said_here",
-    "same",
-    "signs_for",
-    "undone",
-    "weakened",
-]
-
 LEARNED = {"c": "Learned", "a": "LearnedQuality", "rel": "LearnedRelation"}
 """What the robot says when it has learned a claim, by the claim's label."""
 

@@ -13,8 +13,6 @@ from typing import Any
 from kille.dialogue.lexicon import Lexicon
 from ttr import Record, record
 
-__all__ = ["details"]
-
 Section = Mapping[str, Any]
 
 _DAY = 24 * 60 * 60

@@ -19,18 +19,6 @@ from typing import Any, NamedTuple, TypeAlias
 
 import regex
 
-__all__ = [
-    "SECONDS",
-    "Expression",
-    "GrammarError",
-    "Production",
-    "Source",
-    "Symbol",
-    "by_lark",
-    "plainly",
-    "read",
-]
-
 
 class GrammarError(ValueError):
     """A grammar that cannot be used, and why."""

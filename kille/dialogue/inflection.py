@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-__all__ = ["Articles", "Inflection"]
-
 
 @dataclass(frozen=True)
 class Inflection:

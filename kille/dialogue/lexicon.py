@@ -16,8 +16,6 @@ from kille.dialogue.sources import source
 from ttr import Record
 from ttr.safety.inputs import parse_toml
 
-__all__ = ["Lexicon", "Style", "lexicon"]
-
 Wordings = Mapping[str, tuple[str, ...]]
 """The sentences for each act; the first of which all slots can be filled is used."""
 

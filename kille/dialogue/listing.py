@@ -15,8 +15,6 @@ from kille.dialogue.lexicon import Lexicon
 from kille.dialogue.phrases import Words, phrase
 from ttr import RecordType
 
-__all__ = ["either", "listed"]
-
 Section = Mapping[str, Any]
 
 

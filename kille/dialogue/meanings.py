@@ -16,8 +16,8 @@ from functools import cache, lru_cache
 from kille.dialogue.redefining import ALLOWED, VARIABLE, types_of
 from ttr import Pred, Record, RecordType, Theory, meet, merge, record, rectype
 from ttr.types import Meet, Negation, PType, Singleton, TypeNode
+from ttr.types.objects import Object
 from ttr.types.paths import free_paths
-from ttr.types.syntax import Object
 
 __all__ = [
     "CLAIMS",

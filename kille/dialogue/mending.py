@@ -8,8 +8,6 @@ from kille.dialogue.language import understand
 from kille.dialogue.lexicon import Lexicon
 from kille.dialogue.typos import nearest_sentence, slip
 
-__all__ = ["suggested"]
-
 _WORD = re.compile(r"[^\W\d_]+")
 
 _LONGEST = 200

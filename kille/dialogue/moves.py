@@ -18,7 +18,7 @@ from kille.dialogue.meanings import (
 from kille.dialogue.reference.perspectives import front_of
 from ttr import Rec, Record, RecordType, RecType, record, rectype, replace
 from ttr.types import TypeNode
-from ttr.types.syntax import Object
+from ttr.types.objects import Object
 
 __all__ = [
     "answering",

@@ -24,8 +24,6 @@ from kille.dialogue.grammars import (
     read,
 )
 
-__all__ = ["Grammar", "GrammarError", "Tree", "Word", "parts", "words"]
-
 _WAYS = 24
 """How many ways to read the same stretch of text are kept: those with fewest parts."""
 

@@ -8,8 +8,6 @@ from kille.dialogue.lexicon import Lexicon
 from ttr import Pred, Record, RecordType
 from ttr.types import Join, Meet, Negation, PType, TypeNode
 
-__all__ = ["Words", "claimed", "noun_phrase", "phrase"]
-
 Words = Mapping[Pred, Record]
 """The sign of each predicate that is a word."""
 

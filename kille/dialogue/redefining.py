@@ -17,8 +17,6 @@ from ttr.errors import suggestion
 from ttr.safety.consent import check_called
 from ttr.theories.theory import load
 
-__all__ = ["ALLOWED", "VARIABLE", "redefined", "types_of"]
-
 VARIABLE = "KILLE_THEORY"
 """The variable of a process that has other types."""
 

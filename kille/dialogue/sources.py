@@ -12,8 +12,6 @@ from pathlib import Path, PurePath
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import SETTINGS
 
-__all__ = ["FILES", "language_in", "plain", "source"]
-
 FILES = ("tutor.{}.lark", "lexicon.{}.toml")
 """The files of a language: its grammar, and its lexicon."""
 

@@ -9,8 +9,6 @@ from kille.dialogue.reference.perspectives import OPEN
 from kille.dialogue.strategies import strategy as default
 from ttr import Model, Record, RecordType, record
 
-__all__ = ["STATE", "blank_model", "initial", "words"]
-
 STATE: RecordType = named("State")
 """The type of every information state."""
 

@@ -13,8 +13,6 @@ from string import Formatter
 
 from kille.dialogue.lexicon import Lexicon
 
-__all__ = ["CLOSELY", "LOOSELY", "robot_rules"]
-
 CLOSELY, LOOSELY = "closely", "loosely"
 """The rules for what the robot says: all of it known, or with any text in a place."""
 

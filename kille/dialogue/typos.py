@@ -14,8 +14,6 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
-__all__ = ["nearest", "nearest_sentence", "slip"]
-
 _ALIKE = 0.72
 """Share of characters in common, in their order, that makes two sentences alike."""
 

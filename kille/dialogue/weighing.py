@@ -21,8 +21,6 @@ from ttr import Model, Pred, Record, RecordType
 from ttr.types import PType
 from ttr.updates import NBest
 
-__all__ = ["FAINTLY", "Weighed", "weighed"]
-
 FAINTLY = 1e-6
 """How probably something must have been said at least to be answered at all."""
 

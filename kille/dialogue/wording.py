@@ -14,7 +14,7 @@ from functools import lru_cache
 from string import Formatter
 
 from kille.dialogue.details import details
-from kille.dialogue.lexicon import Lexicon, Wordings, lexicon
+from kille.dialogue.lexicon import Lexicon, Wordings
 from kille.dialogue.listing import either, listed
 from kille.dialogue.meanings import word_of
 from kille.dialogue.mending import suggested
@@ -22,8 +22,6 @@ from kille.dialogue.phrases import Words, claimed, noun_phrase, phrase
 from ttr import Rec, Record, RecordType
 from ttr.escapes import terminal_text
 from ttr.types import Join, Negation, Singleton
-
-__all__ = ["did_not_understand", "lexicon", "say", "tell"]
 
 _SHOWN = 60
 """Characters of what was not understood that are said back."""

@@ -13,20 +13,6 @@ from kille.experiments.metrics import accuracy, margin, wilson
 from kille.experiments.results import Figure
 from kille.scene import Percept
 
-__all__ = [
-    "NOTHING",
-    "Answer",
-    "Lesson",
-    "asked",
-    "confusion_figure",
-    "mean_degrees",
-    "mistaken",
-    "percent",
-    "right_cells",
-    "share_right",
-    "taught",
-]
-
 Lesson = tuple[Percept, str]
 """A thing, and the right word for it: to be taught, or to be asked for."""
 

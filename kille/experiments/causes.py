@@ -19,18 +19,6 @@ from kille.experiments.metrics import kappa
 from kille.perception.learners import Learner
 from kille.scene import Configuration
 
-__all__ = [
-    "CAUSES",
-    "ROUNDS",
-    "TABLE",
-    "Cause",
-    "Measured",
-    "Scene",
-    "configured",
-    "played",
-    "scenes",
-]
-
 ROUNDS = 3
 """How often each place is taught."""
 TABLE = 0.4

@@ -22,8 +22,6 @@ from kille.sensors.pictures import fitted, is_picture, read_colour
 from kille.sensors.recordings.names import counting
 from kille.sensors.sensor import SensorError
 
-__all__ = ["LOOKING", "Categories", "Gallery", "Still", "is_gallery", "open_gallery"]
-
 LOOKING = 0.3
 """The share of the time that goes into seeing rather than into words."""
 

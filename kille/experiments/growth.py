@@ -31,8 +31,6 @@ from kille.perception.thumbnails import evidence_of
 from kille.scene import Features, Percept
 from kille.sensors.synthetic.catalogue import NAMES
 
-__all__ = ["SIZES", "growth"]
-
 SIZES = (10, 30, 100, 300, 1_000, 3_000, 10_000)
 """The numbers of views at which learners are asked."""
 

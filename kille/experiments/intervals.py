@@ -23,8 +23,6 @@ from kille.experiments.strokes import (
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
-__all__ = ["drawn_intervals", "drawn_points", "drawn_reliability"]
-
 _ROW, _SERIES = 0.2, 0.16  # inches
 _SQUARE = 4.8
 

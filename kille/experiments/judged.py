@@ -23,8 +23,6 @@ from kille.scene import Configuration, Direction
 from ttr.safety.inputs import parse_json, read_text
 from ttr.safety.limits import TABLE
 
-__all__ = ["Choice", "Judged", "Study", "read"]
-
 _CELL = 0.1  # metres: a cell of the grid of Logan and Sadler is taken as that wide
 
 

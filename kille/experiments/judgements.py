@@ -21,8 +21,6 @@ from kille.experiments.spatial import Methods, degrees_of
 from kille.perception.relations.angle import AngleRule
 from kille.scene import Configuration
 
-__all__ = ["judgements"]
-
 SIZES = (1, 2, 4, 8, 16, 24, 48)
 _DRAWS = 5
 _SPAN = 0.4  # metres: half the width of a map

@@ -14,8 +14,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-__all__ = ["ACCEPTED", "WORDS", "Person", "Place", "answer", "born"]
-
 _SIDES: Mapping[str, float] = {
     "to the right of": 0.0,
     "behind of": math.pi / 2,

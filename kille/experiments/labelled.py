@@ -17,8 +17,6 @@ from kille.perception.look import look
 from kille.scene import Frame
 from kille.sensors.captures import Shot, description_of, is_sequence, read_sequence
 
-__all__ = ["Scenes", "Split", "is_scenes", "known", "open_scenes", "splits"]
-
 
 @dataclass(frozen=True, eq=False)
 class Scenes:

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from matplotlib.text import Annotation
     from matplotlib.transforms import Bbox
 
-__all__ = ["labelled"]
-
 _AWAY = (5, 13, 22, 32)
 _SIDES = ((1, 1), (1, -1), (-1, 1), (-1, -1), (0, 1), (0, -1), (1, 0), (-1, 0))
 """Where a label may stand: so many points away from its own, on these sides of it."""

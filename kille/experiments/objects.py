@@ -35,8 +35,6 @@ from kille.experiments.steps import Steps
 from kille.experiments.table import LOOKING, OnTable, cut_out, each_shown
 from kille.sensors.synthetic.catalogue import NAMES
 
-__all__ = ["ROUNDS", "TURNED", "paper"]
-
 ROUNDS = 4
 TURNED = 45.0
 

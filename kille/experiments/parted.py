@@ -31,8 +31,6 @@ from kille.experiments.results import (
 )
 from kille.experiments.steps import Steps
 
-__all__ = ["every_other", "halves"]
-
 _SHOWN = 12  # wrong answers in a figure
 
 

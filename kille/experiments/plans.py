@@ -12,16 +12,6 @@ from typing import Protocol as Shape
 from kille.experiments.candidates import Make, MethodFailed, Methods
 from kille.experiments.results import ExperimentError, Progress, Result
 
-__all__ = [
-    "OBJECTS",
-    "RELATIONS",
-    "Plan",
-    "chosen",
-    "object_plans",
-    "relation_plans",
-    "run",
-]
-
 
 class Run(Shape):
     """A protocol whose data is settled: it measures these methods."""

@@ -36,8 +36,6 @@ from kille.sensors.captures import (
 from ttr.safety.inputs import parse_json, read_text
 from ttr.safety.limits import TABLE
 
-__all__ = ["Capture", "Score", "captures", "regions", "score"]
-
 _HALF = 0.5  # the overlap at which a thing counts as found
 _LABELLED = 0.3  # a region with less of it labelled may be a thing nobody labelled
 _SHOWN = 6  # scenes in the figure

@@ -6,8 +6,6 @@ import gc
 import mmap
 from pathlib import Path
 
-__all__ = ["ResidentMemory", "resident"]
-
 
 class ResidentMemory:
     """What the program takes more than before a method began.

@@ -33,8 +33,6 @@ from kille.experiments.results import (
 )
 from kille.experiments.steps import Steps
 
-__all__ = ["across"]
-
 _SEEING = 0.5  # the share of the time that goes into seeing
 
 Answers = Mapping[tuple[Split, str], Sequence[Answer]]

@@ -14,8 +14,6 @@ from kille.experiments.metrics import kappa, spearman
 from kille.experiments.spatial import degrees_of
 from kille.scene import Configuration
 
-__all__ = ["Score", "drawn", "folded", "hits", "taught"]
-
 _FOLDS = 5
 _ASKED = 40  # of a word in one draw at most: more tell little and take long
 

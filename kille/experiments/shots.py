@@ -27,8 +27,6 @@ from kille.experiments.results import (
 )
 from kille.experiments.steps import Steps
 
-__all__ = ["RUNS", "SHOTS", "shots"]
-
 RUNS = 8
 SHOTS = (1, 3, 5, 10)
 _CATEGORIES = 10

@@ -32,8 +32,6 @@ from kille.experiments.staged import staged
 from kille.perception.learners import Learner
 from kille.scene import Configuration
 
-__all__ = ["Methods", "degrees_of", "paper", "published"]
-
 Methods = Mapping[str, Callable[[], Learner[Configuration]]]
 
 RUNS = 60

@@ -23,8 +23,6 @@ from kille.scene import Configuration, Frame, Region
 from kille.sensors.sensor import At, SensorError
 from kille.sensors.synthetic.sensor import Synthetic, open_synthetic
 
-__all__ = ["staged"]
-
 _TARGET, _LANDMARK = "book", "car"
 _MIDDLE = At(0.0, 0.05, 0.0)  # the car, so that all around it is in view
 _RINGS = (0.24, 0.30)  # metres: nearer the book would stand in the car

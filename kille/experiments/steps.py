@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from kille.experiments.results import Progress
 
-__all__ = ["Steps"]
-
 
 class Steps:
     """So many steps of a part [start, end] of the whole, each told when it is done.

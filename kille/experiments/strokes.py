@@ -13,19 +13,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Drawing
 
-__all__ = [
-    "FAINT",
-    "HUES",
-    "INK",
-    "MARKERS",
-    "RIGHT",
-    "WIDTH",
-    "WRONG",
-    "blank",
-    "legend",
-    "named",
-]
-
 HUES = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 RIGHT, WRONG = HUES[0], HUES[5]

@@ -12,8 +12,6 @@ from kille.sensors.sensor import At
 from kille.sensors.sources import open_sensor
 from kille.sensors.synthetic import Synthetic
 
-__all__ = ["LOOKING", "OnTable", "cut_out", "each_shown"]
-
 LOOKING = 0.4
 """The share of the time that goes into seeing rather than into words."""
 

@@ -26,8 +26,6 @@ from kille.experiments.steps import Steps
 from kille.experiments.table import LOOKING, OnTable, each_shown
 from kille.sensors.synthetic.catalogue import NAMES
 
-__all__ = ["ANGLES", "rotation", "specimens"]
-
 ANGLES = tuple(range(0, 181, 15))
 
 _FEW = 3  # scans of a look, where the paper's ten would take minutes

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-__all__ = ["in_bytes", "in_frames", "why_unwritten"]
-
 
 def in_bytes(count: int) -> str:
     """An amount on a disk.

@@ -21,8 +21,6 @@ from ttr.cli.parser import Parser, Version
 if TYPE_CHECKING:
     from kille.interfaces.experiment.running import Request
 
-__all__ = ["command", "main"]
-
 FAILED, INTERRUPTED, PIPE_CLOSED = 1, 130, 141
 
 

@@ -14,8 +14,6 @@ from kille.sensors.recordings.playing import Recording
 from kille.sensors.recordings.replacing import check_file, check_other, home, whole
 from kille.sensors.sensor import SensorError
 
-__all__ = ["convert_recording"]
-
 
 def convert_recording(
     source: str, out: Path, named: str | None, may_write: Callable[[Path], None]

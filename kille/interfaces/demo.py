@@ -16,8 +16,6 @@ from kille.interfaces.showing import claims, explained
 from kille.interfaces.terminal import FINE, complain, console
 from kille.perception.sheet import sheet, write_picture
 
-__all__ = ["demo"]
-
 Row = tuple[str, View]
 
 

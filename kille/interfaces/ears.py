@@ -16,8 +16,6 @@ from kille.speech.hearing import from_file, from_microphone, from_pipe
 from kille.speech.recognition import Perhaps, Recogniser
 from kille.speech.sound import SoundError
 
-__all__ = ["ALWAYS", "DEVICE", "PIPE", "Ears", "Heard", "answered", "written"]
-
 DEVICE, ALWAYS, PIPE = "device", "always", "-"
 """Where speech comes from, if not from a file: the microphone after Enter, the
 microphone all the time, raw samples on the standard input."""

@@ -35,8 +35,6 @@ from kille.sensors.sensor import SensorError
 from ttr import TTRError
 from ttr.safety.files import check_outputs, why_unread, write_whole
 
-__all__ = ["Request", "as_json", "as_tables", "evaluate"]
-
 _PAGES = (".html", ".htm")  # so that no picture of the data is overwritten
 _USUAL = {"objects": ("default", "kille"), "relations": ("default", "kille", "angle")}
 _PACKAGES = ("kille", "numpy", "opencv-contrib-python-headless", "scikit-learn")

@@ -15,8 +15,6 @@ from kille.experiments.report import shown
 from kille.experiments.results import Cell, Estimate, Table
 from ttr.escapes import terminal_line
 
-__all__ = ["print_table"]
-
 _GAP = 2  # columns between those of a table
 _NUMBERS = int | float | Estimate
 

@@ -6,8 +6,6 @@ import argparse
 import math
 from contextlib import suppress
 
-__all__ = ["counted", "positive", "seed"]
-
 
 def seed(text: str) -> int:
     """A seed as it is typed."""

@@ -27,8 +27,6 @@ from kille.sensors.recordings.replacing import check_other, home, set_aside
 from kille.sensors.sensor import SensorError
 from kille.sensors.sources import open_sensor
 
-__all__ = ["record_sensor"]
-
 _TOLD_EVERY = 0.1
 
 

@@ -23,9 +23,6 @@ from ttr import TTRError
 from ttr.dialogues.stories import Outcome, Story, facts, junit, read_stories, summary
 from ttr.safety.files import check_outputs, write_whole
 
-__all__ = ["as_json", "in_brief", "in_full", "replay"]
-
-
 Plan = Sequence[tuple[Path, Sequence[Story]]]
 Report = Callable[[Plan], Iterator[Outcome]]
 """How stories are played, and what is printed about them meanwhile."""

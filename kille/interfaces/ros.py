@@ -17,8 +17,6 @@ from kille.memory import MemoryFileError
 from kille.nodes.topics import PROBLEMS
 from kille.sensors.sensor import SensorError
 
-__all__ = ["ALL", "OPENING", "PARTS", "NodeBus", "Opening", "launch", "run_nodes"]
-
 PARTS = ("sensor", "perception", "dialogue")
 """What the robot is made of, from the senses on."""
 

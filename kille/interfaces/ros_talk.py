@@ -14,8 +14,6 @@ from kille.nodes.topics import CALLS, STAGE
 from ttr.safety.inputs import ask_line
 from ttr.safety.limits import UTTERANCE, TooMuch
 
-__all__ = ["talk_over", "talk_as_node"]
-
 _PATIENCE = 30.0
 """Seconds to wait for an answer."""
 

@@ -11,20 +11,11 @@ from kille.interfaces.terminal import hanging_type
 from ttr import Rec, Record, RecordType, record, rectype
 from ttr.judging import Judgement
 from ttr.types import PType, Singleton
+from ttr.types.objects import Object
 from ttr.types.printing import notation
 from ttr.types.records import differences
 from ttr.types.substitution import resolve_paths
-from ttr.types.syntax import Object
 from ttr.updates import Step
-
-__all__ = [
-    "Account",
-    "claims",
-    "derivation",
-    "explained",
-    "nothing",
-    "things_in_view",
-]
 
 Account = Callable[[Exchange], Iterable[tuple[str, str]]]
 """What is told of a turn beside its words: lines, each with what kind of line it is."""

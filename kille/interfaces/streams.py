@@ -9,8 +9,6 @@ from io import StringIO, TextIOWrapper
 
 from ttr.escapes import terminal_text
 
-__all__ = ["drop_output", "end_line", "prepare_streams", "write", "write_error"]
-
 
 def prepare_streams() -> None:
     """Have something to read and write even where a caller has closed it.

@@ -25,8 +25,6 @@ from ttr import TTRError
 from ttr.safety.inputs import ask_line
 from ttr.safety.limits import UTTERANCE, TooMuch
 
-__all__ = ["talk"]
-
 COMMANDS = """\
 Lines that begin with @ change what there is to see:
   @ show cup                    only the cup is on the table

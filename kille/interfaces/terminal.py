@@ -23,20 +23,6 @@ from rich.text import Text
 from kille.interfaces.streams import write_error
 from ttr.escapes import json_text, terminal_line, terminal_text
 
-__all__ = [
-    "FAILED",
-    "FINE",
-    "WRONG_USE",
-    "ask",
-    "complain",
-    "console",
-    "hanging",
-    "hanging_type",
-    "labelled_bar",
-    "memory_path",
-    "print_json",
-]
-
 FINE, FAILED, WRONG_USE = 0, 1, 2
 
 _COLUMNS_OF_A_PIPE = 100

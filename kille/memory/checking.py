@@ -15,8 +15,6 @@ from kille.memory import files, reading, schema
 from kille.memory.errors import DAMAGE, STRANGE_JOURNAL, explained, primary_code
 from kille.memory.exporting import Amount
 
-__all__ = ["Health", "check"]
-
 MOST_FAULTS = 20
 """How many faults of one sort are told."""
 

@@ -26,8 +26,6 @@ from kille.memory.memory import Memory
 from kille.memory.merging import Merged
 from kille.memory.pages import Row, Rows, Value, rows_in
 
-__all__ = ["Salvage", "salvage"]
-
 UNKNOWN = "unknown"
 """When a lost dialogue began, and who said a lost turn."""
 

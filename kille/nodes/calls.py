@@ -22,8 +22,6 @@ from kille.dialogue.meanings import named, noun, placed
 from kille.dialogue.wording import tell
 from ttr import Record, RecordType, merge, record, rectype
 
-__all__ = ["text_of"]
-
 _KNOWN = ("say", "teach", "ask", "forget")
 
 

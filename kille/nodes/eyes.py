@@ -12,8 +12,6 @@ from kille.perception.look import Sighting
 from kille.scene import Frame, Look
 from kille.sensors.sensor import At, Beside, SensorError
 
-__all__ = ["Eyes"]
-
 Seen = TypeVar("Seen", Frame, Look)
 
 

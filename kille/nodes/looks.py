@@ -30,8 +30,6 @@ from kille.scene import (
     Traits,
 )
 
-__all__ = ["bundle_of", "frame_bundle", "frame_in", "look_in", "mask_in", "runs_of"]
-
 Arrays = Mapping[str, NDArray[Any]]
 Facts = Mapping[str, Any]
 

@@ -17,8 +17,6 @@ from kille.scene import Frame, Mask
 from kille.sensors.sensor import SensorError
 from kille.sensors.stream import Feed, Stream
 
-__all__ = ["Seeing"]
-
 _KEPT = 4
 """So many frames of earlier looks are kept."""
 

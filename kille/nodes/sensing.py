@@ -15,8 +15,6 @@ from kille.sensors.sensor import Sensor, SensorError, Stage
 from kille.sensors.stage import perform
 from kille.sensors.stream import Feed
 
-__all__ = ["RATE", "Sensing"]
-
 RATE = 30.0
 """Frames in a second: those of a Kinect."""
 

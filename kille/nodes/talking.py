@@ -26,8 +26,6 @@ from ttr import RecordType, TTRError
 from ttr.judging import Judgement
 from ttr.types import TypeNode
 
-__all__ = ["Talking"]
-
 
 class Talking:
     """Lets a tutor and programs talk to a robot, one turn after the other.

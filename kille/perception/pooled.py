@@ -18,8 +18,6 @@ from kille.perception.objects import descriptors_of, kept_features
 from kille.perception.votes import counted
 from kille.scene import Percept
 
-__all__ = ["PooledVotes"]
-
 
 class PooledVotes:
     """A learner of words for things, from percepts: features only, one vote each."""

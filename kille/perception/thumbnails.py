@@ -19,8 +19,6 @@ from kille.perception.segment import region_of
 from kille.scene import Box, Colour, Depth, Frame, Intrinsics, Mask, Region
 from kille.sensors import pictures
 
-__all__ = ["decoded", "evidence_of", "outlined", "restored"]
-
 _WIDTH, _HEIGHT = 160, 120  # of a thumbnail at most
 _LARGEST = 640  # pixels that a crop may be wide or high: a VGA frame is never shrunk
 _MARGIN = 8  # pixels around the thing

@@ -18,8 +18,6 @@ from kille.bus.bus import Kinds, Taking
 from kille.ros.conversion import Form, form_of
 from kille.ros.finding import ros
 
-__all__ = ["RosBus", "anonymous", "open_ros", "reach_master"]
-
 M = TypeVar("M", bound=Message)
 
 _PATIENCE = 3.0

@@ -21,8 +21,6 @@ from kille.bus.packing import facts_in, packed, unpacked, written
 from kille.bus.pixels import encoding_of, pixels_of
 from kille.ros.finding import ros
 
-__all__ = ["Form", "form_of"]
-
 _FRAME = "kille_camera"
 _SECOND = 1_000_000_000
 

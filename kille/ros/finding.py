@@ -18,8 +18,6 @@ from types import ModuleType
 
 from kille.bus import BusError
 
-__all__ = ["FOLDERS", "NAMES", "REMEDY", "Finder", "place_of", "ros"]
-
 FOLDERS = ("/opt/ros/*/lib/python3/dist-packages", "/usr/lib/python3/dist-packages")
 """Where systems keep the modules of ROS: its own, and those packaged by Debian."""
 

@@ -25,8 +25,6 @@ from kille.bus.bus import Kinds, Taking
 from kille.ros2.conversion import Form, form_of
 from kille.ros2.types import module, sample_type
 
-__all__ = ["DdsBus", "open_ros2"]
-
 M = TypeVar("M", bound=Message)
 
 _TURN = 0.2

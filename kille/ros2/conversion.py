@@ -15,8 +15,6 @@ from kille.bus.packing import facts_in, packed, unpacked, written
 from kille.bus.pixels import encoding_of, pixels_of
 from kille.ros2.types import of_bytes, store, to_bytes
 
-__all__ = ["Form", "form_of"]
-
 _FRAME = "kille_camera"
 _SECOND = 1_000_000_000
 _IDENTITY = np.eye(3).ravel()

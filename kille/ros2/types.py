@@ -15,8 +15,6 @@ from typing import Any
 
 from kille.bus import BusError
 
-__all__ = ["REMEDY", "module", "of_bytes", "sample_type", "store", "to_bytes"]
-
 REMEDY = "pip install 'kille[ros2]'"
 
 Field = tuple[Any, Any]

@@ -13,8 +13,6 @@ from kille.sensors.stream import COLOUR, Feed, Stream
 if TYPE_CHECKING:
     from kille.ros.bus import RosBus
 
-__all__ = ["feed_of", "open_ros_sensor"]
-
 _KNOWN = ("depth", "info", "patience")
 _DEPTH_FOLDERS = ("depth_registered", "depth")
 _DEPTH_PICTURES = ("image", "image_raw", "image_rect", "image_rect_raw")

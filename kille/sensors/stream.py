@@ -15,8 +15,6 @@ from kille.scene import Colour, Depth, Frame, Intrinsics
 from kille.sensors.pictures import measured
 from kille.sensors.sensor import SensorError
 
-__all__ = ["CAMERA", "COLOUR", "DEPTH", "Feed", "Stream"]
-
 COLOUR = "camera/rgb/image_color"
 DEPTH = "camera/depth_registered/image"
 CAMERA = "camera/rgb/camera_info"

@@ -10,22 +10,3 @@ on from any of its states. The tutor, in `tutors`, needs hypothesis.
 >>> [game.say(move) for turn in turns for move in turn.said]
 ['OK, I learned a cup.', 'This is a cup.']
 """
-
-from kille.simulation.learning import Word
-from kille.simulation.perceiving import glanced, seen
-from kille.simulation.playing import simulated, words, world_of
-from kille.simulation.schooling import schooled
-from kille.simulation.worlds import Thing, World, drawn
-
-__all__ = [
-    "Thing",
-    "Word",
-    "World",
-    "drawn",
-    "glanced",
-    "schooled",
-    "seen",
-    "simulated",
-    "words",
-    "world_of",
-]

@@ -13,9 +13,7 @@ from kille.dialogue.language import understand
 from kille.dialogue.meanings import predicate_at, value_at
 from ttr import Record, RecordType
 from ttr.types import PType
-from ttr.types.syntax import Object
-
-__all__ = ["DROPPING", "answers_in"]
+from ttr.types.objects import Object
 
 DROPPING = frozenset(
     {

@@ -33,8 +33,6 @@ from kille.simulation.vocabulary import vocabulary
 from kille.simulation.worlds import World
 from ttr import Pred, Record
 
-__all__ = ["Situation", "by_side", "leads", "situation"]
-
 Talk = Sequence[Saying]
 
 OF_PLACES = ("relate", "correct", "reject", "ask_whether")

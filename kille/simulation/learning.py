@@ -34,8 +34,6 @@ from kille.simulation.perceiving import (
 from kille.simulation.worlds import COLOURS, World
 from ttr import Record
 
-__all__ = ["Observation", "Taught", "Word", "observed"]
-
 Observation = tuple[Vector, ...]
 """What is seen, aspect by aspect."""
 

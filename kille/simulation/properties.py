@@ -15,8 +15,6 @@ from ttr.testing import Property
 from ttr.testing.strategies import Dialogue, Trial
 from ttr.testing.strategies.discourse_roles import Roles
 
-__all__ = ["GROUNDED", "HONEST", "LOCAL", "OF_TUTORING", "RETRACTED", "WORDED"]
-
 Checked = Iterator[tuple[int, str]]
 
 CERTAINTY = {"admit_name": 0, "guess_name": 1, "hedge_name": 1, "assert_name": 2}

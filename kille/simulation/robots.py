@@ -15,8 +15,6 @@ from kille.simulation.schooling import rested, resumed, schooled
 from kille.simulation.worlds import drawn
 from ttr.updates import Game
 
-__all__ = ["ROBOTS", "Robot"]
-
 
 @dataclass(frozen=True)
 class Robot:

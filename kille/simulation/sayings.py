@@ -21,21 +21,6 @@ from kille.simulation.vocabulary import vocabulary
 from kille.simulation.worlds import World
 from ttr import Rec, Record, RecordType, record, rectype
 
-__all__ = [
-    "NOTHING",
-    "THIS",
-    "Claim",
-    "Matter",
-    "Phrase",
-    "Saying",
-    "acts",
-    "coloured",
-    "phrases_of",
-    "sayings",
-    "settled",
-    "true_of",
-]
-
 TEMPLATES = {"noun": "Naming", "adjective": "Having", "relation": "Relation"}
 """What a claim means, by the kind of its word."""
 

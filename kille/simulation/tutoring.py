@@ -17,8 +17,6 @@ from kille.simulation.worlds import drawn
 from ttr import Model, Record
 from ttr.testing import Roles
 
-__all__ = ["game", "roles", "roles_in", "starts", "tutor", "words"]
-
 
 def words(event: Record) -> str | None:
     """How the tutor worded an event; None for what was not said."""

@@ -36,8 +36,6 @@ from ttr import Model, Pred, Record, RecordType
 from ttr.testing.strategies import Tutor
 from ttr.types import Negation, PType
 
-__all__ = ["NONSENSE", "happenings", "is_true", "tutoring"]
-
 NONSENSE = (
     "",
     "?!",

@@ -12,8 +12,6 @@ from kille.simulation.perceiving import direction
 from kille.simulation.worlds import COLOURS, KINDS, World
 from ttr import Record
 
-__all__ = ["Vocabulary", "vocabulary"]
-
 SIZES = {0.1: "small", 0.9: "big"}
 """What the sizes of things are called."""
 

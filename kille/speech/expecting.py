@@ -19,8 +19,6 @@ from kille.speech.grammar import CONTRACTED, TAUGHT, parted, tutors_grammar
 from kille.speech.network import Place, either, filled, fused, only, places, said
 from ttr import Record
 
-__all__ = ["LANGUAGES", "Expected", "Speech", "expected", "speech"]
-
 LANGUAGES = ("en",)
 """The languages that there is a model of the sounds of."""
 

@@ -18,16 +18,6 @@ from kille.speech.spelling import EndlessError, spellings
 if TYPE_CHECKING:
     from lark.grammar import Symbol
 
-__all__ = [
-    "CONTRACTED",
-    "SLOTS",
-    "TAUGHT",
-    "in_full",
-    "parted",
-    "sayable",
-    "tutors_grammar",
-]
-
 SLOTS = ("_noun", "_several", "_adjective", "_relation")
 """The rules of the grammar that find words of the tutor's."""
 

@@ -15,8 +15,6 @@ from typing import IO
 
 from kille.speech.sound import RATE, SoundError, read_wav
 
-__all__ = ["LONGEST", "from_file", "from_microphone", "from_pipe", "utterances"]
-
 LONGEST = 15.0
 """Seconds of one utterance; what goes on for longer is noise, and is cut."""
 

@@ -16,21 +16,6 @@ from functools import lru_cache, reduce
 from itertools import zip_longest
 from weakref import WeakValueDictionary
 
-__all__ = [
-    "END",
-    "NOTHING",
-    "Place",
-    "allows",
-    "either",
-    "filled",
-    "following",
-    "fused",
-    "only",
-    "places",
-    "said",
-    "sentences",
-]
-
 
 @dataclass(frozen=True, eq=False, slots=True, weakref_slot=True)
 class Place:

@@ -9,8 +9,6 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-__all__ = ["Pronouncing"]
-
 Dictionary = Callable[[str], str | None]
 """The sounds of a word, or None if it is not in the dictionary."""
 

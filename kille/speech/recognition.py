@@ -22,8 +22,6 @@ from kille.speech.network import NOTHING, Place, allows, places
 from kille.speech.pronouncing import Pronouncing
 from kille.speech.sound import RATE
 
-__all__ = ["Perhaps", "Recogniser", "joined"]
-
 _WORDS, _SOUNDS = "words", "sounds"
 """The names of the two searches."""
 

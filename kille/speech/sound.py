@@ -15,8 +15,6 @@ import numpy as np
 from ttr.safety.inputs import read_bytes
 from ttr.safety.limits import SOUND, SOUND_FILE
 
-__all__ = ["RATE", "Sound", "SoundError", "WavFile", "read_wav"]
-
 RATE = 16_000
 """Samples a second in what is heard; what the model of sounds was trained on."""
 

@@ -11,8 +11,6 @@ from pathlib import Path
 
 from kille.speech.sound import Sound, SoundError, WavFile, read_wav
 
-__all__ = ["SYNTHESISERS", "Voice", "play", "silent", "synthesised", "voice"]
-
 Voice = Callable[[str], None]
 """Speaks a sentence, and comes back when it is spoken."""
 

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from itertools import product
 
-__all__ = ["EndlessError", "spellings"]
-
 Spelled = tuple[str, ...]
 """Different texts, in the order of the pattern."""
 

@@ -26,8 +26,6 @@ from kille.studies.errors import TheoryError
 from kille.studies.study import Theory
 from ttr.safety.python_files import separate_python
 
-__all__ = ["allowed_for", "ask", "is_apart", "own_types"]
-
 _ONE_THREAD = dict.fromkeys(
     ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"
 )

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-__all__ = ["StudyError", "TheoryError"]
-
 
 class StudyError(Exception):
     """A study that cannot be played: a line for every mistake in it.

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from traceback import extract_tb
 
-__all__ = ["line_in", "why"]
-
 
 def why(error: BaseException) -> str:
     """What was raised, and the first line of what it says.

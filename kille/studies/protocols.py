@@ -23,8 +23,6 @@ from kille.studies.settings import Setting, Settings, Wrong, filled, unknown
 from kille.studies.study import Named, Phase, Run, Study
 from kille.studies.tutors.tutor import Task
 
-__all__ = ["CHANGING", "RESTING", "SETTINGS", "faults", "length", "successor", "tasks"]
-
 MOST = 1000
 """Rounds: a dialogue that has more of them is nobody's study, but a slip."""
 

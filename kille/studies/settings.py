@@ -11,19 +11,6 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-__all__ = [
-    "Setting",
-    "Settings",
-    "Wrong",
-    "filled",
-    "near",
-    "no_file",
-    "no_folder",
-    "shown",
-    "unfit",
-    "unknown",
-]
-
 Wrong = tuple[tuple[str, ...], str]
 """The setting in which something is wrong, by the names that lead to it; and what."""
 

@@ -30,8 +30,8 @@ from ttr import (
 from ttr.errors import IllFormedError, RefusedError, UnsupportedError
 from ttr.testing.strategies import models, objects, types
 from ttr.types import FunType, Negation, NonEmpty, Path, PType, TypeNode
+from ttr.types.objects import Object
 from ttr.types.paths import subterms
-from ttr.types.syntax import Object
 
 __all__ = [
     "NAMES",

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from ttr import Basic, ListOf, Model, Record, RecordType, record, rectype
 from ttr.errors import EndlessError, UpdateError
-from ttr.types.syntax import Operation, Path
+from ttr.types.objects import Operation, Path
 from ttr.updates import Rule, by_class, first, maybe, repeat, rule, run, seq
 from ttr.updates.checks import faults
 from ttr.updates.rules import Body

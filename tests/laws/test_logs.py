@@ -17,7 +17,8 @@ from ttr import Model, rectype, replace
 from ttr.dialogues.dialogue import Trial
 from ttr.dialogues.logs import Log, LogFile, continue_log, read_logs, replay, story_of
 from ttr.dialogues.stories import Setting, play, read_stories, setting
-from ttr.types.syntax import Ind, ListOf, Rec, Record
+from ttr.types.objects import Record
+from ttr.types.syntax import Ind, ListOf, Rec
 from ttr.updates import Game, Turn, nbest, rule
 
 GAMES = Path(__file__).parent.parent / "games"

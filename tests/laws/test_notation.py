@@ -51,7 +51,8 @@ from ttr.types import (
     fst,
     rst,
 )
-from ttr.types.syntax import BOUND, Object, RecordType
+from ttr.types.objects import BOUND, Object
+from ttr.types.syntax import RecordType
 from ttr.updates.rule_notation import format_rule
 from ttr.updates.rules import Body, Rule
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from ttr import Basic, Model, join, meet, subtype
 from ttr.errors import RefusedError
 from ttr.semantics.random_variables import RandomVariable
-from ttr.theories.theory import Axiom, Exclusion, Signature
+from ttr.signature.signature import Axiom, Exclusion, Signature
 
 ATOMS = [Basic(name) for name in "ABCDE"]
 SLACK = 1e-9

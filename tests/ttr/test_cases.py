@@ -46,7 +46,7 @@ from ttr.semantics.quantifiers import (
     truth,
 )
 from ttr.semantics.random_variables import RandomVariable
-from ttr.theories.theory import Axiom, Signature
+from ttr.signature.signature import Axiom, Signature
 from ttr.types import EventString, Universe
 
 man, run, dog, boy = (Pred(name, Ind) for name in ("man", "run", "dog", "boy"))

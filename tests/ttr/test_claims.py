@@ -7,7 +7,7 @@ from ttr.errors import IllFormedError
 from ttr.judging import proposition
 from ttr.judging.propositions import judged, probabilistic, probabilistic_claim
 from ttr.semantics.propositional_entailment import entails, equivalent
-from ttr.theories.theory import Axiom, Exclusion, Signature
+from ttr.signature.signature import Axiom, Exclusion, Signature
 
 A, B = Basic("A"), Basic("B")
 M = Model().given("a", A, 0.75).given("b", A).given("b", B)

@@ -18,7 +18,7 @@ from ttr.semantics.learning import (
     lidstone,
 )
 from ttr.semantics.learning.counts import Weight
-from ttr.theories.theory import Axiom, Signature
+from ttr.signature.signature import Axiom, Signature
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 Dog, Bark = Basic("Dog"), Basic("Bark")

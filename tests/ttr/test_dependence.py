@@ -22,7 +22,7 @@ from ttr import (
 )
 from ttr.errors import RefusedError
 from ttr.semantics.random_variables import RandomVariable
-from ttr.theories.theory import Axiom, Exclusion, Signature
+from ttr.signature.signature import Axiom, Exclusion, Signature
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 Below = Signature(axioms=(Axiom(A, B),))

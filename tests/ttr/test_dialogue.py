@@ -15,7 +15,7 @@ from ttr.dialogues.stories import Setting, read_stories, setting, story_text
 from ttr.dialogues.stories import play as play_story
 from ttr.dialogues.transcripts import transcript
 from ttr.testing.strategies import dialogues
-from ttr.types.syntax import Record
+from ttr.types.objects import Record
 
 GAMES = Path(__file__).parent.parent / "games"
 DOOR = setting("door.ttr door", GAMES)

@@ -17,7 +17,7 @@ from ttr import (
 )
 from ttr.computing.cycles import has_fields_in_order
 from ttr.errors import IllFormedError
-from ttr.theories.theory import Axiom, Signature
+from ttr.signature.signature import Axiom, Signature
 
 Dog, Image = Basic("Dog"), Basic("Image")
 dog = Pred("dog", Ind)

@@ -17,10 +17,10 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from ttr import Theory, TTRError
-from ttr.errors import NotationError
-from ttr.theories.theory import MistakesError
+from ttr.errors import MistakesError, NotationError
+from ttr.types.interning import identity
+from ttr.types.objects import Object
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, identity
 
 DECLARED = r"""
 basic Ind, A

@@ -17,7 +17,7 @@ from ttr import (
 )
 from ttr.building.merging import singleton_type
 from ttr.errors import IllFormedError, TTRError
-from ttr.theories.theory import Axiom, Signature
+from ttr.signature.signature import Axiom, Signature
 
 A, B, Dog = Basic("A"), Basic("B"), Basic("Dog")
 dog = Pred("dog", Ind)

@@ -26,7 +26,7 @@ from ttr import (
 from ttr.errors import IllFormedError, RefusedError, UndecidedError, UnsupportedError
 from ttr.judging.witnesses import candidates
 from ttr.probability import Degree
-from ttr.theories.theory import Axiom, Given, Signature
+from ttr.signature.signature import Axiom, Given, Signature
 from ttr.types import Application, NonEmpty, fst
 from ttr.types.forms import star
 

@@ -39,8 +39,8 @@ from ttr.types import (
     fst,
     rst,
 )
+from ttr.types.objects import Object
 from ttr.types.printing import notation
-from ttr.types.syntax import Object
 
 A, B = Basic("A"), Basic("B")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

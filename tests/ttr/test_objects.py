@@ -6,8 +6,7 @@ import pytest
 from ttr import Ind, Record, TTRError, outer, record, this
 from ttr.errors import IllFormedError
 from ttr.types import FiniteSet
-from ttr.types.objects import freeze
-from ttr.types.syntax import Path
+from ttr.types.objects import Path, freeze
 
 r = record(x="fido", bg=record(size=3), keys="k", items=[1, [2]])
 

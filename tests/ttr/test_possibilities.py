@@ -15,7 +15,7 @@ from ttr.semantics.modality import (
     poss,
     possibly,
 )
-from ttr.theories.theory import Axiom, Signature
+from ttr.signature.signature import Axiom, Signature
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)

@@ -11,6 +11,7 @@ from ttr.cli.session.repl import is_complete, respond
 from ttr.cli.session.sessions import Session
 from ttr.display.abbreviations import abbreviator
 from ttr.errors import (
+    MistakesError,
     NoStateError,
     NotationError,
     NotHeardError,
@@ -21,8 +22,9 @@ from ttr.errors import (
 from ttr.judging.models import Model
 from ttr.probability import Degree
 from ttr.theories.checking import check
-from ttr.theories.theory import MistakesError, Theory, load
-from ttr.types.syntax import Record, RecordType, record
+from ttr.theories.theory import Theory, load
+from ttr.types.objects import Record, record
+from ttr.types.syntax import RecordType
 from ttr.updates import all_, by_class, first, maybe, nbest, repeat, rule, run, seq
 from ttr.updates.rule_application import apply_rule, why_not
 from ttr.updates.rule_notation import declaration, format_rule

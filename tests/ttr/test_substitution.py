@@ -3,10 +3,9 @@
 import pytest
 
 from ttr import Ind, Pred, outer, record, rectype, this
-from ttr.types.objects import Unresolved
+from ttr.types.objects import Path, Unresolved
 from ttr.types.paths import replace_paths
 from ttr.types.substitution import follow_path, resolve_paths
-from ttr.types.syntax import Path
 
 hug = Pred("hug", Ind, Ind)
 

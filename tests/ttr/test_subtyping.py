@@ -23,7 +23,7 @@ from ttr import (
 )
 from ttr.computing import prover
 from ttr.errors import IllFormedError, UnsupportedError
-from ttr.theories.theory import Axiom, Signature
+from ttr.signature.signature import Axiom, Signature
 from ttr.types import Application, NonEmpty
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")

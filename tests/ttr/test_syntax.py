@@ -22,8 +22,9 @@ from ttr import (
 )
 from ttr.errors import IllFormedError
 from ttr.types import FiniteSet, FunType, Meet, PType, Singleton, Universe, interning
+from ttr.types.interning import identity
+from ttr.types.objects import Path
 from ttr.types.paths import free_paths
-from ttr.types.syntax import Path, identity
 
 dog, hug = Pred("dog", Ind), Pred("hug", Ind, Ind)
 

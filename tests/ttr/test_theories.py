@@ -14,16 +14,18 @@ import pytest
 import ttr
 from ttr.building.constructors import rectype
 from ttr.computing.subtyping import subtype
-from ttr.errors import IllFormedError, NotationError, Span, TTRError
+from ttr.errors import IllFormedError, MistakesError, NotationError, Span, TTRError
 from ttr.notation.parser import parse_statement
 from ttr.notation.syntax_trees import Part, Source
+from ttr.signature.signature import Axiom
 from ttr.theories.checking import check
 from ttr.theories.drafts import Draft
 from ttr.theories.loading import UnreadableError
 from ttr.theories.statements import StatementReader
-from ttr.theories.theory import Axiom, MistakesError, Theory, load, theory_of_draft
-from ttr.types.syntax import Basic, Ind, Pred, this
-from ttr.types.syntax import Path as LabelPath
+from ttr.theories.theory import Theory, load, theory_of_draft
+from ttr.types.objects import Path as LabelPath
+from ttr.types.objects import this
+from ttr.types.syntax import Basic, Ind, Pred
 
 NAMES = """
 basic Ind, Image

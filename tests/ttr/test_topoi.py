@@ -27,7 +27,7 @@ from ttr.semantics.topoi import (
     topos,
     underpins,
 )
-from ttr.theories.theory import Axiom, Signature
+from ttr.signature.signature import Axiom, Signature
 
 bird, penguin, fly, swim = (Pred(n, Ind) for n in ("bird", "penguin", "fly", "swim"))
 Bird = rectype(x=Ind, c=bird(this.x))

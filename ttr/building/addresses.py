@@ -11,8 +11,6 @@ from typing import TypeAlias
 from ttr.errors import IllFormedError
 from ttr.types.objects import Path, check_label
 
-__all__ = ["Address", "to_absolute", "parse_address", "to_relative", "format_address"]
-
 Address: TypeAlias = tuple[str, ...]
 """The labels from the outermost record type to a field, or to a record type in it."""
 

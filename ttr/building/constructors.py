@@ -8,25 +8,12 @@ from typing import TYPE_CHECKING
 from ttr.building.formation import check_binder, check_record_type
 from ttr.errors import IllFormedError
 from ttr.types.forms import order_fields
-from ttr.types.objects import check_label, combine_labels
+from ttr.types.objects import BOUND, Object, Path, check_label, combine_labels, freeze
 from ttr.types.paths import replace_paths
-from ttr.types.syntax import (
-    BOUND,
-    Function,
-    FunType,
-    Object,
-    Path,
-    RecordType,
-    TypeNode,
-    as_type,
-    freeze,
-    kind_of,
-)
+from ttr.types.syntax import Function, FunType, RecordType, TypeNode, as_type, kind_of
 
 if TYPE_CHECKING:
     from ttr.signature.signature import Signature
-
-__all__ = ["Pi", "fun", "rectype"]
 
 
 def rectype(

@@ -10,11 +10,9 @@ from ttr.building.addresses import Address, format_address, to_absolute, to_rela
 from ttr.errors import IllFormedError
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.forms import order_fields
-from ttr.types.objects import check_label
+from ttr.types.objects import Object, Path, Record, check_label
 from ttr.types.paths import replace_paths
-from ttr.types.syntax import Object, Path, Record, RecordType, TypeNode, kind_of
-
-__all__ = ["flatten", "unflatten"]
+from ttr.types.syntax import RecordType, TypeNode, kind_of
 
 _Shape = TypeVar("_Shape", RecordType, Record)
 

@@ -14,17 +14,15 @@ from ttr.computing.subtyping import Answer, subtype
 from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature, signature_of
+from ttr.types.objects import BOUND, Object, Path
 from ttr.types.paths import free_paths, parts
 from ttr.types.printing import notation
 from ttr.types.syntax import (
-    BOUND,
     Application,
     Function,
     FunType,
     Join,
     Meet,
-    Object,
-    Path,
     PType,
     RecordType,
     Singleton,
@@ -33,14 +31,6 @@ from ttr.types.syntax import (
     join,
     meet,
 )
-
-__all__ = [
-    "check_record_type",
-    "check_binder",
-    "check_value",
-    "field_at_path",
-    "wellformed",
-]
 
 
 @within_budget

@@ -10,18 +10,9 @@ from ttr.errors import IllFormedError
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Signature
 from ttr.types.forms import order_fields
+from ttr.types.objects import BOUND, Path
 from ttr.types.paths import replace_paths
-from ttr.types.syntax import (
-    BOUND,
-    Function,
-    Path,
-    RecordType,
-    TypeNode,
-    as_type,
-    kind_of,
-)
-
-__all__ = ["fix", "restrict"]
+from ttr.types.syntax import Function, RecordType, TypeNode, as_type, kind_of
 
 
 @within_budget

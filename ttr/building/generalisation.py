@@ -23,7 +23,8 @@ from ttr.safety.budgets import spend, within_budget
 from ttr.signature.axioms import supertypes
 from ttr.signature.signature import Signature
 from ttr.types.forms import function_type, order_fields
-from ttr.types.objects import sort_canonically
+from ttr.types.interning import identity
+from ttr.types.objects import Object, Path, sort_canonically
 from ttr.types.paths import free_paths, map_parts, parts, replace_paths, shift_paths
 from ttr.types.syntax import (
     Basic,
@@ -32,8 +33,6 @@ from ttr.types.syntax import (
     ListOf,
     Meet,
     NonEmpty,
-    Object,
-    Path,
     Plus,
     PType,
     RecordType,
@@ -42,11 +41,8 @@ from ttr.types.syntax import (
     Str,
     TypeNode,
     as_type,
-    identity,
     meet,
 )
-
-__all__ = ["common_supertype"]
 
 
 @within_budget

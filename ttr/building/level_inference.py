@@ -14,21 +14,24 @@ from typing import NamedTuple
 from ttr.computing.universe_levels import level_of
 from ttr.errors import IllFormedError
 from ttr.safety.budgets import spend, within_budget
-from ttr.types.paths import free_paths, map_parts
-from ttr.types.syntax import (
+from ttr.types.objects import (
     BOUND,
-    Application,
     EventString,
     FiniteSet,
+    Object,
+    Path,
+    Record,
+    freeze,
+)
+from ttr.types.paths import free_paths, map_parts
+from ttr.types.syntax import (
+    Application,
     Function,
     FunType,
     ListOf,
     Meet,
     NonEmpty,
-    Object,
-    Path,
     Plus,
-    Record,
     RecordType,
     SetOf,
     Singleton,
@@ -36,7 +39,6 @@ from ttr.types.syntax import (
     TypeNode,
     Universe,
     as_type,
-    freeze,
     meet,
 )
 

@@ -7,19 +7,10 @@ from ttr.computing.subtyping import subtype
 from ttr.errors import TTRError
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature, signature_of
-from ttr.types.objects import sort_canonically
+from ttr.types.interning import identity
+from ttr.types.objects import Record, sort_canonically
 from ttr.types.paths import subterms
-from ttr.types.syntax import (
-    Record,
-    RecordType,
-    Singleton,
-    TypeNode,
-    as_type,
-    identity,
-    meet,
-)
-
-__all__ = ["amerge", "merge", "singleton_type"]
+from ttr.types.syntax import RecordType, Singleton, TypeNode, as_type, meet
 
 
 @within_budget

@@ -10,15 +10,12 @@ from ttr.building.addresses import Address, format_address, parse_address
 from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.forms import order_fields
-from ttr.types.objects import check_label, combine_labels
+from ttr.types.objects import Object, Path, Record, check_label, combine_labels
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import (
     Join,
     Meet,
     Negation,
-    Object,
-    Path,
-    Record,
     RecordType,
     Singleton,
     TypeNode,
@@ -26,8 +23,6 @@ from ttr.types.syntax import (
     kind_of,
     meet,
 )
-
-__all__ = ["relabel"]
 
 
 @overload

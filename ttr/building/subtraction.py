@@ -11,10 +11,9 @@ from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature
 from ttr.types.forms import order_fields
+from ttr.types.objects import Object, Record
 from ttr.types.paths import subterms
-from ttr.types.syntax import Meet, Object, Record, RecordType, TypeNode, kind_of, meet
-
-__all__ = ["subtract"]
+from ttr.types.syntax import Meet, RecordType, TypeNode, kind_of, meet
 
 _Shape = TypeVar("_Shape", RecordType, Record)
 

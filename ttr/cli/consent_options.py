@@ -11,8 +11,6 @@ from ttr.safety.consent import Consent
 if TYPE_CHECKING:
     from ttr.dialogues.stories import Setting
 
-__all__ = ["add_allow", "add_consent", "consent_of", "named_game"]
-
 
 def add_allow(command: argparse.ArgumentParser) -> None:
     """Declares `--allow`, by which files may use what lies in other folders, too."""

@@ -18,8 +18,6 @@ from ttr.cli.commands.output import (
 from ttr.cli.parser import Parser, Version
 from ttr.safety.unforeseen_errors import report_unforeseen
 
-__all__ = ["main"]
-
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs the command; 0 fine, 1 something does not hold, 2 wrong use."""

@@ -14,8 +14,6 @@ from typing import Any, NoReturn
 
 from ttr.escapes import terminal_line, terminal_text
 
-__all__ = ["WRONG_USE", "Parser", "Version"]
-
 WRONG_USE = 2
 """The exit code where a command was not understood."""
 

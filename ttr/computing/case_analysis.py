@@ -28,8 +28,6 @@ from ttr.types.syntax import (
     meet,
 )
 
-__all__ = ["Clause", "cases", "clauses", "has_cases"]
-
 _CASES = 256
 """How many cases or clauses a type may have; with more it is not divided."""
 

@@ -7,10 +7,9 @@ from graphlib import CycleError, TopologicalSorter
 
 from ttr.safety.budgets import spend
 from ttr.types.forms import order_fields
+from ttr.types.objects import Object
 from ttr.types.paths import free_paths, map_parts, subterms
-from ttr.types.syntax import Object, RecordType, Singleton, TypeNode
-
-__all__ = ["describe_cycle", "has_fields_in_order", "find_cycle", "break_cycles"]
+from ttr.types.syntax import RecordType, Singleton, TypeNode
 
 Address = tuple[str, ...]
 """A field of a record type or of one nested in it: the labels that lead to it."""

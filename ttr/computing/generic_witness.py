@@ -15,43 +15,28 @@ from collections.abc import Collection, Iterable, Iterator
 from ttr.computing.strings.pieces import events_of, is_of_strings
 from ttr.computing.universe_levels import why_outside
 from ttr.safety.budgets import spend
+from ttr.types.interning import identity
+from ttr.types.objects import EventString, FiniteSet, Object, Operation, Path, Record
 from ttr.types.paths import free_paths, replace_paths, subterms
 from ttr.types.substitution import field_type, follow_labels, substitute_variable
 from ttr.types.syntax import (
     Application,
     Basic,
-    EventString,
-    FiniteSet,
     Function,
     FunType,
     ListOf,
     Meet,
     Negation,
     NonEmpty,
-    Object,
-    Operation,
-    Path,
     Plus,
     PType,
-    Record,
     RecordType,
     SetOf,
     Singleton,
     Str,
     TypeNode,
     Universe,
-    identity,
 )
-
-__all__ = [
-    "ITSELF",
-    "Assumption",
-    "GenericWitness",
-    "element",
-    "elements",
-    "event",
-    "step",
-]
 
 Assumption = tuple[Object, TypeNode]
 """The assumption that a place or an object is of a type."""

@@ -14,8 +14,6 @@ from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend, within_budget
 from ttr.types.syntax import Join, Meet, Negation, TypeNode, as_type, join, meet
 
-__all__ = ["push_negations_inwards", "join_normal_form", "meet_normal_form"]
-
 LIMIT = 4096
 """How many parts a normal form may have; there can be exponentially many."""
 

@@ -33,14 +33,14 @@ from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend
 from ttr.signature.axioms import find_exclusion, supertypes
 from ttr.signature.signature import Signature
+from ttr.types.interning import identity
+from ttr.types.objects import EventString, FiniteSet, Object, Operation, Path, Record
 from ttr.types.paths import free_paths, replace_paths
 from ttr.types.printing import notation
 from ttr.types.substitution import field_type, substitute_variable
 from ttr.types.syntax import (
     Application,
     Basic,
-    EventString,
-    FiniteSet,
     Function,
     FunType,
     Join,
@@ -48,24 +48,17 @@ from ttr.types.syntax import (
     Meet,
     Negation,
     NonEmpty,
-    Object,
-    Operation,
-    Path,
     Plus,
     PType,
-    Record,
     RecordType,
     SetOf,
     Singleton,
     Str,
     TypeNode,
     Universe,
-    identity,
     join,
     meet,
 )
-
-__all__ = ["Finding", "Prover"]
 
 ASSUMPTIONS = 24
 """How many assumptions may be nested before a question is left open."""

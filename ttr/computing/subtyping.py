@@ -20,16 +20,13 @@ from ttr.hooks import hook
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.interning import Node
+from ttr.types.objects import EventString, FiniteSet, Object, Path
 from ttr.types.paths import subterms
 from ttr.types.syntax import (
     Basic,
-    EventString,
-    FiniteSet,
     ListOf,
     Meet,
     Negation,
-    Object,
-    Path,
     Pred,
     PType,
     RecordType,
@@ -43,8 +40,6 @@ from ttr.types.syntax import (
 
 if TYPE_CHECKING:
     from ttr.judging.judgements import Judgement
-
-__all__ = ["Answer", "Refutation", "consistent", "subtype"]
 
 
 @dataclass(frozen=True)

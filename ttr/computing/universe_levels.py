@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ttr.types.interning import cache_on_node
+from ttr.types.objects import Object
 from ttr.types.paths import parts
-from ttr.types.syntax import Object, RecordType, TypeNode, Universe
-
-__all__ = ["level_of", "why_outside"]
+from ttr.types.syntax import RecordType, TypeNode, Universe
 
 
 def why_outside(value: Object, universe: Universe) -> str:

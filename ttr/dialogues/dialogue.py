@@ -19,7 +19,8 @@ from ttr.dialogues.snapshots import copy_of, first_change, snapshot
 from ttr.dialogues.wording import line_of_event, wording
 from ttr.errors import NotHeardError, TTRError, UpdateError
 from ttr.judging.models import Model
-from ttr.types.syntax import Object, Record, TypeNode
+from ttr.types.objects import Object, Record
+from ttr.types.syntax import TypeNode
 from ttr.updates.games import Game, Turn
 from ttr.updates.running import Run, Step
 

@@ -16,8 +16,9 @@ from ttr.errors import TTRError, UpdateError, suggestion
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model
 from ttr.judging.type_acts import Create, performed
+from ttr.types.objects import Object, Record
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, Record, TypeNode, as_type, kind_of
+from ttr.types.syntax import TypeNode, as_type, kind_of
 from ttr.updates.games import Game
 from ttr.updates.running import Run, Step, run
 

@@ -16,17 +16,9 @@ from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError, check_calle
 from ttr.safety.python_files import run_named
 from ttr.theories.loading import UnreadableError
 from ttr.theories.theory import Theory, theory_of_file
-from ttr.types.syntax import Basic, Object, Rec, TypeNode, Universe
+from ttr.types.objects import Object
+from ttr.types.syntax import Basic, Rec, TypeNode, Universe
 from ttr.updates import Game
-
-__all__ = [
-    "Setting",
-    "StoryError",
-    "check_named",
-    "named_by_user",
-    "python_in",
-    "setting",
-]
 
 _WRITTEN = "FILE.ttr NAME, FILE.py:NAME or MODULE:NAME"
 

@@ -10,9 +10,8 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import TypeAlias
 
-from ttr.types.syntax import EventString, FiniteSet, Object, Record, TypeNode
-
-__all__ = ["first_change", "copy_of", "snapshot"]
+from ttr.types.objects import EventString, FiniteSet, Object, Record
+from ttr.types.syntax import TypeNode
 
 Snapshot: TypeAlias = "dict[str, Snapshot] | tuple[object, ...]"
 

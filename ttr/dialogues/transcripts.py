@@ -16,9 +16,9 @@ from ttr.display.differences import layout_of_changes
 from ttr.display.html import STYLE, page, part_of_page
 from ttr.escapes import html_text
 from ttr.safety.budgets import within_budget
+from ttr.types.objects import Object
 from ttr.types.printing import notation
 from ttr.types.records import differences
-from ttr.types.syntax import Object
 from ttr.updates import Run, Step
 
 __all__ = ["transcript"]

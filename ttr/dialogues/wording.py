@@ -6,11 +6,9 @@ from ttr.dialogues.settings import Setting
 from ttr.display.abbreviations import abbreviator
 from ttr.errors import UpdateError
 from ttr.judging.judgements import Judgement
+from ttr.types.objects import Object
 from ttr.types.printing import notation
-from ttr.types.syntax import Object
 from ttr.updates import NBest
-
-__all__ = ["line_of_event", "wording"]
 
 
 def wording(move: Judgement, setting: Setting) -> str:

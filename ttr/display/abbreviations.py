@@ -7,25 +7,13 @@ from typing import TYPE_CHECKING
 
 from ttr.errors import IllFormedError
 from ttr.safety.budgets import spend
+from ttr.types.interning import identity
+from ttr.types.objects import EventString, FiniteSet, Object, Path, Record
 from ttr.types.paths import free_paths, map_parts
-from ttr.types.syntax import (
-    Basic,
-    EventString,
-    FiniteSet,
-    Function,
-    Object,
-    Path,
-    Record,
-    RecordType,
-    TypeNode,
-    Universe,
-    identity,
-)
+from ttr.types.syntax import Basic, Function, RecordType, TypeNode, Universe
 
 if TYPE_CHECKING:
     from ttr.signature.signature import Signature
-
-__all__ = ["abbreviator"]
 
 
 def abbreviator(

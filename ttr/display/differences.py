@@ -6,9 +6,7 @@ from dataclasses import replace
 
 from ttr.display.layout import Layout, Matrix, layout_of
 from ttr.types.interning import identity
-from ttr.types.syntax import Object, Record
-
-__all__ = ["layout_of_changes"]
+from ttr.types.objects import Object, Record
 
 
 def layout_of_changes(before: Object, after: Object) -> Layout:

@@ -22,8 +22,6 @@ from ttr.display.layout import (
 from ttr.escapes import html_text
 from ttr.safety.budgets import spend
 
-__all__ = ["STYLE", "layout_as_html", "derivation_as_html", "page", "part_of_page"]
-
 
 def layout_as_html(layout: Layout) -> str:
     """The layout with its style, to be put anywhere in a page."""

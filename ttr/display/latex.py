@@ -29,8 +29,6 @@ from ttr.display.layout import (
 from ttr.escapes import terminal_line
 from ttr.safety.budgets import spend
 
-__all__ = ["latex_text", "layout_as_latex", "derivation_as_latex"]
-
 _ROOM = 90
 """A meet or a list that is wider than this is broken into lines."""
 

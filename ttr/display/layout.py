@@ -13,6 +13,15 @@ from typing import Literal, TypeAlias
 
 from ttr.escapes import columns, terminal_line
 from ttr.safety.budgets import spend
+from ttr.types.objects import (
+    BOUND,
+    EventString,
+    FiniteSet,
+    Object,
+    Operation,
+    Path,
+    Record,
+)
 from ttr.types.paths import parts as contents
 from ttr.types.precedence import (
     WORDS,
@@ -24,11 +33,8 @@ from ttr.types.precedence import (
 )
 from ttr.types.printing import Scope, as_object, format_head, notation, variable
 from ttr.types.syntax import (
-    BOUND,
     Application,
     Basic,
-    EventString,
-    FiniteSet,
     Function,
     FunType,
     Join,
@@ -36,13 +42,9 @@ from ttr.types.syntax import (
     Meet,
     Negation,
     NonEmpty,
-    Object,
-    Operation,
-    Path,
     Plus,
     Pred,
     PType,
-    Record,
     RecordType,
     SetOf,
     Singleton,
@@ -50,23 +52,6 @@ from ttr.types.syntax import (
     TypeNode,
     Universe,
 )
-
-__all__ = [
-    "Chain",
-    "Layout",
-    "Line",
-    "Bracketed",
-    "Matrix",
-    "Superscript",
-    "Subscript",
-    "Role",
-    "Row",
-    "Sign",
-    "Step",
-    "Word",
-    "fill_lines",
-    "layout_of",
-]
 
 Role = Literal["type", "predicate", "label", "object", "variable", "text"]
 """What a word names, which decides the font."""

@@ -16,12 +16,10 @@ from ttr.judging.judgements import Judgement, Why, mark
 from ttr.safety.budgets import within_budget
 from ttr.types.interning import Node
 from ttr.types.notebooks import NotebookValue, as_html, as_latex
-from ttr.types.syntax import Object, Record, freeze
+from ttr.types.objects import Object, Record, freeze
 
 if TYPE_CHECKING:
     from ttr.signature.signature import Signature
-
-__all__ = ["box", "html", "latex"]
 
 
 @within_budget

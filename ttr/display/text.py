@@ -22,8 +22,6 @@ from ttr.display.layout import (
 from ttr.escapes import columns
 from ttr.safety.budgets import spend
 
-__all__ = ["layout_as_text", "derivation_as_text"]
-
 _LEAST = 24
 """Every part gets at least this many columns, however deep inside it stands."""
 

@@ -27,11 +27,11 @@ from ttr.probability import (
 from ttr.safety.budgets import spend
 from ttr.signature.axioms import find_exclusion, match_schema, subtypes, supertypes
 from ttr.signature.signature import Signature
+from ttr.types.interning import identity
+from ttr.types.objects import Object
 from ttr.types.paths import free_paths, subterms
 from ttr.types.printing import notation
-from ttr.types.syntax import Basic, Object, Pred, PType, TypeNode, identity
-
-__all__ = ["Assignment", "Atom", "WitnessFunction", "head"]
+from ttr.types.syntax import Basic, Pred, PType, TypeNode
 
 Head: TypeAlias = Basic | Pred
 """What is open or has a witness function: a basic type, or a predicate's ptypes."""

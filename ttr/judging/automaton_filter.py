@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 from immutables import Map
 
-from ttr.computing.strings.automata import Automaton
+from ttr.computing.strings.automaton_steps import Automaton
 from ttr.computing.strings.beliefs import (
     NOWHERE,
     Beliefs,
@@ -20,9 +20,8 @@ from ttr.computing.strings.beliefs import (
 )
 from ttr.judging.judgements import Why
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
-from ttr.types.syntax import TypeNode, identity, meet
-
-__all__ = ["AutomatonFilter", "start_filter"]
+from ttr.types.interning import identity
+from ttr.types.syntax import TypeNode, meet
 
 TOLD_APART = 4
 """The number of uncertain types of one event for which all cases are distinguished."""

@@ -13,35 +13,31 @@ from typing import Any, TypeAlias
 from weakref import ref
 
 from ttr.errors import RefusedError
-from ttr.judging.assignments import Assignment, Atom
+from ttr.judging.assignments import Assignment
 from ttr.judging.evaluator import Evaluator, derivation
 from ttr.judging.judgements import How
 from ttr.judging.rule_index import RuleIndex, demands_of
+from ttr.judging.stated_dependence import Atom
 from ttr.probability import CERTAIN, REFUTED, Degree
-from ttr.types.objects import Unresolved, is_immutable
+from ttr.types.interning import identity
+from ttr.types.objects import EventString, Object, Record, Unresolved, is_immutable
 from ttr.types.paths import subterms
 from ttr.types.substitution import Around
 from ttr.types.syntax import (
     Basic,
-    EventString,
     Function,
     FunType,
     Join,
     ListOf,
     NonEmpty,
-    Object,
     Plus,
     PType,
-    Record,
     RecordType,
     Singleton,
     Str,
     TypeNode,
     Universe,
-    identity,
 )
-
-__all__ = ["is_certain", "is_certain_given", "remember_certain"]
 
 
 def is_certain(facts: Assignment, sit: Object, T: TypeNode) -> bool:

@@ -28,16 +28,9 @@ from ttr.probability import (
     chance,
 )
 from ttr.safety.budgets import spend
+from ttr.types.objects import Object
 from ttr.types.printing import notation
-from ttr.types.syntax import Basic, Meet, Negation, Object, PType, TypeNode
-
-__all__ = [
-    "derive_conditional",
-    "table_rows",
-    "with_conditional_fact",
-    "with_expectation",
-    "with_unknown_dependence",
-]
+from ttr.types.syntax import Basic, Meet, Negation, PType, TypeNode
 
 Pair = tuple[Object, TypeNode]
 

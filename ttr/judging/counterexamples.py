@@ -18,12 +18,10 @@ from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.safety.budgets import spend
 from ttr.signature.signature import Signature
-from ttr.types.objects import Unresolved
+from ttr.types.objects import Object, Path, Unresolved
 from ttr.types.paths import replace_paths
 from ttr.types.substitution import follow_path
-from ttr.types.syntax import Object, Path, RecordType, TypeNode, meet
-
-__all__ = ["find_counterexample"]
+from ttr.types.syntax import RecordType, TypeNode, meet
 
 SIZES = (1, 0, 2)
 """The numbers of elements of lists and sets to try; one shows the most."""

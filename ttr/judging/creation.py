@@ -30,16 +30,22 @@ from ttr.judging.evaluator import (
 )
 from ttr.probability import CERTAIN, REFUTED
 from ttr.safety.budgets import spend
-from ttr.types.objects import Unresolved
+from ttr.types.interning import identity
+from ttr.types.objects import (
+    BOUND,
+    EventString,
+    FiniteSet,
+    Object,
+    Path,
+    Record,
+    Unresolved,
+)
 from ttr.types.paths import free_paths, mentions, replace_paths, shift_paths
 from ttr.types.printing import notation
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
-    BOUND,
     Application,
     Basic,
-    EventString,
-    FiniteSet,
     Function,
     FunType,
     Ind,
@@ -48,12 +54,9 @@ from ttr.types.syntax import (
     Meet,
     Negation,
     NonEmpty,
-    Object,
-    Path,
     Plus,
     PType,
     Rec,
-    Record,
     RecordType,
     RecType,
     SetOf,
@@ -61,10 +64,7 @@ from ttr.types.syntax import (
     Str,
     TypeNode,
     Universe,
-    identity,
 )
-
-__all__ = ["create_witness", "with_judgement"]
 
 
 def with_judgement(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:

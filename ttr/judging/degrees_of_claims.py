@@ -22,8 +22,6 @@ from ttr.probability import (
 )
 from ttr.probability.events import SURE, atoms
 
-__all__ = ["explain_probability", "probability_of"]
-
 SHOWN = 6
 """The number of factors of a product that are shown."""
 

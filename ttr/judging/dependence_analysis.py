@@ -26,9 +26,8 @@ from ttr.probability import (
 )
 from ttr.signature.axioms import find_exclusion, supertype_set
 from ttr.signature.signature import Signature
-from ttr.types.syntax import Object, identity
-
-__all__ = ["check_together", "contradiction", "dependence"]
+from ttr.types.interning import identity
+from ttr.types.objects import Object
 
 RELATIVES = 32
 """The number of related judgements of one object that are taken into account."""

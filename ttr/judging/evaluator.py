@@ -31,17 +31,22 @@ from ttr.judging.segmentation import Segmentation, describe_stop, events_in_word
 from ttr.judging.stated_dependence import Atom, Claim
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import spend
-from ttr.types.interning import cache_on_node
-from ttr.types.objects import Missing, Unresolved
+from ttr.types.interning import cache_on_node, identity
+from ttr.types.objects import (
+    BOUND,
+    EventString,
+    FiniteSet,
+    Missing,
+    Object,
+    Record,
+    Unresolved,
+)
 from ttr.types.paths import free_paths, map_parts, mentions
 from ttr.types.printing import notation
 from ttr.types.substitution import Around, resolve_paths
 from ttr.types.syntax import (
-    BOUND,
     Application,
     Basic,
-    EventString,
-    FiniteSet,
     Function,
     FunType,
     Join,
@@ -49,28 +54,16 @@ from ttr.types.syntax import (
     Meet,
     Negation,
     NonEmpty,
-    Object,
     Plus,
     PType,
     Rec,
-    Record,
     RecordType,
     SetOf,
     Singleton,
     Str,
     TypeNode,
     Universe,
-    identity,
 )
-
-__all__ = [
-    "Evaluator",
-    "claims_of",
-    "derivation",
-    "is_reduced",
-    "make_witness",
-    "reduce_applications",
-]
 
 Answer = TypeVar("Answer")
 """What an evaluator gives: a derivation, or yes or no."""

@@ -31,10 +31,9 @@ from ttr.probability import (
     ImpossibleError,
 )
 from ttr.probability.events import SURE
+from ttr.types.objects import Object
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, TypeNode, meet
-
-__all__ = ["Range", "probability_of_any", "probability_of_some"]
+from ttr.types.syntax import TypeNode, meet
 
 TRIED = 1_000
 """The number of objects that are judged one by one; any others may be of the type."""

@@ -20,15 +20,15 @@ from ttr.probability import (
     Not,
     degree,
 )
+from ttr.types.interning import identity
 from ttr.types.notebooks import NotebookValue
+from ttr.types.objects import Object
 from ttr.types.printing import notation
-from ttr.types.syntax import Basic, Object, PType, TypeNode, identity
+from ttr.types.syntax import Basic, PType, TypeNode
 
 if TYPE_CHECKING:
     from ttr.judging.assignments import Assignment
     from ttr.judging.models import Model
-
-__all__ = ["How", "Judgement", "Why", "combine_events", "mark"]
 
 How: TypeAlias = Literal["all", "any", "none"]
 """What a claim needs of its grounds: that all of them hold, or any, or none."""

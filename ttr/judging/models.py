@@ -45,27 +45,20 @@ from ttr.safety.budgets import (
     within_budget,
 )
 from ttr.signature.signature import Expected, Given, Signature
+from ttr.types.objects import EventString, FiniteSet, Object, Record, freeze
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import (
     Application,
     Basic,
-    EventString,
-    FiniteSet,
     NonEmpty,
-    Object,
     Plus,
     Pred,
     PType,
-    Record,
     TypeNode,
     as_type,
-    freeze,
     kind_of,
 )
-
-__all__ = ["Conditions", "Model", "as_model", "conditions", "model_of"]
-
 
 _EMPTY: tuple[Object, ...] = ((), FiniteSet(), EventString())
 """The empty list, set and string, which are witnesses without any fact."""

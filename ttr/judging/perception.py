@@ -6,11 +6,9 @@ from ttr.errors import RefusedError
 from ttr.judging.assignments import Assignment
 from ttr.judging.evaluator import reduce_applications
 from ttr.safety.budgets import spend
-from ttr.types.objects import Unresolved
+from ttr.types.objects import Object, Record, Unresolved
 from ttr.types.substitution import resolve_paths
-from ttr.types.syntax import Join, Meet, Object, PType, Record, RecordType, TypeNode
-
-__all__ = ["fill_fields"]
+from ttr.types.syntax import Join, Meet, PType, RecordType, TypeNode
 
 
 def fill_fields(

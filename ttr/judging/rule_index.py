@@ -12,18 +12,8 @@ from typing import TypeAlias
 
 from ttr.judging.assignments import Assignment, head
 from ttr.safety.budgets import spend
-from ttr.types.syntax import (
-    Join,
-    Meet,
-    Object,
-    Pred,
-    PType,
-    Record,
-    RecordType,
-    TypeNode,
-)
-
-__all__ = ["Demands", "RuleIndex", "demands_of_any", "demands_of"]
+from ttr.types.objects import Object, Record
+from ttr.types.syntax import Join, Meet, Pred, PType, RecordType, TypeNode
 
 Labels: TypeAlias = tuple[str, ...]
 """The labels of a path, from the state inwards."""

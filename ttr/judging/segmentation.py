@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import overload
 
-from ttr.computing.strings.automata import Automaton
+from ttr.computing.strings.automaton_steps import Automaton
 from ttr.computing.strings.runs import (
     Division,
     Piece,
@@ -16,29 +16,18 @@ from ttr.computing.strings.runs import (
     find_division,
     find_divisions,
 )
-from ttr.judging.assignments import Assignment, Atom
+from ttr.judging.assignments import Assignment
 from ttr.judging.automaton_filter import start_filter
 from ttr.judging.judgements import Why
+from ttr.judging.stated_dependence import Atom
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import spend
-from ttr.types.objects import Unresolved
+from ttr.types.interning import identity
+from ttr.types.objects import EventString, Object, Unresolved
 from ttr.types.paths import subterms
 from ttr.types.printing import notation
 from ttr.types.substitution import Around, resolve_paths
-from ttr.types.syntax import (
-    Application,
-    Basic,
-    EventString,
-    Join,
-    Meet,
-    Negation,
-    Object,
-    PType,
-    TypeNode,
-    identity,
-)
-
-__all__ = ["Segmentation", "describe_stop", "events_in_words"]
+from ttr.types.syntax import Application, Basic, Join, Meet, Negation, PType, TypeNode
 
 Derives = Callable[[Object, TypeNode], Why]
 """Derives whether an object is of a type."""

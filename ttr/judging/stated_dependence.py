@@ -12,10 +12,10 @@ from typing import Any, TypeAlias
 from immutables import Map
 
 from ttr.probability import Degree
+from ttr.types.interning import identity
+from ttr.types.objects import Object
 from ttr.types.printing import notation
-from ttr.types.syntax import Basic, Object, PType, identity
-
-__all__ = ["Atom", "Claim", "Conditioned", "Expectation", "Key", "Links"]
+from ttr.types.syntax import Basic, PType
 
 Atom: TypeAlias = Basic | PType
 """The types that are judged by themselves: an assignment gives them witnesses."""

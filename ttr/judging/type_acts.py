@@ -15,8 +15,9 @@ from typing import TypeAlias
 from ttr.errors import RefusedError, TTRError
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model, as_model
+from ttr.types.objects import Object, freeze
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, TypeNode, as_type, freeze, kind_of
+from ttr.types.syntax import TypeNode, as_type, kind_of
 
 __all__ = [
     "Create",

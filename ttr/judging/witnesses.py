@@ -15,24 +15,20 @@ from ttr.judging.assignments import Assignment
 from ttr.judging.evaluator import derivation, reduce_applications
 from ttr.probability import Degree
 from ttr.safety.budgets import spend
-from ttr.types.objects import Unresolved
+from ttr.types.interning import identity
+from ttr.types.objects import Object, Record, Unresolved
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     Application,
     Basic,
     Join,
     Meet,
-    Object,
     PType,
-    Record,
     RecordType,
     Singleton,
     Str,
     TypeNode,
-    identity,
 )
-
-__all__ = ["can_be_listed", "candidates", "witnesses"]
 
 
 def witnesses(facts: Assignment, T: TypeNode) -> Iterator[Object]:

@@ -9,10 +9,9 @@ from ttr.building.constructors import fun
 from ttr.errors import IllFormedError
 from ttr.notation.syntax_trees import Field, Fields, Part, Term
 from ttr.signature.signature import Signature
+from ttr.types.objects import Object, Path
 from ttr.types.paths import replace_paths
-from ttr.types.syntax import Object, Path, RecordType, TypeNode
-
-__all__ = ["locate_error", "locate_misfit", "is_ill_formed"]
+from ttr.types.syntax import RecordType, TypeNode
 
 _IsWrong: TypeAlias = Callable[[Object], bool]
 """Is what surrounds a place ill-formed with this value in that place?"""

@@ -8,21 +8,13 @@ from typing import TYPE_CHECKING, Protocol
 
 from ttr.errors import IllFormedError
 from ttr.signature.signature import Opening, Signature
+from ttr.types.objects import Object
 from ttr.types.paths import subterms
-from ttr.types.syntax import Basic, Object, Pred
+from ttr.types.syntax import Basic, Pred
 
 if TYPE_CHECKING:
     from ttr.updates.algorithms import Algorithm
     from ttr.updates.rules import Rule
-
-__all__ = [
-    "Names",
-    "Vocabulary",
-    "all_names",
-    "is_declared",
-    "meaning_of",
-    "vocabulary_of",
-]
 
 
 class Names(Protocol):

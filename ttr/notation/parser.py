@@ -19,8 +19,6 @@ from ttr.notation.syntax_trees import Source, Statement, Term
 from ttr.notation.term_parser import ANY, FUNCTION, SIMPLE, TermParser
 from ttr.notation.tokens import NAME, PATH, QUOTED
 
-__all__ = ["parse_statement", "parse_term"]
-
 
 def parse_term(source: Source) -> Term:
     """The whole text as a type or an object; raises `NotationError`."""

@@ -56,26 +56,32 @@ from ttr.probability import degree
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Interval, Signature
 from ttr.types.forms import function_type, star
-from ttr.types.objects import Unresolved, check_label, concat, fst, rst
+from ttr.types.objects import (
+    BOUND,
+    EventString,
+    FiniteSet,
+    Object,
+    Operation,
+    Path,
+    Record,
+    Unresolved,
+    check_label,
+    concat,
+    fst,
+    rst,
+)
 from ttr.types.printing import RESERVED, Scope
 from ttr.types.substitution import follow_path
 from ttr.types.syntax import (
-    BOUND,
     Application,
-    EventString,
-    FiniteSet,
     Function,
     FunType,
     ListOf,
     Negation,
     NonEmpty,
-    Object,
-    Operation,
-    Path,
     Plus,
     Pred,
     Rec,
-    Record,
     RecordType,
     RecType,
     SetOf,
@@ -89,8 +95,6 @@ from ttr.types.syntax import (
     kind_of,
     meet,
 )
-
-__all__ = ["LOGICAL", "Reader", "parse", "read_term"]
 
 LOGICAL: Mapping[str, TypeNode] = {"Type": Type, "RecType": RecType, "Rec": Rec}
 """The types that every theory has."""

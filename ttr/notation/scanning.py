@@ -13,16 +13,6 @@ from ttr.errors import NotationError, Span
 from ttr.notation.syntax_errors import KEYWORDS
 from ttr.notation.syntax_trees import UNNAMED, Source
 
-__all__ = [
-    "DEPTH",
-    "LETTER",
-    "LETTER_OR_DIGIT",
-    "find_statements",
-    "find_excess_depth",
-    "check_characters",
-    "with_backslashes",
-]
-
 DEPTH = 100
 """How deep brackets, functions, arrows and negations may nest."""
 

@@ -8,8 +8,6 @@ from collections.abc import Sequence
 from ttr.errors import NotationError, Span, suggestion
 from ttr.notation.syntax_trees import Source
 
-__all__ = ["KEYWORDS", "syntax_error", "excerpt"]
-
 _NEAR = 200
 """The number of characters before an error that are searched for what was meant."""
 

@@ -13,55 +13,6 @@ from functools import cached_property
 
 from ttr.errors import NotationError, Span
 
-__all__ = [
-    "Abstraction",
-    "Application",
-    "Arity",
-    "Arrow",
-    "AxiomClaim",
-    "BasicNames",
-    "Braces",
-    "Claim",
-    "Comparison",
-    "Concatenation",
-    "Conjunction",
-    "Definition",
-    "Degree",
-    "Denial",
-    "Disjunction",
-    "Elements",
-    "Events",
-    "Expectation",
-    "Field",
-    "Fields",
-    "GameStatement",
-    "GivenChance",
-    "GivenFact",
-    "Import",
-    "Items",
-    "Judged",
-    "Literal",
-    "Name",
-    "ObjectNames",
-    "OpenNames",
-    "Parameter",
-    "Part",
-    "Predicates",
-    "Probability",
-    "Query",
-    "Question",
-    "Restriction",
-    "RuleStatement",
-    "Source",
-    "Statement",
-    "StrategyStatement",
-    "Term",
-    "UNNAMED",
-    "Word",
-    "inside",
-]
-
-
 UNNAMED = "<text>"
 """The source of a text that is given as a string in Python."""
 

@@ -16,8 +16,6 @@ from ttr.notation.scanning import LETTER
 from ttr.notation.syntax_trees import Term
 from ttr.notation.tokens import NAME, NUMBER, PATH, QUOTED, Tokens
 
-__all__ = ["ANY", "FUNCTION", "SIMPLE", "TermParser"]
-
 ANY = "a type or an object"
 """What is expected where any term may stand."""
 

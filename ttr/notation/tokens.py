@@ -22,8 +22,6 @@ from ttr.notation.scanning import (
 from ttr.notation.syntax_errors import excerpt, syntax_error
 from ttr.notation.syntax_trees import Literal, Part, Source, Word
 
-__all__ = ["NAME", "NUMBER", "PATH", "QUOTED", "Tokens"]
-
 NAME = re.compile(rf"[{LETTER}][{LETTER_OR_DIGIT}]*")
 """Wider than a Python identifier, so that an error can show the whole wrong name."""
 

@@ -8,13 +8,7 @@ links them: by what entails or excludes what, by conditionals, or as unknown.
 from typing import TYPE_CHECKING
 
 from ttr.aliases import former_names
-from ttr.probability.chances import (
-    Chance,
-    ContradictionError,
-    ImpossibleError,
-    are_apart,
-    chance,
-)
+from ttr.probability.chances import Chance, ContradictionError, are_apart, chance
 from ttr.probability.degrees import (
     CERTAIN,
     REFUTED,
@@ -31,6 +25,7 @@ from ttr.probability.dependence import (
     Dependence,
 )
 from ttr.probability.events import All, AnyOf, Atomic, Event, Not
+from ttr.probability.networks import ImpossibleError
 from ttr.probability.polytopes import feasible
 
 __all__ = [

@@ -26,8 +26,6 @@ from ttr.probability.networks import ImpossibleError, Network, conjunction, netw
 from ttr.probability.polytopes import Polytope, polytope
 from ttr.safety.budgets import spend
 
-__all__ = ["Chance", "ContradictionError", "ImpossibleError", "are_apart", "chance"]
-
 BRANCHES = 1024
 """The number of cases of linked atoms that are distinguished, in all."""
 

@@ -8,17 +8,6 @@ from typing import NamedTuple
 
 from ttr.errors import TTRError
 
-__all__ = [
-    "CERTAIN",
-    "REFUTED",
-    "UNKNOWN",
-    "Degree",
-    "complement",
-    "degree",
-    "order_ends",
-    "shown",
-]
-
 
 class Degree(NamedTuple):
     """An interval of probability: [1, 1] certain, [0, 0] refuted, [0, 1] unknown."""

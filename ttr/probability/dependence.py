@@ -17,8 +17,6 @@ from ttr.probability.degrees import UNKNOWN, Degree
 from ttr.probability.events import Event, Truth, substitute
 from ttr.safety.budgets import spend
 
-__all__ = ["INDEPENDENT", "Component", "Conditional", "Dependence"]
-
 Atom = Hashable
 
 T = TypeVar("T")

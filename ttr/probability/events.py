@@ -13,20 +13,6 @@ from typing import TypeAlias
 from ttr.probability.degrees import CERTAIN, REFUTED, Degree
 from ttr.safety.budgets import spend
 
-__all__ = [
-    "All",
-    "AnyOf",
-    "Atomic",
-    "Event",
-    "Not",
-    "Truth",
-    "atoms",
-    "literals",
-    "signs",
-    "simplify",
-    "substitute",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class Atomic:

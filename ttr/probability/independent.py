@@ -11,8 +11,6 @@ from ttr.probability.degrees import Degree, order_ends
 from ttr.probability.events import All, AnyOf, Atomic, Event, Not, atoms, signs
 from ttr.safety.budgets import spend
 
-__all__ = ["bounds", "sum_over_cases"]
-
 SHARED = 10
 """The number of atoms that may occur more than once for an exact probability."""
 

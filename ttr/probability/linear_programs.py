@@ -17,8 +17,6 @@ from fractions import Fraction
 
 from ttr.safety.budgets import spend
 
-__all__ = ["InfeasibleError", "Row", "feasible_point", "minimise", "scale_to_integers"]
-
 Row = Sequence[int]
 
 

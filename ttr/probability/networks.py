@@ -20,8 +20,6 @@ from ttr.probability.events import Truth
 from ttr.probability.linear_programs import scale_to_integers
 from ttr.safety.budgets import spend
 
-__all__ = ["ImpossibleError", "Network", "conjunction", "network"]
-
 CASES = 256
 """The number of cases of the atoms asked for that are distinguished."""
 

@@ -23,8 +23,6 @@ from ttr.probability.linear_programs import (
 from ttr.probability.networks import ImpossibleError
 from ttr.safety.budgets import spend
 
-__all__ = ["Polytope", "feasible", "polytope"]
-
 _WORLDS = 64
 """The most worlds that a polytope has."""
 

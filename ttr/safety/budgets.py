@@ -22,18 +22,6 @@ from typing import ParamSpec, TypeVar, overload
 
 from ttr.errors import TooLargeError, TTRError, UnsupportedError
 
-__all__ = [
-    "STEPS",
-    "SharedPurse",
-    "Spent",
-    "budget",
-    "one_of_several",
-    "open_purse",
-    "purse_of_several",
-    "spend",
-    "within_budget",
-]
-
 STEPS = 1_000_000
 """How many steps a question may take by default: some seconds of work."""
 

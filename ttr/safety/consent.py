@@ -15,8 +15,6 @@ from shlex import quote
 
 from ttr.errors import TTRError
 
-__all__ = ["OWN_FOLDER", "Consent", "NotAllowedError", "check_called", "is_below"]
-
 
 class NotAllowedError(TTRError):
     """A file names something to which the user has not consented."""

@@ -9,8 +9,6 @@ from pathlib import Path
 
 from ttr.errors import TTRError
 
-__all__ = ["check_outputs", "why_unread", "why_unwritten", "write_whole"]
-
 
 def why_unread(path: object, error: OSError | UnicodeDecodeError) -> str:
     """Why a text file could not be read, as a sentence.

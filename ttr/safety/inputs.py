@@ -23,18 +23,6 @@ from typing import Any, BinaryIO, TextIO
 from ttr.escapes import terminal_line
 from ttr.safety.limits import LINE, PIPE, SILENCE, Limit
 
-__all__ = [
-    "DEPTH",
-    "ask_line",
-    "open_file",
-    "parse_json",
-    "parse_toml",
-    "read_bytes",
-    "read_line",
-    "read_lines",
-    "read_text",
-]
-
 DEPTH = 200
 """How deep lists and tables may nest."""
 

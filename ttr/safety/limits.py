@@ -14,8 +14,6 @@ import os
 from dataclasses import dataclass
 from errno import EFBIG
 
-__all__ = ["FACTOR", "Limit", "TooMuch", "amount"]
-
 FACTOR = "KILLE_LIMITS"
 """The environment variable that multiplies all limits."""
 

@@ -12,8 +12,6 @@ from types import ModuleType
 
 from ttr.safety.consent import Consent, is_below
 
-__all__ = ["run_file", "run_named", "separate_python"]
-
 
 def run_named(
     python: str, folder: Path, prefix: str, consent: Consent | None

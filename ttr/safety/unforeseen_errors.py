@@ -17,8 +17,6 @@ from tempfile import NamedTemporaryFile
 
 from ttr.escapes import terminal_line, terminal_text
 
-__all__ = ["DEBUG", "run_guarded", "report_unforeseen", "state_folder"]
-
 DEBUG = "KILLE_DEBUG"
 """The environment variable that makes a command print tracebacks."""
 

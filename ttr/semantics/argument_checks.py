@@ -6,10 +6,8 @@ from collections.abc import Iterable
 from typing import TypeVar
 
 from ttr.errors import TTRError
+from ttr.types.objects import freeze
 from ttr.types.printing import notation
-from ttr.types.syntax import freeze
-
-__all__ = ["as_tuple", "in_notation", "in_one_line"]
 
 T = TypeVar("T")
 

@@ -17,14 +17,12 @@ from ttr.semantics.quantifiers.degrees_of_truth import Truth
 from ttr.semantics.quantifiers.thresholds import Thresholds
 from ttr.semantics.quantifiers.truth import truth
 from ttr.signature.signature import Signature
-from ttr.types.objects import Object, Record, record
+from ttr.types.objects import BOUND, Object, Path, Record, record
 from ttr.types.paths import replace_paths, shift_paths
 from ttr.types.syntax import (
-    BOUND,
     Application,
     Function,
     FunType,
-    Path,
     RecordType,
     TypeNode,
     as_type,

@@ -8,8 +8,10 @@ from ttr.probability import CERTAIN, Degree, complement
 from ttr.probability.degrees import order_ends
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Signature
+from ttr.types.interning import identity
+from ttr.types.objects import Object, freeze
 from ttr.types.printing import notation
-from ttr.types.syntax import Basic, Object, PType, TypeNode, freeze, identity
+from ttr.types.syntax import Basic, PType, TypeNode
 
 __all__ = ["entails", "equivalent"]
 

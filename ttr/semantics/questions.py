@@ -25,28 +25,22 @@ from ttr.judging.certainty import is_certain
 from ttr.judging.models import Model
 from ttr.safety.budgets import spend
 from ttr.semantics.argument_checks import as_tuple
-from ttr.types.objects import Unresolved
+from ttr.types.interning import identity
+from ttr.types.objects import BOUND, FiniteSet, Object, Path, Record, Unresolved, outer
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
-    BOUND,
     Basic,
-    FiniteSet,
     Function,
     Meet,
     Negation,
-    Object,
-    Path,
     Pred,
     PType,
     Rec,
-    Record,
     RecordType,
     Singleton,
     TypeNode,
     as_type,
-    identity,
     kind_of,
-    outer,
 )
 
 __all__ = [

@@ -15,19 +15,10 @@ from ttr.judging.judgements import Judgement, Why
 from ttr.judging.models import Conditions, Model, as_model, conditions
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.probability.degrees import order_ends, shown
+from ttr.types.interning import identity
+from ttr.types.objects import Object, freeze
 from ttr.types.printing import notation
-from ttr.types.syntax import (
-    Join,
-    Meet,
-    Negation,
-    Object,
-    TypeNode,
-    as_type,
-    freeze,
-    identity,
-    join,
-    kind_of,
-)
+from ttr.types.syntax import Join, Meet, Negation, TypeNode, as_type, join, kind_of
 
 __all__ = ["RandomVariable"]
 

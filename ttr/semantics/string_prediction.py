@@ -22,9 +22,10 @@ from ttr.judging.segmentation import events_in_words
 from ttr.probability import REFUTED, Degree
 from ttr.safety.budgets import within_budget
 from ttr.types.forms import star
+from ttr.types.objects import Object, freeze
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, TypeNode, as_type, freeze, join
+from ttr.types.syntax import TypeNode, as_type, join
 
 __all__ = ["Course", "start_course", "star"]
 

@@ -21,20 +21,11 @@ from ttr.probability import REFUTED, Degree
 from ttr.safety.budgets import within_budget
 from ttr.semantics.modality.necessity import ModalAnswer
 from ttr.signature.signature import Signature
-from ttr.types.objects import Unresolved
+from ttr.types.objects import BOUND, Record, Unresolved, freeze, record
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.substitution import resolve_paths
-from ttr.types.syntax import (
-    BOUND,
-    Function,
-    Record,
-    TypeNode,
-    as_type,
-    freeze,
-    kind_of,
-    record,
-)
+from ttr.types.syntax import Function, TypeNode, as_type, kind_of
 
 __all__ = [
     "Topos",

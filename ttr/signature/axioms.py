@@ -7,10 +7,10 @@ from itertools import product
 from typing import cast
 
 from ttr.signature.signature import Axiom, Exclusion, Signature
+from ttr.types.interning import identity
+from ttr.types.objects import Object, Path
 from ttr.types.paths import replace_paths
-from ttr.types.syntax import Basic, Object, Path, Pred, PType, identity
-
-__all__ = ["supertypes", "subtypes", "find_exclusion", "match_schema", "supertype_set"]
+from ttr.types.syntax import Basic, Pred, PType
 
 _Binding = Mapping[Path, Object]
 

@@ -13,31 +13,11 @@ from ttr.aliases import Alias
 from ttr.errors import IllFormedError, Span
 from ttr.escapes import json_text
 from ttr.types.interning import as_notation
-from ttr.types.syntax import (
-    Basic,
-    Object,
-    Path,
-    Pred,
-    PType,
-    Record,
-    RecordType,
-    TypeNode,
-    kind_of,
-)
+from ttr.types.objects import Object, Path, Record
+from ttr.types.syntax import Basic, Pred, PType, RecordType, TypeNode, kind_of
 
 if TYPE_CHECKING:
     from ttr.updates.algorithms import Algorithm
-
-__all__ = [
-    "Axiom",
-    "Exclusion",
-    "Expected",
-    "Given",
-    "Interval",
-    "Opening",
-    "Signature",
-    "signature_of",
-]
 
 Interval = tuple[float, float]
 """An interval of probability [lo, hi] with 0 <= lo <= hi <= 1."""

@@ -14,12 +14,12 @@ from ttr.testing.event_subjects import (
 )
 from ttr.testing.properties import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles
+from ttr.types.interning import identity
+from ttr.types.objects import Object
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
-from ttr.types.syntax import NonEmpty, Object, Singleton, TypeNode, identity
+from ttr.types.syntax import NonEmpty, Singleton, TypeNode
 from ttr.updates.running import Step
-
-__all__ = ["DONE_ONCE"]
 
 
 def _check_agenda(dialogue: Dialogue, roles: Roles) -> Breaches:

@@ -20,8 +20,6 @@ from ttr.testing.turn_taking import EVENTS_ONCE, FRESH_ANSWERS, ROUND_TRIP, TAKE
 from ttr.testing.unused_rules import NO_DEAD_RULE
 from ttr.testing.uptake import NOTHING_DROPPED
 
-__all__ = ["ALL", "OF_GAMES", "OF_ONE_RULE"]
-
 ALL: tuple[Property, ...] = (
     PURE,
     KEEPS_TYPE,

@@ -10,8 +10,6 @@ from itertools import pairwise
 from ttr.dialogues.dialogue import Dialogue
 from ttr.updates.games import Game
 
-__all__ = ["Coverage"]
-
 
 @dataclass
 class Coverage:

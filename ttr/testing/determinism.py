@@ -26,9 +26,6 @@ from ttr.updates.games import Game
 from ttr.updates.rules import Rule
 from ttr.updates.running import Run, Step
 
-__all__ = ["CONFLUENT", "DETERMINISTIC", "REPLAYS"]
-
-
 # --- again ---------------------------------------------------------------------------
 
 

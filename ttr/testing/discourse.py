@@ -23,13 +23,13 @@ from ttr.testing.event_subjects import (
 )
 from ttr.testing.properties import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles, value_at
+from ttr.types.interning import identity
+from ttr.types.objects import Object, Record
 from ttr.types.printing import notation
-from ttr.types.syntax import Function, Object, Record, RecordType, TypeNode, identity
+from ttr.types.syntax import Function, RecordType, TypeNode
 from ttr.updates.games import Game
 from ttr.updates.nbest import NBest
 from ttr.updates.running import Step
-
-__all__ = ["COMMITMENTS_STAY", "DOWNDATES_ONCE", "QUD_DISCIPLINE"]
 
 
 def _count_duplicates(items: Sequence[Object]) -> int:

@@ -14,38 +14,21 @@ from ttr.judging.certainty import is_certain
 from ttr.judging.models import Model
 from ttr.testing.strategies.discourse_roles import value_at
 from ttr.testing.strategies.random_states import heard_by
+from ttr.types.interning import identity
+from ttr.types.objects import FiniteSet, Object, Path, Record
 from ttr.types.paths import subterms
 from ttr.types.printing import notation
 from ttr.types.syntax import (
     Basic,
-    FiniteSet,
     ListOf,
     NonEmpty,
-    Object,
-    Path,
     PType,
-    Record,
     RecordType,
     SetOf,
     Singleton,
     TypeNode,
-    identity,
 )
 from ttr.updates.games import Game
-
-__all__ = [
-    "agents_of",
-    "field_at",
-    "format_objects",
-    "items_added",
-    "items_at",
-    "items_not_in",
-    "item_type",
-    "mentions_of_sort",
-    "mentions",
-    "is_same",
-    "speaker_of",
-]
 
 SPEAKERS = frozenset(
     ("spkr", "speaker", "by", "actor", "agent", "sender", "from", "said_by", "author")

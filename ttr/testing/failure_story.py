@@ -10,8 +10,6 @@ from ttr.dialogues.stories import Setting, StoryError, setting, story_text
 from ttr.testing.game_settings import module_and_name
 from ttr.updates.games import Game
 
-__all__ = ["place_of", "story"]
-
 
 def story(dialogue: Dialogue, title: str, place: Setting | None = None) -> str:
     """The dialogue as a story of a `.dlg` file, with the name of its game.

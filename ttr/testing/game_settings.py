@@ -11,10 +11,8 @@ from hypothesis import strategies as st
 from ttr.judging.models import Model
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.testing.strategies.tutors import Tutor
-from ttr.types.syntax import Record
+from ttr.types.objects import Record
 from ttr.updates.games import Game
-
-__all__ = ["module_and_name", "roles_of", "starts_of", "tutor_of"]
 
 
 def module_and_name(game: Game) -> tuple[ModuleType, str] | None:

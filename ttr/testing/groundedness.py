@@ -27,13 +27,12 @@ from ttr.testing.event_subjects import (
 from ttr.testing.properties import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.testing.strategies.random_states import heard_by
+from ttr.types.interning import identity
+from ttr.types.objects import Object, Record
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, Record, RecordType, TypeNode, identity
+from ttr.types.syntax import RecordType, TypeNode
 from ttr.updates.games import Game
 from ttr.updates.running import Step
-
-__all__ = ["AGREED_ONCE", "SAID_FIRST"]
-
 
 # --- P21 -----------------------------------------------------------------------------
 

@@ -22,8 +22,6 @@ from ttr.testing.game_settings import tutor_of
 from ttr.testing.strategies.random_dialogues import dialogues
 from ttr.types.printing import notation
 
-__all__ = ["first_difference"]
-
 HASH_SEEDS = ("1", "2")
 
 

@@ -24,11 +24,11 @@ from ttr.testing.event_subjects import (
 )
 from ttr.testing.properties import Property
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.types.syntax import Object, PType, Record, identity
+from ttr.types.interning import identity
+from ttr.types.objects import Object, Record
+from ttr.types.syntax import PType
 from ttr.updates.games import Game
 from ttr.updates.running import Step
-
-__all__ = ["ANSWERED", "EMPTIES", "DialogueCounts", "Finding"]
 
 ENOUGH = 25
 """How often something has to happen before what never happens counts as a fault."""

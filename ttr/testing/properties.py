@@ -14,8 +14,6 @@ from ttr.testing.strategies.discourse_roles import Roles
 if TYPE_CHECKING:
     from ttr.testing.pending_items import DialogueCounts, Finding
 
-__all__ = ["Breach", "Breaches", "Property"]
-
 Breaches: TypeAlias = Iterator[tuple[int, str]]
 """How a dialogue breaks a property, in order: the number of the turn, and why."""
 

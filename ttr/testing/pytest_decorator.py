@@ -15,8 +15,6 @@ from ttr.testing.strategies.random_dialogues import TURNS, dialogues
 from ttr.testing.strategies.tutors import Speaker, Tutor
 from ttr.updates.games import Game
 
-__all__ = ["on_dialogues"]
-
 Test = Callable[[Dialogue], object]
 
 

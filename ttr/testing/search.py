@@ -12,8 +12,6 @@ from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import TTRError
 from ttr.testing.shrinking import Failure, Verdict, shorten
 
-__all__ = ["UnsteadyError", "find_failure", "number_of_examples"]
-
 Why = TypeVar("Why")
 
 

@@ -14,10 +14,9 @@ from typing import Generic, TypeVar
 
 from ttr.dialogues.dialogue import Dialogue, play
 from ttr.testing.strategies.random_states import heard_by, variants
-from ttr.types.syntax import Object, TypeNode
+from ttr.types.objects import Object
+from ttr.types.syntax import TypeNode
 from ttr.updates.nbest import NBest
-
-__all__ = ["Failure", "Verdict", "shorten"]
 
 Why = TypeVar("Why")
 

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from ttr.errors import TTRError
-from ttr.types.syntax import Record
+from ttr.types.objects import Record
 from ttr.updates.algorithms import maybe, seq
 from ttr.updates.games import Game
 from ttr.updates.rules import Rule
 from ttr.updates.running import Run, Step, run
-
-__all__ = ["apply_rules", "state_when_rerun"]
 
 
 def apply_rules(game: Game, step: Step, *rules: Rule) -> Run | None:

@@ -18,8 +18,6 @@ from ttr.types.objects import Unresolved
 from ttr.types.records import differences
 from ttr.updates.running import Step
 
-__all__ = ["KEEPS_TYPE", "NAMES_BOUND", "NEVER_BREAKS", "PURE", "TERMINATES"]
-
 
 def _is_missing_name(fault: Exception) -> bool:
     """Did a rule fail because something that it names does not exist?"""

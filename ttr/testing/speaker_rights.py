@@ -6,11 +6,10 @@ from ttr.dialogues.dialogue import Dialogue
 from ttr.testing.event_subjects import agents_of, field_at, speaker_of
 from ttr.testing.properties import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles, value_at
-from ttr.types.syntax import Record, Singleton
+from ttr.types.objects import Record
+from ttr.types.syntax import Singleton
 from ttr.updates.games import Game
 from ttr.updates.running import Step
-
-__all__ = ["IN_TURN"]
 
 TURN_FIELDS = ("turn", "floor", "has_turn", "has_floor", "next_speaker")
 """Labels of who may speak next; other labels may be of who spoke last."""

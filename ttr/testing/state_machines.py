@@ -16,10 +16,9 @@ from ttr.testing.failure_story import story
 from ttr.testing.properties import Property, select_properties
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.testing.strategies.random_states import event_of, heard_by
-from ttr.types.syntax import Object, TypeNode, kind_of
+from ttr.types.objects import Object
+from ttr.types.syntax import TypeNode, kind_of
 from ttr.updates.games import Game
-
-__all__ = ["machine"]
 
 
 def machine(

@@ -27,13 +27,12 @@ from ttr.testing.strategies.discourse_roles import Roles
 from ttr.testing.strategies.random_dialogues import TURNS, dialogues
 from ttr.testing.strategies.random_states import states
 from ttr.testing.strategies.tutors import Speaker, Tutor
-from ttr.types.syntax import Record, RecordType, kind_of
+from ttr.types.objects import Record
+from ttr.types.syntax import RecordType, kind_of
 from ttr.updates.algorithms import Algorithm, first
 from ttr.updates.checks import Fault, faults, faults_of
 from ttr.updates.games import Game
 from ttr.updates.rules import Rule
-
-__all__ = ["Report", "Suite", "check_rule", "check_rules"]
 
 Starts = st.SearchStrategy[tuple[Record, Model]]
 

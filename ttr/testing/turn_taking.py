@@ -10,14 +10,13 @@ from ttr.testing.event_subjects import format_objects
 from ttr.testing.properties import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles, acts_in, value_at
 from ttr.testing.strategies.random_states import heard_by, variants
+from ttr.types.interning import identity
+from ttr.types.objects import Object, Record, freeze
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, Rec, Record, TypeNode, freeze, identity
+from ttr.types.syntax import Rec, TypeNode
 from ttr.updates.games import Game, Turn
 from ttr.updates.nbest import NBest
 from ttr.updates.running import Run
-
-__all__ = ["EVENTS_ONCE", "FRESH_ANSWERS", "ROUND_TRIP", "TAKES_TURNS"]
-
 
 # --- P13 -----------------------------------------------------------------------------
 

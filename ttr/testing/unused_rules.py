@@ -5,8 +5,6 @@ from __future__ import annotations
 from ttr.testing.coverage import Coverage
 from ttr.testing.properties import Property
 
-__all__ = ["NO_DEAD_RULE"]
-
 ENOUGH = 5000
 """Turns after which a rule that was never applied counts as dead."""
 

@@ -23,11 +23,9 @@ from ttr.theories.queries import (
     Query,
     Updates,
 )
-from ttr.types.objects import Unresolved
-from ttr.types.syntax import Object, TypeNode
+from ttr.types.objects import Object, Unresolved
+from ttr.types.syntax import TypeNode
 from ttr.updates.rules import Rule
-
-__all__ = ["CheckReader"]
 
 _MERGES = ("merge", "amerge")
 

@@ -28,17 +28,16 @@ from ttr.theories.queries import (
 )
 from ttr.theories.reports import Failure, Report
 from ttr.theories.theory import Theory
+from ttr.types.interning import identity
 from ttr.types.printing import notation
 from ttr.types.records import differences
-from ttr.types.syntax import TypeNode, identity, kind_of
+from ttr.types.syntax import TypeNode, kind_of
 from ttr.updates.checks import Fault, faults_alone, faults_of
 from ttr.updates.rule_application import apply_rule
 from ttr.updates.rules import Rule
 
 if TYPE_CHECKING:
     from ttr.judging.models import Model
-
-__all__ = ["asked", "check"]
 
 _TOLERANCE = 1e-9
 """Two probabilities that differ by no more than this count as the same."""

@@ -15,14 +15,13 @@ from ttr.signature.signature import (
     Signature,
 )
 from ttr.theories.queries import Check
-from ttr.types.syntax import Basic, Object, Pred
+from ttr.types.objects import Object
+from ttr.types.syntax import Basic, Pred
 from ttr.updates.algorithms import Algorithm
 from ttr.updates.rules import Rule
 
 if TYPE_CHECKING:
     from ttr.theories.theory import Theory
-
-__all__ = ["Draft"]
 
 
 @dataclass(eq=False)

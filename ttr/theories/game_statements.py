@@ -13,21 +13,12 @@ from ttr.notation.syntax_trees import GameStatement, Name, Term
 from ttr.signature.signature import Opening
 from ttr.theories.rule_statements import read_state_type
 from ttr.theories.strategy_statements import read_strategy
-from ttr.types.syntax import (
-    ListOf,
-    NonEmpty,
-    Path,
-    Record,
-    RecordType,
-    Singleton,
-    TypeNode,
-)
+from ttr.types.objects import Path, Record
+from ttr.types.syntax import ListOf, NonEmpty, RecordType, Singleton, TypeNode
 from ttr.updates.games import Game
 
 if TYPE_CHECKING:
     from ttr.theories.theory import Theory
-
-__all__ = ["opened", "read_game"]
 
 
 def read_game(tree: GameStatement, reader: Reader) -> Opening:

@@ -26,8 +26,6 @@ from ttr.theories.drafts import Draft
 from ttr.theories.statements import StatementReader, names_mentioned
 from ttr.types.interning import identity
 
-__all__ = ["UnreadableError", "draft_of_file", "draft_of_text"]
-
 _IMPORTS = 50
 """The longest chain of files that import one another."""
 

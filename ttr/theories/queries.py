@@ -7,23 +7,9 @@ from typing import TypeAlias
 
 from ttr.errors import Span, TTRError
 from ttr.signature.signature import Interval
-from ttr.types.syntax import Object, TypeNode
+from ttr.types.objects import Object
+from ttr.types.syntax import TypeNode
 from ttr.updates.rules import Rule
-
-__all__ = [
-    "Check",
-    "Creates",
-    "Expects",
-    "HasDegree",
-    "IsBelow",
-    "IsOf",
-    "IsSame",
-    "IsTrue",
-    "IsWellFormed",
-    "Merges",
-    "Query",
-    "Updates",
-]
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from ttr.theories.queries import Check
 from ttr.updates.checks import Fault
 
-__all__ = ["Failure", "Report"]
-
 
 @dataclass(frozen=True)
 class Failure:

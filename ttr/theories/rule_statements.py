@@ -29,20 +29,10 @@ from ttr.notation.syntax_trees import (
 )
 from ttr.probability import CERTAIN
 from ttr.probability import Degree as Probability
+from ttr.types.objects import Object, Path, Record
 from ttr.types.paths import free_paths, replace_paths
-from ttr.types.syntax import (
-    Application,
-    Meet,
-    Object,
-    Path,
-    Record,
-    RecordType,
-    Singleton,
-    TypeNode,
-)
+from ttr.types.syntax import Application, Meet, RecordType, Singleton, TypeNode
 from ttr.updates.rules import Body, Rule
-
-__all__ = ["read_state_type", "read_rule"]
 
 _MODEL = "model"
 """The parameter by which rules in Python get the model, so no variable is called so."""

@@ -26,11 +26,10 @@ from ttr.theories.drafts import Draft
 from ttr.theories.game_statements import read_game
 from ttr.theories.rule_statements import read_rule
 from ttr.theories.strategy_statements import kinds_gathered, read_strategy
+from ttr.types.objects import Object, Path
 from ttr.types.paths import free_paths
 from ttr.types.printing import RESERVED
-from ttr.types.syntax import Basic, Object, Path, Pred, PType
-
-__all__ = ["StatementReader", "names_mentioned"]
+from ttr.types.syntax import Basic, Pred, PType
 
 
 @dataclass(frozen=True)

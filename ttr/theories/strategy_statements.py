@@ -31,8 +31,6 @@ from ttr.updates.algorithms import (
     seq,
 )
 
-__all__ = ["kinds_gathered", "read_strategy"]
-
 _SEVERAL: Mapping[str, Callable[..., Algorithm]] = {
     "first": first,
     "all": all_,

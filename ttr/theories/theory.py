@@ -9,47 +9,25 @@ from functools import cached_property
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Protocol, overload
 
-from ttr.errors import IllFormedError, MistakesError, TTRError, suggestion
+from ttr.errors import IllFormedError, TTRError, suggestion
 from ttr.notation.names import all_names, vocabulary_of
 from ttr.notation.reader import read_term
 from ttr.safety.consent import OWN_FOLDER, Consent
 from ttr.signature.signature import (
-    Axiom,
-    Exclusion,
-    Expected,
-    Given,
-    Interval,
     Opening,
     Signature,
-    signature_of,
 )
 from ttr.theories.drafts import Draft
 from ttr.theories.game_statements import opened
 from ttr.theories.loading import draft_of_file, draft_of_text
-from ttr.types.syntax import Basic, Object, Pred, kind_of
+from ttr.types.objects import Object
+from ttr.types.syntax import Basic, Pred, kind_of
 
 if TYPE_CHECKING:
     from ttr.theories.queries import Check
     from ttr.updates.algorithms import Algorithm
     from ttr.updates.games import Game
     from ttr.updates.rules import Rule
-
-__all__ = [
-    "Axiom",
-    "Exclusion",
-    "Expected",
-    "Given",
-    "Interval",
-    "MistakesError",
-    "Opening",
-    "Signature",
-    "Theory",
-    "theory_of_draft",
-    "load",
-    "signature_of",
-    "theory_of_file",
-    "theory_of_text",
-]
 
 
 class _ReadTheory(Protocol):

@@ -5,13 +5,23 @@ makes equal structure one object; `forms` and `substitution` build what others n
 `printing` writes any of it as notation or Python. May import: safety.
 """
 
-from ttr.types.objects import concat, fst, rst
+from ttr.types.objects import (
+    EventString,
+    FiniteSet,
+    Operation,
+    Path,
+    Record,
+    concat,
+    fst,
+    outer,
+    record,
+    rst,
+    this,
+)
 from ttr.types.records import replace
 from ttr.types.syntax import (
     Application,
     Basic,
-    EventString,
-    FiniteSet,
     Function,
     FunType,
     Ind,
@@ -20,13 +30,10 @@ from ttr.types.syntax import (
     Meet,
     Negation,
     NonEmpty,
-    Operation,
-    Path,
     Plus,
     Pred,
     PType,
     Rec,
-    Record,
     RecordType,
     RecType,
     SetOf,
@@ -37,9 +44,6 @@ from ttr.types.syntax import (
     Universe,
     join,
     meet,
-    outer,
-    record,
-    this,
 )
 
 __all__ = [

@@ -9,8 +9,6 @@ from ttr.safety.budgets import spend
 from ttr.types.paths import free_paths, shift_paths
 from ttr.types.syntax import FunType, Plus, Str, TypeNode, as_function_type, join
 
-__all__ = ["function_type", "order_fields", "star"]
-
 
 def order_fields(fields: Mapping[str, TypeNode]) -> tuple[tuple[str, TypeNode], ...]:
     """The fields ordered by (depth of dependency, label), cyclic ones last."""

@@ -20,8 +20,6 @@ from ttr.hooks import hook
 from ttr.safety.budgets import Spent, open_purse, within_budget
 from ttr.types.notebooks import NotebookValue
 
-__all__ = ["Node", "as_notation", "as_python", "cache_on_node", "identity", "node"]
-
 
 @hook
 def as_notation(value: object) -> str:

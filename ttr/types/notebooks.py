@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from ttr.hooks import hook
 
-__all__ = ["NotebookValue", "as_html", "as_latex"]
-
 
 @hook
 def as_html(value: object) -> str:

@@ -26,29 +26,6 @@ from ttr.types.interning import (
 )
 from ttr.types.notebooks import NotebookValue
 
-__all__ = [
-    "BOUND",
-    "EventString",
-    "FiniteSet",
-    "Missing",
-    "Object",
-    "Operation",
-    "Path",
-    "Record",
-    "Unresolved",
-    "check_label",
-    "concat",
-    "freeze",
-    "fst",
-    "sort_canonically",
-    "combine_labels",
-    "is_immutable",
-    "outer",
-    "record",
-    "rst",
-    "this",
-]
-
 Object: TypeAlias = Any
 """Any Python value; containers are frozen by `freeze`."""
 

@@ -10,11 +10,20 @@ from collections.abc import Callable, Iterable, Iterator
 
 from ttr.safety.budgets import spend
 from ttr.types.interning import cache_on_node
-from ttr.types.objects import Unresolved, concat, fst, rst
-from ttr.types.syntax import (
-    Application,
+from ttr.types.objects import (
     EventString,
     FiniteSet,
+    Object,
+    Operation,
+    Path,
+    Record,
+    Unresolved,
+    concat,
+    fst,
+    rst,
+)
+from ttr.types.syntax import (
+    Application,
     Function,
     FunType,
     Join,
@@ -22,13 +31,9 @@ from ttr.types.syntax import (
     Meet,
     Negation,
     NonEmpty,
-    Object,
-    Operation,
-    Path,
     Plus,
     Pred,
     PType,
-    Record,
     RecordType,
     SetOf,
     Singleton,
@@ -37,16 +42,6 @@ from ttr.types.syntax import (
     join,
     meet,
 )
-
-__all__ = [
-    "free_paths",
-    "mentions",
-    "shift_paths",
-    "subterms",
-    "parts",
-    "map_parts",
-    "replace_paths",
-]
 
 Parts = tuple[Object, ...]
 

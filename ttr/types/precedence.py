@@ -6,6 +6,7 @@ negation, `@`, application. An arrow always stands in brackets of its own.
 
 from __future__ import annotations
 
+from ttr.types.objects import Object, Operation, Path
 from ttr.types.paths import free_paths
 from ttr.types.syntax import (
     Application,
@@ -17,23 +18,11 @@ from ttr.types.syntax import (
     Meet,
     Negation,
     NonEmpty,
-    Object,
-    Operation,
-    Path,
     Plus,
     SetOf,
     Singleton,
     Str,
 )
-
-__all__ = [
-    "WORDS",
-    "begins_with_bracket",
-    "binds",
-    "holds_as_head",
-    "is_loose",
-    "is_loose_beside",
-]
 
 WORDS: dict[type, str] = {
     ListOf: "list",

@@ -14,7 +14,16 @@ from collections.abc import Iterable, Sequence
 from ttr.escapes import json_text
 from ttr.safety.budgets import spend
 from ttr.types.interning import as_notation, as_python
-from ttr.types.objects import Missing
+from ttr.types.objects import (
+    BOUND,
+    EventString,
+    FiniteSet,
+    Missing,
+    Object,
+    Operation,
+    Path,
+    Record,
+)
 from ttr.types.paths import parts as contents
 from ttr.types.paths import replace_paths, subterms
 from ttr.types.precedence import (
@@ -26,11 +35,8 @@ from ttr.types.precedence import (
     is_loose_beside,
 )
 from ttr.types.syntax import (
-    BOUND,
     Application,
     Basic,
-    EventString,
-    FiniteSet,
     Function,
     FunType,
     Join,
@@ -38,13 +44,9 @@ from ttr.types.syntax import (
     Meet,
     Negation,
     NonEmpty,
-    Object,
-    Operation,
-    Path,
     Plus,
     Pred,
     PType,
-    Record,
     RecordType,
     SetOf,
     Singleton,
@@ -52,16 +54,6 @@ from ttr.types.syntax import (
     TypeNode,
     Universe,
 )
-
-__all__ = [
-    "RESERVED",
-    "Scope",
-    "as_object",
-    "format_head",
-    "notation",
-    "python",
-    "variable",
-]
 
 Scope = tuple[frozenset[str] | str, ...]
 """The scopes around, innermost first: the labels of a record type, or a variable."""

@@ -6,11 +6,9 @@ from collections.abc import Iterator, Mapping
 
 from ttr.errors import TTRError, suggestion
 from ttr.safety.budgets import spend
-from ttr.types.objects import combine_labels, is_immutable
+from ttr.types.interning import identity
+from ttr.types.objects import Object, Record, combine_labels, freeze, is_immutable
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, Record, freeze, identity
-
-__all__ = ["differences", "replace"]
 
 
 def replace(

@@ -15,15 +15,6 @@ from ttr.types.objects import (
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import TypeNode
 
-__all__ = [
-    "Around",
-    "follow_path",
-    "field_type",
-    "follow_labels",
-    "resolve_paths",
-    "substitute_variable",
-]
-
 Around = tuple[Mapping[str, Object], ...]
 """The values of labels and of bound variables, scope by scope, innermost first."""
 

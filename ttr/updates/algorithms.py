@@ -13,30 +13,9 @@ from typing import TypeAlias
 
 from ttr.errors import UpdateError, suggestion
 from ttr.judging.rule_index import Demands, RuleIndex, demands_of, demands_of_any
-from ttr.types.syntax import Record, kind_of
+from ttr.types.objects import Record
+from ttr.types.syntax import kind_of
 from ttr.updates.rules import Rule
-
-__all__ = [
-    "Algorithm",
-    "All",
-    "Ask",
-    "ByClass",
-    "First",
-    "Maybe",
-    "Measure",
-    "Repeat",
-    "Seq",
-    "all_",
-    "ask",
-    "by_class",
-    "first",
-    "maybe",
-    "rule_occurrences",
-    "repeat",
-    "replace_rules",
-    "rules_of",
-    "seq",
-]
 
 Choose: TypeAlias = Callable[[Sequence[str], Record], int | None]
 """Picks one of the names by its index; None to pick none."""

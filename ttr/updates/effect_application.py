@@ -13,13 +13,12 @@ from ttr.errors import RuleFailedError, TTRError
 from ttr.judging.certainty import is_certain
 from ttr.judging.evaluator import derivation, reduce_applications
 from ttr.judging.models import Model
+from ttr.types.objects import Object, Record
 from ttr.types.printing import notation
 from ttr.types.substitution import Around, resolve_paths
-from ttr.types.syntax import Object, Record, RecordType, Singleton, TypeNode
+from ttr.types.syntax import RecordType, Singleton, TypeNode
 from ttr.updates.rules import Rule
 from ttr.updates.user_functions import excerpt
-
-__all__ = ["apply_effect"]
 
 
 class NextState(NamedTuple):

@@ -17,16 +17,9 @@ from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model, as_model
 from ttr.probability import CERTAIN, REFUTED
 from ttr.safety.budgets import within_budget
+from ttr.types.objects import Object, Record, freeze
 from ttr.types.printing import notation
-from ttr.types.syntax import (
-    Object,
-    Record,
-    RecordType,
-    TypeNode,
-    as_type,
-    freeze,
-    kind_of,
-)
+from ttr.types.syntax import RecordType, TypeNode, as_type, kind_of
 from ttr.updates.algorithms import Algorithm, check_strategies, rules_of
 from ttr.updates.nbest import NBest
 from ttr.updates.rules import Rule
@@ -36,8 +29,6 @@ from ttr.updates.user_functions import blame, excerpt
 
 if TYPE_CHECKING:
     from ttr.theories.theory import Theory
-
-__all__ = ["Act", "Game", "Turn"]
 
 Act: TypeAlias = Callable[[TypeNode, Model], tuple[Object, Model]]
 """Makes a move of a type: the event, and the model that has it."""

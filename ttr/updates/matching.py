@@ -10,12 +10,10 @@ from ttr.judging.certainty import is_certain
 from ttr.judging.evaluator import reduce_applications
 from ttr.judging.models import Model
 from ttr.safety.budgets import spend
-from ttr.types.objects import Unresolved
+from ttr.types.objects import Object, Unresolved
 from ttr.types.paths import free_paths
 from ttr.types.substitution import resolve_paths
-from ttr.types.syntax import Object, PType, RecordType, Singleton, TypeNode
-
-__all__ = ["find_bindings"]
+from ttr.types.syntax import PType, RecordType, Singleton, TypeNode
 
 _Bindings = tuple[Mapping[str, Object], Model]
 """Bindings, and the model with the situations that were created for them."""

@@ -12,11 +12,10 @@ from ttr.judging.certainty import is_certain
 from ttr.judging.evaluator import derivation
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.types.objects import Object, Record, freeze
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, Record, RecordType, Singleton, TypeNode, freeze
+from ttr.types.syntax import RecordType, Singleton, TypeNode
 from ttr.updates.user_functions import excerpt
-
-__all__ = ["MatchedEvent", "NBest", "match_event", "nbest"]
 
 TOLERANCE = 1e-9
 """The rounding error that a sum of probabilities may have."""

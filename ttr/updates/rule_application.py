@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from ttr.aliases import former_names
 from ttr.errors import UpdateError
 from ttr.judging.models import Model
+from ttr.types.objects import Object, Record
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, Rec, Record, RecordType, TypeNode
+from ttr.types.syntax import Rec, RecordType, TypeNode
 from ttr.updates.matching import find_bindings
 from ttr.updates.nbest import NBest, match_event
 from ttr.updates.rules import Rule

@@ -11,8 +11,8 @@ from ttr.errors import UnsupportedError
 from ttr.escapes import json_text
 from ttr.probability import CERTAIN, Degree
 from ttr.signature.signature import Opening
+from ttr.types.objects import Object
 from ttr.types.printing import RESERVED, as_object, notation
-from ttr.types.syntax import Object
 from ttr.updates.rules import Body, Rule
 
 if TYPE_CHECKING:

@@ -12,19 +12,10 @@ from ttr.errors import Span, TTRError, UpdateError
 from ttr.judging.evaluator import reduce_applications
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, Degree, degree
+from ttr.types.objects import BOUND, Object, Path
 from ttr.types.paths import free_paths, replace_paths
 from ttr.types.substitution import resolve_paths
-from ttr.types.syntax import (
-    BOUND,
-    Function,
-    Object,
-    Path,
-    RecordType,
-    TypeNode,
-    kind_of,
-)
-
-__all__ = ["EXTRAS", "Body", "Rule", "rule", "update"]
+from ttr.types.syntax import Function, RecordType, TypeNode, kind_of
 
 Effect: TypeAlias = Callable[..., object]
 

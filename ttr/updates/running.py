@@ -19,17 +19,10 @@ from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, Degree
 from ttr.safety.budgets import within_budget
+from ttr.types.objects import FiniteSet, Object, Record, freeze
 from ttr.types.printing import notation
 from ttr.types.records import differences
-from ttr.types.syntax import (
-    FiniteSet,
-    Object,
-    Record,
-    RecordType,
-    TypeNode,
-    freeze,
-    kind_of,
-)
+from ttr.types.syntax import RecordType, TypeNode, kind_of
 from ttr.updates.algorithms import (
     Algorithm,
     All,
@@ -48,8 +41,6 @@ from ttr.updates.nbest import MatchedEvent, NBest, match_event
 from ttr.updates.rules import Rule
 from ttr.updates.states import check_state, is_still_of
 from ttr.updates.user_functions import blame, excerpt
-
-__all__ = ["Run", "Step", "continue_run", "run"]
 
 ROUNDS = 1000
 """How often a repetition without times and measure is repeated at most."""

@@ -9,12 +9,10 @@ from operator import is_
 from ttr.errors import NoStateError, UpdateError
 from ttr.judging.certainty import is_certain, remember_certain
 from ttr.judging.models import Model
-from ttr.types.objects import is_immutable
+from ttr.types.objects import Object, Record, is_immutable
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
-from ttr.types.syntax import ListOf, Object, Record, RecordType, TypeNode
-
-__all__ = ["check_state", "is_still_of"]
+from ttr.types.syntax import ListOf, RecordType, TypeNode
 
 
 def check_state(state: Object, type: RecordType, model: Model, when: str) -> None:

@@ -7,8 +7,6 @@ from types import TracebackType
 
 from ttr.errors import RuleFailedError, TTRError
 
-__all__ = ["blame", "excerpt"]
-
 LONGEST = 200
 """How many characters of a value, or of an error, a message repeats."""
 

@@ -36,8 +36,6 @@ from kille.dialogue.games.several import SEVERAL
 from kille.dialogue.games.surveying import SURVEYING
 from ttr.updates import first, maybe, seq
 
-__all__ = ["ANSWERING", "TUTORING"]
-
 ANSWERING = first(
     ACKNOWLEDGING,
     CONFIRMING,

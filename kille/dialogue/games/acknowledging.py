@@ -21,8 +21,6 @@ from ttr import Model, Record, RecordType, replace
 from ttr.types import Negation, PType
 from ttr.updates import first, rule
 
-__all__ = ["ACKNOWLEDGING", "EXEMPLIFYING"]
-
 
 @rule(when=answering("Affirm"))
 def acknowledge(s: Record, *, model: Model) -> Record | None:

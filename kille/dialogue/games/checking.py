@@ -14,8 +14,6 @@ from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, replace
 from ttr.updates import first, rule, seq
 
-__all__ = ["CHECKING"]
-
 
 @rule(when=answering("AskWhether"))
 def miss_claimed(s: Record) -> Record | None:

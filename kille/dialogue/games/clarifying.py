@@ -17,8 +17,6 @@ from kille.dialogue.reference import Judging, fits_well, phrase_at
 from ttr import Model, Record, replace
 from ttr.updates import first, maybe, rule, seq
 
-__all__ = ["CLARIFYING", "MENTIONED", "asked_which"]
-
 AGAIN = {"AskReferent": "AskReferentAgain"}
 """How a question is put on record when it is asked once more."""
 

@@ -9,8 +9,6 @@ from kille.dialogue.reference import thing_at
 from ttr import Model, Record, replace
 from ttr.updates import first, rule, seq
 
-__all__ = ["COLOURING"]
-
 
 @rule(when=answering("AskQuality"))
 def recognise_colour(s: Record, *, model: Model) -> Record | None:

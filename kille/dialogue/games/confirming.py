@@ -17,8 +17,6 @@ from kille.dialogue.state import words
 from ttr import Record
 from ttr.updates import first, rule
 
-__all__ = ["CONFIRMING"]
-
 
 @rule(when=answering("Affirm"))
 def learn_confirmed(s: Record) -> Record | None:

@@ -30,8 +30,6 @@ from kille.dialogue.reference import PARTS, thing_at
 from ttr import Record, RecordType, join, rectype
 from ttr.updates import first, rule
 
-__all__ = ["CORRECTING"]
-
 CORRECTED = {"c": "Corrected", "a": "CorrectedQuality", "rel": "CorrectedRelation"}
 """What the robot says when it has learned one claim in place of another."""
 

@@ -10,8 +10,6 @@ from kille.dialogue.state import STATE
 from ttr import Model, Record, rectype, replace
 from ttr.updates import rule
 
-__all__ = ["ASKED", "CORRECTED"]
-
 
 @rule(when=rectype(shared=rectype(latest=theory()["Correcting"])))
 def count_correction(s: Record, *, model: Model) -> Record | None:

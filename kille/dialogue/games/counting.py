@@ -11,8 +11,6 @@ from kille.dialogue.state import words
 from ttr import Model, Record, record
 from ttr.updates import first, rule
 
-__all__ = ["COUNTING"]
-
 
 @rule(when=answering("AskCount"))
 def miss_counted(s: Record) -> Record | None:

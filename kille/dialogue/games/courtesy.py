@@ -7,8 +7,6 @@ from kille.dialogue.moves import answering, plan
 from ttr import Record, replace
 from ttr.updates import Rule, first, rule
 
-__all__ = ["COURTESY", "REPEATING", "reply"]
-
 
 def reply(move: str, act: str, doc: str) -> Rule:
     """The rule that answers every such move by this act."""

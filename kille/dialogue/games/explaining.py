@@ -21,8 +21,6 @@ from kille.dialogue.state import words
 from ttr import Model, Rec, Record, RecordType, record
 from ttr.updates import first, rule
 
-__all__ = ["EXPLAINING"]
-
 Update = tuple[Record, Model]
 
 EXPLAINED = {"c": "ExplainName", "a": "ExplainQuality", "rel": "ExplainRelation"}

@@ -18,8 +18,6 @@ from kille.dialogue.reference import phrase_at, thing_at
 from ttr import Model, Record, RecordType, record, replace
 from ttr.updates import first, rule
 
-__all__ = ["FINDING", "pointed_out"]
-
 
 @rule(when=answering("AskFind"))
 def point_out(s: Record, *, model: Model) -> Record | None:

@@ -15,8 +15,6 @@ from kille.dialogue.state import words
 from ttr import Record
 from ttr.updates import first, rule
 
-__all__ = ["FORGETTING"]
-
 FORGOT = {"c": "Forgot", "a": "ForgotQuality", "rel": "ForgotRelation"}
 """What the robot says when it has forgotten a lesson, by the label of its claim."""
 

@@ -46,8 +46,6 @@ from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, RecType, rectype, replace
 from ttr.updates import first, rule
 
-__all__ = ["ASKING_FRAME", "FRAMING", "SETTLING"]
-
 Update = tuple[Record, Model]
 
 ASKED = "AskFrame"

@@ -21,8 +21,6 @@ from kille.dialogue.strategies import Option, Stake, best
 from ttr import Model, Record, record, replace
 from ttr.updates import first, rule
 
-__all__ = ["IDLING", "INITIATING", "STAYING"]
-
 
 class Initiative(NamedTuple):
     """Something it might do: what is expected of it, about what, and the plan."""

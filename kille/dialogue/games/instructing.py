@@ -11,8 +11,6 @@ from kille.dialogue.reference import PARTS, thing_at
 from ttr import Record
 from ttr.updates import first, rule
 
-__all__ = ["INSTRUCTING"]
-
 
 @rule(when=answering("Instruct"))
 def learn_word(s: Record) -> Record:

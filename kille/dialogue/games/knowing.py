@@ -8,8 +8,6 @@ from kille.dialogue.state import words
 from ttr import Record
 from ttr.updates import first, rule
 
-__all__ = ["KNOWING"]
-
 TOLD = {
     "nouns": "TellNouns",
     "adjectives": "TellAdjectives",

@@ -21,8 +21,6 @@ from kille.dialogue.weighing import FAINTLY, weighed
 from ttr import Model, Pred, Record, RecordType, replace
 from ttr.updates import NBest, first, maybe, rule, seq
 
-__all__ = ["GLANCED", "LISTENING", "SAID", "SEEN"]
-
 # --- seeing --------------------------------------------------------------------------
 
 

@@ -15,8 +15,6 @@ from kille.dialogue.weighing import FAINTLY, Weighed, weighed
 from ttr import Model, Record, replace
 from ttr.updates import NBest, first, rule
 
-__all__ = ["MISHEARING", "MISHEARD"]
-
 
 @rule(when=STATE, on=named("Heard"), p=FAINTLY)
 def ask_heard(s: Record, said: Record, *, nbest: object, model: Model) -> Record | None:

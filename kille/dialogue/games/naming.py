@@ -11,8 +11,6 @@ from kille.dialogue.reference import thing_at
 from ttr import Model, Record, RecordType, replace
 from ttr.updates import first, maybe, rule, seq
 
-__all__ = ["NAMING"]
-
 
 @rule(when=answering("AskName"))
 def recognise(s: Record, *, model: Model) -> Record | None:

@@ -16,8 +16,6 @@ from kille.dialogue.typos import is_slip, slip
 from ttr import Model, Record, replace
 from ttr.updates import first, rule
 
-__all__ = ["OFFERING", "OFFER_ANSWERED"]
-
 OFFER = "OfferWord"
 """The question whether a known word was meant; its options are yes and no, in order."""
 

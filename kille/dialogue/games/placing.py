@@ -15,8 +15,6 @@ from kille.dialogue.reference import phrase_at, thing_at
 from ttr import Model, Record, RecordType, record, replace
 from ttr.updates import first, rule
 
-__all__ = ["PLACING", "asked_for", "landmark_for"]
-
 Update = tuple[Record, Model]
 
 

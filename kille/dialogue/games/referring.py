@@ -32,8 +32,6 @@ from ttr import Model, Record, RecordType, rectype, replace
 from ttr.types import TypeNode
 from ttr.updates import first, rule
 
-__all__ = ["REFERRING", "UNANSWERED", "about", "asking", "differing", "unanswered"]
-
 
 def unanswered(move: TypeNode) -> RecordType:
     """The states in which the latest move is of a type and not answered yet."""

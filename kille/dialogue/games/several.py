@@ -20,8 +20,6 @@ from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, record, rectype, replace
 from ttr.updates import first, rule
 
-__all__ = ["SEVERAL"]
-
 
 @rule(when=answering("InstructSeveral"))
 def learn_several(s: Record, *, model: Model) -> Record | None:

@@ -10,8 +10,6 @@ from kille.dialogue.moves import answering, plan
 from ttr import Model, Record, RecordType
 from ttr.updates import first, rule
 
-__all__ = ["SURVEYING", "in_view"]
-
 SURE, LIKELY, UNKNOWN = "thing", "maybe", "unknown"
 """How the parts of what is seen are labelled, with a number after it."""
 

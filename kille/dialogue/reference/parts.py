@@ -16,8 +16,6 @@ from ttr import Pred, RecordType
 from ttr.types import Meet, PType, Singleton, TypeNode
 from ttr.types.objects import Object, Path
 
-__all__ = ["Claim", "Part", "put_together", "taken_apart"]
-
 _Some = TypeVar("_Some")
 
 Claim = tuple[Pred, tuple[Object, ...]]

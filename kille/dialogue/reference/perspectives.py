@@ -11,8 +11,6 @@ from __future__ import annotations
 
 from ttr import Record
 
-__all__ = ["AWAY", "LANDMARK", "OPEN", "VIEWER", "facing", "front_of"]
-
 AWAY = "away"
 """Forward for the viewer."""
 

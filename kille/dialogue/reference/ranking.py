@@ -14,8 +14,6 @@ from kille.dialogue.reference.parts import Part, put_together, taken_apart
 from kille.dialogue.reference.resolving import Judging
 from ttr import Model, Record, RecordType, rectype
 
-__all__ = ["meant_by", "ranking", "said_by"]
-
 
 def ranking(
     s: Record, model: Model, words: Iterable[Record]

@@ -22,22 +22,6 @@ from ttr import Model, Pred, Record, RecordType, rectype
 from ttr.types import Singleton
 from ttr.types.objects import Object
 
-__all__ = [
-    "PARTS",
-    "Fit",
-    "Judging",
-    "Reading",
-    "contents",
-    "denoted",
-    "fits_well",
-    "fitting",
-    "in_view",
-    "phrase_at",
-    "phrases",
-    "thing_at",
-    "things_in",
-]
-
 PARTS = ("target", "landmark")
 """The labels of the noun phrases in a content."""
 

@@ -13,15 +13,6 @@ from functools import cache
 from kille.dialogue.meanings import theory
 from ttr import Model, Pred, Record
 
-__all__ = [
-    "across",
-    "choosing",
-    "chosen",
-    "in_talk",
-    "just_mentioned",
-    "most_salient",
-]
-
 Choice = Callable[[Record, Model, Sequence[str]], Sequence[str]]
 """What a word chooses, in a state, of the things that the rest of its phrase fits."""
 

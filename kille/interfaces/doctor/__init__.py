@@ -13,8 +13,6 @@ from kille.interfaces.doctor.ros import ros
 from kille.interfaces.doctor.speech import speech
 from kille.interfaces.terminal import FAILED, FINE, console, hanging, print_json
 
-__all__ = ["Finding", "as_json", "as_text", "doctor"]
-
 Report = Callable[[Sequence[Finding]], None]
 """How findings are printed."""
 

@@ -11,8 +11,6 @@ from pathlib import Path
 
 from kille.interfaces.doctor.finding import Finding, failed
 
-__all__ = ["line_editing", "memory", "python", "synthetic"]
-
 
 def python() -> Iterator[Finding]:
     """The version of Python."""

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from kille.sensors.kinect.driver import Driver, Streams
     from kille.sensors.kinect.transport import Bus
 
-__all__ = ["kinect", "plugged_in"]
-
 _PATIENCE = 5.0
 """Seconds in which the first picture has come."""
 

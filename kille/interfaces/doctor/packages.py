@@ -12,8 +12,6 @@ from pathlib import Path
 
 from kille.interfaces.doctor.finding import Finding
 
-__all__ = ["extras", "packages", "pip"]
-
 _USES = {
     "plots": "figures in reports",
     "usb": "a libusb, where the system has none",

@@ -6,8 +6,6 @@ from collections.abc import Iterator
 
 from kille.interfaces.doctor.finding import Finding, failed
 
-__all__ = ["ros"]
-
 _PATIENCE = 1.0
 """Seconds for a master that is on another machine."""
 

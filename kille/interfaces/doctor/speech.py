@@ -11,8 +11,6 @@ from importlib.util import find_spec
 from kille.interfaces.doctor.finding import Finding
 from kille.interfaces.doctor.packages import pip
 
-__all__ = ["speech"]
-
 _LIMIT = 10
 """Seconds in which a sound device is opened, or never."""
 

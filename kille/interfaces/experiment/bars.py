@@ -11,8 +11,6 @@ from rich.progress import Progress as Bar
 from kille.interfaces.terminal import console
 from kille.studies.running import Progress
 
-__all__ = ["bar"]
-
 PACE_SECONDS = 300
 """The time left is reckoned from the pace of so long."""
 

@@ -14,8 +14,6 @@ from kille.studies.study import Study
 from ttr import TTRError
 from ttr.safety.consent import Consent
 
-__all__ = ["MISTAKES", "check_files", "complain_all", "in_numbers", "tell_doubts"]
-
 MISTAKES = StudyError, TTRError
 """What is told in a line, or in some, and is no fault of the program."""
 

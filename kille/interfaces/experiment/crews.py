@@ -7,8 +7,6 @@ from argparse import Namespace
 from kille.interfaces.terminal import complain
 from kille.studies.running import Crew, Scheduler, crew
 
-__all__ = ["choose_crew", "scheduler_from"]
-
 
 def scheduler_from(options: Namespace) -> Scheduler | None:
     """The scheduler of a cluster that the options name, if they do."""

@@ -13,8 +13,6 @@ from kille.studies.reading.consenting import check_allowed, python_in
 from kille.studies.study import Study
 from ttr.safety.consent import Consent
 
-__all__ = ["consent_to", "logged"]
-
 
 def logged(folder: Path, consent: Consent, trusts: bool) -> Study:
     """The study of the log in a folder, to be played; `StudyError` where it may not be.

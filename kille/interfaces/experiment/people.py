@@ -25,8 +25,6 @@ from kille.studies.running import Crew, Scheduler, alone
 from kille.studies.scenes import opened
 from kille.studies.study import PERSON, Run, Study
 
-__all__ = ["crew_for", "has_people", "in_turn", "people_in", "told_people"]
-
 _FIRST = "The robot was taught nothing yet."
 _NEXT = "It is another robot now, and was taught nothing yet."
 

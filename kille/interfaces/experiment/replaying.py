@@ -17,8 +17,6 @@ from kille.studies.log.sources import changed, sources
 from kille.studies.running import Difference, Progress, replay
 from kille.studies.study import Run
 
-__all__ = ["replay_all"]
-
 
 def replay_all(folder: Path, names: Sequence[str], request: Request) -> int:
     """Plays dialogues of a folder again, all if none is named; 1 where one differs."""

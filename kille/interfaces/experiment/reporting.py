@@ -16,8 +16,6 @@ from kille.studies import log, reporting
 from kille.studies.log import write_tables
 from ttr.safety.consent import Consent
 
-__all__ = ["compare", "print_summary", "report"]
-
 
 def report(folder: Path, command: str, consent: Consent) -> int:
     """Writes the tables and the page of a folder of results, and prints it.

@@ -30,8 +30,6 @@ from kille.studies.running import Progress, Scheduler, Summary, run
 from kille.studies.study import Study
 from ttr.safety.consent import OWN_FOLDER, Consent
 
-__all__ = ["Request", "as_it_is", "resume_study", "run_study", "studied"]
-
 SHOWN = 10
 """So many broken dialogues are told; the table of runs has them all."""
 

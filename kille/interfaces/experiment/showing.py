@@ -18,8 +18,6 @@ from kille.studies import log
 from kille.studies.log.outcomes import Broken, Finished, Outcome
 from kille.studies.played import Answer, Turn
 
-__all__ = ["as_json", "as_text", "show"]
-
 SHOWN = 10
 """So many broken dialogues are listed."""
 

@@ -11,8 +11,6 @@ from rich.text import Text
 
 from kille.scene import Colour
 
-__all__ = ["half_blocks", "shows_pictures"]
-
 Pixels = NDArray[np.float64]
 
 _UPPER_HALF = "\N{UPPER HALF BLOCK}"

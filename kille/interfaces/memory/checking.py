@@ -14,8 +14,6 @@ from kille.memory import MemoryFileError
 from kille.memory.checking import Health, check
 from kille.memory.salvaging import Salvage, salvage
 
-__all__ = ["as_json", "as_text", "check_memory"]
-
 Report = Callable[[Path, Health, Path | None, Salvage | None], None]
 """How it is told what is wrong with a file, and what was saved of it where."""
 

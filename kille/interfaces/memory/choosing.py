@@ -8,8 +8,6 @@ from collections.abc import Sequence
 
 from kille.memory import Lesson, MemoryReader, NoSuchLessonError
 
-__all__ = ["latest", "lessons_named"]
-
 _NUMBER = re.compile(r"#?([0-9]{1,18})")
 
 

@@ -18,16 +18,6 @@ from kille.memory import (
 from kille.scene import Direction, Point, Traits
 from ttr.escapes import terminal_word
 
-__all__ = [
-    "colours",
-    "lengths",
-    "looks",
-    "said",
-    "seen",
-    "title",
-    "when",
-]
-
 _KINDS = {
     "object": "a thing",
     "attribute": "how a thing is",

@@ -27,8 +27,6 @@ from kille.memory import (
 )
 from ttr.escapes import terminal_word
 
-__all__ = ["as_json", "as_text", "asked", "forget", "last", "of", "sure"]
-
 Choice = Callable[[MemoryReader], Sequence[Lesson]]
 """Which lessons are to be forgotten."""
 

@@ -14,8 +14,6 @@ from kille.interfaces.terminal import FINE, complain, console, memory_path, prin
 from kille.memory import Lesson, Memory, MemoryFileError
 from ttr.escapes import terminal_word
 
-__all__ = ["as_json", "as_table", "list_words"]
-
 
 @dataclass(frozen=True)
 class _Entry:

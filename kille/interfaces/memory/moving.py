@@ -12,8 +12,6 @@ from kille.memory.exporting import export
 from kille.memory.importing import opened
 from kille.memory.packages import PackageError
 
-__all__ = ["as_json", "as_text", "export_memory", "import_memory", "listed"]
-
 Report = Callable[[str, Mapping[str, int]], None]
 """How it is told what was done, with how much of what."""
 

@@ -40,8 +40,6 @@ from kille.memory.configurations import as_json as configuration_json
 from kille.memory.pictures import JPEG
 from kille.private import private
 
-__all__ = ["as_json", "as_text", "show"]
-
 _COLUMNS, _ROWS = 40, 12
 _NAME = 50  # characters of a word in the name of a file
 

@@ -31,8 +31,6 @@ from kille.perception.attributes.aspects import ASPECTS, Aspect
 from kille.perception.learners import Key, own_key
 from kille.scene import Traits
 
-__all__ = ["AttributeMemory"]
-
 Numbers = NDArray[np.float64]
 
 _MEAN = -1.0  # before any lesson

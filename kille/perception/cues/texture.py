@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from kille.perception.cues.dense import Descriptors, colours, edges
-from kille.perception.cues.fisher import LENGTH, shipped, shortened
+from kille.perception.cues.fisher import LENGTH as LENGTH
+from kille.perception.cues.fisher import shipped, shortened
 from kille.perception.cues.patch import Patch
 from kille.scene import Vector
-
-__all__ = ["LENGTH", "paint", "texture", "whole_paint", "whole_texture"]
 
 
 def texture(patch: Patch) -> Vector | None:

@@ -18,8 +18,6 @@ from types import MappingProxyType
 
 from kille.scene import Configuration, Direction
 
-__all__ = ["AWAY", "FRONTS", "Perspective", "turned"]
-
 AWAY = "away"
 """The perspective of the viewer."""
 

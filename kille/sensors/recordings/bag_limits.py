@@ -22,8 +22,6 @@ from rosbags.rosbag2 import storage_mcap as mcap
 from ttr.safety.inputs import open_file
 from ttr.safety.limits import BAG_UNPACKED, MESSAGE, SETTINGS
 
-__all__ = ["BagPath", "bounded", "check_unpacked"]
-
 zstd: Any = mcap.zstd  # type: ignore[attr-defined]
 """Python's own, or what there is of it for older Pythons."""
 

@@ -17,8 +17,6 @@ from kille.studies.log.schema import check_ours
 from kille.studies.log.sources import changed, sources
 from kille.studies.study import Study
 
-__all__ = ["About", "about_in", "check_same", "facts"]
-
 
 @dataclass(frozen=True)
 class About:

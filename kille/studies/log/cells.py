@@ -12,8 +12,6 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple, TypeAlias, TypeVar, get_origin, get_type_hints
 
-__all__ = ["Cell", "Column", "cells", "columns", "of_cells"]
-
 Cell: TypeAlias = str | int | float | None
 """What a database holds; no number is None."""
 

@@ -17,8 +17,6 @@ from kille.databases import has_strange_journal, restrict
 from kille.private import private
 from kille.studies.log.outcomes import RunError
 
-__all__ = ["FILE", "connected", "explained", "locked", "reading_mode"]
-
 FILE, LOCK = "log.db", ".lock"
 
 

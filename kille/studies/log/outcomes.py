@@ -12,18 +12,6 @@ from kille.studies.errors import StudyError
 from kille.studies.played import Played
 from kille.studies.study import Run, Study
 
-__all__ = [
-    "DEADLY",
-    "Broken",
-    "Finished",
-    "Outcome",
-    "Play",
-    "PlayAll",
-    "RunError",
-    "broken",
-    "outcome",
-]
-
 Play: TypeAlias = Callable[[Study, Run], Played]
 """What plays one dialogue of a study."""
 

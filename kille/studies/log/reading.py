@@ -22,8 +22,6 @@ from kille.studies.played import Answer, Played, Turn
 from kille.studies.study import Run, Study
 from ttr.safety.consent import Consent
 
-__all__ = ["about", "broken", "facts", "named", "outcomes", "over", "read", "study"]
-
 NO_PYTHON = Consent(python=False)
 """What a user consents to who names a log."""
 

@@ -12,8 +12,6 @@ from kille.studies.log.folders import FILE
 from kille.studies.log.outcomes import RunError
 from kille.studies.played import Answer, Turn
 
-__all__ = ["check_ours", "check_rows", "is_empty", "make", "marks", "table"]
-
 APPLICATION_ID = 0x4B535455
 """KSTU in ASCII: tells these files from any other SQLite database."""
 VERSION = 1

@@ -16,8 +16,6 @@ from typing import Any
 from kille.studies.study import Study
 from ttr.safety.inputs import open_file
 
-__all__ = ["STUDY", "changed", "sources"]
-
 STUDY = "the study"
 PLACES = {"file", "folder"}
 """The settings that are paths, whatever they look like."""

@@ -21,8 +21,6 @@ from kille.studies.played import Answer, Turn
 from ttr.escapes import csv_line
 from ttr.safety.files import why_unwritten
 
-__all__ = ["TABLES", "write_tables"]
-
 TEXT, INTEGER, REAL = "TEXT", "INTEGER", "REAL"
 CHUNK = 10_000
 """So many rows are in one group of a Parquet file."""

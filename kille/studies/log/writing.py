@@ -21,8 +21,6 @@ from kille.studies.log.schema import check_rows, is_empty, make, marks, table
 from kille.studies.played import Answer, Turn
 from kille.studies.study import Run, Study
 
-__all__ = ["Log"]
-
 
 class Log:
     """The log of a study that is open to write; `opened` makes or goes on with one."""

@@ -10,8 +10,6 @@ import numpy as np
 from kille.studies.measuring.measures import Measure, Vector
 from kille.studies.measuring.scored import Dialogue, Scored
 
-__all__ = ["Vocabulary", "kappas", "vocabulary"]
-
 Vocabulary = Mapping[str, Sequence[str]]
 """All that was said or held to be right, by kind of word."""
 

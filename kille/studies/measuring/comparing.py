@@ -16,20 +16,6 @@ from kille.experiments.results import Estimate
 from kille.studies.measuring.measures import Measure, Vector, banded, drawn, tallies
 from kille.studies.measuring.scored import Dialogue, Scored
 
-__all__ = [
-    "Contrast",
-    "Difference",
-    "McNemar",
-    "contrasts",
-    "differences",
-    "exchanged",
-    "exchanges",
-    "holm",
-    "in_pairs",
-    "mcnemar",
-    "mcnemar_of",
-]
-
 _EXACT = 15
 """So many pairs are exchanged in all ways; more of them by chance."""
 

@@ -17,30 +17,6 @@ from numpy.typing import NDArray
 from kille.experiments.results import Estimate
 from kille.studies.measuring.scored import REFERENCE, Dialogue, Scored
 
-__all__ = [
-    "ACCEPTED",
-    "ACCURACY",
-    "BRIER",
-    "CORRECTIONS",
-    "DEGREE",
-    "LESSONS",
-    "MARGIN",
-    "Measure",
-    "QUESTIONS",
-    "REFERENCES",
-    "SECONDS",
-    "TURNS",
-    "WORDS",
-    "Vector",
-    "banded",
-    "drawn",
-    "estimate",
-    "measured",
-    "ratio",
-    "tallies",
-    "value",
-]
-
 Vector = NDArray[np.float64]
 
 ROUNDS = 2000

@@ -8,8 +8,6 @@ from statistics import NormalDist
 import numpy as np
 from numpy.typing import ArrayLike
 
-__all__ = ["ALPHA", "POWER", "least_difference", "power_of", "runs_needed"]
-
 ALPHA = 0.05
 """How often a difference may be told of that is none."""
 

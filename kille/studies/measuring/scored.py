@@ -13,8 +13,6 @@ from kille.experiments.metrics import brier
 from kille.studies.played import Answer, Played, Turn
 from kille.studies.study import Run
 
-__all__ = ["REFERENCE", "Dialogue", "Effort", "Scored", "of_theory", "parted", "scored"]
-
 REFERENCE = "reference"
 """The kind of answers that say which thing is meant, not which word is right."""
 

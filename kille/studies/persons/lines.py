@@ -15,8 +15,6 @@ from ttr.escapes import terminal_text
 from ttr.safety.inputs import ask_line
 from ttr.safety.limits import UTTERANCE
 
-__all__ = ["Ask", "Gone", "ready", "typed"]
-
 Ask: TypeAlias = Callable[[str], str]
 """Shows a text, of which the last line is the prompt, and gives the line typed."""
 

@@ -16,8 +16,6 @@ from kille.dialogue.meanings import claims, is_denial, predicate_at, value_at
 from kille.simulation.vocabulary import vocabulary
 from ttr import RecordType
 
-__all__ = ["QUESTIONS", "acts", "asked", "claimed", "sentences"]
-
 QUESTIONS = {
     "ask_name": "noun",
     "ask_quality": "adjective",

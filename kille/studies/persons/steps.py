@@ -8,8 +8,6 @@ from kille.studies.tutors.simulated import BY
 from kille.studies.tutors.tutor import Task
 from kille.studies.tutors.words import Words
 
-__all__ = ["example", "question", "tested", "wanted"]
-
 _LESSONS = {
     "noun": "say what #{x} is",
     "adjective": "say what colour #{x} is",

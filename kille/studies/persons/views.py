@@ -5,8 +5,6 @@ from __future__ import annotations
 from kille.simulation.worlds import World
 from kille.studies.scenes.occasions import Occasion
 
-__all__ = ["viewed"]
-
 
 def viewed(occasion: Occasion, world: World) -> str:
     """What there is in a world of an occasion, or in what a camera has taken.

@@ -28,9 +28,6 @@ from kille.studies.tutors.simulated import Simulated as SimulatedTutor
 from kille.studies.tutors.tutor import Tutor
 from kille.studies.tutors.words import Words
 
-__all__ = ["robot_of", "tutor_of"]
-
-
 CLOCK = datetime(2017, 1, 1, tzinfo=UTC)
 """What time it always is for the whole robot, so that its memory is the same."""
 

@@ -34,8 +34,6 @@ from kille.studies.tutors.tutor import (
     Waits,
 )
 
-__all__ = ["play"]
-
 
 def play(study: Study, run: Run) -> Played:
     """Play one dialogue from its beginning to its end, or to the study's last turn.

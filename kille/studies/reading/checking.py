@@ -24,8 +24,6 @@ from kille.studies.settings import Wrong
 from kille.studies.study import Run, Study, Theory
 from ttr.safety.consent import OWN_FOLDER, Consent
 
-__all__ = ["check", "checked"]
-
 
 def checked(path: Path, consent: Consent = OWN_FOLDER) -> Study:
     """The study in a file, ready to be played; `StudyError` with a line for each

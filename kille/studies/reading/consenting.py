@@ -16,8 +16,6 @@ from kille.studies.reading.troubles import Trouble, told
 from kille.studies.study import Study, Theory
 from ttr.safety.consent import NotAllowedError, check_called
 
-__all__ = ["check_allowed", "python_in", "unallowed"]
-
 
 def python_in(study: Study) -> tuple[str, ...]:
     """The Python files and modules that a study names, each once."""

@@ -25,14 +25,6 @@ from ttr.safety.files import why_unread
 from ttr.safety.inputs import parse_toml, read_text
 from ttr.safety.limits import SETTINGS
 
-__all__ = [
-    "data_of",
-    "parsed",
-    "read",
-    "study_of",
-    "text_of",
-]
-
 PACKAGED = Path(str(files("kille.grammars")))
 """Where the theories of the package are, which those of anybody may import."""
 

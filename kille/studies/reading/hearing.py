@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
+from kille.dialogue.grammars import GrammarError
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import value_at
-from kille.dialogue.parsing import GrammarError
 from kille.simulation.sayings import Phrase
 from kille.simulation.worlds import Thing
 from kille.studies.reading.troubles import Trouble
@@ -20,8 +20,6 @@ from kille.studies.settings import shown
 from kille.studies.study import Named, Study
 from kille.studies.theories.games import language_of
 from kille.studies.tutors.words import Words
-
-__all__ = ["misheard"]
 
 _KINDS = ("noun", "adjective", "relation")
 

@@ -8,9 +8,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from string import Formatter
 
+from kille.dialogue.grammars import GrammarError
 from kille.dialogue.language import LANGUAGES, grammar_text, understand
 from kille.dialogue.lexicon import Lexicon, lexicon
-from kille.dialogue.parsing import Grammar, GrammarError
+from kille.dialogue.parsing import Grammar
 from kille.dialogue.sources import FILES
 from kille.studies.reading.lines import Key, line_of, lines_of
 from kille.studies.reading.troubles import Trouble
@@ -21,8 +22,6 @@ from ttr import TTRError
 from ttr.safety.files import why_unread
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import SETTINGS
-
-__all__ = ["of_language"]
 
 _KEY: Key = ("grammar",)
 

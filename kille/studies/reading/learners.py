@@ -19,8 +19,6 @@ from kille.studies.settings import no_file, shown, unknown
 from kille.studies.study import Theory
 from kille.studies.theories.judging import NAMES, learners_of, words_of
 
-__all__ = ["of_learners"]
-
 
 def of_learners(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
     """What is wrong with what judges the words, whether `simulated` or `whole`."""

@@ -11,8 +11,6 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-__all__ = ["Key", "line_of", "lines_of"]
-
 Key = tuple[str | int, ...]
 """The names that lead to a value, and the numbers of the tables in a list."""
 

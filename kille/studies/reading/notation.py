@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import re
 
-__all__ = ["why_not_toml"]
-
 _SEE = "see https://toml.io"
 
 _SLIPS = (

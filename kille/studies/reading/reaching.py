@@ -9,8 +9,6 @@ from kille.studies.reading.troubles import Trouble
 from kille.studies.scenes import Scene
 from kille.studies.study import Phase, Study
 
-__all__ = ["begins", "unreached"]
-
 _PLAIN = ("simulated", "people", "several")
 """The tutors of whom it is known how many turns they take at least."""
 

@@ -15,8 +15,6 @@ from kille.studies.reading.troubles import Trouble
 from kille.studies.settings import Setting, Settings, near, shown, unfit
 from kille.studies.study import PERSON
 
-__all__ = ["APART", "STUDY", "faults"]
-
 MOST_SEEDS = 100_000
 """Dialogues of one theory, tutor and scene; the power of any test is 1 long before."""
 

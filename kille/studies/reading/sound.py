@@ -8,8 +8,6 @@ from typing import Any
 from kille.studies.reading.lines import Key
 from kille.studies.reading.shape import STUDY
 
-__all__ = ["UNKNOWN", "sound"]
-
 UNKNOWN = "unknown"
 """The kind, or mode, of what is written wrongly, of which nothing else is told."""
 

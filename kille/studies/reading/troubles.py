@@ -8,8 +8,6 @@ from typing import NamedTuple
 
 from kille.studies.reading.lines import Key, line_of, lines_of
 
-__all__ = ["Trouble", "told"]
-
 _FIRST, _LAST = 200, 100
 """Characters of a long line; many a type is longer than anybody reads on one."""
 

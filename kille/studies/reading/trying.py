@@ -34,13 +34,11 @@ from kille.studies.theories.games import (
 )
 from kille.studies.theories.rules import PACKAGED, absent
 from ttr import TTRError
-from ttr.errors import Span
+from ttr.errors import MistakesError, Span
 from ttr.safety.consent import OWN_FOLDER
 from ttr.theories.checking import check
-from ttr.theories.theory import MistakesError, load
+from ttr.theories.theory import load
 from ttr.updates.checks import NEVER, Fault, faults_of
-
-__all__ = ["troubles"]
 
 _OWN = ("meanings", "rules", "without", "learners")
 """What a theory may have of its own that fails only when it is played."""

@@ -19,8 +19,6 @@ from kille.studies.study import Named, Phase, Study
 from kille.studies.tutors.places import Speaker, rated
 from kille.studies.tutors.words import Words
 
-__all__ = ["SPEAKING", "Names", "names_in", "unsaid", "words_of"]
-
 SPEAKING = ("simulated", "people")
 """The tutors of whom it is known what they say."""
 

@@ -15,8 +15,6 @@ from kille.studies.protocols import SETTINGS
 from kille.studies.settings import filled
 from kille.studies.study import Phase
 
-__all__ = ["Tests", "called", "counts", "in_phase", "main_of", "phases_of", "tests_of"]
-
 Tests = Sequence[Sequence[str]]
 """The names of the phases, those together that ask alike."""
 

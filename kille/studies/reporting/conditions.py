@@ -16,8 +16,6 @@ from kille.studies.reporting.names import short
 from kille.studies.reporting.places import Places
 from kille.studies.reporting.rows import in_rows
 
-__all__ = ["by_conditions", "in_last_phase"]
-
 _ROBOT, _PEOPLE = "κ robot–tutor", "κ tutor–judge"
 _TOLD = (
     "accuracy",

@@ -16,18 +16,6 @@ from kille.studies.reporting.names import short
 from kille.studies.reporting.places import Places
 from kille.studies.reporting.rows import in_rows
 
-__all__ = [
-    "CHANCE",
-    "CORRECTED",
-    "FEW",
-    "TESTED",
-    "contrast_names",
-    "contrasted",
-    "corrected",
-    "told_by",
-    "told_p",
-]
-
 _SEED = 2  # of the chance by which pairs are drawn anew and exchanged
 _MAIN = ACCURACY.name
 CHANCE = 0.05

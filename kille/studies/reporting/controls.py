@@ -25,8 +25,6 @@ from kille.studies.reporting.findings import Theories
 from kille.studies.reporting.places import Places
 from kille.studies.study import Run
 
-__all__ = ["Against", "against_the_first"]
-
 _SEED = 3  # of the chance by which pairs are drawn anew and exchanged
 _MAIN = "accuracy"
 _TESTED = (_MAIN, "κ robot–tutor", "words")

@@ -15,8 +15,6 @@ from kille.studies.reporting.findings import Theories, estimated
 from kille.studies.reporting.names import short
 from kille.studies.reporting.rows import as_drawn, bands
 
-__all__ = ["costs", "said_before"]
-
 
 def costs(theories: Theories, tests: Tests) -> Iterator[Figure]:
     """The accuracy in each test against what was said before it; then by tutor.

@@ -15,8 +15,6 @@ from kille.studies.reporting.asked import Tests, called, phases_of
 from kille.studies.reporting.findings import Theories, estimated
 from kille.studies.reporting.rows import as_drawn, bands, in_rows
 
-__all__ = ["confusions", "learning", "near", "reliable", "step", "words"]
-
 _PLACES = 12
 """At most so many places on a learning curve."""
 _LEAST = 5

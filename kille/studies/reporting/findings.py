@@ -37,17 +37,6 @@ from kille.studies.measuring.scored import Dialogue, Scored, of_theory, parted
 from kille.studies.reporting.names import short
 from kille.studies.reporting.places import Places
 
-__all__ = [
-    "Theories",
-    "estimated",
-    "for_figures",
-    "grouped",
-    "in_detail",
-    "meanings",
-    "measures_of",
-    "overall",
-]
-
 Theories: TypeAlias = Mapping[str, Sequence[Dialogue]]
 """The dialogues of each theory, in the order of the study."""
 

@@ -26,8 +26,6 @@ from kille.studies.theories.describing import described
 from ttr import TTRError
 from ttr.safety.consent import Consent
 
-__all__ = ["Report", "compare", "compared", "report"]
-
 _NAME = "report.html"
 _USUAL = ".results"
 """What the name of a folder of results ends in, if nobody has named another."""

@@ -14,8 +14,6 @@ from kille.studies.reporting.names import short
 from kille.studies.reporting.places import Places
 from kille.studies.reporting.rows import in_rows
 
-__all__ = ["in_short"]
-
 _BESIDE = ("κ robot–tutor", "words", "corrections", "questions")
 """What is told beside the main measure, if there is any of it."""
 _LINES = 4

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from kille.simulation.worlds import World
 
-__all__ = ["happening"]
-
 _LONGEST = 100
 
 

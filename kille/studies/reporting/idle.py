@@ -9,8 +9,6 @@ from kille.studies.reporting.layouts import Described
 from kille.studies.study import Theory
 from kille.studies.theories.describing import described
 
-__all__ = ["idle"]
-
 
 def idle(
     theories: Mapping[str, Described], dialogues: Mapping[str, Sequence[Dialogue]]

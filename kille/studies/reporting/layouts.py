@@ -14,8 +14,6 @@ from ttr.display.layout import Layout, Matrix, Row, Word, layout_of
 from ttr.escapes import html_text
 from ttr.types import TypeNode
 
-__all__ = ["Described", "apart", "shortened", "side_by_side"]
-
 Described = Mapping[str, object]
 """A theory by the names of its parts: types and records, texts, and texts by name."""
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from itertools import count
 
-__all__ = ["short"]
-
 _MOST = 28
 """Letters for which there is room beside a figure."""
 

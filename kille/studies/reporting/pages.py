@@ -20,8 +20,6 @@ from kille.studies.reporting.places import Places
 from kille.studies.reporting.styles import DIALOGUES, THEORIES
 from ttr.escapes import html_address, html_text
 
-__all__ = ["pages"]
-
 Page = tuple[str, str]
 """The name of a file, and what is in it."""
 

@@ -13,8 +13,6 @@ from typing import TypeVar
 from kille.studies.measuring.scored import Dialogue
 from kille.studies.study import Run
 
-__all__ = ["Places", "places_of"]
-
 Pair = tuple[str, str, int]
 
 _Name = TypeVar("_Name")

@@ -12,8 +12,6 @@ from typing import Any
 from kille.experiments.results import Estimate, Figure
 from kille.studies.reporting.names import short
 
-__all__ = ["as_drawn", "bands", "in_rows"]
-
 _BANDS = "Bands of 95 %."
 _NO_BANDS = "Too few dialogues for bands."
 

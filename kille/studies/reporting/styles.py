@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["DIALOGUES", "PAGE", "THEORIES"]
-
 THEORIES = """
 .theories { display: grid; gap: 1.2rem 1.4rem; align-items: start; margin: .8rem 0;
   grid-template-columns: repeat(auto-fit, minmax(min(100%, 17rem), 1fr)); }

@@ -7,8 +7,6 @@ from typing import Any
 
 from kille.studies.study import Named, Study
 
-__all__ = ["unlike"]
-
 _ALSO = "differences may come of that as well."
 
 

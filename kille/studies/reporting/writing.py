@@ -38,8 +38,6 @@ from ttr.display import html as markup
 from ttr.escapes import html_address, html_text
 from ttr.safety.files import why_unwritten, write_whole
 
-__all__ = ["Subject", "every_two", "results_of", "write"]
-
 _FEW = 5
 """So many reasons why dialogues broke are told, and so many dialogues named of each."""
 

@@ -22,8 +22,6 @@ from ttr import Model, record
 from ttr.judging import Judgement
 from ttr.probability import CERTAIN
 
-__all__ = ["Typed"]
-
 _HELP = """\
 You are the robot: type what you say to the tutor, and press Enter.
   .           say nothing, as Enter alone does

@@ -13,8 +13,6 @@ from ttr import Model, Record, RecordType
 from ttr.judging import Judgement
 from ttr.types import Negation
 
-__all__ = ["OWN", "Reply", "WAYS", "degrees"]
-
 WAYS = {
     "assert": "assert",
     "hedge": "hedge",

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 
-from kille.dialogue.wording import did_not_understand, lexicon
+from kille.dialogue.lexicon import lexicon
+from kille.dialogue.wording import did_not_understand
 from kille.simulation.perceiving import glanced, number_of, seen, thing
 from kille.simulation.playing import world_of
 from kille.simulation.schooling import rested
@@ -13,8 +14,6 @@ from kille.studies.robots.replies import Reply
 from kille.studies.scenes.happening import changed
 from kille.studies.scenes.occasions import Occasion
 from ttr.updates import Game, Run, Turn
-
-__all__ = ["Simulated"]
 
 
 class Simulated:

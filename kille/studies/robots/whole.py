@@ -9,8 +9,6 @@ from kille.studies.robots.replies import Reply
 from kille.studies.scenes.occasions import Occasion
 from kille.studies.scenes.theatre import Theatre
 
-__all__ = ["Whole"]
-
 
 class Whole:
     """The whole robot, with its eyes and its memory, in front of a theatre."""

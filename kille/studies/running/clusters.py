@@ -41,8 +41,6 @@ from kille.studies.running.schedulers import Scheduler
 from kille.studies.running.threads import one_thread
 from kille.studies.study import Run, Study
 
-__all__ = ["elsewhere", "play_batch"]
-
 BATCH_SECONDS = 1.0
 LARGEST = 100
 AHEAD = 2

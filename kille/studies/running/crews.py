@@ -18,8 +18,6 @@ from kille.studies.running.schedulers import Scheduler
 from kille.studies.running.threads import one_thread
 from kille.studies.study import Run, Study
 
-__all__ = ["MISSING", "Crew", "alone", "cores", "crew", "playing"]
-
 MISSING = "Dask is not installed: pip install 'kille[cluster]'"
 
 Crew: TypeAlias = Callable[[Study, Play], AbstractContextManager[PlayAll]]

@@ -29,8 +29,6 @@ from kille.studies.running.threads import READ_WHEN_LOADED
 from kille.studies.running.workers import READY
 from kille.studies.study import Run, Study
 
-__all__ = ["Workers", "here"]
-
 AHEAD = 2
 """How many runs each worker has: the one that it plays, and the next."""
 MOST = 5

@@ -12,8 +12,6 @@ from kille.studies.played import Played
 from kille.studies.running.crews import Crew, playing
 from kille.studies.study import Study
 
-__all__ = ["Difference", "difference", "replay"]
-
 
 class Difference(NamedTuple):
     """The first that is not as it was: where, what it was, and what it is now."""

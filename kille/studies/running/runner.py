@@ -15,8 +15,6 @@ from kille.studies.log.outcomes import Broken, Play
 from kille.studies.running.crews import Crew, playing
 from kille.studies.study import Study
 
-__all__ = ["Progress", "Summary", "forget_broken", "run"]
-
 
 @dataclass(frozen=True)
 class Progress:

@@ -14,8 +14,6 @@ from urllib.parse import urlsplit
 
 from kille.studies.log.outcomes import RunError
 
-__all__ = ["Scheduler"]
-
 ENCRYPTED = ("tls", "wss")
 """The protocols of Dask that ask both sides for a certificate."""
 

@@ -13,8 +13,6 @@ from contextlib import contextmanager
 
 from threadpoolctl import threadpool_limits
 
-__all__ = ["READ_WHEN_LOADED", "one_thread"]
-
 READ_WHEN_LOADED = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """What says in how many threads a library adds up, from when it is loaded."""
 

@@ -25,8 +25,6 @@ from kille.studies.log.outcomes import Outcome, Play, RunError, broken, outcome
 from kille.studies.running.threads import one_thread
 from kille.studies.study import Run, Study
 
-__all__ = ["READY", "fork_workers", "serve"]
-
 READY = None
 """What a worker sends first, when it has loaded the study."""
 

@@ -15,8 +15,6 @@ from kille.simulation.worlds import FRONTS, STEP, Thing, World
 from kille.studies.scenes.occasions import Occasion
 from kille.studies.scenes.places import MIDDLE, Astray, beside, related, rounded
 
-__all__ = ["Around", "around"]
-
 
 @dataclass(frozen=True)
 class Around:

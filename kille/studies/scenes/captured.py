@@ -19,8 +19,6 @@ from kille.studies.scenes.places import MIDDLE
 from kille.studies.scenes.theatre import Capture, Picture, Theatre
 from kille.studies.settings import unknown
 
-__all__ = ["Captured", "captures", "pictures"]
-
 
 @dataclass(frozen=True)
 class Captured:

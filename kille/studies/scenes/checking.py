@@ -15,8 +15,6 @@ from kille.studies.scenes.scene import SETTINGS, Scene, opened
 from kille.studies.settings import Wrong, filled, no_folder, unknown
 from kille.studies.study import Named, Run, Study
 
-__all__ = ["faults"]
-
 
 def faults(named: Named, study: Study) -> Iterator[Wrong]:
     """What is wrong with a scene in this study: its data are not there, or too few."""

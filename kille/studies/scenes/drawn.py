@@ -15,9 +15,6 @@ from kille.simulation.worlds import FRONTS, SIDE, Thing, World
 from kille.studies.scenes.occasions import Occasion
 from kille.studies.scenes.places import BEARINGS, Astray, beside, related, rounded
 
-__all__ = ["Drawn", "drawn"]
-
-
 SPOTS = list(product(range(SIDE), range(SIDE)))
 """Where things are laid."""
 

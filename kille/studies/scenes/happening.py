@@ -10,8 +10,6 @@ from kille.studies.errors import StudyError
 from kille.studies.scenes.occasions import Occasion
 from kille.studies.scenes.places import TABLE, rounded
 
-__all__ = ["PLACED", "after", "changed", "is_step"]
-
 
 def changed(world: World, command: str) -> World:
     """The world after `point 2`, `place 2 3.5 4` or `remove 2`.

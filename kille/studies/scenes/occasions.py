@@ -13,8 +13,6 @@ from random import Random
 
 from kille.simulation.worlds import Thing, World
 
-__all__ = ["KINDS", "ORDERS", "Occasion", "ordered"]
-
 KINDS = {"nouns": "noun", "adjectives": "adjective", "relations": "relation"}
 """The kinds of words, by what a phase says that it is about."""
 

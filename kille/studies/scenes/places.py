@@ -11,17 +11,6 @@ from kille.simulation.vocabulary import SIDES
 from kille.simulation.worlds import STEP, Place, World
 from kille.studies.scenes.occasions import Occasion
 
-__all__ = [
-    "BEARINGS",
-    "MIDDLE",
-    "TABLE",
-    "Astray",
-    "beside",
-    "related",
-    "rounded",
-    "side",
-]
-
 MIDDLE: Place = (4.5, 4.5)
 """The middle of the table."""
 

@@ -17,8 +17,6 @@ from kille.studies.scenes.occasions import Occasion
 from kille.studies.scenes.places import MIDDLE, rounded, side
 from kille.studies.scenes.theatre import Staged, Stand, Theatre, laid
 
-__all__ = ["Rendered", "rendered"]
-
 _RINGS = (0.24, 0.30)  # metres: nearer the target would stand in the landmark
 _POINTS = 8
 _LANDMARK = (0.0, 0.05)  # so that all around it is in view

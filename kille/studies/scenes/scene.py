@@ -13,8 +13,6 @@ from kille.studies.scenes.occasions import Occasion
 from kille.studies.settings import Setting, Settings, filled
 from kille.studies.study import Run, Study
 
-__all__ = ["SETTINGS", "WHOLE", "Scene", "opened"]
-
 WHOLE = frozenset({"rendered", "pictures", "captures"})
 """The kinds of scenes that the whole robot sees."""
 

@@ -23,8 +23,6 @@ from kille.studies.scenes.occasions import Occasion
 from kille.studies.scenes.places import MIDDLE, rounded
 from kille.studies.settings import unknown
 
-__all__ = ["Statements", "statements"]
-
 _REACH = 0.4  # metres: the farthest statement of a study is brought so near
 _FLAT = 0.05  # metres: what is nearer than that has no direction on the table
 _TRUE = 0.5

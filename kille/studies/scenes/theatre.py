@@ -27,8 +27,6 @@ from kille.sensors.synthetic import Synthetic, open_synthetic
 from kille.studies.errors import StudyError
 from kille.studies.scenes.occasions import Occasion
 
-__all__ = ["Capture", "Picture", "Staged", "Stand", "Theatre", "laid"]
-
 _LARGEST = (640, 480)
 
 PICTURES, FRAMES = 400, 60

@@ -22,8 +22,6 @@ from ttr import Record, record
 from ttr.types import TypeNode
 from ttr.updates import rules_of
 
-__all__ = ["Shown", "described", "rules_apart"]
-
 Shown = TypeNode | Record | str | Mapping[str, str] | Mapping[str, TypeNode]
 
 _EXAMPLES = {"noun": ("nouns", "cup"), "adjective": ("adjectives", "red")}

@@ -27,8 +27,6 @@ from kille.studies.theories.words import acting, known_by
 from ttr import Record, replace
 from ttr.updates import Game
 
-__all__ = ["agent_of", "changed", "game_of", "language_of", "strategy_of"]
-
 
 def game_of(
     theory: Theory, world: World, *, colours: Iterable[Record] | None = None

@@ -19,8 +19,6 @@ from kille.perception.relations import RelationMemory
 from kille.scene import Configuration, Percept
 from kille.studies.theories.pupils import Heard, Make, Pupil
 
-__all__ = ["GuestObjects", "GuestRelations"]
-
 _LEAST = 1e-9
 """What is left for no word, at least, so that degrees have logarithms."""
 

@@ -26,8 +26,6 @@ from kille.studies.theories.guests import GuestObjects, GuestRelations
 from kille.studies.theories.pupils import Make, Pupil
 from kille.studies.theories.words import Guest, MakeWord, Prototype
 
-__all__ = ["NAMES", "learners_of", "words_of"]
-
 Known = Mapping[str, Mapping[str, Any]]
 """What has a name, by the kind of words that it judges."""
 

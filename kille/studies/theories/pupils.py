@@ -13,8 +13,6 @@ from typing import Any, Generic, NamedTuple, TypeVar
 
 from kille.perception.learners import Key
 
-__all__ = ["Heard", "Make", "Pupil"]
-
 X = TypeVar("X")
 
 Make = Callable[[], Any]

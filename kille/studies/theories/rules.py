@@ -30,8 +30,6 @@ from ttr.updates import (
     seq,
 )
 
-__all__ = ["PACKAGED", "absent", "algorithm_of", "lacking", "told"]
-
 _WRITTEN = "FILE.ttr or FILE.py:NAME"
 
 _NOTHING = seq()

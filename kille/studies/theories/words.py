@@ -21,8 +21,6 @@ from kille.studies.theories.pupils import Heard, Pupil
 from ttr import Model, Record, RecordType
 from ttr.types import TypeNode
 
-__all__ = ["Guest", "MakeWord", "Prototype", "acting", "known_by"]
-
 MakeWord = Callable[[Record], Word]
 """Makes the word of a sign that was not taught yet."""
 

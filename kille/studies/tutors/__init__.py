@@ -5,7 +5,5 @@ people: speaks as people's data have it. keyboard: a person types. several: some
 others take turns, and may disagree. own: a class or function of one's own makes him.
 """
 
-from kille.studies.tutors.checking import faults
-from kille.studies.tutors.kinds import SETTINGS
-
-__all__ = ["SETTINGS", "faults"]
+from kille.studies.tutors.checking import faults as faults
+from kille.studies.tutors.kinds import SETTINGS as SETTINGS

@@ -8,8 +8,6 @@ from kille.studies.robots.replies import Reply
 from kille.studies.tutors.holding import ACTS, Holding
 from kille.studies.tutors.tutor import Says
 
-__all__ = ["answer"]
-
 _WANTED = {
     "admit_name": "noun",
     "ask_thing": "noun",

@@ -18,8 +18,6 @@ from kille.studies.tutors.scripted import unplayable
 from kille.studies.tutors.words import Words
 from ttr.dialogues.stories import StoryError, read_stories
 
-__all__ = ["faults"]
-
 
 def faults(named: Named, study: Study) -> Iterator[Wrong]:
     """What is wrong with a tutor in this study, each with the setting it is in."""

@@ -17,8 +17,6 @@ from kille.studies.tutors.tutor import Asked, Says, Task
 from kille.studies.tutors.words import Words
 from ttr import Record
 
-__all__ = ["ACTS", "Holding", "Manner"]
-
 ACTS = {"noun": "instruct", "adjective": "describe", "relation": "relate"}
 """The moves that teach words, by their kinds."""
 

@@ -26,8 +26,6 @@ from kille.studies.tutors.tutor import (
 )
 from kille.studies.tutors.words import Words
 
-__all__ = ["Keyboard"]
-
 ON, HELP = ".", "?"
 
 _LANGUAGES = {"en": "English", "sv": "Swedish"}

@@ -7,8 +7,6 @@ from collections.abc import Mapping
 from kille.studies.settings import Setting, Settings
 from kille.studies.tutors.simulated import FEEDBACK
 
-__all__ = ["SETTINGS"]
-
 _SIMULATED: Settings = {
     "calls": Setting(dict, {}, about='what he calls something else: {mug = "cup"}'),
     "vocabulary": Setting(str, (), several=True, about="the only words he has"),

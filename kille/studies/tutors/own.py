@@ -19,8 +19,6 @@ from kille.studies.tutors.tutor import Tutor
 from ttr.safety.consent import Consent, NotAllowedError
 from ttr.safety.python_files import run_named
 
-__all__ = ["Make", "located", "maker_of"]
-
 Make = Callable[..., Tutor]
 
 

@@ -20,8 +20,6 @@ from typing import Protocol
 from kille.experiments.judged import read
 from kille.experiments.judges import ACCEPTED, Person, Place
 
-__all__ = ["HEADINGS", "SIDES", "Placing", "Rated", "Speaker", "person", "rated"]
-
 HEADINGS = {"right": 0.0, "away": math.pi / 2, "left": math.pi, "towards": -math.pi / 2}
 """Where a thing faces, in radians counter-clockwise from right."""
 

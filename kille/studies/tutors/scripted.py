@@ -17,8 +17,6 @@ from kille.studies.study import Study
 from kille.studies.tutors.tutor import Asked, Happens, Move, Says, Shows, Task, Turns
 from ttr.dialogues.stories import Line, read_stories
 
-__all__ = ["Scripted", "scripted", "unplayable"]
-
 
 class Scripted:
     """Who says these lines, all of them in the first task that he is given."""

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 
 from kille.studies.tutors.tutor import Task, Turns, Tutor
 
-__all__ = ["Several"]
-
 
 class Several:
     """Some tutors, of whom the next one goes on with every phase, or with every task.

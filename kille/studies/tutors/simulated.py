@@ -16,8 +16,6 @@ from kille.studies.tutors.answering import answer
 from kille.studies.tutors.holding import Holding, Manner
 from kille.studies.tutors.tutor import Asked, Move, Says, Shows, Task, Turns, Waits
 
-__all__ = ["BY", "FEEDBACK", "Simulated"]
-
 FEEDBACK = ("none", "confirm", "correct", "both")
 """What he says of answers: whether they are right, what is right instead, or both."""
 

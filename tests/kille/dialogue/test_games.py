@@ -9,9 +9,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import named, predicate_at
 from kille.dialogue.state import STATE
-from kille.dialogue.wording import lexicon
 
 Make = Callable[..., Any]
 

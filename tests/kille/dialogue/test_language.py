@@ -10,6 +10,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from kille.dialogue.grammars import GrammarError
 from kille.dialogue.language import LANGUAGES, Sentence, understand
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import (
@@ -21,7 +22,7 @@ from kille.dialogue.meanings import (
     theory,
     word_of,
 )
-from kille.dialogue.parsing import Grammar, GrammarError
+from kille.dialogue.parsing import Grammar
 from ttr import Ind, Pred, rectype, this
 from ttr.errors import IllFormedError
 

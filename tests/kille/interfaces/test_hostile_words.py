@@ -16,7 +16,8 @@ import pytest
 from rich.cells import cell_len
 
 from kille.experiments.results import Table
-from kille.interfaces.doctor import Finding, as_json, as_text
+from kille.interfaces.doctor import as_json, as_text
+from kille.interfaces.doctor.finding import Finding
 from kille.interfaces.grids import print_table
 from kille.interfaces.replay import in_brief, replay
 from kille.interfaces.streams import prepare_streams

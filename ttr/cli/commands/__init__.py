@@ -6,7 +6,5 @@ what it needs only when the command runs, so that `ttr --help` is fast.
 
 from ttr.cli.commands import check, fracas, play, repl, replay, show, test
 
-__all__ = ["COMMANDS"]
-
 #: In the order of the help text.
 COMMANDS = (check, play, replay, test, show, repl, fracas)

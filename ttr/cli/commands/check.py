@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 from ttr.cli.commands.output import (
     FAILED,
     FINE,
-    WRONG_USE,
     Commands,
     complain,
     json_place,
@@ -20,13 +19,12 @@ from ttr.cli.commands.output import (
     step_count,
 )
 from ttr.cli.consent_options import add_allow
+from ttr.cli.parser import WRONG_USE
 from ttr.errors import TooLargeError, TTRError
 from ttr.safety.budgets import STEPS, budget
 
 if TYPE_CHECKING:
     from ttr.theories.reports import Report
-
-__all__ = ["add"]
 
 
 def add(commands: Commands) -> None:
@@ -80,9 +78,10 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _outcome(file: str, allow: Sequence[Path]) -> _Outcome:
+    from ttr.errors import MistakesError
     from ttr.theories.checking import check
     from ttr.theories.loading import UnreadableError
-    from ttr.theories.theory import MistakesError, load
+    from ttr.theories.theory import load
 
     try:
         report = check(load(file, allow=allow))

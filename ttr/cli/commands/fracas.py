@@ -13,8 +13,6 @@ from ttr.errors import TTRError
 if TYPE_CHECKING:
     from ttr.semantics.fragment.fracas import AnsweredProblem
 
-__all__ = ["add"]
-
 
 def add(commands: Commands) -> None:
     """Declares the command."""

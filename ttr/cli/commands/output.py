@@ -15,21 +15,6 @@ from ttr.escapes import json_text, terminal_line, terminal_text
 if TYPE_CHECKING:
     from ttr.errors import Span
 
-__all__ = [
-    "FINE",
-    "FAILED",
-    "WRONG_USE",
-    "INTERRUPTED",
-    "PIPE_CLOSED",
-    "LiveLine",
-    "Commands",
-    "ask",
-    "say",
-    "say_json",
-    "complain",
-    "json_place",
-    "step_count",
-]
 
 FINE, FAILED, INTERRUPTED, PIPE_CLOSED = 0, 1, 130, 141
 

@@ -10,20 +10,13 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from ttr.cli.commands.output import (
-    FAILED,
-    FINE,
-    WRONG_USE,
-    Commands,
-    complain,
-    say,
-    say_json,
-)
+from ttr.cli.commands.output import FAILED, FINE, Commands, complain, say, say_json
 from ttr.cli.consent_options import (
     add_consent,
     consent_of,
     named_game,
 )
+from ttr.cli.parser import WRONG_USE
 from ttr.errors import TTRError
 from ttr.safety.consent import Consent, NotAllowedError
 from ttr.safety.files import check_outputs, write_whole
@@ -34,8 +27,6 @@ if TYPE_CHECKING:
     from ttr.dialogues.stories import Line, Outcome, Played, Setting, Story
 
     _Result = tuple[Outcome, Played | None]
-
-__all__ = ["add"]
 
 
 def add(commands: Commands) -> None:

@@ -10,8 +10,6 @@ from ttr.cli.consent_options import add_allow, consent_of
 from ttr.errors import TTRError
 from ttr.safety.limits import TooMuch
 
-__all__ = ["add"]
-
 
 def add(commands: Commands) -> None:
     """Declares the command."""

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from ttr.dialogues.logs import Log, Replayed
     from ttr.dialogues.stories import Setting
 
-__all__ = ["add"]
-
 
 def add(commands: Commands) -> None:
     """Declares the command."""

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from ttr.theories.theory import Theory
     from ttr.types.objects import Object
 
-__all__ = ["add"]
-
 _FORMATS = ("text", "box", "latex", "html")
 
 

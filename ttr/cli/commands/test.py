@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from ttr.testing.strategies.discourse_roles import Roles
     from ttr.updates import Game
 
-__all__ = ["add"]
-
 EXAMPLES = 1000
 PROCESSED = 20
 """How many dialogues are played once more, in processes of their own."""

@@ -10,11 +10,10 @@ from ttr.cli.session.repl import COMMANDS
 from ttr.cli.session.replies import ASKED
 from ttr.cli.session.sessions import Session
 from ttr.notation.syntax_errors import KEYWORDS
+from ttr.types.objects import Record
 from ttr.types.paths import subterms
 from ttr.types.printing import RESERVED
-from ttr.types.syntax import Record, RecordType
-
-__all__ = ["completions"]
+from ttr.types.syntax import RecordType
 
 
 def completions(session: Session, before: str) -> list[str]:

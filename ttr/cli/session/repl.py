@@ -22,8 +22,6 @@ from ttr.safety.budgets import within_budget
 from ttr.theories.theory import Theory
 from ttr.types.syntax import Pred
 
-__all__ = ["COMMANDS", "Pending", "is_complete", "respond"]
-
 
 def respond(session: Session, text: str) -> Reply:
     """The reply to an input, and the session after it.

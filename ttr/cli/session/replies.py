@@ -22,12 +22,11 @@ from ttr.theories.check_statements import CheckReader
 from ttr.theories.checking import asked
 from ttr.theories.game_statements import opened
 from ttr.theories.queries import Check, IsBelow, IsOf
+from ttr.types.objects import Object
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, TypeNode, as_type
+from ttr.types.syntax import TypeNode, as_type
 from ttr.updates.rule_application import apply_rule
 from ttr.updates.rule_notation import declaration
-
-__all__ = ["ASKED", "Reply", "answer", "list_changes", "evaluate_term"]
 
 _MERGES = {"merge": merge, "amerge": amerge}
 

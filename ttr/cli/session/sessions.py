@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from ttr.computing.subtyping import Answer
-from ttr.errors import NotationError, TTRError, UnsupportedError
+from ttr.errors import MistakesError, NotationError, TTRError, UnsupportedError
 from ttr.escapes import json_text
 from ttr.judging.judgements import Judgement, Why
 from ttr.judging.models import Model
@@ -28,31 +28,15 @@ from ttr.safety.consent import OWN_FOLDER, Consent, check_called
 from ttr.safety.files import write_whole
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import THEORY
+from ttr.signature.signature import Expected, Given
 from ttr.theories.drafts import Draft
 from ttr.theories.statements import StatementReader, names_mentioned
 from ttr.theories.strategy_statements import kinds_gathered
-from ttr.theories.theory import (
-    Expected,
-    Given,
-    MistakesError,
-    Theory,
-    theory_of_draft,
-    theory_of_file,
-    theory_of_text,
-)
+from ttr.theories.theory import Theory, theory_of_draft, theory_of_file, theory_of_text
+from ttr.types.objects import Object
 from ttr.types.paths import subterms
 from ttr.types.printing import notation
-from ttr.types.syntax import Basic, Object, PType, TypeNode
-
-__all__ = [
-    "LastAnswer",
-    "Entry",
-    "Session",
-    "create_witness",
-    "declare",
-    "load_file",
-    "save_file",
-]
+from ttr.types.syntax import Basic, PType, TypeNode
 
 INPUT = "<input>"
 """The source that is named where a mistake in a typed line is shown."""

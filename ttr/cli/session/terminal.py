@@ -17,8 +17,6 @@ from ttr.safety.inputs import read_line
 from ttr.safety.limits import LINE
 from ttr.safety.unforeseen_errors import state_folder
 
-__all__ = ["talk"]
-
 Say: TypeAlias = Callable[[str], None]
 Ask: TypeAlias = Callable[[str], str]
 

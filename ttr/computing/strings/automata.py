@@ -17,7 +17,6 @@ from typing import NamedTuple, TypeAlias
 from ttr.computing.strings.automaton_steps import (
     Automaton,
     Edge,
-    Edges,
     intersect,
     too_many_states,
     trim,
@@ -32,8 +31,6 @@ from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend
 from ttr.types.forms import star
 from ttr.types.syntax import Join, Meet, Negation, Plus, Str, TypeNode
-
-__all__ = ["Automaton", "Edge", "Edges", "automaton", "automaton_above"]
 
 
 def automaton(T: TypeNode) -> Automaton:

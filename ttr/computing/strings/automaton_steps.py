@@ -10,8 +10,6 @@ from typing import NamedTuple, TypeAlias
 from ttr.errors import UnsupportedError
 from ttr.types.syntax import TypeNode, join, meet
 
-__all__ = ["Automaton", "Edge", "Edges", "intersect", "too_many_states", "trim"]
-
 EDGES = 4096
 """How many edges the automaton of a meet may have."""
 

@@ -12,14 +12,6 @@ from typing import TypeAlias
 
 from ttr.probability import CERTAIN, REFUTED, Degree
 
-__all__ = [
-    "NOWHERE",
-    "Beliefs",
-    "States",
-    "frechet_conjunction",
-    "independent_conjunction",
-]
-
 SETS = 32
 """How many sets of states are distinguished."""
 

@@ -14,11 +14,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from ttr.computing.strings.automata import Automaton, Edges
+from ttr.computing.strings.automaton_steps import Automaton, Edges
 from ttr.safety.budgets import spend
 from ttr.types.syntax import TypeNode, meet
-
-__all__ = ["Inclusion", "check_inclusion"]
 
 PAIRS = 1024
 """How many pairs of a state and a set of states are followed at most."""

@@ -12,12 +12,11 @@ from math import prod
 
 from ttr.computing.normal_forms import push_negations_inwards
 from ttr.safety.budgets import spend
+from ttr.types.objects import EventString, Object
 from ttr.types.syntax import (
-    EventString,
     Join,
     Meet,
     Negation,
-    Object,
     Plus,
     Singleton,
     Str,
@@ -25,15 +24,6 @@ from ttr.types.syntax import (
     join,
     meet,
 )
-
-__all__ = [
-    "alternatives",
-    "events_of",
-    "is_of_strings",
-    "is_regular",
-    "regular_above",
-    "string_of",
-]
 
 ALTERNATIVES = 256
 """How many alternatives a piece may have; with more it is not divided."""

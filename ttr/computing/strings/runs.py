@@ -12,18 +12,10 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any, NamedTuple, TypeAlias
 
-from ttr.computing.strings.automata import Automaton, Edge, Edges, automaton_above
+from ttr.computing.strings.automata import automaton_above
+from ttr.computing.strings.automaton_steps import Automaton, Edge, Edges
 from ttr.errors import UnsupportedError
 from ttr.types.syntax import TypeNode, join
-
-__all__ = [
-    "Division",
-    "Piece",
-    "Stop",
-    "find_division",
-    "find_divisions",
-    "accepts",
-]
 
 WAYS = 64
 """How many ways to divide a string are listed."""

@@ -14,17 +14,6 @@ from typing import Any
 from ttr.errors import TTRError
 from ttr.escapes import json_text
 
-__all__ = [
-    "FORMAT",
-    "VERSION",
-    "Entry",
-    "Fault",
-    "Header",
-    "LogError",
-    "read_entry",
-    "read_header",
-]
-
 FORMAT, VERSION = "ttr", 1
 
 

@@ -7,12 +7,10 @@ from dataclasses import dataclass, replace
 
 from immutables import Map
 
-from ttr.judging.assignments import Atom
 from ttr.judging.models import Model
+from ttr.judging.stated_dependence import Atom
 from ttr.probability import Degree
-from ttr.types.syntax import Object
-
-__all__ = ["Fact", "new_facts", "differs_by_facts_only", "restore_facts"]
+from ttr.types.objects import Object
 
 _NONE: Map[Atom, Degree] = Map()
 

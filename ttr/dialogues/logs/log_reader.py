@@ -21,8 +21,6 @@ from ttr.safety.files import why_unread
 from ttr.safety.inputs import parse_json, read_bytes
 from ttr.safety.limits import LINE, LOG
 
-__all__ = ["Log", "UnreadableLogError", "read_logs"]
-
 
 class UnreadableLogError(LogError):
     """A log that cannot be read at all: it is missing, or may not be opened."""

@@ -18,11 +18,9 @@ from ttr.dialogues.settings import Setting
 from ttr.errors import TTRError
 from ttr.judging.models import Model
 from ttr.safety.files import why_unwritten
+from ttr.types.objects import Object
 from ttr.types.printing import notation
-from ttr.types.syntax import Object
 from ttr.updates import NBest, Run, Step, Turn
-
-__all__ = ["LogFile", "write_log"]
 
 
 @dataclass(frozen=True)

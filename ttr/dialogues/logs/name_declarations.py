@@ -9,11 +9,10 @@ from ttr.errors import TTRError
 from ttr.notation.reader import read_term
 from ttr.safety.consent import Consent
 from ttr.theories.theory import Theory, theory_of_text
+from ttr.types.objects import Object
 from ttr.types.paths import subterms
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, Pred
-
-__all__ = ["Declarations"]
+from ttr.types.syntax import Pred
 
 
 @dataclass(frozen=True)

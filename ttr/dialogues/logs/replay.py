@@ -17,12 +17,11 @@ from ttr.dialogues.settings import Setting
 from ttr.dialogues.stories.story_writer import format_story, turn_lines
 from ttr.errors import TTRError
 from ttr.probability import Degree
+from ttr.types.objects import Object, Record
 from ttr.types.printing import notation
 from ttr.types.records import differences
-from ttr.types.syntax import Basic, Object, PType, Record
+from ttr.types.syntax import Basic, PType
 from ttr.updates import Run, Step, Turn, nbest
-
-__all__ = ["Divergence", "Replayed", "continue_log", "replay", "run_after", "story_of"]
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,6 @@ from ttr.dialogues.stories.mismatches import Mismatch
 from ttr.errors import TTRError
 from ttr.escapes import terminal_text
 
-__all__ = ["Outcome", "facts", "junit", "summary"]
-
 
 @dataclass(frozen=True)
 class Outcome:

@@ -10,16 +10,9 @@ from typing import NamedTuple
 from ttr.dialogues.settings import Setting, StoryError
 from ttr.dialogues.stories.story_reader import Line
 from ttr.errors import NotationError, TTRError, UpdateError, suggestion
-from ttr.types.syntax import Object, TypeNode
+from ttr.types.objects import Object
+from ttr.types.syntax import TypeNode
 from ttr.updates import NBest, Run, nbest
-
-__all__ = [
-    "Alternative",
-    "alternatives",
-    "event_of_line",
-    "type_of_text",
-    "value_of_text",
-]
 
 _Read = Callable[[Line, str, int], object]
 """Reads a part of a line, which begins at an index of its text, as an event."""

@@ -9,8 +9,6 @@ from difflib import SequenceMatcher
 from ttr.dialogues.stories.story_reader import Line
 from ttr.updates import Step
 
-__all__ = ["SILENCE", "Mismatch"]
-
 SILENCE = "silence"
 
 _EXPECTED, _FOUND = "  expected: ", "     found: "

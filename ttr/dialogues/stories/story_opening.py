@@ -17,9 +17,7 @@ from ttr.dialogues.stories.line_events import value_of_text
 from ttr.dialogues.stories.story_reader import Line, Story
 from ttr.errors import TTRError, suggestion
 from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError
-from ttr.types.syntax import Record
-
-__all__ = ["check_consent", "opening", "setting_of", "turns_of"]
+from ttr.types.objects import Record
 
 
 def setting_of(story: Story, consent: Consent = OWN_FOLDER) -> Setting:

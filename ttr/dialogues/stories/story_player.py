@@ -20,8 +20,6 @@ from ttr.probability import CERTAIN
 from ttr.types.printing import notation
 from ttr.updates import Step
 
-__all__ = ["Played", "failure_reason", "fits", "play"]
-
 Echo = Callable[[str], None]
 
 _Said = tuple[Judgement, str]

@@ -21,8 +21,6 @@ from ttr.safety.files import why_unread
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import STORIES
 
-__all__ = ["Line", "Story", "line_of", "read_stories"]
-
 _MARKS = ("---", "@", "U>", "U~", "S>", "S~", "=")
 
 _OF_THE_FILE = "game"

@@ -7,10 +7,8 @@ from collections.abc import Iterable
 from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.dialogues.settings import Setting
 from ttr.dialogues.stories.story_reader import line_of
+from ttr.types.objects import Record
 from ttr.types.printing import notation
-from ttr.types.syntax import Record
-
-__all__ = ["format_story", "story_text", "turn_lines"]
 
 
 def story_text(dialogue: Dialogue) -> str:

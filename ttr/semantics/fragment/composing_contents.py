@@ -22,19 +22,8 @@ from ttr.semantics.fragment.lexicon import Lexicon
 from ttr.semantics.fragment.sentence_parsing import OutsideFragmentError, Phrase
 from ttr.semantics.parametric_content import content, strong, weak
 from ttr.semantics.quantifiers import Determiner, absent, every, exist
-from ttr.types.objects import FiniteSet
-from ttr.types.syntax import (
-    BOUND,
-    Function,
-    Ind,
-    PType,
-    Singleton,
-    TypeNode,
-    as_type,
-    join,
-)
-
-__all__ = ["Antecedent", "compose_content"]
+from ttr.types.objects import BOUND, FiniteSet
+from ttr.types.syntax import Function, Ind, PType, Singleton, TypeNode, as_type, join
 
 _NounPhrase: TypeAlias = Callable[[Property], TypeNode]
 """The meaning of a noun phrase: a function from properties to types."""

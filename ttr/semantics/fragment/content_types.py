@@ -7,27 +7,9 @@ from itertools import count
 from typing import TypeAlias
 
 from ttr.building.constructors import rectype
+from ttr.types.objects import BOUND, Object, Path
 from ttr.types.paths import map_parts
-from ttr.types.syntax import (
-    BOUND,
-    Function,
-    Ind,
-    Object,
-    Path,
-    RecordType,
-    Singleton,
-    TypeNode,
-)
-
-__all__ = [
-    "Property",
-    "Variables",
-    "abstract_over",
-    "all_of",
-    "conjuncts",
-    "equality",
-    "replace_name",
-]
+from ttr.types.syntax import Function, Ind, RecordType, Singleton, TypeNode
 
 Property: TypeAlias = Callable[[str], TypeNode]
 """A function from the name of a thing to what is said of it."""

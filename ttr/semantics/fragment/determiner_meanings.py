@@ -20,8 +20,6 @@ from ttr.semantics.quantifiers import (
 )
 from ttr.types.syntax import Function, TypeNode
 
-__all__ = ["apply_determiner"]
-
 _PLAIN: dict[str, Determiner] = {
     one.name: one for one in (every, not_every, exist, no, most, many, few, several)
 }

@@ -15,36 +15,10 @@ from ttr.semantics.fragment.content_types import abstract_over
 from ttr.semantics.quantifiers import Thresholds, absent, determiner_of, number
 from ttr.semantics.quantifiers.determiners import properties, threshold_of
 from ttr.semantics.quantifiers.thresholds import Threshold
+from ttr.types.objects import BOUND, Object
 from ttr.types.paths import free_paths
 from ttr.types.substitution import resolve_paths
-from ttr.types.syntax import (
-    BOUND,
-    Function,
-    Join,
-    Object,
-    PType,
-    RecordType,
-    Singleton,
-    TypeNode,
-)
-
-__all__ = [
-    "AT_ALL",
-    "AllOrNone",
-    "Count",
-    "Formula",
-    "Is",
-    "Leaf",
-    "Negated",
-    "Conjunction",
-    "OpaqueProperty",
-    "Disjunction",
-    "OpaqueSentence",
-    "apply_property",
-    "content_formula",
-    "leaves",
-    "property_formula",
-]
+from ttr.types.syntax import Function, Join, PType, RecordType, Singleton, TypeNode
 
 _VARIABLE = "·thing"
 """The name of the thing that a property is said of while it is analysed."""

@@ -23,15 +23,6 @@ from ttr.semantics.fragment.lexicon import Lexicon
 from ttr.semantics.fragment.sentence_parsing import OutsideFragmentError
 from ttr.semantics.quantifiers import Thresholds
 
-__all__ = [
-    "AnsweredProblem",
-    "Outcome",
-    "Problem",
-    "UnreadableError",
-    "answer_problems",
-    "problems",
-]
-
 _LAST = 80
 """The last problem of section 1."""
 

@@ -23,8 +23,6 @@ from ttr.semantics.fragment.sentences import Sentence, understand
 from ttr.semantics.fragment.venn_regions import World, WorldFinder
 from ttr.semantics.quantifiers.thresholds import Thresholds, thresholds_of
 
-__all__ = ["Inference", "Verdict", "follows"]
-
 Verdict: TypeAlias = Literal["yes", "no", "unknown"]
 
 

@@ -13,8 +13,6 @@ from typing import TypeAlias
 
 from ttr.probability.linear_programs import InfeasibleError, feasible_point
 
-__all__ = ["Demand", "UndecidedError", "integer_solution"]
-
 Demand: TypeAlias = tuple[Sequence[int], int]
 """The weights w, and the bound b."""
 

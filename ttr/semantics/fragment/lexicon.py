@@ -13,8 +13,6 @@ from ttr.errors import TTRError, suggestion
 from ttr.theories.theory import Theory, load
 from ttr.types.syntax import Ind, Pred, Type, TypeNode
 
-__all__ = ["LexicalEntry", "Lexicon", "english", "lexicon", "lexicon_of"]
-
 _UNARY: tuple[TypeNode, ...] = (Ind,)
 _BINARY: tuple[TypeNode, ...] = (Ind, Ind)
 _OF_PROPERTY: tuple[TypeNode, ...] = (Ind, Ind >> Type)

@@ -15,8 +15,6 @@ from ttr.semantics.fragment.lexicon import Lexicon
 if TYPE_CHECKING:
     from lark import Lark, Token, Tree
 
-__all__ = ["OutsideFragmentError", "Phrase", "parse_sentence"]
-
 _LONGEST = 300
 """The most characters that a sentence may have."""
 

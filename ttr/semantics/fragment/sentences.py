@@ -24,8 +24,6 @@ from ttr.semantics.quantifiers import (
 from ttr.types.objects import FiniteSet, Object, Record
 from ttr.types.syntax import PType, TypeNode
 
-__all__ = ["Sentence", "pronoun_antecedents", "understand"]
-
 
 @dataclass(frozen=True)
 class Sentence:

@@ -40,8 +40,6 @@ from ttr.semantics.fragment.lexicon import Lexicon
 from ttr.semantics.quantifiers import Thresholds, number
 from ttr.types.syntax import Function, Pred, PType
 
-__all__ = ["World", "WorldFinder"]
-
 _PROPERTIES = 14
 """The most simple properties that may divide the world."""
 

@@ -12,20 +12,17 @@ from collections.abc import Iterable
 from ttr.building.constructors import rectype
 from ttr.building.merging import merge
 from ttr.judging.models import Model
+from ttr.types.objects import Record, outer, record, this
 from ttr.types.records import replace
 from ttr.types.syntax import (
     Ind,
     ListOf,
     Pred,
     Rec,
-    Record,
     RecordType,
     RecType,
     TypeNode,
     Universe,
-    outer,
-    record,
-    this,
 )
 from ttr.updates import Algorithm, Game, all_, first, rule
 

@@ -28,22 +28,18 @@ from ttr.semantics.questions import (
     whether,
     with_questions,
 )
-from ttr.types.objects import fst
+from ttr.types.objects import Object, Record, fst, outer, record
 from ttr.types.records import replace
 from ttr.types.syntax import (
     Basic,
     Ind,
     ListOf,
     NonEmpty,
-    Object,
     Pred,
     PType,
-    Record,
     RecordType,
     Type,
     TypeNode,
-    outer,
-    record,
 )
 from ttr.updates import Algorithm, Game, all_, first, repeat, rule
 

@@ -24,18 +24,11 @@ from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import within_budget
 from ttr.semantics.learning.smoothing import NO_SMOOTHING, Smoothing, as_smoothing
 from ttr.signature.signature import Signature, signature_of
+from ttr.types.interning import identity
+from ttr.types.objects import Object, Record
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
-from ttr.types.syntax import (
-    Negation,
-    Object,
-    Record,
-    TypeNode,
-    as_type,
-    identity,
-)
-
-__all__ = ["NO_THEORY", "Counts", "Weight"]
+from ttr.types.syntax import Negation, TypeNode, as_type
 
 NO_THEORY = Signature(definitions=Map())
 """The theory without axioms: types are below one another by their form alone."""

@@ -11,8 +11,6 @@ from immutables import Map
 from ttr.errors import TTRError
 from ttr.semantics.learning.features import Features
 
-__all__ = ["NO_EVIDENCE", "Evidence", "Key", "KeyTaken", "NoSuchKey"]
-
 Key: TypeAlias = int | str
 """The name of an observation, by which it can be taken back."""
 

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from ttr.semantics.learning.evidence import Evidence, Key
     from ttr.signature.signature import Signature
 
-__all__ = ["EvidenceBased"]
-
 
 class _WithEvidence(Protocol):
     """A frozen dataclass with these fields."""

@@ -13,8 +13,6 @@ from ttr.signature.signature import Signature
 from ttr.types.paths import free_paths
 from ttr.types.syntax import Meet, RecordType, TypeNode, as_type, kind_of
 
-__all__ = ["Features", "feature_types", "features_of", "features_below", "types_of"]
-
 Features = tuple[bool, ...]
 """For each feature type: is the type of the situation below it?"""
 

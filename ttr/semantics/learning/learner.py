@@ -10,8 +10,6 @@ from ttr.errors import TTRError
 from ttr.semantics.learning.evidence import Key, KeyTaken
 from ttr.types.syntax import TypeNode, kind_of
 
-__all__ = ["TypeClassifier", "Learner"]
-
 
 @runtime_checkable
 class TypeClassifier(Protocol):

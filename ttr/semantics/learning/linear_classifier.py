@@ -21,8 +21,6 @@ from ttr.semantics.learning.logistic_regression import Example, fit_weights, log
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.syntax import TypeNode
 
-__all__ = ["LogOdds"]
-
 _WIDEST = 1e6
 """The largest variance: a flatter prior may not make weights unique in floats."""
 

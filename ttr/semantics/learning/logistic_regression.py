@@ -10,8 +10,6 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-__all__ = ["Example", "fit_weights", "logistic"]
-
 _STEPS = 100
 """The most steps that are made; about ten are enough as a rule."""
 

@@ -27,8 +27,6 @@ from ttr.semantics.learning.smoothing import NO_SMOOTHING, Smoothing, as_smoothi
 from ttr.signature.signature import Signature, signature_of
 from ttr.types.syntax import TypeNode, kind_of
 
-__all__ = ["NaiveBayes", "posterior"]
-
 
 @within_budget
 def posterior(

@@ -8,15 +8,6 @@ from fractions import Fraction
 from ttr.errors import TTRError
 from ttr.semantics.argument_checks import in_one_line
 
-__all__ = [
-    "JEFFREYS",
-    "LAPLACE",
-    "NO_SMOOTHING",
-    "Smoothing",
-    "as_smoothing",
-    "lidstone",
-]
-
 
 @dataclass(frozen=True)
 class Smoothing:

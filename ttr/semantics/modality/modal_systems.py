@@ -18,20 +18,9 @@ from ttr.safety.budgets import within_budget
 from ttr.semantics.argument_checks import in_notation
 from ttr.semantics.modality.necessity import modal_claims, nec
 from ttr.semantics.modality.notions import Notion, everywhere, where_they_exist
-from ttr.types.objects import combine_labels
+from ttr.types.objects import Object, combine_labels, freeze
 from ttr.types.paths import subterms
-from ttr.types.syntax import (
-    Basic,
-    Object,
-    Pred,
-    PType,
-    TypeNode,
-    as_type,
-    freeze,
-    kind_of,
-)
-
-__all__ = ["ModalSystem", "modal_system"]
+from ttr.types.syntax import Basic, Pred, PType, TypeNode, as_type, kind_of
 
 _Head = Basic | Pred
 """What a possibility may lack: a basic type, or a predicate and so its ptypes."""

@@ -13,34 +13,21 @@ from dataclasses import dataclass
 from ttr.judging.judgements import Judgement
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.safety.budgets import spend
-from ttr.types.objects import Unresolved
+from ttr.types.objects import Object, Record, Unresolved
 from ttr.types.paths import subterms
 from ttr.types.substitution import Around, resolve_paths
 from ttr.types.syntax import (
     Join,
     Meet,
     Negation,
-    Object,
     Pred,
     PType,
-    Record,
     RecordType,
     Singleton,
     Type,
     TypeNode,
     as_type,
 )
-
-__all__ = [
-    "ModalAnswer",
-    "modal_claims",
-    "is_modal",
-    "mentions_modal",
-    "nec",
-    "necessarily",
-    "poss",
-    "possibly",
-]
 
 nec, poss = Pred("nec", Type), Pred("poss", Type)
 

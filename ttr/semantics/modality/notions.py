@@ -27,25 +27,13 @@ from ttr.semantics.modality.necessity import (
     poss,
 )
 from ttr.signature.axioms import subtypes
+from ttr.types.objects import Object, Record, freeze
 from ttr.types.paths import subterms
 from ttr.types.printing import notation
-from ttr.types.syntax import (
-    Basic,
-    Join,
-    Meet,
-    Object,
-    PType,
-    Record,
-    RecordType,
-    TypeNode,
-    as_type,
-    freeze,
-)
+from ttr.types.syntax import Basic, Join, Meet, PType, RecordType, TypeNode, as_type
 
 if TYPE_CHECKING:
     from ttr.semantics.modality.modal_systems import ModalSystem
-
-__all__ = ["Notion", "everywhere", "where_they_exist"]
 
 _Scope: TypeAlias = (
     "Callable[[ModalSystem, tuple[Object, ...]], tuple[str, ...] | ModalAnswer]"

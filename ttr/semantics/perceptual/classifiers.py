@@ -12,12 +12,9 @@ from typing import Protocol
 
 from ttr.errors import TTRError
 from ttr.semantics.argument_checks import in_notation
-from ttr.types.objects import Unresolved
+from ttr.types.objects import Object, Record, Unresolved
 from ttr.types.printing import notation
 from ttr.types.substitution import follow_path
-from ttr.types.syntax import Object, Record
-
-__all__ = ["Classifier", "Method"]
 
 
 class Method(Protocol):

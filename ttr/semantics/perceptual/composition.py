@@ -10,9 +10,8 @@ from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model
 from ttr.semantics.argument_checks import as_tuple
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
-from ttr.types.syntax import Record, TypeNode
-
-__all__ = ["combined_type", "in_model", "perceive"]
+from ttr.types.objects import Record
+from ttr.types.syntax import TypeNode
 
 
 def combined_type(*meanings: Meaning) -> TypeNode:

@@ -11,8 +11,6 @@ from ttr.semantics.argument_checks import as_tuple, in_notation
 from ttr.semantics.perceptual.vectors import Vector, vector
 from ttr.types.printing import notation
 
-__all__ = ["Incremental", "Refitted", "as_learner"]
-
 
 def as_learner(
     estimator: Any, classes: Iterable[object] = ()

@@ -24,16 +24,8 @@ from ttr.semantics.perceptual.vectors import (
     finite_number,
     vector,
 )
-from ttr.types.syntax import Object, Record, RecordType, record
-
-__all__ = [
-    "Frame",
-    "Projective",
-    "absolute",
-    "coordinates",
-    "intrinsic",
-    "relative",
-]
+from ttr.types.objects import Object, Record, record
+from ttr.types.syntax import RecordType
 
 Frame: RecordType = rectype(
     origin=RealVector, axes=rectype(right=RealVector, front=RealVector)

@@ -7,10 +7,9 @@ from ttr.building.formation import check_record_type
 from ttr.errors import IllFormedError
 from ttr.semantics.argument_checks import in_notation
 from ttr.types.forms import order_fields
+from ttr.types.objects import BOUND, Path
 from ttr.types.paths import replace_paths
-from ttr.types.syntax import BOUND, Function, Path, PType, RecordType, kind_of
-
-__all__ = ["claim_of", "interpretation"]
+from ttr.types.syntax import Function, PType, RecordType, kind_of
 
 
 def claim_of(interp: object) -> tuple[str, PType]:

@@ -15,10 +15,8 @@ from typing import Any, Protocol
 
 from ttr.errors import TTRError, UnsupportedError
 from ttr.semantics.argument_checks import as_tuple, in_notation, in_one_line
+from ttr.types.objects import Object, Record, freeze, record
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, Record, freeze, record
-
-__all__ = ["ByLearner", "Handle", "Learner", "learner_params"]
 
 _SLACK = 1e-6
 """How far degrees may lie outside [0, 1] by rounding."""

@@ -6,10 +6,9 @@ from ttr.errors import TTRError
 from ttr.semantics.argument_checks import in_notation
 from ttr.semantics.perceptual.classifiers import Classifier
 from ttr.semantics.perceptual.interpretations import claim_of
+from ttr.types.objects import Record
 from ttr.types.printing import notation
-from ttr.types.syntax import Basic, Function, PType, Record, RecordType
-
-__all__ = ["check_record"]
+from ttr.types.syntax import Basic, Function, PType, RecordType
 
 _FIELDS: dict[str, tuple[type, str]] = {
     "params": (Record, "a record"),

@@ -22,26 +22,12 @@ from ttr.semantics.perceptual.classifiers import Classifier, Method
 from ttr.semantics.perceptual.interpretations import claim_of
 from ttr.semantics.perceptual.meaning_form import check_record
 from ttr.semantics.perceptual.vectors import RealVector, is_vector
-from ttr.types.objects import Unresolved
+from ttr.types.interning import identity
+from ttr.types.objects import BOUND, Object, Path, Record, Unresolved, record
 from ttr.types.paths import subterms
 from ttr.types.printing import notation
 from ttr.types.substitution import resolve_paths
-from ttr.types.syntax import (
-    BOUND,
-    Function,
-    Negation,
-    Object,
-    Path,
-    Pred,
-    PType,
-    Record,
-    RecordType,
-    TypeNode,
-    identity,
-    record,
-)
-
-__all__ = ["Meaning", "as_meaning", "meaning"]
+from ttr.types.syntax import Function, Negation, Pred, PType, RecordType, TypeNode
 
 
 def meaning(

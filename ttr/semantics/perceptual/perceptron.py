@@ -16,9 +16,7 @@ from ttr.errors import TTRError
 from ttr.semantics.argument_checks import in_notation, in_one_line
 from ttr.semantics.learning.logistic_regression import logistic
 from ttr.semantics.perceptual.vectors import Vector, dot, finite_number, vector
-from ttr.types.syntax import Object, Record, record
-
-__all__ = ["GradedPerceptron", "Perceptron", "blank"]
+from ttr.types.objects import Object, Record, record
 
 _LONGEST = 1_000_000
 """The most numbers that a percept may have."""

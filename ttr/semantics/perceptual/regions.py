@@ -19,32 +19,9 @@ from ttr.judging.models import Model, as_model
 from ttr.semantics.argument_checks import as_tuple
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
 from ttr.semantics.perceptual.vectors import Vector, finite_number, vector
+from ttr.types.objects import BOUND, Path, Record, outer, record, this
 from ttr.types.substitution import resolve_paths
-from ttr.types.syntax import (
-    BOUND,
-    Basic,
-    Function,
-    Ind,
-    Path,
-    PType,
-    Record,
-    RecordType,
-    Type,
-    outer,
-    record,
-    this,
-)
-
-__all__ = [
-    "INDIVIDUATE",
-    "Individual",
-    "PointMap",
-    "Points",
-    "Region",
-    "clusters",
-    "detections",
-    "individuate",
-]
+from ttr.types.syntax import Basic, Function, Ind, PType, RecordType, Type
 
 Points = Basic("PointMap")
 """The type of point maps."""

@@ -10,10 +10,8 @@ from ttr.probability import Degree
 from ttr.semantics.argument_checks import as_tuple
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
 from ttr.semantics.perceptual.speakers import Speaker, as_speaker
+from ttr.types.objects import Record
 from ttr.types.records import differences
-from ttr.types.syntax import Record
-
-__all__ = ["Agreement", "Convergence", "agreement", "convergence", "difference"]
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,7 @@ from ttr.probability import Degree
 from ttr.semantics.argument_checks import as_tuple, in_notation
 from ttr.semantics.perceptual.learners import Handle
 from ttr.semantics.perceptual.meanings import Meaning, as_meaning
-from ttr.types.syntax import Record
-
-__all__ = ["Speaker", "as_speaker", "exchange", "history", "says"]
+from ttr.types.objects import Record
 
 
 def says(meaning: Meaning, r: Record) -> bool:

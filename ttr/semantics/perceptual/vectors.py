@@ -8,9 +8,8 @@ from operator import mul
 
 from ttr.errors import TTRError
 from ttr.semantics.argument_checks import in_notation
-from ttr.types.syntax import Basic, Object
-
-__all__ = ["RealVector", "Vector", "dot", "is_vector", "finite_number", "vector"]
+from ttr.types.objects import Object
+from ttr.types.syntax import Basic
 
 RealVector = Basic("RealVector")
 """The type of lists of numbers, and of arrays with one axis."""

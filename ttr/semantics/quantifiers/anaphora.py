@@ -8,8 +8,6 @@ from ttr.semantics.quantifiers.extension_pairs import Case
 from ttr.semantics.quantifiers.quantified_propositions import Quantification
 from ttr.types.objects import FiniteSet
 
-__all__ = ["Antecedents", "antecedents"]
-
 
 @dataclass(frozen=True)
 class Antecedents:

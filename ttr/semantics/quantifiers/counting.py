@@ -15,8 +15,6 @@ from dataclasses import dataclass
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.semantics.quantifiers.thresholds import Threshold
 
-__all__ = ["EXACT", "Chances", "chance_of", "independent_chances"]
-
 EXACT = 500
 """The number of uncertain things that are counted exactly."""
 

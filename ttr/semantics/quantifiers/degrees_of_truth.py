@@ -11,27 +11,9 @@ from ttr.judging.assignments import head
 from ttr.judging.judgements import Why
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
-from ttr.types.objects import Missing
-from ttr.types.syntax import (
-    Basic,
-    Object,
-    PType,
-    Record,
-    RecordType,
-    TypeNode,
-    identity,
-)
-
-__all__ = [
-    "SHOWN",
-    "Atoms",
-    "Truth",
-    "all_true",
-    "conjoin_fields",
-    "one_true",
-    "own_atoms",
-    "truth_of_derivation",
-]
+from ttr.types.interning import identity
+from ttr.types.objects import Missing, Object, Record
+from ttr.types.syntax import Basic, PType, RecordType, TypeNode
 
 Atoms: TypeAlias = frozenset[Hashable]
 """The uncertain judgements that something rests on, or what stands for several."""

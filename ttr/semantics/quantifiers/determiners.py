@@ -14,40 +14,8 @@ from typing import TypeGuard
 from ttr.building.constructors import fun, rectype
 from ttr.errors import IllFormedError
 from ttr.semantics.quantifiers.thresholds import Threshold, Thresholds, number, share
-from ttr.types.syntax import (
-    Basic,
-    Function,
-    Ind,
-    Object,
-    Pred,
-    PType,
-    Type,
-    TypeNode,
-    kind_of,
-    this,
-)
-
-__all__ = [
-    "DETERMINERS",
-    "Determiner",
-    "as_property",
-    "as_quantified",
-    "at_least",
-    "at_most",
-    "threshold_of",
-    "determiner_of",
-    "every",
-    "exactly",
-    "exist",
-    "exist_pl",
-    "few",
-    "many",
-    "most",
-    "no",
-    "not_every",
-    "properties",
-    "several",
-]
+from ttr.types.objects import Object, this
+from ttr.types.syntax import Basic, Function, Ind, Pred, PType, Type, TypeNode, kind_of
 
 Property = Function | TypeNode
 """What can be true of things: a function to types, or a type that they are of."""

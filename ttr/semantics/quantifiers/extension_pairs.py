@@ -14,10 +14,7 @@ from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.semantics.quantifiers.counting import Chances, independent_chances
 from ttr.semantics.quantifiers.degrees_of_truth import Atoms
 from ttr.semantics.quantifiers.extensions import Member
-from ttr.types.objects import Missing
-from ttr.types.syntax import Object
-
-__all__ = ["Case", "Split", "split"]
+from ttr.types.objects import Missing, Object
 
 Members = Mapping[object, Member]
 

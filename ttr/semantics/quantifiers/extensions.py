@@ -17,18 +17,10 @@ from ttr.semantics.quantifiers.truth import (
     truth_of_instance,
     truth_of_judgement,
 )
+from ttr.types.interning import identity
+from ttr.types.objects import Object, freeze
 from ttr.types.printing import notation
-from ttr.types.syntax import (
-    Basic,
-    Function,
-    Object,
-    TypeNode,
-    freeze,
-    identity,
-    kind_of,
-)
-
-__all__ = ["Extension", "Member", "extension", "in_domain", "member"]
+from ttr.types.syntax import Basic, Function, TypeNode, kind_of
 
 
 @dataclass(frozen=True)

@@ -35,18 +35,9 @@ from ttr.semantics.quantifiers.extensions import (
 )
 from ttr.semantics.quantifiers.thresholds import Threshold, Thresholds, thresholds_of
 from ttr.semantics.quantifiers.truth import truth_of_quantified
-from ttr.types.objects import Missing
+from ttr.types.objects import FiniteSet, Missing, Record
 from ttr.types.printing import notation
-from ttr.types.syntax import (
-    FiniteSet,
-    Function,
-    PType,
-    Record,
-    TypeNode,
-    kind_of,
-)
-
-__all__ = ["Quantification", "UndefinedError", "list_names", "quantify", "settle"]
+from ttr.types.syntax import Function, PType, TypeNode, kind_of
 
 
 class UndefinedError(TTRError):

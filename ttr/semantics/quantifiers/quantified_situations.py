@@ -16,19 +16,10 @@ from ttr.semantics.quantifiers.quantified_propositions import (
     settle,
 )
 from ttr.semantics.quantifiers.thresholds import Thresholds
+from ttr.types.interning import identity
+from ttr.types.objects import FiniteSet, Object, Record, freeze
 from ttr.types.printing import notation
-from ttr.types.syntax import (
-    FiniteSet,
-    Function,
-    Object,
-    Record,
-    TypeNode,
-    as_type,
-    freeze,
-    identity,
-)
-
-__all__ = ["judged"]
+from ttr.types.syntax import Function, TypeNode, as_type
 
 
 @within_budget

@@ -11,15 +11,6 @@ from typing import Literal, TypeAlias
 from ttr.errors import TTRError
 from ttr.types.syntax import kind_of
 
-__all__ = [
-    "Sign",
-    "Threshold",
-    "Thresholds",
-    "number",
-    "share",
-    "thresholds_of",
-]
-
 Sign: TypeAlias = Literal["at least", "more than", "at most", "fewer than"]
 """How a count is compared."""
 

@@ -27,35 +27,23 @@ from ttr.semantics.quantifiers.degrees_of_truth import (
 )
 from ttr.semantics.quantifiers.determiners import determiner_of
 from ttr.semantics.quantifiers.thresholds import Thresholds, thresholds_of
-from ttr.types.objects import Missing, Unresolved
+from ttr.types.objects import BOUND, Missing, Object, Record, Unresolved
 from ttr.types.paths import free_paths, subterms
 from ttr.types.printing import notation
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
-    BOUND,
     Application,
     Basic,
     Function,
     FunType,
     Join,
-    Object,
     Pred,
     PType,
-    Record,
     RecordType,
     Type,
     TypeNode,
     as_type,
 )
-
-__all__ = [
-    "absent",
-    "known_objects",
-    "truth",
-    "truth_of_instance",
-    "truth_of_judgement",
-    "truth_of_quantified",
-]
 
 absent = Pred("absent", Type)
 """Sentence negation: `absent(T)` is true if nothing is of T.

@@ -16,14 +16,21 @@ from ttr.building.constructors import rectype
 from ttr.building.formation import check_binder
 from ttr.errors import TTRError
 from ttr.theories.theory import Theory
-from ttr.types.objects import concat, fst, rst
-from ttr.types.paths import free_paths
-from ttr.types.syntax import (
+from ttr.types.objects import (
     BOUND,
-    Application,
-    Basic,
     EventString,
     FiniteSet,
+    Object,
+    Path,
+    Record,
+    concat,
+    fst,
+    rst,
+)
+from ttr.types.paths import free_paths
+from ttr.types.syntax import (
+    Application,
+    Basic,
     Function,
     FunType,
     Join,
@@ -31,13 +38,10 @@ from ttr.types.syntax import (
     Meet,
     Negation,
     NonEmpty,
-    Object,
-    Path,
     Plus,
     Pred,
     PType,
     Rec,
-    Record,
     RecordType,
     RecType,
     SetOf,
@@ -50,9 +54,6 @@ from ttr.types.syntax import (
     kind_of,
     meet,
 )
-
-__all__ = ["Scopes", "Words", "forms", "objects", "ptypes", "record_types", "types"]
-
 
 # --- the names to draw from ----------------------------------------------------------
 

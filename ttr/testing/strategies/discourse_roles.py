@@ -9,20 +9,17 @@ from typing import TypeAlias
 from ttr.errors import TTRError, suggestion
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model
+from ttr.types.objects import Object, Record
 from ttr.types.syntax import (
     Basic,
     ListOf,
     NonEmpty,
-    Object,
-    Record,
     RecordType,
     SetOf,
     Singleton,
     TypeNode,
     Universe,
 )
-
-__all__ = ["Acts", "Roles", "acts_in", "value_at"]
 
 Test: TypeAlias = Callable[[Object, Object], bool]
 

@@ -10,10 +10,9 @@ from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import TTRError
 from ttr.judging.models import Model
 from ttr.testing.strategies.tutors import Speaker, Tutor, Voice, voice_of
-from ttr.types.syntax import Record, kind_of
+from ttr.types.objects import Record
+from ttr.types.syntax import kind_of
 from ttr.updates.games import Game
-
-__all__ = ["dialogues"]
 
 TURNS = 10
 """How many turns a dialogue has at most by default."""

@@ -11,9 +11,8 @@ from ttr.judging.models import Model
 from ttr.testing.strategies import arbitrary
 from ttr.testing.strategies.arbitrary import Words
 from ttr.theories.theory import Theory
-from ttr.types.syntax import Basic, Object, PType, TypeNode
-
-__all__ = ["facts", "models"]
+from ttr.types.objects import Object
+from ttr.types.syntax import Basic, PType, TypeNode
 
 
 def models(

@@ -15,20 +15,17 @@ from ttr.testing.strategies import arbitrary
 from ttr.testing.strategies.arbitrary import Words
 from ttr.testing.strategies.random_models import facts
 from ttr.theories.theory import Theory
-from ttr.types.objects import Unresolved
+from ttr.types.objects import FiniteSet, Object, Record, Unresolved
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     Basic,
-    FiniteSet,
     FunType,
     Join,
     ListOf,
     Meet,
     NonEmpty,
-    Object,
     Plus,
     PType,
-    Record,
     RecordType,
     SetOf,
     Singleton,
@@ -38,8 +35,6 @@ from ttr.types.syntax import (
     as_type,
     kind_of,
 )
-
-__all__ = ["records", "objects_of_shape", "with_fact"]
 
 
 def records(T: TypeNode, model: Model | None = None) -> st.SearchStrategy[Any]:

@@ -15,23 +15,20 @@ from ttr.computing.subtyping import subtype
 from ttr.errors import IllFormedError, TTRError
 from ttr.judging.models import Model, as_model
 from ttr.testing.strategies.random_records import objects_of_shape, records, with_fact
+from ttr.types.interning import identity
+from ttr.types.objects import Object, Record
 from ttr.types.paths import free_paths
 from ttr.types.syntax import (
     Basic,
     Join,
-    Object,
     PType,
-    Record,
     RecordType,
     Singleton,
     TypeNode,
     as_type,
-    identity,
     kind_of,
 )
 from ttr.updates.games import Game
-
-__all__ = ["events", "states"]
 
 KNOWN = 6
 """How many of the known objects a field of an event may be set to."""

@@ -8,9 +8,8 @@ from ttr.errors import TTRError
 from ttr.testing.strategies import arbitrary
 from ttr.testing.strategies.arbitrary import Words
 from ttr.theories.theory import Theory
-from ttr.types.syntax import Object, RecordType, TypeNode
-
-__all__ = ["objects", "record_types", "types"]
+from ttr.types.objects import Object
+from ttr.types.syntax import RecordType, TypeNode
 
 DEPTH = 3
 """How deep types and objects nest at most by default."""

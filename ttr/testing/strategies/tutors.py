@@ -20,12 +20,11 @@ from ttr.judging.certainty import is_certain
 from ttr.judging.models import Model
 from ttr.testing.strategies.discourse_roles import Acts, acts_in
 from ttr.testing.strategies.random_states import event_of, heard_by
-from ttr.types.syntax import Object, Record, TypeNode
+from ttr.types.objects import Object, Record
+from ttr.types.syntax import TypeNode
 from ttr.updates.games import Game
 from ttr.updates.nbest import NBest, nbest
 from ttr.updates.rules import Rule
-
-__all__ = ["Speaker", "Tutor", "Voice", "voice_of"]
 
 Speaker: TypeAlias = Callable[[st.DrawFn, Record, Model], object]
 """A tutor of one's own: draws what is said next, from the state and the model."""

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, TypeAlias
 from ttr.errors import UpdateError
 from ttr.judging.models import Model, as_model
 from ttr.safety.budgets import within_budget
-from ttr.types.syntax import Record, RecordType, TypeNode, freeze
+from ttr.types.objects import Record, freeze
+from ttr.types.syntax import RecordType, TypeNode
 from ttr.updates.algorithms import Algorithm, check_strategies
 from ttr.updates.checks.bindings import find_circular_fields, find_unlistable_bindings
 from ttr.updates.checks.conflicting_rules import find_conflicts

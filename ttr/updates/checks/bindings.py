@@ -6,14 +6,13 @@ from collections.abc import Iterator
 
 from ttr.computing.cycles import find_cycle
 from ttr.judging.witnesses import can_be_listed
+from ttr.types.objects import Object
 from ttr.types.paths import subterms
-from ttr.types.syntax import Object, RecordType, Singleton
+from ttr.types.syntax import RecordType, Singleton
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.source_positions import span_of_label
 from ttr.updates.rules import Body, Rule
-
-__all__ = ["find_circular_fields", "find_unlistable_bindings"]
 
 
 def find_unlistable_bindings(rules: RuleSet) -> Iterator[Fault]:

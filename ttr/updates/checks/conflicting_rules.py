@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
+from ttr.types.interning import identity
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
-from ttr.types.syntax import identity
 from ttr.updates.algorithms import Algorithm, All, ByClass, Maybe, Repeat
 from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault, Severity
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.rules import Rule
-
-__all__ = ["find_conflicts"]
 
 _Group = tuple[str, Severity, tuple[Rule, ...]]
 """Rules whose order should not matter: their description, severity of a conflict, and

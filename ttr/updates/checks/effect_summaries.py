@@ -9,8 +9,6 @@ from ttr.errors import Span
 from ttr.types.syntax import RecordType, TypeNode
 from ttr.updates.checks.state_layout import Labels, Term
 
-__all__ = ["UNKNOWN_EFFECT", "Access", "Built", "EffectSummary", "Outcome", "Write"]
-
 
 @dataclass(frozen=True)
 class Access:

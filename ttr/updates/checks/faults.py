@@ -8,8 +8,6 @@ from typing import Literal, TypeAlias
 from ttr.errors import Span
 from ttr.updates.rules import Rule
 
-__all__ = ["Fault", "Severity"]
-
 Sort: TypeAlias = Literal[
     "missing",
     "unbound",

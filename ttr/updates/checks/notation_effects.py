@@ -4,21 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ttr.types.objects import Object, Path, Record
 from ttr.types.paths import free_paths, replace_paths
-from ttr.types.syntax import (
-    Object,
-    Path,
-    Record,
-    RecordType,
-    Singleton,
-    TypeNode,
-)
+from ttr.types.syntax import RecordType, Singleton, TypeNode
 from ttr.updates.checks.effect_summaries import Access, EffectSummary, Write
 from ttr.updates.checks.source_positions import span_of_label
 from ttr.updates.checks.state_layout import Labels, Term
 from ttr.updates.rules import Body, Rule
-
-__all__ = ["summarise_notation"]
 
 
 def summarise_notation(rule: Rule, body: Body) -> EffectSummary:

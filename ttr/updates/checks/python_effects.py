@@ -18,7 +18,8 @@ from typing import NamedTuple, TypeAlias
 from ttr.building import constructors
 from ttr.errors import Span, TTRError
 from ttr.types import records
-from ttr.types.syntax import Path, Rec, RecordType, TypeNode, freeze
+from ttr.types.objects import Path, freeze
+from ttr.types.syntax import Rec, RecordType, TypeNode
 from ttr.updates.checks.effect_summaries import (
     Access,
     Built,
@@ -39,8 +40,6 @@ from ttr.updates.checks.python_sources import (
 )
 from ttr.updates.checks.state_layout import Labels, Term, leaf_fields
 from ttr.updates.rules import EXTRAS, Rule
-
-__all__ = ["summarise_python"]
 
 DEPTH = 4
 """How many calls, and names that stand for others, are followed."""

@@ -16,18 +16,6 @@ from typing import TypeAlias
 
 from ttr.errors import Span
 
-__all__ = [
-    "Source",
-    "assigned_names",
-    "guarded_labels",
-    "may_fall_through",
-    "prefixes",
-    "returned_values",
-    "source_of",
-    "tested_expressions",
-    "walk_untried",
-]
-
 _FunctionNode: TypeAlias = ast.FunctionDef | ast.Lambda
 
 

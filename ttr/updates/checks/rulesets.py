@@ -16,15 +16,13 @@ from ttr.errors import TTRError
 from ttr.judging.models import Model
 from ttr.probability import REFUTED
 from ttr.signature.signature import Signature
+from ttr.types.objects import Object, Path, Record
 from ttr.types.paths import free_paths, subterms
 from ttr.types.syntax import (
     Basic,
-    Object,
-    Path,
     Pred,
     PType,
     Rec,
-    Record,
     RecordType,
     Singleton,
     TypeNode,
@@ -46,8 +44,6 @@ from ttr.updates.checks.state_layout import (
     views_along,
 )
 from ttr.updates.rules import Body, Rule
-
-__all__ = ["Demand", "RuleSet"]
 
 Demand: TypeAlias = tuple[Labels, TypeNode]
 """A path of the state, and the type of which a rule asks it to be."""

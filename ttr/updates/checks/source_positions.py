@@ -11,8 +11,6 @@ from ttr.updates.checks.python_sources import Source, source_of
 from ttr.updates.checks.state_layout import Labels
 from ttr.updates.rules import Body, Rule
 
-__all__ = ["span_of_label"]
-
 
 def span_of_label(
     rule: Rule, label: str, path: Labels = (), role: str = ""

@@ -10,26 +10,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from ttr.types.syntax import (
-    Join,
-    Meet,
-    Object,
-    Record,
-    RecordType,
-    Singleton,
-    TypeNode,
-)
-
-__all__ = [
-    "Labels",
-    "Missing",
-    "Term",
-    "View",
-    "Views",
-    "views_along",
-    "descend",
-    "leaf_fields",
-]
+from ttr.types.objects import Object, Record
+from ttr.types.syntax import Join, Meet, RecordType, Singleton, TypeNode
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ttr.errors import Span, suggestion
+from ttr.types.objects import Object, Record
 from ttr.types.paths import free_paths
-from ttr.types.syntax import Meet, Object, Record, RecordType, Singleton
+from ttr.types.syntax import Meet, RecordType, Singleton
 from ttr.updates.algorithms import Algorithm, ByClass, Maybe, Repeat
 from ttr.updates.checks.effect_summaries import Access, Built
 from ttr.updates.checks.faults import Fault
@@ -14,8 +15,6 @@ from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.source_positions import span_of_label
 from ttr.updates.checks.state_layout import Labels, Missing
 from ttr.updates.rules import Body, Rule
-
-__all__ = ["find_misread_paths", "find_missing_paths", "find_unbound_names"]
 
 
 def find_missing_paths(rules: RuleSet) -> Iterator[Fault]:

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from itertools import chain
 
 from ttr.probability import CERTAIN
+from ttr.types.objects import Path
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
-from ttr.types.syntax import Path, Singleton, TypeNode, meet
+from ttr.types.syntax import Singleton, TypeNode, meet
 from ttr.updates.algorithms import (
     Algorithm,
     All,
@@ -27,8 +28,6 @@ from ttr.updates.checks.source_positions import span_of_label
 from ttr.updates.checks.state_layout import Labels, Missing, Term, leaf_fields
 from ttr.updates.checks.wrong_values import declared_type, is_misfit, views_of
 from ttr.updates.rules import Rule
-
-__all__ = ["find_unreachable_rules"]
 
 
 def find_unreachable_rules(rules: RuleSet) -> Iterator[Fault]:

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ttr.types.objects import Path
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
-from ttr.types.syntax import Path, Singleton, TypeNode
+from ttr.types.syntax import Singleton, TypeNode
 from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import Demand, RuleSet
 from ttr.updates.checks.source_positions import span_of_label
 from ttr.updates.checks.state_layout import Labels, Missing, Term, descend, views_along
 from ttr.updates.rules import Rule
-
-__all__ = ["may_set", "find_untaken_events", "find_untriggered_rules"]
 
 
 def find_untriggered_rules(rules: RuleSet) -> Iterator[Fault]:

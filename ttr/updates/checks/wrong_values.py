@@ -9,6 +9,7 @@ from functools import reduce
 from ttr.building.merging import merge
 from ttr.errors import Span
 from ttr.probability import REFUTED
+from ttr.types.objects import Object, Record
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import (
@@ -16,8 +17,6 @@ from ttr.types.syntax import (
     ListOf,
     Meet,
     NonEmpty,
-    Object,
-    Record,
     RecordType,
     SetOf,
     Singleton,
@@ -29,8 +28,6 @@ from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.source_positions import span_of_label
 from ttr.updates.checks.state_layout import Labels, Term, View, leaf_fields
 from ttr.updates.rules import Body, Rule
-
-__all__ = ["find_wrong_values"]
 
 
 def find_wrong_values(rules: RuleSet) -> Iterator[Fault]:

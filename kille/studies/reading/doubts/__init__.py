@@ -14,8 +14,6 @@ from kille.studies.reading.troubles import Trouble, told
 from kille.studies.scenes import opened
 from kille.studies.study import Run, Study
 
-__all__ = ["doubts"]
-
 
 def doubts(study: Study) -> tuple[str, ...]:
     """A line for all that is probably not meant, of a study without mistakes."""

@@ -13,8 +13,6 @@ from kille.studies.reading.words import SPEAKING
 from kille.studies.scenes import Scene
 from kille.studies.study import PERSON, Study
 
-__all__ = ["doubts"]
-
 _ASKING = ("ask", "practise", "find")
 
 

@@ -13,8 +13,6 @@ from kille.studies.scenes.statements import Statements
 from kille.studies.settings import filled
 from kille.studies.study import Named, Study
 
-__all__ = ["doubts"]
-
 
 def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
     """What is probably not meant in the scenes of a study."""

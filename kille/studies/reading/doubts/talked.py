@@ -9,8 +9,6 @@ from kille.studies.scenes.occasions import KINDS
 from kille.studies.study import Phase, Study
 from kille.studies.tutors.simulated import BY
 
-__all__ = ["TEACHING", "is_plain", "kind_of", "kinds_in", "kinds_of"]
-
 TEACHING = ("teach", "practise", "talk")
 """The phases in which words are taught."""
 

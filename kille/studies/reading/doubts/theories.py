@@ -13,8 +13,6 @@ from kille.studies.study import PERSON, Study, Theory
 from kille.studies.theories import strategy_of
 from kille.studies.theories.judging import WORDS
 
-__all__ = ["doubts"]
-
 
 def doubts(study: Study) -> Iterator[Trouble]:
     """What is probably not meant in the theories of a study."""

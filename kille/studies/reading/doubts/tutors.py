@@ -17,8 +17,6 @@ from kille.studies.theories import language_of
 from kille.studies.tutors.words import Words
 from ttr.dialogues.stories import Line, read_stories
 
-__all__ = ["doubts", "lines_of"]
-
 
 def doubts(study: Study, opened: Mapping[str, Scene]) -> Iterator[Trouble]:
     """What is probably not meant in the tutors of a study."""

@@ -27,10 +27,9 @@ from ttr.semantics.questions import (
     relevant,
     resolves,
 )
+from ttr.types.objects import Object, freeze
 from ttr.types.printing import notation
-from ttr.types.syntax import Negation, Object, TypeNode, freeze, kind_of
-
-__all__ = ["Domain", "Lookup", "questions_in", "plan_size"]
+from ttr.types.syntax import Negation, TypeNode, kind_of
 
 Lookup: TypeAlias = Callable[[Object, Sequence[TypeNode], Model], TypeNode | None]
 """The answer to a question, given what is agreed on; None where there is none."""

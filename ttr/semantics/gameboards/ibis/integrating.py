@@ -36,21 +36,10 @@ from ttr.semantics.gameboards.ibis.planning import (
     question_without_answer,
 )
 from ttr.semantics.questions import NO, YES, Question, combine, downdate, pop, push, top
-from ttr.types.objects import fst
+from ttr.types.objects import Object, Record, fst, outer
 from ttr.types.records import replace
-from ttr.types.syntax import (
-    NonEmpty,
-    Object,
-    PType,
-    Record,
-    RecordType,
-    TypeNode,
-    outer,
-)
+from ttr.types.syntax import NonEmpty, PType, RecordType, TypeNode
 from ttr.updates import Algorithm, Rule, all_, first, maybe, repeat, rule, seq
-
-__all__ = ["integration", "own_integration"]
-
 
 _NOTHING: Mapping[str, object] = {}
 

@@ -19,8 +19,6 @@ from ttr.semantics.gameboards.ibis.turn_grounding import GROUNDING, get_own_move
 from ttr.theories.theory import Theory
 from ttr.updates import Algorithm, Game, first, maybe, seq
 
-__all__ = ["algorithm", "game"]
-
 
 def algorithm(domain: Domain) -> Algorithm:
     """The update algorithm for utterances of the system and of the user.

@@ -12,48 +12,8 @@ from collections.abc import Callable, Mapping
 
 from ttr.judging.models import Model
 from ttr.semantics.questions import Question, is_question, with_questions
-from ttr.types.syntax import (
-    Basic,
-    ListOf,
-    Negation,
-    Object,
-    Pred,
-    PType,
-    RecordType,
-)
-
-__all__ = [
-    "SYS",
-    "USR",
-    "Action",
-    "Answer",
-    "Ask",
-    "Content",
-    "Feedback",
-    "Greet",
-    "Move",
-    "Participant",
-    "Program",
-    "Proposition",
-    "Quit",
-    "Unclear",
-    "answer",
-    "ask",
-    "consult",
-    "content_of",
-    "findout",
-    "greet",
-    "icm",
-    "if_then",
-    "no_answer",
-    "prompt",
-    "quit",
-    "raise_",
-    "respond",
-    "say",
-    "unclear",
-    "with_terms",
-]
+from ttr.types.objects import Object
+from ttr.types.syntax import Basic, ListOf, Negation, Pred, PType, RecordType
 
 USR, SYS = "usr", "sys"
 """The two participants."""

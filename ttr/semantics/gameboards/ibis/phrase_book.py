@@ -24,10 +24,9 @@ from ttr.semantics.gameboards.ibis.moves import (
 from ttr.semantics.gameboards.ibis.state import utterance
 from ttr.semantics.questions import asked_of
 from ttr.theories.theory import Theory
+from ttr.types.objects import Object, Record
 from ttr.types.printing import notation
-from ttr.types.syntax import Object, PType, Record, TypeNode
-
-__all__ = ["PhraseBook"]
+from ttr.types.syntax import PType, TypeNode
 
 _SORT = re.compile(r"\{(\w+)\}")
 _MOVES = re.compile(r"\s*(\w+\(.*\)|\[.*\])\s*", re.DOTALL)

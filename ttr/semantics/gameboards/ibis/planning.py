@@ -20,25 +20,10 @@ from ttr.semantics.gameboards.ibis.moves import (
 )
 from ttr.semantics.gameboards.ibis.state import TO_DO
 from ttr.semantics.questions import Question
+from ttr.types.objects import Object, Record
 from ttr.types.records import replace
-from ttr.types.syntax import (
-    ListOf,
-    NonEmpty,
-    Object,
-    PType,
-    Record,
-    RecordType,
-    TypeNode,
-)
+from ttr.types.syntax import ListOf, NonEmpty, PType, RecordType, TypeNode
 from ttr.updates import Algorithm, all_, first, repeat, rule
-
-__all__ = [
-    "load",
-    "planning",
-    "known_answer",
-    "question_without_answer",
-    "no_answer_to",
-]
 
 _WITH_PLAN = rectype(private=rectype(plan=NonEmpty(Action)))
 _WITHOUT_PLAN = rectype(

@@ -26,11 +26,10 @@ from ttr.semantics.gameboards.ibis.moves import (
 from ttr.semantics.gameboards.ibis.planning import known_answer
 from ttr.semantics.gameboards.ibis.state import TO_DO, utterance_type
 from ttr.semantics.questions import Question
+from ttr.types.objects import Record
 from ttr.types.records import replace
-from ttr.types.syntax import ListOf, NonEmpty, Pred, PType, Record
+from ttr.types.syntax import ListOf, NonEmpty, Pred, PType
 from ttr.updates import Algorithm, all_, first, repeat, rule, seq
-
-__all__ = ["Selection", "selection"]
 
 _WITH_PLAN = rectype(
     private=rectype(agenda=ListOf(Action) @ (), plan=NonEmpty(Action)),

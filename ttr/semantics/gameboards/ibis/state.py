@@ -22,18 +22,8 @@ from ttr.semantics.gameboards.ibis.moves import (
     say,
 )
 from ttr.semantics.questions import Question
-from ttr.types.syntax import (
-    ListOf,
-    NonEmpty,
-    Object,
-    PType,
-    Record,
-    RecordType,
-    RecType,
-    record,
-)
-
-__all__ = ["OWN", "STATE", "START", "TO_DO", "USER", "utterance", "utterance_type"]
+from ttr.types.objects import Object, Record, record
+from ttr.types.syntax import ListOf, NonEmpty, PType, RecordType, RecType
 
 STATE: RecordType = rectype(
     private=rectype(

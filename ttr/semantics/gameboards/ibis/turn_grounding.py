@@ -9,11 +9,10 @@ from __future__ import annotations
 from ttr.building.constructors import rectype
 from ttr.semantics.gameboards.ibis.moves import USR, Program, unclear
 from ttr.semantics.gameboards.ibis.state import OWN, USER
+from ttr.types.objects import Record, record
 from ttr.types.records import replace
-from ttr.types.syntax import ListOf, NonEmpty, Record, RecType, record
+from ttr.types.syntax import ListOf, NonEmpty, RecType
 from ttr.updates import Algorithm, first, rule
-
-__all__ = ["GROUNDING", "get_own_moves"]
 
 LIKELY, HARDLY = 0.5, 0.001
 """The probabilities from which an utterance is understood, and from which heard."""
