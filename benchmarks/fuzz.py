@@ -302,7 +302,7 @@ def _log(folder: Path) -> Reader:
 
 def _typed(folder: Path) -> Reader:
     from ttr.cli.session.sessions import Session
-    from ttr.cli.session.terminal import _through_pipe
+    from ttr.cli.session.terminal import _talk_through_pipe
     from ttr.safety.limits import TooMuch
 
     def read(data: bytes) -> None:
@@ -310,7 +310,7 @@ def _typed(folder: Path) -> Reader:
         sys.stdin = io.StringIO(data.decode("utf-8", "replace"))
         sys.stdout = io.StringIO()
         try:
-            _through_pipe(Session(), sys.stdout.write)
+            _talk_through_pipe(Session(), sys.stdout.write)
         finally:
             sys.stdin, sys.stdout = stdin, stdout
 

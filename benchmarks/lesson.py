@@ -41,7 +41,7 @@ import numpy as np
 
 from kille import Agent
 from kille.demo import OBJECTS
-from kille.dialogue.wording import english
+from kille.dialogue.lexicon import lexicon
 from kille.sensors.sensor import SensorError
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -70,11 +70,11 @@ def objects() -> list[Row]:
         for _ in range(ROUNDS):
             for word in OBJECTS:
                 robot.do(f"show {word}")
-                robot.hear(f"This is {english().with_article(word)}.")
+                robot.hear(f"This is {lexicon().with_article(word)}.")
             for word in OBJECTS:
                 robot.do(f"show {word}")
                 said = robot.hear("What is this?")
-                sentences[word] += said == f"This is {english().with_article(word)}."
+                sentences[word] += said == f"This is {lexicon().with_article(word)}."
                 for belief in robot.state.private.beliefs:
                     scores[word][belief.sign.form] += belief.p / ROUNDS
     rows = [_object_row(word, scores[word], sentences[word]) for word in OBJECTS]
@@ -238,7 +238,7 @@ def real() -> list[Row]:
 def _taught_by_outline(robot: Agent) -> Iterator[str]:
     for name in robot.gaze.sensor.frame().outlines:
         robot.do(f"point {name}")
-        robot.hear(f"This is {english().with_article(name)}.")
+        robot.hear(f"This is {lexicon().with_article(name)}.")
         yield name
 
 
@@ -273,7 +273,7 @@ def times() -> list[Row]:
     with Agent("synthetic:empty?seed=7") as robot:
         for word in OBJECTS:
             robot.do(f"show {word}")
-            robot.hear(f"This is {english().with_article(word)}.")
+            robot.hear(f"This is {lexicon().with_article(word)}.")
         robot.do("show cup")
         rows += [
             _timed("hear: Hello.", lambda: robot.hear("Hello."), 15),

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -36,6 +37,33 @@ def imported(*statements: str) -> set[str]:
 
 def test_the_theory_needs_no_numerics() -> None:
     assert imported("import ttr").isdisjoint({"kille", "numpy", "cv2", "sklearn"})
+
+
+SCRIPTS = [*(ROOT / "benchmarks").glob("*.py"), *(ROOT / "tools").rglob("*.py")]
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+def test_what_a_script_imports_is_there(script: Path) -> None:
+    """Nobody runs benchmarks every day, and type checkers do not look into them."""
+    missing = [
+        f"{node.module}.{alias.name}"
+        for node in ast.walk(ast.parse(script.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ImportFrom)
+        if (node.module or "").partition(".")[0] in {"ttr", "kille"}
+        for alias in node.names
+        if not is_importable(str(node.module), alias.name)
+    ]
+    assert not missing
+
+
+def is_importable(module: str, name: str) -> bool:
+    """Is this a name or a module in that module?"""
+    try:
+        return hasattr(import_module(module), name) or bool(
+            import_module(f"{module}.{name}")
+        )
+    except ModuleNotFoundError as error:
+        return not str(error.name).startswith(("ttr", "kille"))
 
 
 @pytest.mark.parametrize("module", ["kille", "kille.memory", "kille.scene"])

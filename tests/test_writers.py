@@ -18,7 +18,7 @@ MODULES = sorted(
 )
 
 WRITERS = {
-    "ttr/cli/commands/output.py": "what the commands of ttr print",
+    "ttr/cli/output.py": "what the commands of ttr print",
     "ttr/cli/parser.py": "the version",
     "ttr/safety/inputs.py": "prompts",
     "ttr/safety/unforeseen_errors.py": "the error that nobody foresaw",

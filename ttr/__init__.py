@@ -48,10 +48,10 @@ if TYPE_CHECKING:
 PROVIDERS = {
     "ttr.types.interning.as_notation": "ttr.types.printing",
     "ttr.types.interning.as_python": "ttr.types.printing",
-    "ttr.types.notebooks.as_html": "ttr.display.render",
-    "ttr.types.notebooks.as_latex": "ttr.display.render",
+    "ttr.types.notebook_display.as_html": "ttr.display.render",
+    "ttr.types.notebook_display.as_latex": "ttr.display.render",
     "ttr.types.objects.as_application": "ttr.types.syntax",
-    "ttr.types.syntax.as_function_type": "ttr.types.forms",
+    "ttr.types.syntax.as_function_type": "ttr.types.derived_types",
     "ttr.types.syntax.is_subtype": "ttr.computing.subtyping",
     "ttr.computing.subtyping.counterexample": "ttr.judging.counterexamples",
     "ttr.judging.evaluator.make_witness": "ttr.judging.creation",
@@ -96,7 +96,9 @@ _HOMES = {
     "ttr.safety.budgets": "budget",
     "ttr.theories.checking": "check",
     "ttr.theories.theory": "Theory load",
-    "ttr.types.objects": "EventString FiniteSet Record concat fst outer record rst this",
+    "ttr.types.objects": (
+        "EventString FiniteSet Record concat fst outer record rst this"
+    ),
     "ttr.types.records": "replace",
     "ttr.types.syntax": (
         "Application Basic Ind ListOf Negation NonEmpty Plus Pred Rec RecType "

@@ -35,8 +35,8 @@ from ttr.errors import IllFormedError
 from ttr.notation.parser import parse_statement
 from ttr.notation.syntax_trees import Source
 from ttr.probability import CERTAIN, Degree
-from ttr.theories.drafts import Draft
 from ttr.theories.statements import StatementReader
+from ttr.theories.theory_draft import Draft
 from ttr.types import (
     Application,
     EventString,

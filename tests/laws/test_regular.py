@@ -11,7 +11,7 @@ from ttr.computing.strings.pieces import is_of_strings
 from ttr.errors import RefusedError
 from ttr.semantics.string_prediction import start_course
 from ttr.types import EventString, Join, Meet, Negation
-from ttr.types.forms import star
+from ttr.types.derived_types import star
 
 A, B = Basic("A"), Basic("B")
 EVENTS = {"n": (), "a": (A,), "b": (B,), "c": (A, B)}

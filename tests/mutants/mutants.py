@@ -23,7 +23,7 @@ from ttr.semantics.questions import top
 from ttr.testing import ALL, Property
 from ttr.types import TypeNode
 from ttr.updates import Game, Rule
-from ttr.updates.algorithms import replace_rules
+from ttr.updates.update_strategies import replace_rules
 
 __all__ = ["GAMES", "MUTANTS", "Mutant", "properties_of"]
 

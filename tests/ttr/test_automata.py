@@ -6,7 +6,7 @@ from ttr import Basic, Model, Plus, Str, join, subtype
 from ttr.computing.strings.automata import automaton, automaton_above
 from ttr.errors import UnsupportedError
 from ttr.types import EventString
-from ttr.types.forms import star
+from ttr.types.derived_types import star
 
 A, B, C = map(Basic, "ABC")
 

@@ -9,7 +9,7 @@ import pytest
 PROGRAM = r"""
 from ttr import *
 from ttr.errors import IllFormedError
-from ttr.theories.theory import Axiom, Signature
+from ttr.signature.signature import Axiom, Signature
 from ttr.updates import first, maybe, repeat, rule, run, seq
 
 hug, dog = Pred("hug", Ind, Ind), Pred("dog", Ind)

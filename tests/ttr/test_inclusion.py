@@ -5,7 +5,7 @@ import pytest
 from ttr import Basic, Pred, RecordType, Str, Theory, rectype, subtype, this
 from ttr.computing.strings.automata import automaton
 from ttr.computing.strings.inclusion import check_inclusion
-from ttr.types.forms import star
+from ttr.types.derived_types import star
 from ttr.types.syntax import Ind, ListOf, Plus
 
 A, B, C, D = map(Basic, "ABCD")

@@ -28,7 +28,7 @@ from ttr.judging.witnesses import candidates
 from ttr.probability import Degree
 from ttr.signature.signature import Axiom, Given, Signature
 from ttr.types import Application, NonEmpty, fst
-from ttr.types.forms import star
+from ttr.types.derived_types import star
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 p = Pred("p", A)

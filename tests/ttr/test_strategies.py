@@ -212,7 +212,7 @@ def test_wrong_arguments_are_named():
 def test_what_is_missing_is_said(monkeypatch):
     for name in [name for name in sys.modules if name.split(".")[0] == "hypothesis"]:
         monkeypatch.delitem(sys.modules, name)
-    for name in ("ttr.testing.strategies", "ttr.testing.strategies.arbitrary"):
+    for name in ("ttr.testing.strategies", "ttr.testing.strategies.random_types"):
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "hypothesis", None)
     with pytest.raises(ImportError, match=r"pip install 'kille\[test\]'"):

@@ -13,7 +13,7 @@ from ttr.computing.strings.pieces import (
     string_of,
 )
 from ttr.types import EventString
-from ttr.types.forms import star
+from ttr.types.derived_types import star
 
 A, B, C = map(Basic, "ABC")
 

@@ -19,10 +19,10 @@ from ttr.notation.parser import parse_statement
 from ttr.notation.syntax_trees import Part, Source
 from ttr.signature.signature import Axiom
 from ttr.theories.checking import check
-from ttr.theories.drafts import Draft
 from ttr.theories.loading import UnreadableError
 from ttr.theories.statements import StatementReader
 from ttr.theories.theory import Theory, load, theory_of_draft
+from ttr.theories.theory_draft import Draft
 from ttr.types.objects import Path as LabelPath
 from ttr.types.objects import this
 from ttr.types.syntax import Basic, Ind, Pred

@@ -38,7 +38,7 @@ from ttr.updates import (
     seq,
     update,
 )
-from ttr.updates.algorithms import replace_rules
+from ttr.updates.update_strategies import replace_rules
 
 Count = Basic("Count")
 Counter = rectype(n=Count, log=ListOf(Ind))

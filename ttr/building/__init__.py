@@ -8,7 +8,7 @@ all below it.
 from ttr.building.constructors import Pi, fun, rectype
 from ttr.building.flattening import flatten, unflatten
 from ttr.building.formation import wellformed
-from ttr.building.functions import fix, restrict
+from ttr.building.function_domains import fix, restrict
 from ttr.building.generalisation import common_supertype
 from ttr.building.merging import amerge, merge
 from ttr.building.relabelling import relabel

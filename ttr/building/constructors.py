@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ttr.building.formation import check_binder, check_record_type
 from ttr.errors import IllFormedError
-from ttr.types.forms import order_fields
+from ttr.types.derived_types import order_fields
 from ttr.types.objects import BOUND, Object, Path, check_label, combine_labels, freeze
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import Function, FunType, RecordType, TypeNode, as_type, kind_of
@@ -29,7 +29,7 @@ def rectype(
     path that leads nowhere in this record type, or to an object of a wrong type; what
     fits by an axiom fits where the theory is given.
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> dog = Pred("dog", Ind)
     >>> print(rectype(c=dog(this.x), x=Ind))
     [x : Ind, c : dog(x)]
@@ -61,7 +61,7 @@ def fun(
     the function is a scope like a record type. Raises `IllFormedError` for a path that
     leads nowhere, or to an object of a wrong type.
 
-    >>> from ttr.types.syntax import Ind, Pred, outer, this
+    >>> from ttr import Ind, Pred, outer, this
     >>> run, hug = Pred("run", Ind), Pred("hug", Ind, Ind)
     >>> print(fun(x=Ind)(run(this.x)))
     \\x:Ind. run(x)
@@ -87,7 +87,7 @@ def Pi(
 ) -> Callable[[TypeNode], FunType]:
     """`Pi(x=S)(T)` is the type of functions from each x of S to T, which may mention x.
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> print(Pi(x=Ind)(Pred("run", Ind)(this.x)))
     ((x : Ind) -> run(x))
     """

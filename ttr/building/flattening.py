@@ -6,10 +6,15 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Any, TypeVar
 
-from ttr.building.addresses import Address, format_address, to_absolute, to_relative
+from ttr.building.field_addresses import (
+    Address,
+    format_address,
+    to_absolute,
+    to_relative,
+)
 from ttr.errors import IllFormedError
 from ttr.safety.budgets import spend, within_budget
-from ttr.types.forms import order_fields
+from ttr.types.derived_types import order_fields
 from ttr.types.objects import Object, Path, Record, check_label
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import RecordType, TypeNode, kind_of
@@ -33,8 +38,7 @@ def flatten(
     and where a record lacks what `like` has.
     Law: r : T iff flatten(r, T) : flatten(T), and unflatten(flatten(r)) == r.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, Pred, outer, record, this
+    >>> from ttr import Ind, Pred, outer, record, rectype, this
     >>> hug = Pred("hug", Ind, Ind)
     >>> T = rectype(bg=rectype(x=Ind, e=hug(outer.y, this.x)), y=Ind)
     >>> print(flatten(T))
@@ -151,8 +155,7 @@ def unflatten(value: _Shape, sep: str = "__") -> _Shape:
     apart while its first part is a label as well.
     Law: flatten(unflatten(T)) is T, and the same for records.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, rectype, this
     >>> print(unflatten(rectype(bg__x=Ind, bg__c=Pred("dog", Ind)(this.bg__x))))
     [bg : [x : Ind, c : dog(x)]]
     """

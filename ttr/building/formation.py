@@ -40,8 +40,7 @@ def wellformed(T: TypeNode, theory: Signature | None = None, /) -> Answer:
     A type with a circle can be judged, but no witness of it can be created. With a
     theory, its axioms count. Raises `IllFormedError` if T is not a type.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, this
+    >>> from ttr import Ind, rectype, this
     >>> print(wellformed(rectype(x=Ind, y=Ind @ this.x)))
     yes: every path leads to a field that fits
     >>> print(wellformed(rectype(x=Ind @ this.y, y=Ind @ this.x)))
@@ -95,7 +94,7 @@ def check_value(
     Raises `IllFormedError` if they do not. The value stands there like the type of a
     field.
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> check_value(Pred("dog", Ind)(this.s.y), RecordType((("s", RecordType(())),)))
     Traceback (most recent call last):
     ttr.errors.IllFormedError: the path s.y leads nowhere: Rec has no y

@@ -12,8 +12,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from ttr.building.addresses import to_relative
 from ttr.building.constructors import rectype
+from ttr.building.field_addresses import to_relative
 from ttr.building.merging import merge
 from ttr.computing.generic_witness import ITSELF, GenericWitness, step
 from ttr.computing.strings.pieces import is_of_strings
@@ -22,7 +22,7 @@ from ttr.errors import IllFormedError
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.axioms import supertypes
 from ttr.signature.signature import Signature
-from ttr.types.forms import function_type, order_fields
+from ttr.types.derived_types import function_type, order_fields
 from ttr.types.interning import identity
 from ttr.types.objects import Object, Path, sort_canonically
 from ttr.types.paths import free_paths, map_parts, parts, replace_paths, shift_paths
@@ -58,7 +58,7 @@ def common_supertype(
     there is no type of everything.
     Law: S <= common_supertype(S, T), and T <= common_supertype(S, T).
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> dog, run = Pred("dog", Ind), Pred("run", Ind)
     >>> S = rectype(x=Ind @ "a", c=dog("a") & run("a"), d=run("c"))
     >>> print(common_supertype(S, rectype(x=Ind @ "b", c=dog("b"), d=run("d"))))

@@ -64,8 +64,7 @@ def with_levels(T: TypeNode, /) -> TypeNode:
     part of a join is meant is not known, so joins stay as they are.
     Source: Russell's typical ambiguity; Cooper 2023 for the levels.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import RecType, Type, this
+    >>> from ttr import RecType, Type, rectype, this
     >>> print(with_levels(rectype(T=Type @ rectype(x=Type))))
     [T = [x : Type] : Type^1]
     >>> print(with_levels(rectype(x=Type @ Type, y=Type @ this.x)))
@@ -86,7 +85,7 @@ def levelled_judgement(sit: object, T: TypeNode, /) -> tuple[Object, TypeNode]:
     it gives holds. Raises `IllFormedError` where a superscript that is written is too
     low.
 
-    >>> from ttr.types.syntax import Type
+    >>> from ttr import Type
     >>> levelled_judgement(Type, Type)
     (Type, Universe('Type', 1))
     """

@@ -22,7 +22,7 @@ def merge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> TypeN
     `IllFormedError` for what is no type.
     Law: r : merge(S, T) iff r : S and r : T. Source: Cooper 2023.
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> run, man = Pred("run", Ind), Pred("man", Ind)
     >>> print(merge(rectype(x=Ind), rectype(y=Ind)))
     [x : Ind, y : Ind]
@@ -97,7 +97,7 @@ def amerge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Type
     Raises `IllFormedError` where a path of S would lead nowhere in the result.
     Source: Cooper 2023, where it models non-monotonic update.
 
-    >>> from ttr.types.syntax import Basic, Ind
+    >>> from ttr import Basic, Ind
     >>> print(amerge(rectype(x=Ind @ "j", y=Ind), rectype(x=Ind)))
     [x : Ind, y : Ind]
     """
@@ -119,7 +119,7 @@ def singleton_type(
 
     Raises `TTRError` where the record lacks a field of T.
 
-    >>> from ttr.types.syntax import Ind, record
+    >>> from ttr import Ind, record
     >>> print(singleton_type(record(x="j"), rectype(x=Ind)))
     [x = j : Ind]
     """

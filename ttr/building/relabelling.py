@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import overload
 
-from ttr.building.addresses import Address, format_address, parse_address
+from ttr.building.field_addresses import Address, format_address, parse_address
 from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
-from ttr.types.forms import order_fields
+from ttr.types.derived_types import order_fields
 from ttr.types.objects import Object, Path, Record, check_label, combine_labels
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import (
@@ -53,8 +53,7 @@ def relabel(
     which a label would change: it would not be the same record any more.
     Law: r : T iff relabel(r, m) : relabel(T, m), for every r that has the labels.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, Pred, record, this
+    >>> from ttr import Ind, Pred, record, rectype, this
     >>> hug = Pred("hug", Ind, Ind)
     >>> T = rectype(x=Ind, y=Ind, e=hug(this.x, this.y))
     >>> print(relabel(T, x="y", y="x"))

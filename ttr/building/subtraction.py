@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TypeVar
 
-from ttr.building.addresses import Address, format_address, parse_address
+from ttr.building.field_addresses import Address, format_address, parse_address
 from ttr.building.formation import check_record_type
 from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature
-from ttr.types.forms import order_fields
+from ttr.types.derived_types import order_fields
 from ttr.types.objects import Object, Record
 from ttr.types.paths import subterms
 from ttr.types.syntax import Meet, RecordType, TypeNode, kind_of, meet
@@ -26,8 +26,7 @@ def subtract(value: _Shape, /, *paths: str, theory: Signature | None = None) -> 
     then have a path that leads nowhere; several paths are taken away at once.
     Law: T <= subtract(T, π).
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, rectype, this
     >>> T = rectype(x=Ind, y=Ind, e=Pred("hug", Ind, Ind)(this.x, this.y))
     >>> print(subtract(T, "e"))
     [x : Ind, y : Ind]

@@ -9,7 +9,7 @@ from errno import ENOSPC
 from io import TextIOWrapper
 
 from ttr.cli.commands import COMMANDS
-from ttr.cli.commands.output import (
+from ttr.cli.output import (
     FAILED,
     INTERRUPTED,
     PIPE_CLOSED,

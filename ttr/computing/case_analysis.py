@@ -16,7 +16,7 @@ from ttr.computing.normal_forms import meet_normal_form, push_negations_inwards
 from ttr.computing.strings.pieces import is_of_strings
 from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend
-from ttr.types.forms import order_fields
+from ttr.types.derived_types import order_fields
 from ttr.types.syntax import (
     Join,
     Meet,
@@ -59,7 +59,7 @@ def cases(T: TypeNode) -> tuple[TypeNode, ...] | None:
 
     A record type has a case for each way to choose a case of each field.
 
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
     >>> A, B, C = map(Basic, "ABC")
     >>> print(*cases(A & (B | ~~C)), sep="; ")
     A /\\ B; A /\\ C
@@ -115,7 +115,7 @@ def _all_cases(
 def clauses(T: TypeNode) -> tuple[Clause, ...] | None:
     """The clauses of which T is the meet, or None where they are too many.
 
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
     >>> A, B, C = map(Basic, "ABC")
     >>> [" or ".join(map(str, clause)) for clause in clauses((A & B) | ~(A & C))]
     ['A or ~A or ~C', 'B or ~A or ~C']

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
 
 from ttr.safety.budgets import spend
-from ttr.types.forms import order_fields
+from ttr.types.derived_types import order_fields
 from ttr.types.objects import Object
 from ttr.types.paths import free_paths, map_parts, subterms
 from ttr.types.syntax import RecordType, Singleton, TypeNode
@@ -22,8 +22,7 @@ def describe_cycle(T: TypeNode) -> str:
     inside it, or to something around it. Judgements of such a type can be checked, but
     no witness of it can be created.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, this
+    >>> from ttr import Ind, rectype, this
     >>> describe_cycle(rectype(x=Ind @ this.y, y=Ind @ this.x))
     'x → y → x'
     >>> describe_cycle(rectype(x=Ind, y=Ind @ this.x))
@@ -35,8 +34,7 @@ def describe_cycle(T: TypeNode) -> str:
 def find_cycle(T: TypeNode) -> tuple[str, ...]:
     """The paths of the fields on a cycle, the first repeated at the end; or none.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, this
+    >>> from ttr import Ind, rectype, this
     >>> find_cycle(rectype(x=Ind @ this.x)), find_cycle(rectype(x=Ind))
     (('x', 'x'), ())
     """
@@ -85,8 +83,7 @@ def _has_fields_in_order(T: RecordType) -> bool:
 def break_cycles(T: TypeNode) -> TypeNode:
     """T without the equations that close a cycle.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, this
+    >>> from ttr import Ind, rectype, this
     >>> print(break_cycles(rectype(x=Ind @ this.y, y=Ind @ this.x)))
     [x : Ind, y = x : Ind]
     """

@@ -79,8 +79,7 @@ def elements(term: Object) -> tuple[Object, ...] | None:
 class GenericWitness:
     """An arbitrary witness of S, and whatever else is assumed to be of some type.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, this
+    >>> from ttr import Ind, rectype, this
     >>> witness = GenericWitness(rectype(x=Ind, y=Ind @ this.x))
     >>> witness.normalise(step(ITSELF, "y")) is step(ITSELF, "x")
     True

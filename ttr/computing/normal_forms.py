@@ -29,7 +29,7 @@ def meet_normal_form(T: TypeNode, /, limit: int = LIMIT) -> TypeNode:
     `UnsupportedError` where there are more parts than the limit.
     Law: a is of it iff a : T, under every assignment.
 
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
     >>> A, B, C = map(Basic, "ABC")
     >>> print(meet_normal_form(A & B | C))
     (A \/ C) /\ (B \/ C)
@@ -48,7 +48,7 @@ def join_normal_form(T: TypeNode, /, limit: int = LIMIT) -> TypeNode:
     `UnsupportedError` where there are more parts than the limit.
     Law: a is of it iff a : T, under every assignment.
 
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
     >>> A, B, C = map(Basic, "ABC")
     >>> print(join_normal_form(A & (B | ~~C)))
     (A /\ B) \/ (A /\ C)

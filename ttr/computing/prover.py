@@ -25,9 +25,9 @@ from ttr.computing.generic_witness import (
     step,
 )
 from ttr.computing.strings.automata import automaton, automaton_above
+from ttr.computing.strings.automaton_runs import accepts
 from ttr.computing.strings.inclusion import Inclusion, check_inclusion
 from ttr.computing.strings.pieces import events_of, is_of_strings, is_regular
-from ttr.computing.strings.runs import accepts
 from ttr.computing.universe_levels import why_outside
 from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend
@@ -109,7 +109,7 @@ class Prover:
     def for_type(cls, S: TypeNode, theory: Signature) -> Prover:
         """The prover for an arbitrary witness of S.
 
-        >>> from ttr.types.syntax import Ind
+        >>> from ttr import Ind
         >>> Prover.for_type(Ind @ "a", Signature()).prove(ITSELF, Ind).yes
         True
         """

@@ -97,8 +97,7 @@ class Answer:
 
         Its `model` is the assignment in which this is so. None unless it is refuted.
 
-        >>> from ttr.building.constructors import rectype
-        >>> from ttr.types.syntax import Ind
+        >>> from ttr import Ind, rectype
         >>> print(subtype(rectype(x=Ind), rectype(x=Ind, y=Ind)).counter)
         {x = a1} : [x : Ind, y : Ind]   p = 0
         """
@@ -157,8 +156,7 @@ def subtype(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Ans
     A type without witnesses is below every type. Where S may have none, nothing is
     refuted.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, this
+    >>> from ttr import Ind, rectype, this
     >>> dog = Pred("dog", Ind)
     >>> print(subtype(rectype(x=Ind, c=dog(this.x)), rectype(x=Ind)))
     yes: each field of [x : Ind] is there, and below
@@ -238,7 +236,7 @@ def _why_by_form(S: TypeNode, T: TypeNode) -> str:
 def consistent(*types: TypeNode, theory: Signature | None = None) -> Answer:
     """Can something be of all the types, under some assignment?
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> print(consistent(Ind @ "a", Ind @ "b"))
     no: nothing can be of (Ind@a) /\\ (Ind@b)
     >>> consistent(Ind, Basic("Event")).yes

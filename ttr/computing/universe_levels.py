@@ -13,8 +13,7 @@ from ttr.types.syntax import RecordType, TypeNode, Universe
 def why_outside(value: Object, universe: Universe) -> str:
     """Why the object is not of a universe; the empty string if it is.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, RecType, Type
+    >>> from ttr import Ind, RecType, Type, rectype
     >>> why_outside(rectype(x=Ind), RecType), why_outside(Type, Universe("Type", 1))
     ('', '')
     >>> why_outside(Type, Type), why_outside(Ind, RecType)
@@ -33,8 +32,7 @@ def why_outside(value: Object, universe: Universe) -> str:
 def level_of(value: Object) -> int:
     """The level of a type or object: one above the highest Typeⁿ that it mentions.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, RecType
+    >>> from ttr import Ind, RecType, rectype
     >>> level_of(Ind), level_of(RecType), level_of(rectype(T=Universe("Type", 1)))
     (0, 1, 2)
     """

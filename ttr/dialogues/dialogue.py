@@ -14,9 +14,9 @@ from functools import cached_property
 from itertools import chain
 from typing import Any, Self
 
+from ttr.dialogues.event_wording import line_of_event, wording
 from ttr.dialogues.settings import Setting
-from ttr.dialogues.snapshots import copy_of, first_change, snapshot
-from ttr.dialogues.wording import line_of_event, wording
+from ttr.dialogues.state_snapshots import copy_of, first_change, snapshot
 from ttr.errors import NotHeardError, TTRError, UpdateError
 from ttr.judging.models import Model
 from ttr.types.objects import Object, Record
@@ -175,9 +175,7 @@ class Dialogue:
 def play(game: Game, given: Iterable[object]) -> Dialogue:
     """The dialogue in which all of this is given to the game, up to the first fault.
 
-    >>> from ttr.types.syntax import Basic, ListOf, Ind
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.records import replace
+    >>> from ttr import Basic, Ind, ListOf, rectype, replace
     >>> from ttr.updates import rule
     >>> Board = rectype(heard=ListOf(Ind))
     >>> @rule(when=Board, on=Ind)

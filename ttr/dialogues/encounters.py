@@ -187,7 +187,7 @@ def meeting(*participants: Participant) -> Encounter:
 
     Raises `UpdateError` where two have the same name.
 
-    >>> from ttr.theories.theory import Theory
+    >>> from ttr import Theory
     >>> from ttr.updates import first, update
     >>> chat = Theory.parse(r'''
     ...     basic Ind

@@ -25,7 +25,7 @@ def abbreviator(
     before a name is put; None shows all of them in full. Raises `IllFormedError` if it
     is neither, and if there is no theory to take names from.
 
-    >>> from ttr.theories.theory import Theory
+    >>> from ttr import Theory
     >>> kennel = Theory.parse('''
     ...     basic Ind
     ...     pred  dog(Ind)

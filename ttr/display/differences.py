@@ -14,7 +14,7 @@ def layout_of_changes(before: Object, after: Object) -> Layout:
 
     In nested records, the innermost fields that have changed are marked.
 
-    >>> from ttr.types.syntax import record
+    >>> from ttr import record
     >>> layout = layout_of_changes(record(x="a", y="b"), record(x="a", y="c"))
     >>> [(row.label.text, row.changed) for row in layout.rows]
     [('x', False), ('y', True)]

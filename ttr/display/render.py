@@ -15,7 +15,7 @@ from ttr.errors import IllFormedError
 from ttr.judging.judgements import Judgement, Why, mark
 from ttr.safety.budgets import within_budget
 from ttr.types.interning import Node
-from ttr.types.notebooks import NotebookValue, as_html, as_latex
+from ttr.types.notebook_display import NotebookValue, as_html, as_latex
 from ttr.types.objects import Object, Record, freeze
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from typing import TypeAlias
 from immutables import Map
 
 from ttr.computing.strings.automaton_steps import Automaton
-from ttr.computing.strings.beliefs import (
+from ttr.computing.strings.uncertain_states import (
     NOWHERE,
     Beliefs,
     States,

@@ -43,9 +43,7 @@ from ttr.types.syntax import (
 def is_certain(facts: Assignment, sit: Object, T: TypeNode) -> bool:
     """Is sit : T certain by the facts?
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.judging.models import Model
-    >>> from ttr.types.syntax import Ind, record
+    >>> from ttr import Ind, Model, record, rectype
     >>> M = Model().given("a", Ind)
     >>> is_certain(M.facts, record(x="a"), rectype(x=Ind))
     True
@@ -61,8 +59,7 @@ def is_certain_given(
     What the known type says is not judged again. Law: where sit : known is certain,
     the answer is that of `is_certain`.
 
-    >>> from ttr.judging.models import Model
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind, Model
     >>> M = Model().given("a", Ind)
     >>> is_certain_given(M.facts, ("a", "a"), NonEmpty(Ind), ListOf(Ind))
     True

@@ -12,13 +12,13 @@ from ttr.computing.case_analysis import cases, has_cases
 from ttr.computing.cycles import describe_cycle
 from ttr.computing.generic_witness import ITSELF, GenericWitness, step
 from ttr.computing.strings.automata import automaton_above
+from ttr.computing.strings.automaton_runs import shortest_words
 from ttr.computing.strings.pieces import (
     alternatives,
     events_of,
     is_of_strings,
     string_of,
 )
-from ttr.computing.strings.runs import shortest_words
 from ttr.errors import RefusedError, TTRError
 from ttr.judging.assignments import Assignment
 from ttr.judging.certainty import is_certain

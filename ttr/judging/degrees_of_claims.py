@@ -45,8 +45,8 @@ def explain_probability(
 ) -> str:
     """Say how a degree follows from those of the grounds: a product, or their links.
 
+    >>> from ttr import Ind
     >>> from ttr.probability import All, Atomic
-    >>> from ttr.types.syntax import Ind
     >>> some = [Why(a, Ind, Degree(0.5, 0.5), "given") for a in ("a", "b")]
     >>> explain_probability("any", some, chance(All(())))
     '1 − (1 − 0.5) × (1 − 0.5)'

@@ -18,8 +18,8 @@ from typing import Any, ClassVar, Generic, TypeVar
 from ttr.computing.case_analysis import cases
 from ttr.computing.prover import Prover
 from ttr.computing.strings.automata import automaton
+from ttr.computing.strings.automaton_runs import Stop
 from ttr.computing.strings.pieces import events_of
-from ttr.computing.strings.runs import Stop
 from ttr.computing.universe_levels import why_outside
 from ttr.errors import RefusedError
 from ttr.hooks import hook
@@ -553,7 +553,7 @@ def _where(why: Why) -> str:
 def is_reduced(T: TypeNode) -> bool:
     """Is there nothing left to reduce in a type: no application, no path out of it?
 
-    >>> from ttr.types.syntax import Ind, this
+    >>> from ttr import Ind, this
     >>> is_reduced(Ind @ "a"), is_reduced(Ind @ this.x)
     (True, False)
     """

@@ -21,7 +21,7 @@ from ttr.probability import (
     degree,
 )
 from ttr.types.interning import identity
-from ttr.types.notebooks import NotebookValue
+from ttr.types.notebook_display import NotebookValue
 from ttr.types.objects import Object
 from ttr.types.printing import notation
 from ttr.types.syntax import Basic, PType, TypeNode
@@ -105,8 +105,7 @@ class Why(NotebookValue):
     def remedy(self) -> str:
         """For a claim that fails: what the object is of, and which objects would do.
 
-        >>> from ttr.judging.models import Model
-        >>> from ttr.types.syntax import Ind, Pred
+        >>> from ttr import Ind, Model, Pred
         >>> dog = Pred("dog", Ind)
         >>> M = Model().given("s1", dog("fido")).given("s2", dog("sam"))
         >>> M.judge("s2", dog("fido")).why.remedy()
@@ -210,8 +209,7 @@ class Judgement(NotebookValue):
     def at_least(self, q: float) -> bool:
         """Is the probability certainly q or more?
 
-        >>> from ttr.judging.models import Model
-        >>> from ttr.types.syntax import Ind
+        >>> from ttr import Ind, Model
         >>> j = Model().given("a", Ind, (0.2, 0.4)).judge("a", Ind)
         >>> j.at_least(0.2), j.at_least(0.3)
         (True, False)

@@ -32,10 +32,10 @@ from ttr.judging.conditioning import (
 from ttr.judging.creation import create_witness, with_judgement
 from ttr.judging.dependence_analysis import check_together
 from ttr.judging.evaluator import derivation, reduce_applications
-from ttr.judging.existential import Range, probability_of_any, probability_of_some
 from ttr.judging.judgements import Judgement, Why
 from ttr.judging.perception import fill_fields
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
+from ttr.judging.truth_of_types import Range, probability_of_any, probability_of_some
 from ttr.judging.witnesses import witnesses
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
 from ttr.safety.budgets import (
@@ -111,8 +111,7 @@ class Model:
     An unlisted judgement is refuted, unless its type is open: the theory says so, or it
     has a witness function, or a judgement of it was given with a degree between.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, record, this
+    >>> from ttr import Ind, record, rectype, this
     >>> dog = Pred("dog", Ind)
     >>> Dog = rectype(x=Ind, c=dog(this.x))
     >>> M = Model().given("fido", Ind).given("s1", dog("fido"))
@@ -308,8 +307,7 @@ class Model:
         A missing field whose ptype's predicate has a witness function gets a new
         situation, which is of the ptype with the degree that the function gives.
 
-        >>> from ttr.building.constructors import rectype
-        >>> from ttr.types.syntax import Ind, record, this
+        >>> from ttr import Ind, record, rectype, this
         >>> cup = Pred("cup", Ind)
         >>> M = Model().given("o1", Ind).witnessed(cup, by=lambda x: 0.75)
         >>> j = M.perceive(record(x="o1"), rectype(x=Ind, c=cup(this.x)))
@@ -327,7 +325,7 @@ class Model:
         """A new witness of T, and the model that has it; `RefusedError` if there is
         none.
 
-        >>> from ttr.types.syntax import Ind
+        >>> from ttr import Ind
         >>> a, M = Model().create(Ind)
         >>> a, M.judge(a, Ind).holds
         ('a1', True)
@@ -343,8 +341,7 @@ class Model:
         Raises `RefusedError` where the argument is not certainly of the function's
         domain.
 
-        >>> from ttr.building.constructors import fun
-        >>> from ttr.types.syntax import Ind, this
+        >>> from ttr import Ind, fun, this
         >>> run = fun(x=Ind)(Pred("run", Ind)(this.x))
         >>> print(Model().given("j", Ind).apply(run, "j"))
         run(j)
@@ -366,8 +363,7 @@ class Model:
         For a record type they are all its records of known objects. Raises
         `UnsupportedError` for a type that may have infinitely many, such as lists.
 
-        >>> from ttr.building.constructors import rectype
-        >>> from ttr.types.syntax import Ind, this
+        >>> from ttr import Ind, rectype, this
         >>> dog = Pred("dog", Ind)
         >>> M = Model().given("fido", Ind).given("sam", Ind).given("s1", dog("fido"))
         >>> print(*M.witnesses(rectype(x=Ind, c=dog(this.x))))
@@ -393,7 +389,7 @@ class Model:
         exist. An Austinian proposition {sit = s, sit_type = T} is as true as s : T is;
         with a `prob`, it is true if p(s : T) is the probability that it states.
 
-        >>> from ttr.types.syntax import Ind
+        >>> from ttr import Ind
         >>> M = Model().given("s1", Pred("dog", Ind)("fido"))
         >>> print(M.true(Pred("dog", Ind)("fido")), M.true(Pred("dog", Ind)("sam")))
         1 0

@@ -33,7 +33,7 @@ ROUNDING = 1e-12
 def proposition(sit: object, T: TypeNode) -> Record:
     """The Austinian proposition that a situation is of a type.
 
-    >>> from ttr.types.syntax import Ind, Pred
+    >>> from ttr import Ind, Pred
     >>> print(proposition("s1", Pred("dog", Ind)("fido")))
     {sit = s1, sit_type = dog(fido)}
     """
@@ -46,7 +46,7 @@ def probabilistic(sit: object, T: TypeNode, p: object) -> Record:
     An interval is kept as the list of its ends. Raises `TTRError` for what is no
     probability. Source: Cooper, Dobnik, Lappin and Larsson 2015.
 
-    >>> from ttr.types.syntax import Ind, Pred
+    >>> from ttr import Ind, Pred
     >>> print(probabilistic("s1", Pred("dog", Ind)("fido"), 0.9))
     {prob = 0.9, sit = s1, sit_type = dog(fido)}
     >>> print(probabilistic("fido", Ind, (0.5, 1)).prob)
@@ -61,8 +61,7 @@ def judged(judgement: Judgement, /) -> Record:
 
     Law: `probabilistic_claim(judged(j))` is (j.sit, j.type, j.p).
 
-    >>> from ttr.judging.models import Model
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind, Model
     >>> print(judged(Model().given("fido", Ind, 0.75).judge("fido", Ind)))
     {prob = 0.75, sit = fido, sit_type = Ind}
     """

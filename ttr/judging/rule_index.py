@@ -25,8 +25,7 @@ Demands: TypeAlias = Mapping[Labels, frozenset[Pred]]
 def demands_of(T: TypeNode) -> Demands:
     """The predicates that every object of a type has at some of its paths.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, this
+    >>> from ttr import Ind, rectype, this
     >>> ask, tell = Pred("ask", Ind), Pred("tell", Ind)
     >>> asks, tells = (rectype(x=Ind, e=P(this.x)) for P in (ask, tell))
     >>> demands_of(rectype(latest=asks | tells)) == {("latest", "e"): {ask, tell}}

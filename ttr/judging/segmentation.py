@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from functools import partial
 from typing import overload
 
-from ttr.computing.strings.automaton_steps import Automaton
-from ttr.computing.strings.runs import (
+from ttr.computing.strings.automaton_runs import (
     Division,
     Piece,
     Stop,
     find_division,
     find_divisions,
 )
+from ttr.computing.strings.automaton_steps import Automaton
 from ttr.judging.assignments import Assignment
 from ttr.judging.automaton_filter import start_filter
 from ttr.judging.judgements import Why

@@ -117,7 +117,7 @@ def performed(act: TypeAct, model: Model) -> Outcome:
     `RefusedError` where what is judged contradicts what the agent knows, or nothing of
     the type can be.
 
-    >>> from ttr.types.syntax import Ind, Pred
+    >>> from ttr import Ind, Pred
     >>> dog, M = Pred("dog", Ind), Model().given("fido", Ind)
     >>> made = performed(Create(dog("fido")), M)
     >>> print(made)

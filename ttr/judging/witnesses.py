@@ -48,8 +48,7 @@ def candidates(facts: Assignment, T: TypeNode) -> Iterator[Object]:
 def can_be_listed(T: TypeNode) -> bool:
     """Can the known objects of T be listed, as far as the form of T tells?
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, ListOf
+    >>> from ttr import Ind, ListOf, rectype
     >>> can_be_listed(rectype(x=Ind)), can_be_listed(rectype(x=ListOf(Ind)))
     (True, False)
     """

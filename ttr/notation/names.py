@@ -13,8 +13,8 @@ from ttr.types.paths import subterms
 from ttr.types.syntax import Basic, Pred
 
 if TYPE_CHECKING:
-    from ttr.updates.algorithms import Algorithm
     from ttr.updates.rules import Rule
+    from ttr.updates.update_strategies import Algorithm
 
 
 class Names(Protocol):
@@ -98,7 +98,7 @@ def vocabulary_of(*values: object) -> Vocabulary:
 
     Raises `IllFormedError` where two predicates of one name occur.
 
-    >>> from ttr.types.syntax import Ind, Pred
+    >>> from ttr import Ind, Pred
     >>> sorted(vocabulary_of(Pred("dog", (Ind,))("fido")).names)
     ['Ind', 'dog', 'fido']
     """

@@ -5,7 +5,7 @@ else an object; a dot or carets make it a path in any case. Where a type is need
 name is a type. Before a bracket it is a variable, or else a predicate, or else anything
 that is a function.
 
->>> from ttr.types.syntax import Ind, Pred
+>>> from ttr import Ind, Pred
 >>> dog = Pred("dog", Ind)
 >>> parse("[x : Ind, c : dog(x)]", using=[Ind, dog])
 rectype(x=Basic('Ind'), c=Pred('dog', Basic('Ind'))(this.x))
@@ -55,7 +55,7 @@ from ttr.notation.syntax_trees import Application as Call
 from ttr.probability import degree
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Interval, Signature
-from ttr.types.forms import function_type, star
+from ttr.types.derived_types import function_type, star
 from ttr.types.objects import (
     BOUND,
     EventString,
@@ -134,7 +134,7 @@ def parse(text: str, using: Iterable[object] = ()) -> Object:
     types and objects in which they occur. Raises `NotationError` if the text is no
     notation, and `IllFormedError` if the type is ill-formed.
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> parse("list(Ind)", using=[Ind]) is ListOf(Ind)
     True
     """

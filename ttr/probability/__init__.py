@@ -8,7 +8,6 @@ links them: by what entails or excludes what, by conditionals, or as unknown.
 from typing import TYPE_CHECKING
 
 from ttr.aliases import former_names
-from ttr.probability.chances import Chance, ContradictionError, are_apart, chance
 from ttr.probability.degrees import (
     CERTAIN,
     REFUTED,
@@ -23,6 +22,12 @@ from ttr.probability.dependence import (
     Component,
     Conditional,
     Dependence,
+)
+from ttr.probability.event_probability import (
+    Chance,
+    ContradictionError,
+    are_apart,
+    chance,
 )
 from ttr.probability.events import All, AnyOf, Atomic, Event, Not
 from ttr.probability.networks import ImpossibleError

@@ -78,7 +78,7 @@ def network(component: Component, needed: Sequence[Hashable]) -> Network | None:
 
     None where it is none, or where too much of it is known in intervals only.
 
-    >>> from ttr.probability.dependence import Conditional
+    >>> from ttr.probability import Conditional
     >>> degrees = {"a": Degree(0.5, 0.5), "b": UNKNOWN}
     >>> tell = {(("a", True),): 0.8, (("a", False),): 0.2}
     >>> known = [Conditional("b", on, Degree(p, p)) for on, p in tell.items()]

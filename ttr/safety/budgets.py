@@ -93,8 +93,7 @@ def budget(*, steps: int) -> Iterator[None]:
     The default of 1,000,000 is some seconds. A question that takes more is answered
     `unknown`; what has no such answer raises `TooLargeError`.
 
-    >>> from ttr.computing.subtyping import subtype
-    >>> from ttr.types.syntax import Basic, ListOf
+    >>> from ttr import Basic, ListOf, subtype
     >>> A = ListOf(Basic("A"))
     >>> with budget(steps=2):
     ...     print(subtype(A, ListOf(A)))

@@ -39,7 +39,7 @@ def content(
 
     Raises `IllFormedError` where bg is no record type, or not below the domain of fg.
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> donkey, bray = Pred("donkey", Ind), Pred("bray", Ind)
     >>> Donkey = rectype(x=Ind, c=donkey(this.x))
     >>> print(content(Donkey, fun(r=Donkey)(bray(this.r.x))))
@@ -61,7 +61,7 @@ def content(
 def weak(of: Record, /) -> RecordType:
     """The weak purification: there is a context of which the foreground is true.
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> Donkey = rectype(x=Ind, c=Pred("donkey", Ind)(this.x))
     >>> bray = fun(r=Donkey)(Pred("bray", Ind)(this.r.x))
     >>> print(weak(content(Donkey, bray)))
@@ -74,7 +74,7 @@ def weak(of: Record, /) -> RecordType:
 def strong(of: Record, /) -> FunType:
     """The strong purification: the foreground is true of every context.
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> Donkey = rectype(x=Ind, c=Pred("donkey", Ind)(this.x))
     >>> bray = fun(r=Donkey)(Pred("bray", Ind)(this.r.x))
     >>> print(strong(content(Donkey, bray)))

@@ -28,8 +28,9 @@ def entails(
     least 1 − hi where ¬S ⊑ T, and at most 1 − lo where S ⊑ ¬T. Raises `IllFormedError`
     for what is no proposition.
 
-    >>> from ttr.judging.propositions import probabilistic, proposition
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
+    >>> from ttr.judging import proposition
+    >>> from ttr.judging.propositions import probabilistic
     >>> A, B = Basic("A"), Basic("B")
     >>> print(entails(proposition("s", A & B), proposition("s", A)).verdict)
     yes

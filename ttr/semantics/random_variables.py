@@ -31,7 +31,7 @@ class RandomVariable:
 
     That they exclude one another is assumed by the variable, not a fact of the model.
 
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
     >>> A, B = Basic("A"), Basic("B")
     >>> V = RandomVariable("V", A, B)
     >>> M = Model().given("a", A, (0.2, 0.4)).given("a", B, (0.1, 0.3))
@@ -57,7 +57,7 @@ class RandomVariable:
     def type(self) -> TypeNode:
         """The type of the variable, A₁ ∨ … ∨ Aₙ.
 
-        >>> from ttr.types.syntax import Basic
+        >>> from ttr import Basic
         >>> A, B = Basic("A"), Basic("B")
         >>> A <= RandomVariable("V", A, B).type
         True
@@ -74,7 +74,7 @@ class RandomVariable:
         A condition on the same object with such a type limits the values, too. Raises
         `IllFormedError` for other types, and `RefusedError` where no value is possible.
 
-        >>> from ttr.types.syntax import Basic
+        >>> from ttr import Basic
         >>> A, B, C = Basic("A"), Basic("B"), Basic("C")
         >>> V = RandomVariable("V", A, B, C)
         >>> M = Model().given("a", A, 0.3).given("a", B, 0.3).given("a", C, 0.4)
@@ -100,7 +100,7 @@ class RandomVariable:
     ) -> dict[TypeNode, Degree]:
         """The probability of each value; they add up to 1 where they are numbers.
 
-        >>> from ttr.types.syntax import Basic
+        >>> from ttr import Basic
         >>> A, B = Basic("A"), Basic("B")
         >>> M = Model().given("a", A, 0.2).given("a", B, 0.6)
         >>> for value, p in RandomVariable("V", A, B).distribution(M, "a").items():

@@ -21,7 +21,7 @@ from ttr.judging.models import Model, as_model
 from ttr.judging.segmentation import events_in_words
 from ttr.probability import REFUTED, Degree
 from ttr.safety.budgets import within_budget
-from ttr.types.forms import star
+from ttr.types.derived_types import star
 from ttr.types.objects import Object, freeze
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
@@ -40,7 +40,7 @@ def start_course(T: TypeNode, model: Model, /) -> Course:
     Raises `UnsupportedError` for a type that is not of strings, or that says something
     of a string as a whole.
 
-    >>> from ttr.types.syntax import Ind, Plus, Pred, Str
+    >>> from ttr import Ind, Plus, Pred, Str
     >>> throw, fetch = Pred("throw", Ind)("stick"), Pred("fetch", Ind)("stick")
     >>> M = Model().given("e1", throw).given("e2", fetch)
     >>> game = start_course(Plus(Str(throw, fetch)), M)
@@ -127,7 +127,7 @@ class Course:
     def expected(self) -> TypeNode | None:
         """The type of the events that may come next; None where none may.
 
-        >>> from ttr.types.syntax import Basic, Plus, Str
+        >>> from ttr import Basic, Plus, Str
         >>> A, B = Basic("A"), Basic("B")
         >>> print(start_course(Str(A, B) | Plus(B), Model()).expected)
         A \\/ B
@@ -144,7 +144,7 @@ class Course:
     def rest(self) -> TypeNode:
         """The type of the strings that may still follow.
 
-        >>> from ttr.types.syntax import Basic, Plus, Str
+        >>> from ttr import Basic, Plus, Str
         >>> A, B = Basic("A"), Basic("B")
         >>> course = start_course(Str(A, Plus(B)), Model().given("a", A))
         >>> print(course.seen("a").rest)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ttr.aliases import former_names
-from ttr.building.functions import fix, restrict
+from ttr.building.function_domains import fix, restrict
 from ttr.building.merging import merge
 from ttr.computing.subtyping import Answer, consistent, subtype
 from ttr.errors import IllFormedError, RefusedError
@@ -75,8 +75,7 @@ class Topos:
 def topos(fg: Function | Topos, /) -> Topos:
     r"""A function as a topos, a topos as itself; `IllFormedError` for anything else.
 
-    >>> from ttr.notation.reader import parse
-    >>> from ttr.types.syntax import Ind, Pred
+    >>> from ttr import Ind, Pred, parse
     >>> words = [Ind, Pred("bird", Ind), Pred("fly", Ind)]
     >>> birds_fly = topos(parse(r"\r:[x : Ind, c : bird(x)]. [e : fly(r.x)]", words))
     >>> print(birds_fly.bg)
@@ -163,8 +162,7 @@ def combine_topoi(
 
     Law: what follows by it is below what follows by each of the two.
 
-    >>> from ttr.building.constructors import fun, rectype
-    >>> from ttr.types.syntax import Ind, Pred, outer, this
+    >>> from ttr import Ind, Pred, fun, outer, rectype, this
     >>> rain, wet, cold = (Pred(name, Ind) for name in ("rain", "wet", "cold"))
     >>> Rain = rectype(x=Ind, c=rain(this.x))
     >>> one = topos(fun(r=Rain)(rectype(e=wet(outer.r.x))))
@@ -199,8 +197,7 @@ def underpins(
     The premise must be below the background; and what the topos lets expect of any
     situation of the premise must be below the conclusion. Source: Breitholtz 2020.
 
-    >>> from ttr.building.constructors import fun, rectype
-    >>> from ttr.types.syntax import Ind, Pred, outer, this
+    >>> from ttr import Ind, Pred, fun, outer, rectype, this
     >>> bird, fly, sing = (Pred(name, Ind) for name in ("bird", "fly", "sing"))
     >>> Bird, Singer = rectype(x=Ind, c=bird(this.x)), rectype(x=Ind, s=sing(this.x))
     >>> warrant = topos(fun(r=Bird)(rectype(e=fly(outer.r.x))))

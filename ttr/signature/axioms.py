@@ -22,7 +22,7 @@ def supertypes(
 ) -> Iterator[tuple[Axiom, Basic | PType]]:
     """Each type that the axioms put above T, once, with the last axiom used.
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> dog, puppy = Pred("dog", Ind), Pred("puppy", Ind)
     >>> axioms = (Axiom(puppy(this.x), dog(this.x)),)
     >>> for axiom, upper in supertypes(puppy("rex"), axioms):
@@ -54,7 +54,7 @@ def supertype_set(T: _Atom, theory: Signature) -> frozenset[_Atom]:
 def find_exclusion(S: _Atom, T: _Atom, theory: Signature) -> Exclusion | None:
     """The exclusion of the two types, or of types above them; None if there is none.
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> dog, cat = Pred("dog", Ind), Pred("cat", Ind)
     >>> theory = Signature(exclusions=(Exclusion(dog(this.x), cat(this.x)),))
     >>> print(find_exclusion(cat("felix"), dog("felix"), theory))

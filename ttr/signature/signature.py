@@ -17,7 +17,7 @@ from ttr.types.objects import Object, Path, Record
 from ttr.types.syntax import Basic, Pred, PType, RecordType, TypeNode, kind_of
 
 if TYPE_CHECKING:
-    from ttr.updates.algorithms import Algorithm
+    from ttr.updates.update_strategies import Algorithm
 
 Interval = tuple[float, float]
 """An interval of probability [lo, hi] with 0 <= lo <= hi <= 1."""

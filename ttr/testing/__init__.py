@@ -2,9 +2,9 @@
 
 Rules are tested by properties that any dialogue theory should have, P1 to P27, on
 dialogues with a tutor who looks at the state. A failure is reported with the shortest
-dialogue that shows it, as a story that reproduces it. Read `suites` first, then
-`catalogue` and the modules of the properties; `search` and `shrinking` find the
-dialogue, `strategies` draws it. This room may use all others except `cli`.
+dialogue that shows it, as a story that reproduces it. Read `suites` and
+`properties` first; `search` and `shrinking` find the dialogue, `strategies` draws it.
+This room may use all others except `cli`.
 
 >>> for one in sorted(ALL, key=lambda one: int(one.name[1:]))[:3]:
 ...     print(one.name, one.says)
@@ -23,9 +23,9 @@ except ImportError as missing:
     ) from missing
 
 from ttr.dialogues.dialogue import Dialogue, Trial, play
-from ttr.testing.catalogue import ALL
 from ttr.testing.coverage import Coverage
-from ttr.testing.properties import Breach, Property
+from ttr.testing.properties.catalogue import ALL
+from ttr.testing.properties.property import Breach, Property
 from ttr.testing.pytest_decorator import on_dialogues
 from ttr.testing.state_machines import machine
 from ttr.testing.strategies.discourse_roles import Roles

@@ -47,7 +47,7 @@ class Coverage:
     def table(self) -> str:
         """The rules, how often each was applied, and which rules followed most often.
 
-        >>> from ttr.building.constructors import rectype
+        >>> from ttr import rectype
         >>> from ttr.updates import rule
         >>> @rule(when=rectype())
         ... def rest(s):

@@ -17,9 +17,8 @@ def story(dialogue: Dialogue, title: str, place: Setting | None = None) -> str:
     A game has a name if a module has it under one; otherwise the story gives the state
     that it starts in.
 
-    >>> from ttr.building.constructors import rectype
+    >>> from ttr import Ind, rectype
     >>> from ttr.dialogues.dialogue import play
-    >>> from ttr.types.syntax import Ind
     >>> from ttr.updates import rule
     >>> @rule(when=rectype(), on=Ind)
     ... def see(s, e):

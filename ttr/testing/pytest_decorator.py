@@ -31,9 +31,7 @@ def on_dialogues(
     It raises what the function raises on the shortest dialogue found, and adds the
     story of that dialogue.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.records import replace
-    >>> from ttr.types.syntax import Ind, ListOf
+    >>> from ttr import Ind, ListOf, rectype, replace
     >>> from ttr.updates import rule
     >>> Board = rectype(heard=ListOf(Ind))
     >>> @rule(when=Board, on=Ind)

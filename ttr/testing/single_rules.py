@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from ttr.errors import TTRError
 from ttr.types.objects import Record
-from ttr.updates.algorithms import maybe, seq
 from ttr.updates.games import Game
 from ttr.updates.rules import Rule
 from ttr.updates.running import Run, Step, run
+from ttr.updates.update_strategies import maybe, seq
 
 
 def apply_rules(game: Game, step: Step, *rules: Rule) -> Run | None:

@@ -11,9 +11,9 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import TTRError
 from ttr.escapes import terminal_text
-from ttr.testing.catalogue import ALL
 from ttr.testing.failure_story import story
-from ttr.testing.properties import Property, select_properties
+from ttr.testing.properties.catalogue import ALL
+from ttr.testing.properties.property import Property, select_properties
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.testing.strategies.random_states import event_of, heard_by
 from ttr.types.objects import Object
@@ -35,9 +35,7 @@ def machine(
 
     >>> from hypothesis import settings
     >>> from hypothesis.stateful import run_state_machine_as_test
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.records import replace
-    >>> from ttr.types.syntax import Ind, ListOf
+    >>> from ttr import Ind, ListOf, rectype, replace
     >>> from ttr.updates import rule
     >>> Board = rectype(heard=ListOf(Ind))
     >>> @rule(when=Board, on=Ind)

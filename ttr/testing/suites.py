@@ -15,12 +15,12 @@ from ttr.dialogues.stories import Setting
 from ttr.errors import TTRError
 from ttr.escapes import terminal_text
 from ttr.judging.models import Model, as_model
-from ttr.testing.catalogue import ALL, OF_GAMES, OF_ONE_RULE
 from ttr.testing.coverage import Coverage
-from ttr.testing.determinism import DETERMINISTIC
 from ttr.testing.failure_story import story
-from ttr.testing.pending_items import DialogueCounts
-from ttr.testing.properties import Breach, Property, select_properties
+from ttr.testing.properties.catalogue import ALL, OF_GAMES, OF_ONE_RULE
+from ttr.testing.properties.determinism import DETERMINISTIC
+from ttr.testing.properties.pending_items import DialogueCounts
+from ttr.testing.properties.property import Breach, Property, select_properties
 from ttr.testing.search import UnsteadyError, find_failure, number_of_examples
 from ttr.testing.shrinking import Failure
 from ttr.testing.strategies.discourse_roles import Roles
@@ -29,10 +29,10 @@ from ttr.testing.strategies.random_states import states
 from ttr.testing.strategies.tutors import Speaker, Tutor
 from ttr.types.objects import Record
 from ttr.types.syntax import RecordType, kind_of
-from ttr.updates.algorithms import Algorithm, first
 from ttr.updates.checks import Fault, faults, faults_of
 from ttr.updates.games import Game
 from ttr.updates.rules import Rule
+from ttr.updates.update_strategies import Algorithm, first
 
 Starts = st.SearchStrategy[tuple[Record, Model]]
 
@@ -202,9 +202,7 @@ def check_rules(
     such as that the game is never stuck (P14). The same `seed` draws the same
     dialogues. Raises `TTRError` for what is no rule set.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.records import replace
-    >>> from ttr.types.syntax import Ind, ListOf
+    >>> from ttr import Ind, ListOf, rectype, replace
     >>> from ttr.updates import rule
     >>> Board = rectype(heard=ListOf(Ind))
     >>> @rule(when=Board, on=Ind)

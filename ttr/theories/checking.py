@@ -13,6 +13,7 @@ from ttr.errors import Span, TooLargeError, TTRError, UndecidedError
 from ttr.judging.models import model_of
 from ttr.safety.budgets import SharedPurse, one_of_several, purse_of_several
 from ttr.signature.signature import Interval
+from ttr.theories.check_reports import Failure, Report
 from ttr.theories.queries import (
     Creates,
     Expects,
@@ -26,7 +27,6 @@ from ttr.theories.queries import (
     Query,
     Updates,
 )
-from ttr.theories.reports import Failure, Report
 from ttr.theories.theory import Theory
 from ttr.types.interning import identity
 from ttr.types.printing import notation

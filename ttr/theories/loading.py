@@ -22,8 +22,8 @@ from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError, check_calle
 from ttr.safety.files import why_unread
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import THEORY
-from ttr.theories.drafts import Draft
 from ttr.theories.statements import StatementReader, names_mentioned
+from ttr.theories.theory_draft import Draft
 from ttr.types.interning import identity
 
 _IMPORTS = 50

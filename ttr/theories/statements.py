@@ -22,10 +22,10 @@ from ttr.notation.syntax_trees import (
 )
 from ttr.signature.signature import Axiom, Exclusion, Expected, Given
 from ttr.theories.check_statements import CheckReader
-from ttr.theories.drafts import Draft
 from ttr.theories.game_statements import read_game
 from ttr.theories.rule_statements import read_rule
 from ttr.theories.strategy_statements import kinds_gathered, read_strategy
+from ttr.theories.theory_draft import Draft
 from ttr.types.objects import Object, Path
 from ttr.types.paths import free_paths
 from ttr.types.printing import RESERVED

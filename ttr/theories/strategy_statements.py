@@ -16,7 +16,7 @@ from ttr.notation.reader import Reader
 from ttr.notation.scanning import DEPTH
 from ttr.notation.syntax_errors import excerpt
 from ttr.notation.syntax_trees import Application, Literal, Name, Part, Term, inside
-from ttr.updates.algorithms import (
+from ttr.updates.update_strategies import (
     Algorithm,
     All,
     First,

@@ -17,17 +17,17 @@ from ttr.signature.signature import (
     Opening,
     Signature,
 )
-from ttr.theories.drafts import Draft
 from ttr.theories.game_statements import opened
 from ttr.theories.loading import draft_of_file, draft_of_text
+from ttr.theories.theory_draft import Draft
 from ttr.types.objects import Object
 from ttr.types.syntax import Basic, Pred, kind_of
 
 if TYPE_CHECKING:
     from ttr.theories.queries import Check
-    from ttr.updates.algorithms import Algorithm
     from ttr.updates.games import Game
     from ttr.updates.rules import Rule
+    from ttr.updates.update_strategies import Algorithm
 
 
 class _ReadTheory(Protocol):
@@ -106,7 +106,7 @@ class Theory(Signature):
         Law: Theory.of(T).parse(str(T)) is T. Raises `IllFormedError` where two
         predicates of one name occur: no text could tell them apart.
 
-        >>> from ttr.types.syntax import Ind
+        >>> from ttr import Ind
         >>> sorted(Theory.of(Pred("dog", Ind)("fido")).names)
         ['Ind', 'dog', 'fido']
         """

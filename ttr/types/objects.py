@@ -24,7 +24,7 @@ from ttr.types.interning import (
     identity,
     node,
 )
-from ttr.types.notebooks import NotebookValue
+from ttr.types.notebook_display import NotebookValue
 
 Object: TypeAlias = Any
 """Any Python value; containers are frozen by `freeze`."""
@@ -455,7 +455,7 @@ def sort_canonically(values: Iterable[_Value]) -> list[_Value]:
     They are compared by what is written first (a name, or a sign as of a list), then by
     the kind of value, then part by part.
 
-    >>> from ttr.types.syntax import Basic, Pred
+    >>> from ttr import Basic, Pred
     >>> A, B, p = Basic("A"), Basic("B"), Pred("p", Basic("A"))
     >>> print(*sort_canonically([~A, p("b"), A & B, p("a"), B, A]), sep="; ")
     A; A /\\ B; B; p(a); p(b); ~A

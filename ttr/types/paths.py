@@ -49,7 +49,7 @@ Parts = tuple[Object, ...]
 def parts(value: Object) -> tuple[Parts, Parts]:
     """The parts that stand in the same scope as the value, and those one further in.
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> parts(Function(Ind, "a"))
     ((Basic('Ind'),), ('a',))
     """
@@ -152,7 +152,7 @@ def subterms(values: Iterable[Object]) -> Iterator[Object]:
 def mentions(value: Object, kind: type[TypeNode]) -> bool:
     """Does a type of this kind stand in the value, or is it one?
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> mentions(ListOf(~Ind), Negation), mentions(ListOf(Ind), Negation)
     (True, False)
     """
@@ -184,7 +184,7 @@ def free_paths(value: Object) -> frozenset[Path]:
 
     Paths are as seen from where the value stands: `up` 0 is the scope around it.
 
-    >>> from ttr.types.syntax import Ind, this
+    >>> from ttr import Ind, this
     >>> dog = Pred("dog", Ind)
     >>> free_paths(dog(this.x))
     frozenset({this.x})

@@ -37,7 +37,7 @@ WORDS: dict[type, str] = {
 def is_loose(value: Object) -> bool:
     r"""Does it need brackets as a part of a meet, join or negation, or as a result?
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> A = Basic("A")
     >>> is_loose(Ind & A), is_loose(~Ind)
     (True, False)
@@ -50,7 +50,7 @@ def is_loose(value: Object) -> bool:
 def is_loose_beside(value: Object) -> bool:
     """Does it need brackets beside `@` or `+`, before an arrow, or as an event?
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> is_loose_beside(~Ind), is_loose_beside(ListOf(Ind))
     (True, False)
     >>> print(~Ind @ "a", ListOf(Ind) @ "l")
@@ -67,8 +67,7 @@ def holds_as_head(function: Object) -> bool:
 
     A basic type here is the name of a function, as in an abbreviated display.
 
-    >>> from ttr.building.constructors import fun
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind, fun
     >>> [holds_as_head(f) for f in (Path(0, ("f",)), "f", fun(x=Ind)("a"))]
     [True, True, False]
     """
@@ -78,8 +77,7 @@ def holds_as_head(function: Object) -> bool:
 def begins_with_bracket(event: Object) -> bool:
     """Does an event begin with `(`? It would read as an argument of the one before.
 
-    >>> from ttr.building.constructors import fun
-    >>> from ttr.types.syntax import Ind, Type, this
+    >>> from ttr import Ind, Type, fun, this
     >>> begins_with_bracket(Ind >> Type), begins_with_bracket(fun(x=Ind)(this.x))
     (True, True)
     >>> begins_with_bracket(Application(fun(x=Ind)(this.x), "a"))
@@ -98,7 +96,7 @@ def begins_with_bracket(event: Object) -> bool:
 def binds(inside: Object) -> bool:
     """Does the inside of a binder mention its variable, which then needs a name?
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> dog = Pred("dog", Ind)
     >>> binds(dog(this.x)), binds(dog("fido"))
     (True, False)

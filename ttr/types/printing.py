@@ -62,8 +62,7 @@ Scope = tuple[frozenset[str] | str, ...]
 def notation(value: Object, scope: Scope = ()) -> str:
     """The value in the notation of the papers, on one line.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, outer
+    >>> from ttr import Ind, outer, rectype
     >>> run = Pred("run", Ind)
     >>> inner = rectype(x=Ind, c=run(outer.x))
     >>> print(notation(rectype(x=Ind, y=inner)))
@@ -139,7 +138,7 @@ def as_object(value: Object, scope: Scope) -> Object:
     There a label or variable with the name of a type hides the type. Then T ∧ T is
     written, which is T: names in a meet are types.
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> near, far = frozenset({"x"}), frozenset({"Ind"})
     >>> print(as_object(Ind, (near,)))
     Ind

@@ -19,7 +19,7 @@ def replace(
     A path is written with dots, in a mapping. Raises `TTRError` for a path that is not
     in the record: replacing never adds a label.
 
-    >>> from ttr.types.syntax import record
+    >>> from ttr import record
     >>> r = record(x="fido", bg=record(size=3))
     >>> print(replace(r, {"bg.size": 4}, x="sam"))
     {bg = {size = 4}, x = sam}
@@ -89,7 +89,7 @@ def differences(before: Object, after: Object, path: str = "") -> Iterator[str]:
 
     For a list that only grew or shrank: what was added (+) or removed (−).
 
-    >>> from ttr.types.syntax import record
+    >>> from ttr import record
     >>> list(differences(record(x="a", y=["b"]), record(x="c", y=["b", "d"])))
     ['x: a → c', 'y: + d']
     """

@@ -22,7 +22,7 @@ Around = tuple[Mapping[str, Object], ...]
 def follow_path(value: Object, labels: tuple[str, ...]) -> Object:
     """r.ℓ₁.….ℓₙ; raises `Unresolved` where a step is missing.
 
-    >>> from ttr.types.syntax import record
+    >>> from ttr import record
     >>> follow_path(record(bg=record(x="fido")), ("bg", "x"))
     'fido'
     """
@@ -40,7 +40,7 @@ def resolve_paths(value: Object, around: Around) -> Object:
 
     Raises `Unresolved` for a path that leads nowhere.
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> print(resolve_paths(Pred("dog", Ind)(this.x), ({"x": "fido"},)))
     dog(fido)
     """
@@ -62,7 +62,7 @@ def field_type(field: TypeNode, whole: Path | Record) -> TypeNode:
 
     `whole` is the record, or the place where it stands.
 
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> print(field_type(Pred("dog", Ind)(this.x), Record({"x": "fido"})))
     dog(fido)
     """
@@ -79,8 +79,7 @@ def field_type(field: TypeNode, whole: Path | Record) -> TypeNode:
 def substitute_variable(body: Object, term: Object) -> Object:
     """The body of a binder, as seen from outside, with a term for its variable.
 
-    >>> from ttr.building.constructors import fun
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, fun, this
     >>> print(substitute_variable(fun(x=Ind)(Pred("run", Ind)(this.x)).body, "fido"))
     run(fido)
     """

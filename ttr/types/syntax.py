@@ -40,7 +40,7 @@ def is_subtype(S: TypeNode, T: TypeNode, /) -> bool:
 
 @hook
 def as_function_type(domain: TypeNode, result: TypeNode, /) -> TypeNode:
-    """(S → T): `ttr.types.forms.function_type`."""
+    """(S → T): `ttr.types.derived_types.function_type`."""
     raise NotImplementedError
 
 

@@ -5,15 +5,19 @@ strategy combines rules: `first`, `all_`, `maybe`, `repeat`, `seq`, `by_class`, 
 `run` plays events through a strategy and checks the state against its declared type
 after every rule; a `Game` is what is needed to play whole dialogues.
 
-Read `rules`, `algorithms`, `running` and `games` first; `matching` finds what a rule
-binds, `effect_application` makes the next state, and `checks` finds faults in rules
-without running them. This room may use `judging` and what is below it.
+Read `rules`, `update_strategies`, `running` and `games` first; `matching` finds what a
+rule binds, `effect_application` makes the next state, and `checks` finds faults in
+rules without running them. This room may use `judging` and what is below it.
 """
 
 from typing import TYPE_CHECKING
 
 from ttr.aliases import former_names
-from ttr.updates.algorithms import (
+from ttr.updates.games import Game, Turn
+from ttr.updates.nbest import NBest, nbest
+from ttr.updates.rules import Body, Rule, rule, update
+from ttr.updates.running import Run, Step, run
+from ttr.updates.update_strategies import (
     Algorithm,
     All,
     Ask,
@@ -32,10 +36,6 @@ from ttr.updates.algorithms import (
     rules_of,
     seq,
 )
-from ttr.updates.games import Game, Turn
-from ttr.updates.nbest import NBest, nbest
-from ttr.updates.rules import Body, Rule, rule, update
-from ttr.updates.running import Run, Step, run
 
 __all__ = [
     "Algorithm",

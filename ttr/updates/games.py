@@ -20,11 +20,11 @@ from ttr.safety.budgets import within_budget
 from ttr.types.objects import Object, Record, freeze
 from ttr.types.printing import notation
 from ttr.types.syntax import RecordType, TypeNode, as_type, kind_of
-from ttr.updates.algorithms import Algorithm, check_strategies, rules_of
 from ttr.updates.nbest import NBest
 from ttr.updates.rules import Rule
 from ttr.updates.running import Run, Step, continue_run
 from ttr.updates.states import check_state
+from ttr.updates.update_strategies import Algorithm, check_strategies, rules_of
 from ttr.updates.user_functions import blame, excerpt
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ class Game:
     A game with a language reads texts by `hear` and words its moves by `say`. Raises
     `UpdateError` if the start is not of the type.
 
-    >>> from ttr.theories.theory import Theory
+    >>> from ttr import Theory
     >>> from ttr.updates import first, update
     >>> fetch = Theory.parse(r'''
     ...     basic Ind

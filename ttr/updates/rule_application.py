@@ -28,8 +28,7 @@ def apply_rule(rule: Rule, args: Sequence[Object], model: Model) -> Run:
     The state may be of any record type, as only a game says which one. Raises
     `UpdateError` if the rule does not apply, and says why.
 
-    >>> from ttr.theories.theory import Theory
-    >>> from ttr.types.syntax import record
+    >>> from ttr import Theory, record
     >>> count = Theory.parse('''
     ...     basic Int
     ...     Board := [told : list(Int)]

@@ -34,7 +34,7 @@ def format_rule(rule: Rule) -> str:
     `UnsupportedError` for a rule that has no notation, as one whose effect is in
     Python.
 
-    >>> from ttr.theories.theory import Theory
+    >>> from ttr import Theory
     >>> board = Theory.parse('''
     ...     basic Ind
     ...     Board := [spkr : Ind, addr : Ind]
@@ -96,7 +96,7 @@ def declaration(theory: Theory, name: str, fold: Fold = lambda value: value) -> 
 
     Raises `KeyError` for any other name.
 
-    >>> from ttr.theories.theory import Theory
+    >>> from ttr import Theory
     >>> theory = Theory.parse('''
     ...     basic Ind
     ...     S := [l : list(Ind)]

@@ -95,9 +95,7 @@ def rule(
     Paths in `where` refer to the function's parameters one record further out:
     `outer.s.qud` if the state is called `s`.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.records import replace
-    >>> from ttr.types.syntax import Ind, outer, record
+    >>> from ttr import Ind, outer, record, rectype, replace
     >>> from ttr.updates import run
     >>> Board = rectype(spkr=Ind, addr=Ind)
     >>> @rule(when=Board, where=rectype(other=Ind @ outer.s.addr))
@@ -242,8 +240,7 @@ def update(
     of the state's own type with T. Raises `UpdateError` for any other function.
     Source: Cooper 2023, chapter 2.
 
-    >>> from ttr.theories.theory import Theory
-    >>> from ttr.types.syntax import record
+    >>> from ttr import Theory, record
     >>> from ttr.updates import run
     >>> board = Theory.parse('''
     ...     basic Ind

@@ -23,7 +23,12 @@ from ttr.types.objects import FiniteSet, Object, Record, freeze
 from ttr.types.printing import notation
 from ttr.types.records import differences
 from ttr.types.syntax import RecordType, TypeNode, kind_of
-from ttr.updates.algorithms import (
+from ttr.updates.effect_application import apply_effect
+from ttr.updates.matching import find_bindings
+from ttr.updates.nbest import MatchedEvent, NBest, match_event
+from ttr.updates.rules import Rule
+from ttr.updates.states import check_state, is_still_of
+from ttr.updates.update_strategies import (
     Algorithm,
     All,
     Ask,
@@ -35,11 +40,6 @@ from ttr.updates.algorithms import (
     Seq,
     check_strategies,
 )
-from ttr.updates.effect_application import apply_effect
-from ttr.updates.matching import find_bindings
-from ttr.updates.nbest import MatchedEvent, NBest, match_event
-from ttr.updates.rules import Rule
-from ttr.updates.states import check_state, is_still_of
 from ttr.updates.user_functions import blame, excerpt
 
 ROUNDS = 1000

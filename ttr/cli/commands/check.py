@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ttr.cli.commands.output import (
+from ttr.cli.consent_options import add_allow
+from ttr.cli.output import (
     FAILED,
     FINE,
     Commands,
@@ -18,13 +19,12 @@ from ttr.cli.commands.output import (
     say_json,
     step_count,
 )
-from ttr.cli.consent_options import add_allow
 from ttr.cli.parser import WRONG_USE
 from ttr.errors import TooLargeError, TTRError
 from ttr.safety.budgets import STEPS, budget
 
 if TYPE_CHECKING:
-    from ttr.theories.reports import Report
+    from ttr.theories.check_reports import Report
 
 
 def add(commands: Commands) -> None:

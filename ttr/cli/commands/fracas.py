@@ -6,8 +6,8 @@ import argparse
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
-from ttr.cli.commands.output import FAILED, FINE, Commands, complain, say, say_json
 from ttr.cli.consent_options import add_allow
+from ttr.cli.output import FAILED, FINE, Commands, complain, say, say_json
 from ttr.errors import TTRError
 
 if TYPE_CHECKING:

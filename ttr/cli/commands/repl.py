@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ttr.cli.commands.output import FAILED, FINE, Commands, ask, complain, say
 from ttr.cli.consent_options import add_allow, consent_of
+from ttr.cli.output import FAILED, FINE, Commands, ask, complain, say
 from ttr.errors import TTRError
 from ttr.safety.limits import TooMuch
 

@@ -6,12 +6,12 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ttr.cli.commands.output import FAILED, FINE, Commands, complain, say
 from ttr.cli.consent_options import (
     add_consent,
     consent_of,
     named_game,
 )
+from ttr.cli.output import FAILED, FINE, Commands, complain, say
 from ttr.errors import TTRError
 from ttr.safety.consent import NotAllowedError
 from ttr.safety.files import check_outputs, write_whole

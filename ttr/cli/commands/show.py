@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from ttr.cli.commands.output import FAILED, FINE, Commands, complain, say
 from ttr.cli.consent_options import add_allow
+from ttr.cli.output import FAILED, FINE, Commands, complain, say
 from ttr.errors import TTRError, UnsupportedError
 
 if TYPE_CHECKING:

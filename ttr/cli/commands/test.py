@@ -10,7 +10,12 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from ttr.cli.commands.output import (
+from ttr.cli.consent_options import (
+    add_consent,
+    consent_of,
+    named_game,
+)
+from ttr.cli.output import (
     FAILED,
     FINE,
     INTERRUPTED,
@@ -19,11 +24,6 @@ from ttr.cli.commands.output import (
     complain,
     say,
     say_json,
-)
-from ttr.cli.consent_options import (
-    add_consent,
-    consent_of,
-    named_game,
 )
 from ttr.errors import TTRError
 
@@ -199,7 +199,7 @@ class _Outcome:
         return "\n\n".join(filter(None, [told.rstrip(), self._process_difference()]))
 
     def _process_difference(self) -> str:
-        from ttr.testing.determinism import DETERMINISTIC
+        from ttr.testing.properties.determinism import DETERMINISTIC
 
         if not self.across:
             return ""

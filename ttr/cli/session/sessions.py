@@ -29,10 +29,10 @@ from ttr.safety.files import write_whole
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import THEORY
 from ttr.signature.signature import Expected, Given
-from ttr.theories.drafts import Draft
 from ttr.theories.statements import StatementReader, names_mentioned
 from ttr.theories.strategy_statements import kinds_gathered
 from ttr.theories.theory import Theory, theory_of_draft, theory_of_file, theory_of_text
+from ttr.theories.theory_draft import Draft
 from ttr.types.objects import Object
 from ttr.types.paths import subterms
 from ttr.types.printing import notation

@@ -29,7 +29,7 @@ from ttr.computing.strings.pieces import (
 )
 from ttr.errors import UnsupportedError
 from ttr.safety.budgets import spend
-from ttr.types.forms import star
+from ttr.types.derived_types import star
 from ttr.types.syntax import Join, Meet, Negation, Plus, Str, TypeNode
 
 
@@ -38,7 +38,7 @@ def automaton(T: TypeNode) -> Automaton:
 
     A meet in it that has too many states is taken as a whole.
 
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
     >>> A, B = Basic("A"), Basic("B")
     >>> one = automaton(Str(Plus(A), B))
     >>> (first,) = one.edges[one.start]

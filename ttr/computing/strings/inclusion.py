@@ -43,8 +43,8 @@ class Inclusion:
 def check_inclusion(S: Automaton, T: Automaton | None, below: _Below) -> Inclusion:
     """Are the strings of S among those of T? Without T: are there none?
 
+    >>> from ttr import Basic, Plus, Str
     >>> from ttr.computing.strings.automata import automaton
-    >>> from ttr.types.syntax import Basic, Plus, Str
     >>> A = Basic("A")
     >>> pairs, some = automaton(Plus(Str(A, A))), automaton(Plus(A))
     >>> same = lambda event, types: event in types

@@ -32,7 +32,7 @@ ALTERNATIVES = 256
 def is_of_strings(T: TypeNode) -> bool:
     """Is T by its form a type of strings, rather than of events?
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> is_of_strings(Plus(Ind)), is_of_strings(Ind), is_of_strings(~~Str(Ind))
     (True, False, True)
     """
@@ -53,7 +53,7 @@ def is_of_strings(T: TypeNode) -> bool:
 def events_of(T: Str) -> tuple[TypeNode, ...] | None:
     """The types of the events, one by one; None if a piece may have several.
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> events_of(Str(Ind, Ind)), events_of(Str(Ind, Plus(Ind)))
     ((Basic('Ind'), Basic('Ind')), None)
     """
@@ -63,7 +63,7 @@ def events_of(T: Str) -> tuple[TypeNode, ...] | None:
 def string_of(types: Iterable[TypeNode], pieces: Iterable[Object]) -> EventString:
     """The string of these pieces: a piece is a string, or one event.
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> print(string_of((Plus(Ind), Ind), (EventString("a", "b"), "c")))
     <a b c>
     """
@@ -77,7 +77,7 @@ def string_of(types: Iterable[TypeNode], pieces: Iterable[Object]) -> EventStrin
 def alternatives(T: TypeNode) -> tuple[TypeNode, ...]:
     """The types whose join is T, each of them either of strings or of events.
 
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
     >>> A, B = Basic("A"), Basic("B")
     >>> print(*alternatives((A | Str(A)) & B), sep="; ")
     A /\\ B; B /\\ str(A)
@@ -133,7 +133,7 @@ def _is_regular_or_denied(T: TypeNode) -> bool:
 def regular_above(T: TypeNode) -> TypeNode:
     """A regular type of strings above T: T without the parts that are not regular.
 
-    >>> from ttr.types.syntax import Ind, Basic
+    >>> from ttr import Basic, Ind
     >>> print(regular_above(Str(Ind) & Basic("Short")))
     str(Ind)
     """

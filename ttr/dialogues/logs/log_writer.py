@@ -40,8 +40,8 @@ class LogFile:
     killed leaves complete turns, and at most the beginning of one more.
 
     >>> import tempfile
+    >>> from ttr import Theory
     >>> from ttr.dialogues.logs import read_logs
-    >>> from ttr.theories.theory import Theory
     >>> theory = Theory.parse('''
     ...     basic Ind
     ...     pred greet(Ind)
@@ -149,10 +149,9 @@ def write_log(path: Path, dialogues: Iterable[Dialogue]) -> None:
     """Writes the log of some dialogues; raises `LogError`.
 
     >>> import tempfile
-    >>> from ttr.building.constructors import rectype
+    >>> from ttr import Ind, rectype
     >>> from ttr.dialogues.dialogue import play
     >>> from ttr.dialogues.logs import read_logs
-    >>> from ttr.types.syntax import Ind
     >>> from ttr.updates import Game, rule
     >>> @rule(when=rectype(), on=Ind)
     ... def see(s, e):

@@ -7,6 +7,7 @@ them and says where they differ from what happens. `written` makes a story of tu
 from typing import TYPE_CHECKING
 
 from ttr.aliases import former_names
+from ttr.dialogues.event_wording import wording
 from ttr.dialogues.settings import (
     Setting,
     StoryError,
@@ -21,7 +22,6 @@ from ttr.dialogues.stories.story_opening import check_consent, opening, setting_
 from ttr.dialogues.stories.story_player import Played, failure_reason, fits, play
 from ttr.dialogues.stories.story_reader import Line, Story, read_stories
 from ttr.dialogues.stories.story_writer import format_story, story_text
-from ttr.dialogues.wording import wording
 
 __all__ = [
     "SILENCE",

@@ -16,8 +16,8 @@ def story_text(dialogue: Dialogue) -> str:
 
     The story says where it starts unless the game that it names does.
 
+    >>> from ttr import Theory
     >>> from ttr.dialogues.dialogue import Dialogue
-    >>> from ttr.theories.theory import Theory
     >>> theory = Theory.parse('''
     ...     basic Ind
     ...     pred greet(Ind)

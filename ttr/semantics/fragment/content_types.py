@@ -24,7 +24,7 @@ class Variables:
     def bind(self, said: Property) -> Function:
         """The function λx:Ind. said(x).
 
-        >>> from ttr.types.syntax import Pred
+        >>> from ttr import Pred
         >>> hug = Pred("hug", Ind, Ind)
         >>> print(Variables().bind(lambda x: hug(x, "sam")))
         \\x:Ind. hug(x, sam)
@@ -56,7 +56,7 @@ def replace_name(said: TypeNode, name: str, *labels: str) -> Object:
 def all_of(*parts: TypeNode) -> TypeNode:
     """The record type [c1 : T₁, c2 : T₂, …] of several types; of one type, itself.
 
-    >>> from ttr.types.syntax import Pred
+    >>> from ttr import Pred
     >>> dog, bark = Pred("dog", Ind), Pred("bark", Ind)
     >>> print(all_of(dog("fido"), all_of(bark("fido"), dog("fido"))))
     [c1 : dog(fido), c2 : bark(fido)]

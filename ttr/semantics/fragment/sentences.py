@@ -84,7 +84,7 @@ def pronoun_antecedents(
     "Every dog hugs a boy" the dogs, then the boys that are hugged. Nothing if the
     sentence is not certainly true.
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> from ttr.semantics.fragment import english
     >>> dog = english().meaning("NOUN", "dog")
     >>> M = Model(english().theory).given("s1", dog("fido")).given("fido", Ind)

@@ -5,9 +5,9 @@ evidence back, which undoes it exactly. A `Learner` is an object around such a v
 Sources: Cooper, Dobnik, Lappin and Larsson 2015; Larsson and Bernardy 2021.
 
 Read `counts` first, with `smoothing`; then classifiers over types: `features`,
-`evidence`, `evidence_based`, and on these `naive_bayes` and `linear_classifier` (with
-`logistic_regression`); then `learner`. May import: argument_checks, judging and all
-below.
+`evidence`, `evidence_classifier`, and on these `naive_bayes` and `linear_classifier`
+(with `logistic_regression`); then `learner`. May import: argument_checks, judging and
+all below.
 """
 
 from ttr.semantics.learning.counts import Counts

@@ -68,8 +68,8 @@ class Counts:
 
     Equal where the same was learned, in whatever order.
 
-    >>> from ttr.judging.propositions import proposition
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
+    >>> from ttr.judging import proposition
     >>> Dog, Bark = Basic("Dog"), Basic("Bark")
     >>> J = Counts().learned(proposition("f", Dog & Bark), proposition("s", Dog & Bark))
     >>> J = J.learned(proposition("r", Dog))
@@ -95,8 +95,8 @@ class Counts:
         nothing, for a type that nothing can be of, and where one situation would
         certainly be of types that exclude one another.
 
-        >>> from ttr.judging.propositions import proposition
-        >>> from ttr.types.syntax import Basic
+        >>> from ttr import Basic
+        >>> from ttr.judging import proposition
         >>> A = Basic("A")
         >>> Counts().learned(proposition("s", A), proposition("s", ~A))
         Traceback (most recent call last):
@@ -152,9 +152,9 @@ class Counts:
         Intervals give an interval: the least and the greatest value of the fraction.
         [0, 1] where there is no evidence.
 
-        >>> from ttr.semantics.learning.smoothing import LAPLACE
+        >>> from ttr import Basic
         >>> from ttr.judging.propositions import probabilistic
-        >>> from ttr.types.syntax import Basic
+        >>> from ttr.semantics.learning.smoothing import LAPLACE
         >>> A, B = Basic("A"), Basic("B")
         >>> J = Counts().learned(probabilistic("s", A, (0.5, 1)))
         >>> J = J.learned(probabilistic("t", B, 1))

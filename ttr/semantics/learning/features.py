@@ -24,8 +24,7 @@ def feature_types(T: TypeNode, /) -> tuple[TypeNode, ...]:
     A field with a meet gives a feature for each part. A type that is no record type is
     itself a feature.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, rectype, this
     >>> red, big = Pred("red", Ind), Pred("big", Ind)
     >>> print(*feature_types(rectype(x=Ind, c=red(this.x), s=big(this.x))), sep="; ")
     [x : Ind]; [x : Ind, c : red(x)]; [x : Ind, s : big(x)]
@@ -85,7 +84,7 @@ def features_below(
     Raises `RefusedError` where nothing can be of x, as x would then be below all
     features.
 
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
     >>> A, B = Basic("A"), Basic("B")
     >>> features_below(A, (A | B, B))
     (True, False)

@@ -38,8 +38,8 @@ class Learner:
 
     `classifier` is the value of what was learned so far, to keep or to compare.
 
+    >>> from ttr import Basic
     >>> from ttr.semantics.learning.naive_bayes import NaiveBayes
-    >>> from ttr.types.syntax import Basic
     >>> Red, Round = Basic("Red"), Basic("Round")
     >>> learner = Learner(NaiveBayes((Red, Round)))
     >>> learner.learn_one(Red & Round, "apple", key=1)

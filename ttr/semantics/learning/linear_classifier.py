@@ -15,7 +15,7 @@ from functools import cached_property
 from ttr.errors import TTRError, suggestion
 from ttr.semantics.learning.counts import NO_THEORY
 from ttr.semantics.learning.evidence import NO_EVIDENCE, Evidence
-from ttr.semantics.learning.evidence_based import EvidenceBased
+from ttr.semantics.learning.evidence_classifier import EvidenceBased
 from ttr.semantics.learning.features import Features, features_below, features_of
 from ttr.semantics.learning.logistic_regression import Example, fit_weights, logistic
 from ttr.signature.signature import Signature, signature_of
@@ -34,7 +34,7 @@ class LogOdds(EvidenceBased):
     on nothing but the evidence, so that its order does not matter and taking it back
     leaves no trace.
 
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
     >>> Red, Round = Basic("Red"), Basic("Round")
     >>> fruit = LogOdds((Red, Round)).learned(Red & Round, "apple", key=1)
     >>> fruit = fruit.learned(Round, "pear", key=2)

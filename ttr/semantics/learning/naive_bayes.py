@@ -16,7 +16,7 @@ from ttr.probability import UNKNOWN, Degree
 from ttr.safety.budgets import within_budget
 from ttr.semantics.learning.counts import NO_THEORY, Counts
 from ttr.semantics.learning.evidence import NO_EVIDENCE, Evidence
-from ttr.semantics.learning.evidence_based import EvidenceBased
+from ttr.semantics.learning.evidence_classifier import EvidenceBased
 from ttr.semantics.learning.features import (
     Features,
     features_below,
@@ -43,8 +43,8 @@ def posterior(
     `IllFormedError` where no class is given. Source: Cooper, Dobnik, Lappin and Larsson
     2015.
 
-    >>> from ttr.judging.propositions import proposition
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
+    >>> from ttr.judging import proposition
     >>> Apple, Pear, Red = Basic("Apple"), Basic("Pear"), Basic("Red")
     >>> J = Counts().learned(
     ...     proposition("a", Apple & Red), proposition("b", Apple & Red),
@@ -110,7 +110,7 @@ class NaiveBayes(EvidenceBased):
     The features that a situation's type is below are evidence; others count for
     nothing. Equal where the same was learned under the same keys.
 
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
     >>> Red, Round = Basic("Red"), Basic("Round")
     >>> fruit = NaiveBayes((Red, Round)).learned(Red & Round, "apple", key=1)
     >>> fruit = fruit.learned(Round, "pear", key=2)

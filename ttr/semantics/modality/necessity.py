@@ -37,7 +37,7 @@ def necessarily(T: TypeNode, /) -> PType:
 
     `ModalSystem.judge` judges what is of it.
 
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
     >>> print(necessarily(Basic("Rain")))
     nec(Rain)
     """
@@ -47,7 +47,7 @@ def necessarily(T: TypeNode, /) -> PType:
 def possibly(T: TypeNode, /) -> PType:
     """The diamond type ◇T = poss(T), of the situations in which T is possible.
 
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic
     >>> print(~possibly(Basic("Rain")))
     ~poss(Rain)
     """
@@ -78,8 +78,7 @@ def modal_claims(
 ) -> Iterator[tuple[Object, PType]]:
     """The box and diamond types that sit : T depends on, each with its object.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Basic, record, this
+    >>> from ttr import Basic, record, rectype, this
     >>> dog = Pred("dog", Basic("Ind"))
     >>> T = rectype(x=Basic("Ind"), c=possibly(dog(this.x)))
     >>> [(sit, str(kind)) for sit, kind in modal_claims(record(x="fido", c="s1"), T)]

@@ -125,9 +125,8 @@ class Notion:
         Law: yes where S ⊑ T. Unknown where there may be more witnesses of S than are
         known, and where they cannot be listed.
 
-        >>> from ttr.judging.models import Model
+        >>> from ttr import Basic, Model
         >>> from ttr.semantics.modality import modal_system
-        >>> from ttr.types.syntax import Basic
         >>> A, B = Basic("A"), Basic("B")
         >>> w = modal_system(w1=Model().given("a", A).given("a", B), w2=Model())
         >>> print(w.restrictive.subtype(A, B))

@@ -8,8 +8,8 @@ rise to individuals, whose places are judged in frames of reference. Sources: La
 
 Read `meanings` first, with `classifiers` and `interpretations`; then methods:
 `perceptron`, `learners`, `estimators`; then `composition`, `speakers`, `similarity`;
-then space: `regions`, `frames`. May import: argument_checks, learning's
-logistic_regression, judging and all below.
+then space: `individuation`, `frames_of_reference`. May import: argument_checks,
+learning's logistic_regression, judging and all below.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ttr.aliases import former_names
 from ttr.semantics.perceptual.classifiers import Classifier, Method
 from ttr.semantics.perceptual.composition import combined_type, in_model, perceive
 from ttr.semantics.perceptual.estimators import as_learner
-from ttr.semantics.perceptual.frames import (
+from ttr.semantics.perceptual.frames_of_reference import (
     Frame,
     Projective,
     absolute,
@@ -28,11 +28,7 @@ from ttr.semantics.perceptual.frames import (
     intrinsic,
     relative,
 )
-from ttr.semantics.perceptual.interpretations import interpretation
-from ttr.semantics.perceptual.learners import ByLearner, Learner, learner_params
-from ttr.semantics.perceptual.meanings import Meaning, meaning
-from ttr.semantics.perceptual.perceptron import GradedPerceptron, Perceptron, blank
-from ttr.semantics.perceptual.regions import (
+from ttr.semantics.perceptual.individuation import (
     INDIVIDUATE,
     Individual,
     PointMap,
@@ -42,6 +38,10 @@ from ttr.semantics.perceptual.regions import (
     detections,
     individuate,
 )
+from ttr.semantics.perceptual.interpretations import interpretation
+from ttr.semantics.perceptual.learners import ByLearner, Learner, learner_params
+from ttr.semantics.perceptual.meanings import Meaning, meaning
+from ttr.semantics.perceptual.perceptron import GradedPerceptron, Perceptron, blank
 from ttr.semantics.perceptual.similarity import (
     Agreement,
     Convergence,

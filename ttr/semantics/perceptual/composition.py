@@ -17,9 +17,8 @@ from ttr.types.syntax import TypeNode
 def combined_type(*meanings: Meaning) -> TypeNode:
     """The merge of the types of some meanings: in its situations all the words hold.
 
-    >>> from ttr.building.constructors import fun, rectype
+    >>> from ttr import Ind, Pred, fun, outer, record, rectype
     >>> from ttr.semantics.perceptual import Perceptron, RealVector, meaning
-    >>> from ttr.types.syntax import Ind, Pred, outer, record
     >>> def word(name, percept):
     ...     bg = rectype({"x": Ind, percept: RealVector})
     ...     interp = fun(r=bg)(rectype(c=Pred(name, Ind)(outer.r.x)))

@@ -6,7 +6,7 @@ from ttr.building.constructors import fun
 from ttr.building.formation import check_record_type
 from ttr.errors import IllFormedError
 from ttr.semantics.argument_checks import in_notation
-from ttr.types.forms import order_fields
+from ttr.types.derived_types import order_fields
 from ttr.types.objects import BOUND, Path
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import Function, PType, RecordType, kind_of
@@ -31,8 +31,7 @@ def interpretation(T: RecordType, label: str) -> Function:
     Law: fix(interpretation(T, ℓ)) is T. Raises `IllFormedError` where T has no ptype
     there.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, rectype, this
     >>> print(interpretation(rectype(x=Ind, c=Pred("cup", Ind)(this.x)), "c"))
     \r:[x : Ind]. [c : cup(r.x)]
     """

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
 
-from ttr.building.functions import fix
+from ttr.building.function_domains import fix
 from ttr.errors import TTRError, UndecidedError, UnsupportedError
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model, as_model
@@ -43,9 +43,8 @@ def meaning(
     `of` is the path of the percept in a situation, or several paths. Where handles are
     found there, `through` makes the percept of them.
 
-    >>> from ttr.building.constructors import fun, rectype
+    >>> from ttr import Ind, fun, outer, rectype
     >>> from ttr.semantics.perceptual.perceptron import Perceptron
-    >>> from ttr.types.syntax import Ind, outer
     >>> bg = rectype(foo=Ind, spkr=Ind, pos=RealVector)
     >>> to_the_right = rectype(c=Pred("right", Ind)(outer.r.foo))
     >>> params = record(w=[0.8, 0.01], t=0.09)

@@ -105,9 +105,8 @@ def difference(one: Meaning, other: Meaning) -> tuple[str, ...]:
 
     Here and in `agreement`, meanings may be given as their records.
 
-    >>> from ttr.building.constructors import fun, rectype
+    >>> from ttr import Ind, Pred, fun, outer, record, rectype
     >>> from ttr.semantics.perceptual import Perceptron, RealVector, meaning
-    >>> from ttr.types.syntax import Ind, Pred, outer, record
     >>> interp = fun(r=rectype(x=Ind, pos=RealVector))(
     ...     rectype(c=Pred("right", Ind)(outer.r.x))
     ... )

@@ -104,7 +104,7 @@ def extension(
     P is a predicate of one thing, a function to types, or a type; what is asked are the
     known objects of its domain. Raises `UnsupportedError` where these cannot be listed.
 
-    >>> from ttr.types.syntax import Ind, Pred
+    >>> from ttr import Ind, Pred
     >>> dog = Pred("dog", Ind)
     >>> M = Model().given("fido", Ind).given("sam", Ind).given("s1", dog("fido"))
     >>> print(extension(M, dog))

@@ -150,7 +150,7 @@ def quantify(
     What is uncertain of different things is taken as independent. Raises
     `UndefinedError` where q asks for a share, as `most` does, and nothing is P.
 
-    >>> from ttr.semantics.quantifiers import most, every
+    >>> from ttr.semantics.quantifiers import every, most
     >>> dogs = Extension.of(["fido", "rex", "sam"], "dog")
     >>> barkers = Extension.of(["fido", "sam", "kim"], "bark")
     >>> print(quantify(most, dogs, barkers).witness["X"])
@@ -178,8 +178,8 @@ def settle(
     Raises `UndefinedError` where q asks for a share, as `most` does, and nothing is P;
     `IllFormedError` for a type that is not quantified.
 
+    >>> from ttr import Ind, Pred
     >>> from ttr.semantics.quantifiers import every
-    >>> from ttr.types.syntax import Ind, Pred
     >>> dog, bark = Pred("dog", Ind), Pred("bark", Ind)
     >>> M = Model().given("fido", Ind).given("s1", dog("fido"))
     >>> M = M.given("s2", bark("fido"))

@@ -32,8 +32,8 @@ def judged(
     {x, e}, one for each of X, whose e is of Q(x). Where q falls, X has everything that
     is P and Q. Where something uncertain decides, the answer is unknown.
 
+    >>> from ttr import Ind, Pred, record
     >>> from ttr.semantics.quantifiers import few
-    >>> from ttr.types.syntax import Ind, Pred, record
     >>> dog, bark = Pred("dog", Ind), Pred("bark", Ind)
     >>> M = Model().given("fido", Ind).given("s1", dog("fido"))
     >>> M = M.given("s2", bark("fido"))

@@ -67,8 +67,8 @@ def truth(M: Model, T: TypeNode, thresholds: Thresholds | None = None) -> Truth:
     open, it is unknown. Raises `IllFormedError` for a type with a path that leads out
     of it.
 
+    >>> from ttr import Ind
     >>> from ttr.semantics.quantifiers import no
-    >>> from ttr.types.syntax import Ind
     >>> dog, bark = Pred("dog", Ind), Pred("bark", Ind)
     >>> M = Model().given("fido", Ind).given("s1", dog("fido"))
     >>> print(truth(M, absent(bark("fido"))).why)

@@ -101,8 +101,7 @@ class Roles:
         The type of the field has to fit as well: questions under discussion are a list
         or a set, a speaker is of a basic type.
 
-        >>> from ttr.building.constructors import rectype
-        >>> from ttr.types.syntax import Ind
+        >>> from ttr import Ind, rectype
         >>> roles = Roles.of(rectype(shared=rectype(qud=ListOf(Ind), com=SetOf(Ind))))
         >>> roles.qud, roles.commitments, roles.latest
         ('shared.qud', 'shared.com', None)
@@ -117,8 +116,7 @@ class Roles:
         No field plays a role whose path is empty; `drops` and `retracts` are names of
         rules, with commas between them. Raises `TTRError` for what is no role or path.
 
-        >>> from ttr.building.constructors import rectype
-        >>> from ttr.types.syntax import Ind
+        >>> from ttr import Ind, rectype
         >>> Board = rectype(shared=rectype(wishes=ListOf(Ind)))
         >>> Roles().declared(Board, {"qud": "shared.wishes", "drops": "a,b"}).qud
         'shared.wishes'

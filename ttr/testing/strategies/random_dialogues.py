@@ -33,9 +33,7 @@ def dialogues(
     Raises `TTRError` for what is no game, tutor or number of turns.
 
     >>> from hypothesis import find
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.records import replace
-    >>> from ttr.types.syntax import Ind, ListOf
+    >>> from ttr import Ind, ListOf, rectype, replace
     >>> from ttr.updates import rule
     >>> Board = rectype(heard=ListOf(Ind))
     >>> @rule(when=Board, on=Ind)

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from ttr.errors import RefusedError, TTRError
 from ttr.judging.models import Model
-from ttr.testing.strategies import arbitrary
-from ttr.testing.strategies.arbitrary import Words
+from ttr.testing.strategies import random_types
+from ttr.testing.strategies.random_types import Words
 from ttr.theories.theory import Theory
 from ttr.types.objects import Object
 from ttr.types.syntax import Basic, PType, TypeNode
@@ -44,7 +44,7 @@ def facts(
     for T in words.basics:
         for name in draw(st.lists(st.sampled_from(words.names), unique=True)):
             M = _with_fact(M, name, T, draw(degrees))
-    facts = st.tuples(st.sampled_from(words.names), arbitrary.ptypes(words, (), 0))
+    facts = st.tuples(st.sampled_from(words.names), random_types.ptypes(words, (), 0))
     for sit, ptype in draw(st.lists(facts, max_size=8)):
         M = _with_fact(M, sit, ptype, draw(degrees))
     return M

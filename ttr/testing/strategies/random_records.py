@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from ttr.computing.strings.pieces import string_of
 from ttr.errors import IllFormedError, RefusedError, TTRError
 from ttr.judging.models import Model
-from ttr.testing.strategies import arbitrary
-from ttr.testing.strategies.arbitrary import Words
+from ttr.testing.strategies import random_types
 from ttr.testing.strategies.random_models import facts
+from ttr.testing.strategies.random_types import Words
 from ttr.theories.theory import Theory
 from ttr.types.objects import FiniteSet, Object, Record, Unresolved
 from ttr.types.substitution import resolve_paths
@@ -46,8 +46,7 @@ def records(T: TypeNode, model: Model | None = None) -> st.SearchStrategy[Any]:
     Raises `IllFormedError` for what is no record type.
 
     >>> from hypothesis import find
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, rectype, this
     >>> T = rectype(x=Ind, c=Pred("dog", Ind)(this.x))
     >>> r, M = find(records(T), lambda pair: True)
     >>> M.judge(r, T).holds
@@ -132,7 +131,7 @@ def _shapes(draw: st.DrawFn, T: TypeNode, M: Model, names: tuple[str, ...]) -> O
             found = draw(st.lists(_shapes(item, M, names), min_size=least, max_size=2))
             return _MADE_OF[type(T)](*found)
         case FunType() | Universe():
-            return draw(arbitrary.forms(Words.of(Theory.of(T)), (), 1, T))
+            return draw(random_types.forms(Words.of(Theory.of(T)), (), 1, T))
         case Basic() | PType() if M.witnesses(T):
             likely = st.sampled_from(M.witnesses(T))
             return draw(st.one_of(likely, likely, likely, st.sampled_from(names)))

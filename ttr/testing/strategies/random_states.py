@@ -47,7 +47,7 @@ def states(
     `RefusedError` if no state can be created.
 
     >>> from hypothesis import find
-    >>> from ttr.types.syntax import Ind, ListOf
+    >>> from ttr import Ind, ListOf
     >>> Board = rectype(speaker=Ind, agenda=ListOf(Ind))
     >>> state, M = find(states(Board), lambda pair: len(pair[0].agenda) == 2)
     >>> M.judge(state, Board).holds
@@ -81,7 +81,7 @@ def events(
     `TTRError` if there is no type to draw events of.
 
     >>> from hypothesis import find
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, this
     >>> M = Model().given("fido", Ind)
     >>> Barking = rectype(x=Ind, c=Pred("bark", Ind)(this.x))
     >>> print(find(events([Barking], M), lambda event: event is not Barking))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from hypothesis import strategies as st
 
 from ttr.errors import TTRError
-from ttr.testing.strategies import arbitrary
-from ttr.testing.strategies.arbitrary import Words
+from ttr.testing.strategies import random_types
+from ttr.testing.strategies.random_types import Words
 from ttr.theories.theory import Theory
 from ttr.types.objects import Object
 from ttr.types.syntax import RecordType, TypeNode
@@ -28,14 +28,14 @@ def types(
     >>> print(find(types(), lambda T: isinstance(T, RecordType) and len(T.labels) == 2))
     [x : A, y : A]
     """
-    return arbitrary.types(Words.of(theory), (), _check_depth(depth))
+    return random_types.types(Words.of(theory), (), _check_depth(depth))
 
 
 def record_types(
     theory: Theory | None = None, *, depth: int = DEPTH
 ) -> st.SearchStrategy[RecordType]:
     """Well-formed record types, drawn as `types` does."""
-    return arbitrary.record_types(Words.of(theory), (), _check_depth(depth))
+    return random_types.record_types(Words.of(theory), (), _check_depth(depth))
 
 
 def objects(
@@ -45,7 +45,7 @@ def objects(
 
     They are names, numbers, records, lists, sets, strings of events, functions, types.
     """
-    return arbitrary.objects(Words.of(theory), (), _check_depth(depth))
+    return random_types.objects(Words.of(theory), (), _check_depth(depth))
 
 
 def _check_depth(depth: object) -> int:

@@ -15,7 +15,6 @@ from ttr.judging.models import Model, as_model
 from ttr.safety.budgets import within_budget
 from ttr.types.objects import Record, freeze
 from ttr.types.syntax import RecordType, TypeNode
-from ttr.updates.algorithms import Algorithm, check_strategies
 from ttr.updates.checks.bindings import find_circular_fields, find_unlistable_bindings
 from ttr.updates.checks.conflicting_rules import find_conflicts
 from ttr.updates.checks.endless_loops import find_endless_loops
@@ -33,6 +32,7 @@ from ttr.updates.checks.untriggered_rules import (
 )
 from ttr.updates.checks.wrong_values import find_wrong_values
 from ttr.updates.rules import Rule
+from ttr.updates.update_strategies import Algorithm, check_strategies
 
 if TYPE_CHECKING:
     from ttr.updates.games import Game
@@ -59,9 +59,7 @@ def faults(
     wrong, but what cannot be analysed is passed over. Raises `UpdateError` for what is
     no strategy, no type of states or no types of events.
 
-    >>> from ttr.building.constructors import rectype
-    >>> from ttr.types.records import replace
-    >>> from ttr.types.syntax import Basic
+    >>> from ttr import Basic, rectype, replace
     >>> from ttr.updates import rule
     >>> Count = Basic("Count")
     >>> @rule(when=rectype(nn=Count))
@@ -89,7 +87,7 @@ def _events(hears: object) -> tuple[TypeNode, ...]:
 def faults_of(game: Game) -> tuple[Fault, ...]:
     """What is wrong with the rules of a game, its start and the moves that it plans.
 
-    >>> from ttr.theories.theory import Theory
+    >>> from ttr import Theory
     >>> desk = Theory.parse('''
     ...     basic Ind
     ...     object a : Ind

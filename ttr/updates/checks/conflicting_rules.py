@@ -8,11 +8,11 @@ from itertools import combinations
 from ttr.types.interning import identity
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
-from ttr.updates.algorithms import Algorithm, All, ByClass, Maybe, Repeat
 from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault, Severity
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.rules import Rule
+from ttr.updates.update_strategies import Algorithm, All, ByClass, Maybe, Repeat
 
 _Group = tuple[str, Severity, tuple[Rule, ...]]
 """Rules whose order should not matter: their description, severity of a conflict, and

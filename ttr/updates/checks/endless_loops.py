@@ -6,13 +6,13 @@ from collections.abc import Iterator
 
 from ttr.types.objects import Operation, Path
 from ttr.types.syntax import TypeNode
-from ttr.updates.algorithms import Algorithm, ByClass, Maybe, Repeat, rules_of
 from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.state_layout import Labels, leaf_fields
 from ttr.updates.checks.untriggered_rules import may_set
 from ttr.updates.rules import Rule
+from ttr.updates.update_strategies import Algorithm, ByClass, Maybe, Repeat, rules_of
 
 LONGEST = 60
 """How many characters the name of a repetition may have."""

@@ -28,7 +28,6 @@ from ttr.types.syntax import (
     TypeNode,
     meet,
 )
-from ttr.updates.algorithms import Algorithm, rules_of
 from ttr.updates.checks.effect_summaries import UNKNOWN_EFFECT, EffectSummary, Write
 from ttr.updates.checks.notation_effects import summarise_notation
 from ttr.updates.checks.python_effects import summarise_python
@@ -44,6 +43,7 @@ from ttr.updates.checks.state_layout import (
     views_along,
 )
 from ttr.updates.rules import Body, Rule
+from ttr.updates.update_strategies import Algorithm, rules_of
 
 Demand: TypeAlias = tuple[Labels, TypeNode]
 """A path of the state, and the type of which a rule asks it to be."""

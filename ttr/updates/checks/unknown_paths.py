@@ -8,13 +8,13 @@ from ttr.errors import Span, suggestion
 from ttr.types.objects import Object, Record
 from ttr.types.paths import free_paths
 from ttr.types.syntax import Meet, RecordType, Singleton
-from ttr.updates.algorithms import Algorithm, ByClass, Maybe, Repeat
 from ttr.updates.checks.effect_summaries import Access, Built
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.source_positions import span_of_label
 from ttr.updates.checks.state_layout import Labels, Missing
 from ttr.updates.rules import Body, Rule
+from ttr.updates.update_strategies import Algorithm, ByClass, Maybe, Repeat
 
 
 def find_missing_paths(rules: RuleSet) -> Iterator[Fault]:

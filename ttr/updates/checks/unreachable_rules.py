@@ -11,7 +11,13 @@ from ttr.types.objects import Path
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.syntax import Singleton, TypeNode, meet
-from ttr.updates.algorithms import (
+from ttr.updates.checks.faults import Fault
+from ttr.updates.checks.rulesets import RuleSet
+from ttr.updates.checks.source_positions import span_of_label
+from ttr.updates.checks.state_layout import Labels, Missing, Term, leaf_fields
+from ttr.updates.checks.wrong_values import declared_type, is_misfit, views_of
+from ttr.updates.rules import Rule
+from ttr.updates.update_strategies import (
     Algorithm,
     All,
     Ask,
@@ -22,12 +28,6 @@ from ttr.updates.algorithms import (
     Seq,
     rule_occurrences,
 )
-from ttr.updates.checks.faults import Fault
-from ttr.updates.checks.rulesets import RuleSet
-from ttr.updates.checks.source_positions import span_of_label
-from ttr.updates.checks.state_layout import Labels, Missing, Term, leaf_fields
-from ttr.updates.checks.wrong_values import declared_type, is_misfit, views_of
-from ttr.updates.rules import Rule
 
 
 def find_unreachable_rules(rules: RuleSet) -> Iterator[Fault]:

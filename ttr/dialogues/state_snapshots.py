@@ -19,7 +19,7 @@ Snapshot: TypeAlias = "dict[str, Snapshot] | tuple[object, ...]"
 def snapshot(value: Object) -> Snapshot:
     """What an object is made of now: a dictionary for a record, else a tuple.
 
-    >>> from ttr.types.syntax import record
+    >>> from ttr import record
     >>> snapshot(record(x="a")) == snapshot(record(x="a"))
     True
     """
@@ -63,7 +63,7 @@ def _plain_value(value: object) -> object:
 def copy_of(value: Object) -> Object:
     """A copy of an object, in which all records are copies, too.
 
-    >>> from ttr.types.syntax import record
+    >>> from ttr import record
     >>> r = record(x=record(y="a"))
     >>> copy_of(r) == r, copy_of(r).x is r.x
     (True, False)

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from ttr.building.constructors import rectype
 from ttr.errors import TTRError, UnsupportedError
 from ttr.semantics.argument_checks import in_notation
-from ttr.semantics.perceptual.regions import PointMap
+from ttr.semantics.perceptual.individuation import PointMap
 from ttr.semantics.perceptual.vectors import (
     RealVector,
     Vector,

@@ -2,23 +2,32 @@
 
 from __future__ import annotations
 
-from ttr.testing.agendas import DONE_ONCE
-from ttr.testing.determinism import CONFLUENT, DETERMINISTIC, REPLAYS
-from ttr.testing.discourse import COMMITMENTS_STAY, DOWNDATES_ONCE, QUD_DISCIPLINE
-from ttr.testing.groundedness import AGREED_ONCE, SAID_FIRST
-from ttr.testing.pending_items import ANSWERED, EMPTIES
-from ttr.testing.properties import Property
-from ttr.testing.soundness import (
+from ttr.testing.properties.agendas import DONE_ONCE
+from ttr.testing.properties.determinism import CONFLUENT, DETERMINISTIC, REPLAYS
+from ttr.testing.properties.discourse import (
+    COMMITMENTS_STAY,
+    DOWNDATES_ONCE,
+    QUD_DISCIPLINE,
+)
+from ttr.testing.properties.event_uptake import NOTHING_DROPPED
+from ttr.testing.properties.groundedness import AGREED_ONCE, SAID_FIRST
+from ttr.testing.properties.pending_items import ANSWERED, EMPTIES
+from ttr.testing.properties.property import Property
+from ttr.testing.properties.soundness import (
     KEEPS_TYPE,
     NAMES_BOUND,
     NEVER_BREAKS,
     PURE,
     TERMINATES,
 )
-from ttr.testing.speaker_rights import IN_TURN
-from ttr.testing.turn_taking import EVENTS_ONCE, FRESH_ANSWERS, ROUND_TRIP, TAKES_TURNS
-from ttr.testing.unused_rules import NO_DEAD_RULE
-from ttr.testing.uptake import NOTHING_DROPPED
+from ttr.testing.properties.speaker_rights import IN_TURN
+from ttr.testing.properties.turn_taking import (
+    EVENTS_ONCE,
+    FRESH_ANSWERS,
+    ROUND_TRIP,
+    TAKES_TURNS,
+)
+from ttr.testing.properties.unused_rules import NO_DEAD_RULE
 
 ALL: tuple[Property, ...] = (
     PURE,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ttr.dialogues.dialogue import Dialogue
 from ttr.testing.event_subjects import agents_of, field_at, speaker_of
-from ttr.testing.properties import Breaches, Property
+from ttr.testing.properties.property import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles, value_at
 from ttr.types.objects import Record
 from ttr.types.syntax import Singleton

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ttr.testing.coverage import Coverage
-from ttr.testing.properties import Property
+from ttr.testing.properties.property import Property
 
 ENOUGH = 5000
 """Turns after which a rule that was never applied counts as dead."""

@@ -40,7 +40,7 @@ def star(T: TypeNode, /) -> TypeNode:
 
     Source: Fernando 2007.
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> print(star(Ind))
     plus(Ind) \\/ str()
     """
@@ -50,7 +50,7 @@ def star(T: TypeNode, /) -> TypeNode:
 def function_type(domain: TypeNode, result: TypeNode) -> FunType:
     """(S → T), the functions from S to T.
 
-    >>> from ttr.types.syntax import Ind, Type
+    >>> from ttr import Ind, Type
     >>> print(function_type(Ind, Type))
     (Ind -> Type)
     """

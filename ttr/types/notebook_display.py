@@ -20,7 +20,7 @@ def as_latex(value: object) -> str:
 class NotebookValue:
     """A value that a notebook shows as it is drawn in papers.
 
-    >>> from ttr.types.syntax import Ind
+    >>> from ttr import Ind
     >>> Ind._repr_latex_()
     '$\\\\displaystyle \\\\mathit{Ind}$'
     """

@@ -2,7 +2,7 @@
 
 import pytest
 
-from ttr.computing.strings.beliefs import (
+from ttr.computing.strings.uncertain_states import (
     NOWHERE,
     SETS,
     Beliefs,

@@ -12,7 +12,7 @@ from ttr.testing.event_subjects import (
     items_at,
     items_not_in,
 )
-from ttr.testing.properties import Breaches, Property
+from ttr.testing.properties.property import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.types.interning import identity
 from ttr.types.objects import Object

@@ -180,7 +180,7 @@ def individuate(M: Model, region: Record) -> Individual:
     It certainly exists; that it has the property is as probable as p of the region, or
     certain where there is no p. Raises `RefusedError` for what is no region.
 
-    >>> from ttr.types.syntax import Pred
+    >>> from ttr import Pred
     >>> seen = record(reg=PointMap([[0, 1], [1, 0]]), pfun=fun(x=Ind)(
     ...     Pred("dog", Ind)(this.x)), p=0.8)
     >>> found = individuate(Model(), seen)

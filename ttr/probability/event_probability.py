@@ -20,7 +20,7 @@ from ttr.probability.events import (
     signs,
     simplify,
 )
-from ttr.probability.independent import bounds, sum_over_cases
+from ttr.probability.independent_events import bounds, sum_over_cases
 from ttr.probability.linear_programs import InfeasibleError
 from ttr.probability.networks import ImpossibleError, Network, conjunction, network
 from ttr.probability.polytopes import Polytope, polytope

@@ -7,12 +7,15 @@ from collections.abc import Iterator
 
 from ttr.dialogues.dialogue import Dialogue, Trial, give, play
 from ttr.judging.models import Model
-from ttr.testing.properties import Breaches, Property
+from ttr.testing.properties.property import Breaches, Property
 from ttr.testing.single_rules import apply_rules
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.types.printing import notation
 from ttr.types.records import differences
-from ttr.updates.algorithms import (
+from ttr.updates.games import Game
+from ttr.updates.rules import Rule
+from ttr.updates.running import Run, Step
+from ttr.updates.update_strategies import (
     Algorithm,
     All,
     Ask,
@@ -22,9 +25,6 @@ from ttr.updates.algorithms import (
     Repeat,
     Seq,
 )
-from ttr.updates.games import Game
-from ttr.updates.rules import Rule
-from ttr.updates.running import Run, Step
 
 # --- again ---------------------------------------------------------------------------
 

@@ -6,15 +6,15 @@ from collections.abc import Iterator
 
 from ttr.computing.subtyping import subtype
 from ttr.testing.coverage import Coverage
-from ttr.testing.properties import Property
+from ttr.testing.properties.property import Property
 from ttr.testing.strategies.random_states import heard_by
 from ttr.theories.theory import Theory
 from ttr.types.objects import Object
 from ttr.types.paths import subterms
 from ttr.types.syntax import PType, RecordType, TypeNode
-from ttr.updates.algorithms import rules_of
 from ttr.updates.games import Game
 from ttr.updates.rules import Body, Rule
+from ttr.updates.update_strategies import rules_of
 
 
 def _why_dropped(coverage: Coverage) -> str:

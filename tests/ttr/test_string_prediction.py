@@ -6,7 +6,7 @@ from ttr import Basic, Ind, Model, Plus, Pred, Str, TTRError, this
 from ttr.building.constructors import rectype
 from ttr.errors import RefusedError, UnexpectedError, UnsupportedError
 from ttr.semantics.string_prediction import start_course
-from ttr.types.forms import star
+from ttr.types.derived_types import star
 
 A, B, C = map(Basic, "ABC")
 M = Model().given("a", A).given("b", B).given("c", C).given("ab", A).given("ab", B)

@@ -21,7 +21,7 @@ from ttr.testing.event_subjects import (
     mentions,
     mentions_of_sort,
 )
-from ttr.testing.properties import Breaches, Property
+from ttr.testing.properties.property import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles, value_at
 from ttr.types.interning import identity
 from ttr.types.objects import Object, Record

@@ -9,7 +9,7 @@ from ttr.building.merging import merge
 from ttr.errors import IllFormedError
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Signature
-from ttr.types.forms import order_fields
+from ttr.types.derived_types import order_fields
 from ttr.types.objects import BOUND, Path
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import Function, RecordType, TypeNode, as_type, kind_of
@@ -22,8 +22,7 @@ def restrict(f: Function, S: TypeNode, theory: Signature | None = None, /) -> Fu
     Raises `IllFormedError` for what is no function, and where the domain is ill-formed
     then.
 
-    >>> from ttr.building.constructors import fun, rectype
-    >>> from ttr.types.syntax import Ind, Pred, this
+    >>> from ttr import Ind, Pred, fun, rectype, this
     >>> man, run = Pred("man", Ind), Pred("run", Ind)
     >>> f = fun(r=rectype(x=Ind))(run(this["r.x"]))
     >>> print(restrict(f, rectype(x=Ind, c=man(this.x))))
@@ -43,8 +42,7 @@ def fix(f: Function, theory: Signature | None = None, /) -> RecordType:
     a record s is of it iff s : S and s : f(s). Raises `IllFormedError` where f is no
     such function, and where it says something of r as a whole. Source: Cooper 2023.
 
-    >>> from ttr.building.constructors import fun, rectype
-    >>> from ttr.types.syntax import Ind, Pred, outer
+    >>> from ttr import Ind, Pred, fun, outer, rectype
     >>> run = Pred("run", Ind)
     >>> f = fun(r=rectype(x=Ind))(rectype(c=run(outer.r.x)))
     >>> print(f)

@@ -111,8 +111,8 @@ def find_division(
 
     The automaton must have no wholes. The time is linear in the length.
 
+    >>> from ttr import Basic, Plus, Str
     >>> from ttr.computing.strings.automata import automaton
-    >>> from ttr.types.syntax import Basic, Plus, Str
     >>> A, B = Basic("A"), Basic("B")
     >>> ends_in_B = automaton(Str(Plus(A), B))
     >>> print(*find_division(3, ends_in_B, lambda number, T: T is (A, A, B)[number]))
@@ -287,8 +287,8 @@ def _unlink(way: Any) -> list[Any]:
 def accepts(length: int, automaton: Automaton, fits: _Fits) -> bool:
     """Does the automaton accept so many events? `fits` says what they are of.
 
+    >>> from ttr import Ind, Plus, Str
     >>> from ttr.computing.strings.automata import automaton
-    >>> from ttr.types.syntax import Ind, Plus, Str
     >>> pairs = automaton(Plus(Str(Ind, Ind)))
     >>> accepts(4, pairs, lambda number, T: True)
     True
@@ -313,8 +313,8 @@ def shortest_words(
 
     Strings of at least `length` events come first, if there are any.
 
+    >>> from ttr import Basic, Plus, Str
     >>> from ttr.computing.strings.automata import automaton
-    >>> from ttr.types.syntax import Basic, Plus, Str
     >>> A, B = Basic("A"), Basic("B")
     >>> for labels in islice(shortest_words(automaton(Str(Plus(A), B)), 3), 2):
     ...     print(*labels)

@@ -24,7 +24,7 @@ from ttr.testing.event_subjects import (
     mentions_of_sort,
     speaker_of,
 )
-from ttr.testing.properties import Breaches, Property
+from ttr.testing.properties.property import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.testing.strategies.random_states import heard_by
 from ttr.types.interning import identity

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from ttr.dialogues.dialogue import Dialogue
 from ttr.errors import EndlessError, NoStateError, RuleFailedError, TTRError
 from ttr.probability import CERTAIN
-from ttr.testing.properties import Breaches, Property
+from ttr.testing.properties.property import Breaches, Property
 from ttr.testing.single_rules import state_when_rerun
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.types.objects import Unresolved

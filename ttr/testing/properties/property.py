@@ -12,7 +12,7 @@ from ttr.testing.coverage import Coverage
 from ttr.testing.strategies.discourse_roles import Roles
 
 if TYPE_CHECKING:
-    from ttr.testing.pending_items import DialogueCounts, Finding
+    from ttr.testing.properties.pending_items import DialogueCounts, Finding
 
 Breaches: TypeAlias = Iterator[tuple[int, str]]
 """How a dialogue breaks a property, in order: the number of the turn, and why."""

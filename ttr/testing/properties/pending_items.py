@@ -22,7 +22,7 @@ from ttr.testing.event_subjects import (
     mentions_of_sort,
     speaker_of,
 )
-from ttr.testing.properties import Property
+from ttr.testing.properties.property import Property
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.types.interning import identity
 from ttr.types.objects import Object, Record

@@ -17,8 +17,8 @@ from ttr.signature.signature import (
 from ttr.theories.queries import Check
 from ttr.types.objects import Object
 from ttr.types.syntax import Basic, Pred
-from ttr.updates.algorithms import Algorithm
 from ttr.updates.rules import Rule
+from ttr.updates.update_strategies import Algorithm
 
 if TYPE_CHECKING:
     from ttr.theories.theory import Theory

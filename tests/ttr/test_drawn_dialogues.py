@@ -21,7 +21,7 @@ from ttr import (
     replace,
     this,
 )
-from ttr.dialogues.snapshots import copy_of, first_change, snapshot
+from ttr.dialogues.state_snapshots import copy_of, first_change, snapshot
 from ttr.testing import strategies as tst
 from ttr.types import TypeNode
 from ttr.updates import Game, NBest, first, rule

@@ -4,7 +4,7 @@ import pytest
 
 from ttr import Basic, Ind, Model, Plus, Pred, Str, rectype, this
 from ttr.types import EventString
-from ttr.types.forms import star
+from ttr.types.derived_types import star
 
 A, B, C = map(Basic, "ABC")
 M = Model().given("a", A).given("b", B)

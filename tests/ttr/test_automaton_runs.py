@@ -4,14 +4,14 @@ from itertools import islice
 
 from ttr import Basic, Plus, Str
 from ttr.computing.strings.automata import automaton
-from ttr.computing.strings.runs import (
+from ttr.computing.strings.automaton_runs import (
     Stop,
     accepts,
     find_division,
     find_divisions,
     shortest_words,
 )
-from ttr.types.forms import star
+from ttr.types.derived_types import star
 
 A, B, C = map(Basic, "ABC")
 

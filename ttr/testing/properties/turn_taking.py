@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from ttr.dialogues.dialogue import Dialogue, Trial, give
 from ttr.judging.judgements import Judgement
 from ttr.testing.event_subjects import format_objects
-from ttr.testing.properties import Breaches, Property
+from ttr.testing.properties.property import Breaches, Property
 from ttr.testing.strategies.discourse_roles import Roles, acts_in, value_at
 from ttr.testing.strategies.random_states import heard_by, variants
 from ttr.types.interning import identity

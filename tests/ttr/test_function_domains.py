@@ -3,7 +3,7 @@
 import pytest
 
 from ttr import Basic, Ind, Model, Pred, fun, outer, record, rectype, this
-from ttr.building.functions import fix, restrict
+from ttr.building.function_domains import fix, restrict
 from ttr.errors import IllFormedError
 
 A = Basic("A")

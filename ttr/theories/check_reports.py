@@ -19,8 +19,7 @@ class Failure:
     def __str__(self) -> str:
         """The failure as `ttr check` prints it.
 
-        >>> from ttr.theories.checking import check
-        >>> from ttr.theories.theory import Theory
+        >>> from ttr import Theory, check
         >>> theory = Theory.parse("basic A, B\\ncheck A <= B", "ab.ttr")
         >>> print(check(theory).failures[0])
         failed: check A <= B
