@@ -303,7 +303,7 @@ def _log(folder: Path) -> Reader:
 def _typed(folder: Path) -> Reader:
     from ttr.cli.session.sessions import Session
     from ttr.cli.session.terminal import _talk_through_pipe
-    from ttr.safety.limits import TooMuch
+    from ttr.safety.limits import InputLimitError
 
     def read(data: bytes) -> None:
         stdin, stdout = sys.stdin, sys.stdout
@@ -314,7 +314,7 @@ def _typed(folder: Path) -> Reader:
         finally:
             sys.stdin, sys.stdout = stdin, stdout
 
-    return Reader(_texts("tests/theories/*.ttr", 3000), read, (TooMuch,))
+    return Reader(_texts("tests/theories/*.ttr", 3000), read, (InputLimitError,))
 
 
 def _fracas(folder: Path) -> Reader:

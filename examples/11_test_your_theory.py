@@ -100,7 +100,7 @@ def strike(s, e):
 
 
 report = check_rules(restaurant(take, strike), tutor=tutor, roles=roles, examples=200)
-print(f"all is well: {report.holds}, never applied: {report.coverage.missed}")
+print(f"all is well: {report.holds}, never applied: {report.coverage.missed_rules}")
 
 # Rules that are written in a file are tested in the same way. `ttr test fetch.ttr` does
 # it from the command line, and prints what the dialogues covered.
@@ -108,4 +108,4 @@ print(f"all is well: {report.holds}, never applied: {report.coverage.missed}")
 fetch = setting("fetch.ttr fetch", Path(__file__).parent).game
 covered = check_rules(fetch, examples=50).coverage
 print(covered.table().splitlines()[1])
-print(f"what was not covered: {covered.missed}")
+print(f"what was not covered: {covered.missed_rules}")

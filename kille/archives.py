@@ -1,7 +1,7 @@
 """Zips and NumPy archives: nothing is unpacked before it is known how large it is.
 
-What is too large raises `OSError`, what is damaged `Damaged`. Nothing is ever written
-to disk, so that the names in an archive lead nowhere.
+What is too large raises `OSError`, what is damaged `DamagedArchiveError`. Nothing is
+ever written to disk, so that the names in an archive lead nowhere.
 """
 
 from __future__ import annotations
@@ -43,20 +43,20 @@ _DAMAGE = (
 """What numpy and zipfile come to where bytes of an archive are wrong."""
 
 
-class Damaged(ValueError):
+class DamagedArchiveError(ValueError):
     """An archive whose bytes are wrong."""
 
 
 @contextmanager
 def damage_told() -> Iterator[None]:
-    """Turns whatever wrong bytes come to into `Damaged`."""
+    """Turns whatever wrong bytes come to into `DamagedArchiveError`."""
     try:
         yield
-    except (OSError, Damaged):
+    except (OSError, DamagedArchiveError):
         raise
     except _DAMAGE as error:
         said = " ".join(str(error).split())
-        raise Damaged(said[:80] or type(error).__name__) from error
+        raise DamagedArchiveError(said[:80] or type(error).__name__) from error
 
 
 class _Bounded(io.BufferedReader):
@@ -106,7 +106,9 @@ def _member(
 ) -> Iterator[IO[bytes]]:
     limit.check(entry.file_size)
     if entry.compress_type not in _WAYS:
-        raise Damaged(f"{entry.filename} is compressed in a way that is not known")
+        raise DamagedArchiveError(
+            f"{entry.filename} is compressed in a way that is not known"
+        )
     with damage_told():
         file = archive.open(entry)
     with file:
@@ -141,7 +143,9 @@ def read_array(
         head = read_head(file)
         rest = entry.file_size - file.tell()
         if head.size != rest:
-            raise Damaged(f"{entry.filename} has {rest} bytes instead of {head.size}")
+            raise DamagedArchiveError(
+                f"{entry.filename} has {rest} bytes instead of {head.size}"
+            )
         flat = np.frombuffer(bytearray(file.read(rest)), head.kind)
         file.read(1)  # at the end its checksum is compared
         return flat.reshape(head.shape, order="F" if head.by_columns else "C")
@@ -161,13 +165,16 @@ class Head(NamedTuple):
 
 
 def read_head(file: IO[bytes]) -> Head:
-    """The head of an array, up to its first number; `Damaged` for Python objects."""
+    """The head of an array, up to its first number.
+
+    Raises `DamagedArchiveError` for an array of Python objects.
+    """
     with damage_told():
         shape, by_columns, kind = _HEADS[np.lib.format.read_magic(file)](file)
         if kind.hasobject:
-            raise Damaged("it holds Python objects")
+            raise DamagedArchiveError("it holds Python objects")
         if any(length < 0 for length in shape):
-            raise Damaged(f"the shape of an array cannot be {shape}")
+            raise DamagedArchiveError(f"the shape of an array cannot be {shape}")
         return Head(tuple(map(int, shape)), by_columns, kind)
 
 

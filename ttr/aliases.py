@@ -160,8 +160,10 @@ class Alias:
         return attrgetter(self.now)(owner if instance is None else instance)
 
 
-def former_names(module: str, stacklevel: int = 2) -> Callable[[str], Any]:
-    """The `__getattr__` of a module that has `FORMER_NAMES`.
+def former_names(
+    module: str, names: Mapping[str, str] | None = None, stacklevel: int = 2
+) -> Callable[[str], Any]:
+    """The `__getattr__` of a module with former names; without `names`, `FORMER_NAMES`.
 
     Where another function calls it, one level of the stack more is passed over.
 
@@ -174,7 +176,7 @@ def former_names(module: str, stacklevel: int = 2) -> Callable[[str], Any]:
     >>> print(said[0].message)
     ttr.dialogues.stories.worded is now ttr.dialogues.stories.wording
     """
-    names = FORMER_NAMES[module]
+    names = FORMER_NAMES[module] if names is None else names
 
     def find(name: str) -> Any:
         if name not in names:

@@ -65,7 +65,7 @@ def believed(
 
 def degree(model: Model, claim: PType) -> float:
     """How probable a claim is at least, by the witness function of its word."""
-    seen = model.facts.perceived(None, claim)
+    seen = model.facts.perceive(None, claim)
     return 0.0 if seen is None else float(seen.lo)
 
 

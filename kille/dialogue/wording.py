@@ -44,6 +44,7 @@ def say(lexicon: Lexicon, act: str, move: Record) -> str:
 def tell(lexicon: Lexicon, act: str, move: Record) -> str:
     """The tutor's sentence for a move: what a simulated tutor says.
 
+    >>> from kille.dialogue.lexicon import lexicon
     >>> from kille.dialogue.meanings import meaning_in, noun
     >>> from ttr import record
     >>> move = record(content=meaning_in("cup", "Naming"), signs=[noun("cup")])
@@ -58,6 +59,7 @@ def did_not_understand(lexicon: Lexicon, text: str) -> str:
 
     That is the text with its slips mended, or an example that is much like it.
 
+    >>> from kille.dialogue.lexicon import lexicon
     >>> print(did_not_understand(lexicon("en"), "Where is teh book?"))
     Sorry, I did not understand "Where is teh book?". You could say
     "Where is the book?"; ...

@@ -1,8 +1,8 @@
 """The methods that take part in a comparison: by name, or from a user's own module.
 
 Anything with `learn_one(x, word)` and `predict_proba_one(x)` may take part. Whatever it
-raises, and whatever it gives that is no degree, is told as a `MethodFailed`, so that
-the others can go on without it.
+raises, and whatever it gives that is no degree, is told as a `MethodFailedError`, so
+that the others can go on without it.
 """
 
 from __future__ import annotations
@@ -18,10 +18,13 @@ from typing import Any, TypeAlias
 
 from kille.experiments.results import ExperimentError
 from kille.perception.learners import check_degrees
+from ttr.aliases import former_names
 from ttr.safety.consent import Consent, NotAllowedError
 from ttr.safety.python_files import run_named
 
-__all__ = ["Make", "Methods", "MethodFailed", "candidates"]
+__all__ = ["Make", "Methods", "MethodFailedError", "candidates"]
+
+__getattr__ = former_names(__name__, {"MethodFailed": "MethodFailedError"})
 
 Make: TypeAlias = Callable[[], Any]
 """Gives a learner that has learned nothing."""
@@ -31,7 +34,7 @@ Methods: TypeAlias = Mapping[str, Make]
 _WRITTEN = "FILE.py:NAME or MODULE:NAME"
 
 
-class MethodFailed(ExperimentError):
+class MethodFailedError(ExperimentError):
     """A learner that failed, or gave what are no degrees; `name` is the method's."""
 
     def __init__(self, name: str, trouble: str) -> None:
@@ -119,7 +122,7 @@ class _Guarded:
     def __init__(self, name: str, learner: Any) -> None:
         for needed in ("learn_one", "predict_proba_one"):
             if not callable(getattr(learner, needed, None)):
-                raise MethodFailed(name, f"a learner needs {needed}, it has none")
+                raise MethodFailedError(name, f"a learner needs {needed}, it has none")
         self._name = name
         self._learner = learner
         self._takes_key = _takes_key(learner.learn_one)
@@ -149,7 +152,7 @@ class _Guarded:
 
     def _degrees(self, given: object) -> dict[str, float]:
         if not isinstance(given, Mapping):
-            raise MethodFailed(
+            raise MethodFailedError(
                 self._name,
                 "predict_proba_one gives a degree for each word, "
                 f"not {_article(type(given).__name__)}",
@@ -161,7 +164,7 @@ class _Guarded:
             check_degrees(degrees)
         except AssertionError as broken:
             told = f"predict_proba_one: {broken}, not to {sum(degrees.values()):.3g}"
-            raise MethodFailed(self._name, told) from None
+            raise MethodFailedError(self._name, told) from None
         return degrees
 
     def _check_degree(self, word: object, degree: Any) -> None:
@@ -171,7 +174,7 @@ class _Guarded:
         except (AssertionError, TypeError, ValueError):
             fine = False
         if not fine:
-            raise MethodFailed(
+            raise MethodFailedError(
                 self._name,
                 f"predict_proba_one gave {brief(word)} the degree {brief(degree)}",
             )
@@ -189,10 +192,10 @@ def _takes_key(method: Callable[..., Any]) -> bool:
 def _failing_as(name: str, doing: str) -> Iterator[None]:
     try:
         yield
-    except MethodFailed:
+    except MethodFailedError:
         raise
     except (Exception, SystemExit) as error:
-        raise MethodFailed(name, f"{doing}: {_told(error)}") from error
+        raise MethodFailedError(name, f"{doing}: {_told(error)}") from error
 
 
 def _told(error: BaseException) -> str:

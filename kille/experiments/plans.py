@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import Protocol as Shape
 
-from kille.experiments.candidates import Make, MethodFailed, Methods
+from kille.experiments.candidates import Make, MethodFailedError, Methods
 from kille.experiments.results import ExperimentError, Progress, Result
 
 
@@ -108,7 +108,7 @@ def run(
     *,
     seed: int,
     progress: Progress,
-    failed: Callable[[MethodFailed], None],
+    failed: Callable[[MethodFailedError], None],
 ) -> tuple[Result | None, dict[str, Make]]:
     """The result, and the methods that came through; none, no result.
 
@@ -118,7 +118,7 @@ def run(
     while able:
         try:
             return plan.run(able, seed=seed, progress=progress), able
-        except MethodFailed as failure:
+        except MethodFailedError as failure:
             failed(failure)
             del able[failure.name]
     return None, able

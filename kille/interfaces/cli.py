@@ -82,7 +82,7 @@ def _limit_pictures() -> None:
     """
     from ttr.safety.limits import PICTURE
 
-    os.environ.setdefault("OPENCV_IO_MAX_IMAGE_PIXELS", str(PICTURE.allowed))
+    os.environ.setdefault("OPENCV_IO_MAX_IMAGE_PIXELS", str(PICTURE.maximum))
 
 
 def _parser() -> Parser:

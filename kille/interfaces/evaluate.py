@@ -16,7 +16,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.text import Text
 
-from kille.experiments.candidates import MethodFailed, Methods, candidates
+from kille.experiments.candidates import MethodFailedError, Methods, candidates
 from kille.experiments.figures import MISSING, can_draw
 from kille.experiments.plans import (
     OBJECTS,
@@ -111,7 +111,7 @@ def evaluate(request: Request, told: _Tables | _Json) -> int:
     """Runs the protocols; the exit code, 1 if a method failed."""
     failures: list[str] = []
 
-    def failed(failure: MethodFailed) -> None:
+    def failed(failure: MethodFailedError) -> None:
         failures.append(str(failure))
         complain(failure)
 
@@ -178,7 +178,7 @@ def _measured(
     plan: Plan,
     methods: Methods,
     seed: int,
-    failed: Callable[[MethodFailed], None],
+    failed: Callable[[MethodFailedError], None],
 ) -> tuple[Result | None, Methods]:
     """Runs a protocol; on a terminal a bar shows how far it has come."""
     err = console(stderr=True)

@@ -18,7 +18,7 @@ from kille.sensors.recordings.recorder import (
     Disk,
     End,
     Limits,
-    NoRoom,
+    NoRoomError,
     Progress,
     check_room,
     record,
@@ -45,7 +45,7 @@ def record_sensor(
         sensor = open_sensor(name)
     except SensorError as error:
         return complain(error)
-    except NoRoom as error:
+    except NoRoomError as error:
         return complain(
             f"{out}: {in_bytes(error.needed)} are needed, and {in_bytes(error.free)} "
             "are free on the disk",

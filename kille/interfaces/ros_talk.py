@@ -12,7 +12,7 @@ from kille.interfaces.ros import Opening
 from kille.interfaces.terminal import FINE, complain, console
 from kille.nodes.topics import CALLS, STAGE
 from ttr.safety.inputs import ask_line
-from ttr.safety.limits import UTTERANCE, TooMuch
+from ttr.safety.limits import UTTERANCE, InputLimitError
 
 _PATIENCE = 30.0
 """Seconds to wait for an answer."""
@@ -48,7 +48,7 @@ def talk_over(bus: Bus, patience: float = _PATIENCE) -> int:
                     console().print(told, markup=False)
             except BusError as error:
                 complain(error)
-    except TooMuch as error:
+    except InputLimitError as error:
         return complain(f"the input cannot be read: {error.strerror}")
     return FINE
 

@@ -23,7 +23,7 @@ from kille.speech.sound import SoundError
 from kille.speech.speaking import Voice, voice
 from ttr import TTRError
 from ttr.safety.inputs import ask_line
-from ttr.safety.limits import UTTERANCE, TooMuch
+from ttr.safety.limits import UTTERANCE, InputLimitError
 
 COMMANDS = """\
 Lines that begin with @ change what there is to see:
@@ -72,7 +72,7 @@ def talk(
             _Conversation(robot, account, ears, speaks, language).hold()
         except SoundError as error:
             return complain(error)
-        except TooMuch as error:
+        except InputLimitError as error:
             return complain(f"the input cannot be read: {error.strerror}")
     return FINE
 

@@ -26,7 +26,7 @@ _HEAD_BYTES = 100
 _SIZES = tuple(2**it for it in range(9, 17))
 
 
-class BrokenPage(Exception):
+class BrokenPageError(Exception):
     """A page, a cell or a record that is not as SQLite writes them."""
 
 
@@ -109,13 +109,13 @@ class _File:
             number = waiting.pop()
             try:
                 if number in self._seen:
-                    raise BrokenPage
+                    raise BrokenPageError
                 page, start = self._page(number), self._start(number)
                 if page[start] == _INTERIOR:
                     waiting += reversed(self._children(page, start))
                 elif page[start] != _LEAF:
-                    raise BrokenPage
-            except BrokenPage:
+                    raise BrokenPageError
+            except BrokenPageError:
                 self._unreadable += 1
                 continue
             self._seen.add(number)
@@ -131,12 +131,12 @@ class _File:
         for place in self._cells(page, start, start + 8):
             try:
                 yield self._row(page, place)
-            except BrokenPage:
+            except BrokenPageError:
                 self._unreadable += 1
 
     def _page(self, number: int) -> bytes:
         if not 1 <= number <= self._pages:
-            raise BrokenPage
+            raise BrokenPageError
         return self._content[(number - 1) * self._size : number * self._size]
 
     def _start(self, number: int) -> int:
@@ -150,7 +150,7 @@ class _File:
     def _children(self, page: bytes, start: int) -> list[int]:
         places = list(self._cells(page, start, start + 12))
         if not all(start + 12 <= it <= self._usable - 4 for it in places):
-            raise BrokenPage
+            raise BrokenPageError
         places.append(start + 8)
         return [int.from_bytes(page[it : it + 4], "big") for it in places]
 
@@ -159,10 +159,10 @@ class _File:
         length, at = _varint(page, place)
         key, at = _varint(page, at)
         if length > min(LARGEST_VALUE, len(self._content)):
-            raise BrokenPage
+            raise BrokenPageError
         inside = self._bytes_inside(length)
         if at + inside > self._usable:
-            raise BrokenPage
+            raise BrokenPageError
         payload = page[at : at + inside]
         if inside < length:
             following = int.from_bytes(page[at + inside : at + inside + 4], "big")
@@ -182,7 +182,7 @@ class _File:
         seen: set[int] = set()
         while length > 0:
             if number in seen:
-                raise BrokenPage
+                raise BrokenPageError
             seen.add(number)
             page = self._page(number)
             part = page[4 : min(self._usable, 4 + length)]
@@ -216,7 +216,7 @@ def _varint(data: bytes, at: int) -> tuple[int, int]:
         value = value << 7 | byte & 0x7F
         if byte < 0x80:
             return value, at + count
-    raise BrokenPage
+    raise BrokenPageError
 
 
 def _record(payload: bytes) -> tuple[Value, ...]:
@@ -227,7 +227,7 @@ def _record(payload: bytes) -> tuple[Value, ...]:
         kind, at = _varint(payload, at)
         kinds.append(kind)
     if at != end or end + sum(map(_width, kinds)) != len(payload):
-        raise BrokenPage
+        raise BrokenPageError
     values: list[Value] = []
     for kind in kinds:
         values.append(_value(kind, payload[at : at + _width(kind)]))
@@ -243,7 +243,7 @@ def _width(kind: int) -> int:
     if kind >= 12:
         return (kind - 12) // 2
     if kind >= len(_WIDTHS):
-        raise BrokenPage
+        raise BrokenPageError
     return _WIDTHS[kind]
 
 

@@ -13,13 +13,13 @@ import numpy as np
 import pytest
 
 from kille.sensors.kinect.transport import (
+    AccessDeniedError,
     Batch,
-    Busy,
     Connection,
-    Denied,
-    Gone,
+    DeviceBusyError,
+    DeviceGoneError,
     Plugged,
-    Stalled,
+    StalledError,
 )
 from kinect_emulator.descriptors import (
     FOR_WINDOWS,
@@ -200,10 +200,10 @@ def test_pulling_it_out_ends_the_stream_and_plugging_in_begins_anew(
     deadline = time.monotonic() + TOO_LONG
     while stream.ended is None and time.monotonic() < deadline:
         time.sleep(0.01)
-    assert isinstance(stream.ended, Gone)
-    with pytest.raises(Gone):
+    assert isinstance(stream.ended, DeviceGoneError)
+    with pytest.raises(DeviceGoneError):
         order(connection, 0x02, 0x14)
-    with pytest.raises(Gone):
+    with pytest.raises(DeviceGoneError):
         wire.bus.open(before, 0)
     assert wire.bus.devices() == ()
     connection.close()
@@ -227,7 +227,7 @@ def test_it_may_be_plugged_in_as_often_as_one_likes(wired: Callable) -> None:
 
 @pytest.mark.parametrize(
     ("faults", "error"),
-    [(Faults(forbidden=True), Denied), (Faults(busy=True), Busy)],
+    [(Faults(forbidden=True), AccessDeniedError), (Faults(busy=True), DeviceBusyError)],
     ids=["forbidden", "busy"],
 )
 def test_what_cannot_be_had_says_why(
@@ -246,7 +246,7 @@ def test_one_camera_is_had_by_one_at_a_time(wired: Callable) -> None:
     wire = wired(Kinect())
     device = camera(wire.bus.devices())
     connection = wire.bus.open(device, 0)
-    with pytest.raises(Busy):
+    with pytest.raises(DeviceBusyError):
         wire.bus.open(device, 0)
     connection.close()
     wire.bus.open(device, 0).close()
@@ -257,7 +257,7 @@ def test_a_refused_request_is_stalled(wired: Callable) -> None:
     wire = wired(kinect)
     connection = wire.bus.open(camera(wire.bus.devices()), 0)
     kinect.faults = Faults(stalled=True)
-    with pytest.raises(Stalled):
+    with pytest.raises(StalledError):
         order(connection, 0x02, 0x14)
     kinect.faults = Faults()
     assert order(connection, 0x02, 0x14)

@@ -169,7 +169,7 @@ def test_a_lexicon_can_be_extended(tmp_path):
         'nouns := ["wug"]\nintransitives := [["blick", "blacked"]]\nnames := ["Zed"]\n'
         "wug(x) <: blick(x)\n"
     )
-    words = english().extended(more)
+    words = english().extend(more)
     content = understand("Every wug blicks.", words).content
     assert content is every(load(more).wug, load(more).blick)
     assert str(understand("Zed blacked.", words).content) == "blick(zed)"
@@ -216,7 +216,7 @@ def test_what_excludes_each_other_is_kept_in_a_lexicon_of_several_files(tmp_path
         "basic Ind\npred wug(Ind), blick(Ind)\n"
         'nouns := ["wug", "blick"]\nwug(x) <: ~blick(x)\n'
     )
-    words = english().extended(more)
+    words = english().extend(more)
     wug, blick = words.meaning("NOUN", "wug"), words.meaning("NOUN", "blick")
     with pytest.raises(TTRError, match="cannot have the probability 1"):
         Model(words.theory).given("s", wug("fido")).given("s", blick("fido"))

@@ -14,14 +14,14 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from kille.archives import (
-    Damaged,
+    DamagedArchiveError,
     check_sizes,
     opened_zip,
     read_arrays,
     read_head,
     read_member,
 )
-from ttr.safety.limits import DIRECTORY, Limit, TooMuch
+from ttr.safety.limits import DIRECTORY, InputLimitError, Limit
 
 FEW = Limit(1000, "bytes")
 
@@ -113,7 +113,7 @@ def _members(data: bytes) -> None:
 
 @pytest.mark.parametrize("read", TOO_MUCH.values(), ids=TOO_MUCH)
 def test_what_is_too_much_is_not_unpacked(read: Callable[[], object]) -> None:
-    with pytest.raises(TooMuch, match="and no more than 1 kB are read"):
+    with pytest.raises(InputLimitError, match="and no more than 1 kB are read"):
         read()
 
 
@@ -135,20 +135,20 @@ DAMAGED = {
 
 @pytest.mark.parametrize("content", DAMAGED.values(), ids=DAMAGED)
 def test_what_does_not_fit_is_damaged(content: bytes) -> None:
-    with pytest.raises(Damaged):
+    with pytest.raises(DamagedArchiveError):
         read_arrays(content, FEW)
 
 
 @pytest.mark.parametrize("shape", [(-1,), (3, -1), (-2, -3)])
 def test_a_head_with_a_shape_below_zero_is_damaged(shape: tuple[int, ...]) -> None:
-    with pytest.raises(Damaged, match="the shape of an array cannot be"):
+    with pytest.raises(DamagedArchiveError, match="the shape of an array cannot be"):
         read_head(io.BytesIO(head(shape)))
     assert read_head(io.BytesIO(head((0, 3)))).size == 0
 
 
 def test_no_more_is_unpacked_than_the_list_says() -> None:
     data = said_to_be(10, zipped(("a", bytes(10**6))))
-    with opened_zip(data) as archive, pytest.raises(Damaged, match="CRC"):
+    with opened_zip(data) as archive, pytest.raises(DamagedArchiveError, match="CRC"):
         read_member(archive, "a", FEW)
 
 
@@ -164,5 +164,5 @@ def test_what_is_in_a_zip_may_be_larger_than_its_list(
 def test_a_list_without_end_is_not_read(monkeypatch: pytest.MonkeyPatch) -> None:
     data = zipped(*((f"{it}", b"") for it in range(300)))
     monkeypatch.setattr("kille.archives._Bounded.limit", Limit(10_000, DIRECTORY.unit))
-    with pytest.raises(TooMuch, match="no more than 10 kB"), opened_zip(data):
+    with pytest.raises(InputLimitError, match="no more than 10 kB"), opened_zip(data):
         pass

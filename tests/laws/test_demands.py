@@ -22,7 +22,7 @@ from ttr.updates import First
 
 @given(st.lists(types(), min_size=1, max_size=5), objects(), models())
 def test_what_is_left_out_is_certainly_not_so(several, a, M):
-    left = RuleIndex(map(demands_of, several)).left(a, M.facts)
+    left = RuleIndex(map(demands_of, several)).possible_demands(a, M.facts)
     assert list(left) == sorted(set(left))
     for number, T in enumerate(several):
         assert number in left or not is_certain(M.facts, a, T)
@@ -33,11 +33,11 @@ def test_what_is_open_is_left():
     asks, tells = rectype(e=ask("a")), rectype(e=tell("a"))
     sieve = RuleIndex(map(demands_of, (asks, tells)))
     told = Model().given("a", Ind).given("s1", ask("a"))
-    assert list(sieve.left(record(e="s1"), told.facts)) == [0]
-    assert list(sieve.left(record(e="s2"), told.facts)) == []
-    assert list(sieve.left(record(x="s1"), told.facts)) == []
+    assert list(sieve.possible_demands(record(e="s1"), told.facts)) == [0]
+    assert list(sieve.possible_demands(record(e="s2"), told.facts)) == []
+    assert list(sieve.possible_demands(record(x="s1"), told.facts)) == []
     seen = told.witnessed(tell, by=lambda x: 1.0)
-    assert list(sieve.left(record(e="s1"), seen.facts)) == [0, 1]
+    assert list(sieve.possible_demands(record(e="s1"), seen.facts)) == [0, 1]
 
 
 # --- the games go on as they would without --------------------------------------------
@@ -142,5 +142,7 @@ def test_most_rules_of_the_lessons_are_left_out(lessons):
         and len(part.part.parts) > len(SIGNS) * 3
     )
     said = lessons.take(lessons.begin(), lessons.hear("Hello."))
-    left = answering.sieve.left(said.trace[0].after, said.trace[0].model.facts)
+    left = answering.sieve.possible_demands(
+        said.trace[0].after, said.trace[0].model.facts
+    )
     assert 0 < len(left) < len(answering.parts) / 2

@@ -392,5 +392,5 @@ def test_below_is_where_the_system_says(
 
 def test_consent_to_folders_adds_up() -> None:
     consent = Consent.of(["a"])
-    assert consent.adding("a") == consent
-    assert consent.adding("b") == Consent.of(["a", "b"])
+    assert consent.with_folders("a") == consent
+    assert consent.with_folders("b") == Consent.of(["a", "b"])

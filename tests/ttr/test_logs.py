@@ -94,7 +94,7 @@ def test_every_line_is_json_that_machines_read(log: Log) -> None:
 
 def test_a_log_is_read_without_its_game(log: Log) -> None:
     bare = replace(log, header=replace(log.header, game="gone.ttr gone"))
-    read = bare.declared.read(log.entries[-1].state, "log")
+    read = bare.declared.read_value(log.entries[-1].state, "log")
     assert str(read) == log.entries[-1].state
 
 

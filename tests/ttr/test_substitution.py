@@ -3,7 +3,7 @@
 import pytest
 
 from ttr import Ind, Pred, outer, record, rectype, this
-from ttr.types.objects import Path, Unresolved
+from ttr.types.objects import Path, UnresolvedError
 from ttr.types.paths import replace_paths
 from ttr.types.substitution import follow_path, resolve_paths
 
@@ -48,12 +48,12 @@ def test_a_type_without_paths_is_itself():
     ],
 )
 def test_what_leads_nowhere(path, message):
-    with pytest.raises(Unresolved, match=message):
+    with pytest.raises(UnresolvedError, match=message):
         resolve_paths(Ind @ path, ({"x": "a"},))
 
 
 def test_along():
     assert follow_path(record(bg=record(x="a")), ("bg", "x")) == "a"
     assert follow_path("a", ()) == "a"
-    with pytest.raises(Unresolved, match=r"the path bg\.y leads nowhere"):
+    with pytest.raises(UnresolvedError, match=r"the path bg\.y leads nowhere"):
         follow_path(record(bg=record(x="a")), ("bg", "y"))

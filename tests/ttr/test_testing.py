@@ -66,7 +66,7 @@ def test_good_rules_pass_and_tell_what_was_covered():
     report = testing.check_rules(GOOD, examples=50)
     assert report.holds
     assert report.coverage.dialogues == 50
-    assert report.coverage.missed == ()
+    assert report.coverage.missed_rules == ()
     assert report.coverage.rules["note"] > 100
     assert {one.name for one, _ in report.skipped} == {
         *("P8", "P9", "P10", "P16", "P22", "P24", "P26")

@@ -50,7 +50,7 @@ class Participant:
                 hint="say where it is: Game(…, agenda='agenda')",
             )
 
-    def licensed(self, board: Run) -> Create | None:
+    def licensed_act(self, board: Run) -> Create | None:
         """The act that their board licenses: to create what is first on the agenda."""
         planned = self.game.planned(board.state)
         if not planned:
@@ -118,7 +118,7 @@ class Encounter:
         current = self
         for index in range(len(self.participants)):
             ready = current._after_tacit_rules()
-            act = ready.participants[index].licensed(ready.boards[index])
+            act = ready.participants[index].licensed_act(ready.boards[index])
             current = ready if act is None else ready._after_act(index, act)
         return current
 
@@ -126,7 +126,7 @@ class Encounter:
         """A round in which all who are licensed act at once; then everyone sees it."""
         ready = self._after_tacit_rules()
         pairs = zip(ready.participants, ready.boards, strict=True)
-        acts = [one.licensed(board) for one, board in pairs]
+        acts = [one.licensed_act(board) for one, board in pairs]
         current = ready
         for index, act in enumerate(acts):
             current = current if act is None else current._after_act(index, act)
@@ -137,7 +137,7 @@ class Encounter:
         """Is nobody licensed to do anything, even after the rules without an event?"""
         ready = self._after_tacit_rules()
         pairs = zip(ready.participants, ready.boards, strict=True)
-        return all(one.licensed(board) is None for one, board in pairs)
+        return all(one.licensed_act(board) is None for one, board in pairs)
 
     def _after_tacit_rules(self) -> Encounter:
         """After the rules without an event, for everyone whose agenda is empty."""

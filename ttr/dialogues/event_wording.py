@@ -19,7 +19,7 @@ def wording(move: Judgement, setting: Setting) -> str:
     """
     say = setting.game.say
     if say is None:
-        return _folded(move.type, setting)
+        return _abbreviate(move.type, setting)
     try:
         return " ".join(say(move).split())
     except Exception as error:
@@ -39,10 +39,10 @@ def line_of_event(event: object, setting: Setting) -> str:
         case None:
             return "U>"
         case NBest():
-            parts = [f"{_folded(one, setting)} {p!r}" for one, p in event]
+            parts = [f"{_abbreviate(one, setting)} {p!r}" for one, p in event]
             return ("@ perhaps " if hears else "U~ ") + " | ".join(parts)
-    return ("@ event " if hears else "U> ") + _folded(event, setting)
+    return ("@ event " if hears else "U> ") + _abbreviate(event, setting)
 
 
-def _folded(value: Object, setting: Setting) -> str:
+def _abbreviate(value: Object, setting: Setting) -> str:
     return notation(abbreviator(setting.theory, 0)(value))

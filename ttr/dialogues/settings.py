@@ -98,7 +98,7 @@ def check_named(reference: str, folder: Path, consent: Consent) -> None:
 def named_by_user(reference: str, folder: Path, consent: Consent) -> Consent:
     """The consent of a user who names a game, and so lets its Python run."""
     python = python_in(reference)
-    return consent.naming(python, folder) if python else consent
+    return consent.with_python(python, folder) if python else consent
 
 
 def python_in(reference: str) -> str:

@@ -49,7 +49,7 @@ def abbreviator(
             hint="give it too, as in box(T, unfold=0, theory=kennel)",
         )
     names = _names(definitions)
-    return lambda value: _folded(value, names, unfold)
+    return lambda value: _fold(value, names, unfold)
 
 
 def _names(definitions: Mapping[str, Object]) -> dict[object, str]:
@@ -74,10 +74,10 @@ def _is_long(value: Object) -> bool:
     return isinstance(value, kinds)
 
 
-def _folded(value: Object, names: Mapping[object, str], unfold: int) -> Object:
+def _fold(value: Object, names: Mapping[object, str], unfold: int) -> Object:
     spend()
     name = names.get(identity(value)) if _is_long(value) else None
     if name is not None and unfold == 0:
         return Basic(name)
     inner = unfold if name is None else unfold - 1
-    return map_parts(value, lambda part, _: _folded(part, names, inner))
+    return map_parts(value, lambda part, _: _fold(part, names, inner))

@@ -19,10 +19,10 @@ def layout_of_changes(before: Object, after: Object) -> Layout:
     >>> [(row.label.text, row.changed) for row in layout.rows]
     [('x', False), ('y', True)]
     """
-    return _marked(layout_of(after), before, after)
+    return _mark_changes(layout_of(after), before, after)
 
 
-def _marked(layout: Layout, before: Object, after: Object) -> Layout:
+def _mark_changes(layout: Layout, before: Object, after: Object) -> Layout:
     match layout, before, after:
         case Matrix(rows=rows), Record(), Record() if len(after):
             marked = []
@@ -33,7 +33,7 @@ def _marked(layout: Layout, before: Object, after: Object) -> Layout:
                     continue
                 was, now = before[label], after[label]
                 if isinstance(was, Record) and isinstance(now, Record) and len(now):
-                    marked.append(replace(row, has=_marked(row.has, was, now)))
+                    marked.append(replace(row, has=_mark_changes(row.has, was, now)))
                     continue
                 marked.append(replace(row, changed=identity(was) != identity(now)))
             return replace(layout, rows=tuple(marked))

@@ -110,7 +110,7 @@ def _array(format_of_columns: str, rows: Iterable[str]) -> str:
 def _matrix(matrix: Matrix) -> str:
     sign = matrix.sign.text.strip()
     rows = [f"{_name(row)} & {sign} & {_in_row(row.has)}" for row in matrix.rows]
-    return _enclosed("[", _array("lcl", rows), "]")
+    return _enclose("[", _array("lcl", rows), "]")
 
 
 def _name(row: Row) -> str:
@@ -148,14 +148,14 @@ def _list(listed: Bracketed) -> str:
     ]
     if len(lines) > 1:
         inside = _array("l", [*[line + between for line in lines[:-1]], lines[-1]])
-        return _enclosed(listed.opening, inside, listed.closing)
+        return _enclose(listed.opening, inside, listed.closing)
     if listed.tall:
-        return _enclosed(listed.opening, "".join(lines), listed.closing)
+        return _enclose(listed.opening, "".join(lines), listed.closing)
     opening, closing = _BRACKETS[listed.opening], _BRACKETS[listed.closing]
     return f"{opening}{''.join(lines)}{closing}"
 
 
-def _enclosed(opening: str, inside: str, closing: str) -> str:
+def _enclose(opening: str, inside: str, closing: str) -> str:
     return f"\\left{_BRACKETS[opening]}{inside}\\right{_BRACKETS[closing]}"
 
 

@@ -119,7 +119,7 @@ def _flat(bracket: str) -> str:
     return {"<": "⟨", ">": "⟩"}.get(bracket, bracket)
 
 
-def _enclosed(opening: str, block: _Block, closing: str) -> _Block:
+def _enclose(opening: str, block: _Block, closing: str) -> _Block:
     return _beside([_bracket(opening, block), block, _bracket(closing, block)])
 
 
@@ -202,7 +202,7 @@ def _list(listed: Bracketed, room: int) -> _Block:
         if number < len(lines) - 1:
             blocks.append(at_end)
         rows.append(_beside(blocks))
-    return _enclosed(listed.opening, _below(rows), listed.closing)
+    return _enclose(listed.opening, _below(rows), listed.closing)
 
 
 def _matrix(matrix: Matrix, room: int) -> _Block:
@@ -216,7 +216,7 @@ def _matrix(matrix: Matrix, room: int) -> _Block:
     for name, row in zip(names, matrix.rows, strict=True):
         sign = _Block.of(" " * (width - name.width) + matrix.sign.text)
         rows.append(_beside([name, sign, _draw(row.has, rest)]))
-    return _enclosed("[", _below(rows), "]")
+    return _enclose("[", _below(rows), "]")
 
 
 def _name(row: Row, room: int) -> _Block:

@@ -88,7 +88,7 @@ class Assignment:
             return told, "given"
         perceptual = head(T) in self.functions
         if told is None and perceptual and isinstance(T, Basic):
-            seen = self.perceived(sit, T) or UNKNOWN
+            seen = self.perceive(sit, T) or UNKNOWN
             within = self._clip(sit, T, seen, *self._bounds(facts, sit, T))
             return within, f"by the witness function of {T.name}"
         (least, lower), (most, upper) = self._bounds(facts, sit, T)
@@ -123,7 +123,7 @@ class Assignment:
                 return True
         return False
 
-    def perceived(self, sit: Object, T: Atom) -> Degree | None:
+    def perceive(self, sit: Object, T: Atom) -> Degree | None:
         """The answer of the witness function of T, or None where there is none.
 
         For a basic type it is asked of the object, for a ptype of its arguments.
@@ -229,7 +229,7 @@ class Assignment:
 
         Raises `RefusedError` where an axiom and what was judged before contradict it.
         """
-        seen = self._with(sit, T, self.perceived(sit, T) or UNKNOWN)
+        seen = self._with(sit, T, self.perceive(sit, T) or UNKNOWN)
         seen.degree_of(sit, T)
         return seen
 
@@ -309,7 +309,7 @@ class Assignment:
 
     def _refuses(self, sit: Object, T: Atom, p: Degree) -> bool:
         """Whether a witness function rules out what is told for certain."""
-        return p.lo > 0.0 and self.perceived(sit, T) == REFUTED
+        return p.lo > 0.0 and self.perceive(sit, T) == REFUTED
 
     # --- what axioms say -----------------------------------------------------------
 
@@ -323,7 +323,7 @@ class Assignment:
         """a : T is at least as probable as a : S, wherever S <: T; and by which."""
         best, why = 0.0, ""
         for axiom, lower in subtypes(T, self.theory.axioms):
-            seen = self.perceived(sit, lower) if isinstance(lower, Basic) else None
+            seen = self.perceive(sit, lower) if isinstance(lower, Basic) else None
             if seen is not None and seen.lo > best and lower not in facts:
                 best, why = seen.lo, f"by {axiom} and the witness function of {lower}"
             for kind in _instances(lower, facts):
@@ -336,7 +336,7 @@ class Assignment:
         """a : T is at most as probable as a : U, wherever T <: U; and by which."""
         best, why = 1.0, ""
         for axiom, upper in supertypes(T, self.theory.axioms):
-            seen = self.perceived(sit, upper) if isinstance(upper, Basic) else None
+            seen = self.perceive(sit, upper) if isinstance(upper, Basic) else None
             if seen is not None and seen.hi < best and upper not in facts:
                 best, why = seen.hi, f"by {axiom} and the witness function of {upper}"
             for kind in _instances(upper, facts):
@@ -361,7 +361,7 @@ class Assignment:
             exclusion = (
                 find_exclusion(T, one, self.theory) if one not in facts else None
             )
-            seen = self.perceived(sit, one) if exclusion else None
+            seen = self.perceive(sit, one) if exclusion else None
             if seen is not None and seen.lo > 0.0:
                 why = f"by {exclusion} and the witness function of {one}"
                 found.append((complement(seen.lo), why))

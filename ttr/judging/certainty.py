@@ -20,7 +20,7 @@ from ttr.judging.rule_index import RuleIndex, demands_of
 from ttr.judging.stated_dependence import Atom
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.types.interning import identity
-from ttr.types.objects import EventString, Object, Record, Unresolved, is_immutable
+from ttr.types.objects import EventString, Object, Record, UnresolvedError, is_immutable
 from ttr.types.paths import subterms
 from ttr.types.substitution import Around
 from ttr.types.syntax import (
@@ -152,7 +152,7 @@ class _Certainty(Evaluator[bool]):
         return Evaluator._judge_ptype(self, sit, T, around, where)
 
     def _judge_join(self, sit: Object, T: Join, around: Around, where: str) -> bool:
-        left = _index_of_parts(T).left(sit, self.facts)
+        left = _index_of_parts(T).possible_demands(sit, self.facts)
         possible = [T.parts[n] for n in left if not self._excludes(sit, T.parts[n])]
         if len(possible) < 2:
             return any(self.of(sit, part, around) for part in possible)
@@ -178,7 +178,7 @@ class _Certainty(Evaluator[bool]):
         """Is sit the object that a singleton type is of?"""
         try:
             value = self._value_in(T, around)
-        except (Unresolved, RefusedError):
+        except (UnresolvedError, RefusedError):
             return False
         return value is sit or identity(value) == identity(sit)
 

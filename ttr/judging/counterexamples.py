@@ -18,7 +18,7 @@ from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.safety.budgets import spend
 from ttr.signature.signature import Signature
-from ttr.types.objects import Object, Path, Unresolved
+from ttr.types.objects import Object, Path, UnresolvedError
 from ttr.types.paths import replace_paths
 from ttr.types.substitution import follow_path
 from ttr.types.syntax import RecordType, TypeNode, meet
@@ -139,6 +139,6 @@ def _part(sit: Object, labels: tuple[str, ...]) -> Object:
             continue
         number = int(label) if label.isdigit() else 0
         if number >= len(inside):
-            raise Unresolved("there is no such element")
+            raise UnresolvedError("there is no such element")
         sit = inside[number]
     return sit

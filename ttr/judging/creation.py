@@ -38,7 +38,7 @@ from ttr.types.objects import (
     Object,
     Path,
     Record,
-    Unresolved,
+    UnresolvedError,
 )
 from ttr.types.paths import free_paths, mentions, replace_paths, shift_paths
 from ttr.types.printing import notation
@@ -149,7 +149,7 @@ def _with_fields(facts: Assignment, sit: Record, T: RecordType) -> Assignment:
             )
         try:
             ground = resolve_paths(field, (sit._fields,))
-        except Unresolved as unresolved:
+        except UnresolvedError as unresolved:
             raise RefusedError(
                 f"{notation(sit)} : {T} cannot be given: {unresolved.message}"
             ) from unresolved
@@ -171,7 +171,7 @@ def create_witness(
     try:
         sit, facts = _WitnessMaker(size).make(facts, T)
     except RefusedError:
-        settled = _settled(T)
+        settled = _settle_fields(T)
         if settled is T:
             raise
         sit, facts = _WitnessMaker(size).make(facts, settled)
@@ -180,7 +180,7 @@ def create_witness(
     return sit, facts
 
 
-def _settled(T: TypeNode) -> TypeNode:
+def _settle_fields(T: TypeNode) -> TypeNode:
     """The type with each field made manifest whose value other fields determine."""
     if not isinstance(T, RecordType):
         return T
@@ -221,7 +221,7 @@ class _WitnessMaker:
                 sit, facts = facts.with_new("s")
                 return sit, with_judgement(facts, sit, T)
             case Meet() | Join() | Negation():
-                return self._combined(facts, T)
+                return self._make_case(facts, T)
             case Singleton(base, value):
                 value = reduce_applications(facts, value)
                 return value, _with_certainty(facts, value, base)
@@ -260,21 +260,21 @@ class _WitnessMaker:
     def _string_or_another(self, facts: Assignment, T: Str | Plus) -> Made:
         """A string of the first alternatives; if there is none, of other ones."""
         try:
-            return self._string(facts, T)
+            return self._make_string(facts, T)
         except RefusedError:
             if isinstance(T, Str) and events_of(T) is not None:
                 raise
             return self._by_events(facts, T)
 
-    def _string(self, facts: Assignment, T: Str | Plus) -> Made:
-        items = T.items if isinstance(T, Str) else self._repeated(T)
+    def _make_string(self, facts: Assignment, T: Str | Plus) -> Made:
+        items = T.items if isinstance(T, Str) else self._piece_types(T)
         pieces: list[Object] = []
         for item in items:
             piece, facts = self.make(facts, item)
             pieces.append(piece)
         return string_of(items, pieces), facts
 
-    def _repeated(self, T: Plus) -> list[TypeNode]:
+    def _piece_types(self, T: Plus) -> list[TypeNode]:
         """The types of `size` pieces; the parts of a join take turns."""
         kinds = [case for one in alternatives(T.item) for case in cases(one) or (one,)]
         return list(islice(cycle(kinds), max(1, self._size)))
@@ -291,7 +291,7 @@ class _WitnessMaker:
                 continue
             try:
                 ground = resolve_paths(field, (fields,))
-            except Unresolved as unresolved:
+            except UnresolvedError as unresolved:
                 around = describe_cycle(T)
                 why = f"its fields go in a circle: {around}" * bool(around)
                 raise RefusedError(
@@ -334,7 +334,7 @@ class _WitnessMaker:
 
     # --- meets, joins, negations ---
 
-    def _combined(self, facts: Assignment, T: TypeNode) -> Made:
+    def _make_case(self, facts: Assignment, T: TypeNode) -> Made:
         """A witness of the first case that has one."""
         refused = RefusedError(f"a witness of {T} cannot be made up, only be given")
         for case in cases(T) or (T,):
@@ -363,7 +363,7 @@ class _WitnessMaker:
             sit, facts = facts.with_new("a" if _individual(parts) else "s")
             return sit, _with_certainty(facts, sit, T)
         if all(isinstance(shape, RecordType) for shape in shapes):
-            shapes = [reduce(partial(_merged, facts), shapes)]
+            shapes = [reduce(partial(_merge, facts), shapes)]
         sit, facts = self.make(facts, min(shapes, key=lambda U: type(U) in _VAGUE))
         return sit, _with_certainty(facts, sit, T)
 
@@ -373,7 +373,7 @@ class _WitnessMaker:
         found = automaton_above(T)
         for labels in islice(shortest_words(found, self._size), TRIED):
             try:
-                sit, known = self._string(facts, Str(*labels))
+                sit, known = self._make_string(facts, Str(*labels))
                 return sit, _with_certainty(known, sit, T)
             except TTRError as error:
                 refused = RefusedError(error.message, hint=error.hint)
@@ -418,5 +418,5 @@ def _with_certainty(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:
     return facts if is_certain(facts, sit, T) else with_judgement(facts, sit, T)
 
 
-def _merged(facts: Assignment, S: TypeNode, T: TypeNode) -> TypeNode:
+def _merge(facts: Assignment, S: TypeNode, T: TypeNode) -> TypeNode:
     return merge(S, T, facts.theory)

@@ -208,7 +208,7 @@ def _relatives(facts: Assignment, claims: Iterable[Claim]) -> tuple[list[Claim],
 
 def _others(facts: Assignment, sit: Object) -> Iterator[Claim]:
     """The uncertain claims of an object, in no order."""
-    yield from facts.links.concerning(sit)
+    yield from facts.links.claims_about(sit)
     yield from (Claim(sit, T) for T in facts.seen_types())
     for T in facts.types_of(sit):
         if facts.told_degree(sit, T) != CERTAIN:
@@ -265,7 +265,7 @@ def check_together(facts: Assignment, sit: Object, T: Atom) -> None:
 def contradiction(component: Component) -> RefusedError:
     """The error that says which judgements cannot all be as they were given."""
     degrees = [
-        f"{component.written(atom)} with {p}"
+        f"{component.format_atom(atom)} with {p}"
         for atom, p in component.degrees.items()
         if p != UNKNOWN
     ]

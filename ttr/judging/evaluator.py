@@ -39,7 +39,7 @@ from ttr.types.objects import (
     Missing,
     Object,
     Record,
-    Unresolved,
+    UnresolvedError,
 )
 from ttr.types.paths import free_paths, map_parts, mentions
 from ttr.types.printing import notation
@@ -168,7 +168,7 @@ class Evaluator(ABC, Generic[Answer]):
         try:
             ground = T if is_reduced(T) else self._value_of(T, around)
             return self.judge_atom(sit, ground, where)
-        except (Unresolved, RefusedError) as wrong:
+        except (UnresolvedError, RefusedError) as wrong:
             return self.conclude(sit, T, REFUTED, wrong.message, where)
 
     def _judge_application(
@@ -176,7 +176,7 @@ class Evaluator(ABC, Generic[Answer]):
     ) -> Answer:
         try:
             value = _reduce_head(self.facts, resolve_paths(T, around))
-        except (Unresolved, RefusedError) as wrong:
+        except (UnresolvedError, RefusedError) as wrong:
             return self.conclude(sit, T, REFUTED, wrong.message, where)
         if isinstance(value, TypeNode):
             return self.of(sit, value, (), where)
@@ -189,7 +189,7 @@ class Evaluator(ABC, Generic[Answer]):
         spend()
         try:
             value = self._value_in(T, around)
-        except (Unresolved, RefusedError) as wrong:
+        except (UnresolvedError, RefusedError) as wrong:
             return self.conclude(sit, T, REFUTED, wrong.message, where)
         ground = T if value is T.value else Singleton(T.base, value)
         if value is not sit and identity(value) != identity(sit):
@@ -277,7 +277,7 @@ class Evaluator(ABC, Generic[Answer]):
             if not isinstance(sit, Function):
                 return self.conclude(sit, ground, REFUTED, "it is no function", where)
             return self.judge_function(sit, ground, where)
-        except (Unresolved, RefusedError) as wrong:
+        except (UnresolvedError, RefusedError) as wrong:
             return self.conclude(sit, T, REFUTED, wrong.message, where)
 
     def _judge_record(
@@ -389,7 +389,7 @@ class _Derivation(Evaluator[Why]):
         return replace(why, p=found.p, rule=rule, alone=why.p)
 
     def judge_missing(self, label: str, T: TypeNode, around: Around) -> Why:
-        with suppress(Unresolved):
+        with suppress(UnresolvedError):
             T = resolve_paths(T, around)
         rule = f"there is no {label}"
         return Why(Missing(), T, REFUTED, rule, where=label, facts=self.facts)
@@ -469,7 +469,7 @@ class _Derivation(Evaluator[Why]):
         scope: Around = ({BOUND: x},)
         try:
             value = reduce_applications(self.facts, resolve_paths(sit.body, scope))
-        except (Unresolved, RefusedError) as wrong:
+        except (UnresolvedError, RefusedError) as wrong:
             return [inside, Why(sit.body, T.result, REFUTED, wrong.message)]
         return [inside, self.of(value, T.result, scope)]
 

@@ -77,12 +77,12 @@ def _judged_unknown(
     error: TooLargeError, model: Model, sit: object, T: TypeNode, /, **_: object
 ) -> Judgement:
     """The judgement where the budget is spent: its probability is unknown."""
-    sit = _frozen(sit)
+    sit = _freeze_value(sit)
     return Judgement(sit, T, UNKNOWN, Why(sit, T, UNKNOWN, error.message), model)
 
 
 @within_budget
-def _frozen(value: object) -> Object:
+def _freeze_value(value: object) -> Object:
     """The value as an object; raises where it has more parts than the budget."""
     return freeze(value)
 
@@ -171,7 +171,7 @@ class Model:
         >>> print(M.judge("a", A).p, M.judge("a", A & B).p)
         0.6 [0.42, 0.48]
         """
-        sit, T = _closed(sit, T)
+        sit, T = _check_closed(sit, T)
         p = _degree_of(f"{notation(sit)} : {T}", p)
         pairs = conditions(when)
         if pairs:
@@ -204,8 +204,8 @@ class Model:
         0.6
         """
         types = when if isinstance(when, tuple | list) else (when,)
-        _, T = _closed((), T)
-        of = [_closed((), S)[1] for S in types]
+        _, T = _check_closed((), T)
+        of = [_check_closed((), S)[1] for S in types]
         degree = _degree_of(f"p({T} || {', '.join(map(str, of))})", p)
         return self._with(with_expectation(self._facts, T, degree, of))
 
@@ -223,7 +223,7 @@ class Model:
         0.26 0.6923
         """
         model = self
-        on = _listed("what a table depends on", on)
+        on = _list_of("what a table depends on", on)
         for case, p in table_rows(on, rows):
             literals = [_literal(one, so) for one, so in zip(on, case, strict=True)]
             if isinstance(T, TypeNode):
@@ -291,7 +291,7 @@ class Model:
         >>> print(M.judge("a", A, when=[("a", A | B)]).p)
         0.75
         """
-        sit, T = _closed(sit, T)
+        sit, T = _check_closed(sit, T)
         pairs = conditions(when)
         why = (
             derive_conditional(self._facts, sit, T, pairs)
@@ -314,7 +314,7 @@ class Model:
         >>> print(j)
         {c = e1, x = o1} : [x : Ind, c : cup(x)]   p = 0.75
         """
-        sit, T = _closed(sit, T)
+        sit, T = _check_closed(sit, T)
         if not isinstance(sit, Record):
             return self.judge(sit, T)
         seen, facts = fill_fields(self._facts, sit, T)
@@ -330,7 +330,7 @@ class Model:
         >>> a, M.judge(a, Ind).holds
         ('a1', True)
         """
-        _, T = _closed((), T)
+        _, T = _check_closed((), T)
         witness, facts = create_witness(self._facts, T)
         return witness, self._with(facts)
 
@@ -369,7 +369,7 @@ class Model:
         >>> print(*M.witnesses(rectype(x=Ind, c=dog(this.x))))
         {c = s1, x = fido}
         """
-        _, T = _closed((), T)
+        _, T = _check_closed((), T)
         return tuple(witnesses(self._facts, T))
 
     @within_budget(otherwise=_truth_unknown)
@@ -399,8 +399,8 @@ class Model:
         """
         if not isinstance(proposition, TypeNode):
             return self._truth_of_proposition(freeze(proposition))
-        _, T = _closed((), proposition)
-        given = None if when is None else _closed((), when)[1]
+        _, T = _check_closed((), proposition)
+        given = None if when is None else _check_closed((), when)[1]
         objects = None if among is None else _objects(among)
         try:
             return probability_of_some(self._facts, T, given, objects)
@@ -431,10 +431,10 @@ class Model:
           0.6: kim
         """
         types = when if isinstance(when, tuple | list) else (when,)
-        _, T = _closed((), T)
+        _, T = _check_closed((), T)
         objects = None if among is None else _objects(among)
         return probability_of_any(
-            self._facts, T, [_closed((), S)[1] for S in types], objects
+            self._facts, T, [_check_closed((), S)[1] for S in types], objects
         )
 
     expects = Alias("with_conditional")
@@ -504,20 +504,20 @@ def _degree_of(what: str, p: object) -> Degree:
 
 def conditions(when: object) -> list[tuple[Object, TypeNode]]:
     """The conditions, each an object and its type."""
-    pairs = _listed("judgements", when)
+    pairs = _list_of("judgements", when)
     if not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
         raise TTRError(
             "judgements are pairs of an object and a type, [(a, T), …], "
             f"found {notation(freeze(when))}"
         )
-    return [_closed(*pair) for pair in pairs]  # type: ignore[misc]
+    return [_check_closed(*pair) for pair in pairs]  # type: ignore[misc]
 
 
 def _objects(among: object) -> list[Object]:
-    return [freeze(one) for one in _listed("objects", among)]
+    return [freeze(one) for one in _list_of("objects", among)]
 
 
-def _listed(what: str, values: object) -> list[object]:
+def _list_of(what: str, values: object) -> list[object]:
     """The values of a list; `TTRError` for a text or what is no list."""
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise TTRError(f"{what} are given as a list, found {notation(freeze(values))}")
@@ -532,7 +532,7 @@ def _literal(one: object, so: bool) -> Any:
     return sit, T if so else ~T
 
 
-def _closed(sit: object, T: object) -> tuple[Object, TypeNode]:
+def _check_closed(sit: object, T: object) -> tuple[Object, TypeNode]:
     """The object and the type; `IllFormedError` if a path leads out of either."""
     sit, kind = freeze(sit), as_type(T)
     for value in (sit, kind):

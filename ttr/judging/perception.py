@@ -6,7 +6,7 @@ from ttr.errors import RefusedError
 from ttr.judging.assignments import Assignment
 from ttr.judging.evaluator import reduce_applications
 from ttr.safety.budgets import spend
-from ttr.types.objects import Object, Record, Unresolved
+from ttr.types.objects import Object, Record, UnresolvedError
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import Join, Meet, PType, RecordType, TypeNode
 
@@ -37,7 +37,7 @@ def _fill_record(
     for label, field in T.fields:
         try:
             ground = reduce_applications(facts, resolve_paths(field, (fields,)))
-        except (Unresolved, RefusedError):
+        except (UnresolvedError, RefusedError):
             continue
         seen, facts = _perceive_field(facts, fields.get(label), ground)
         if seen is not None:

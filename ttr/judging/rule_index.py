@@ -82,7 +82,7 @@ class RuleIndex:
     def __len__(self) -> int:
         return len(self._wanted)
 
-    def left(self, sit: Object, facts: Assignment) -> Sequence[int]:
+    def possible_demands(self, sit: Object, facts: Assignment) -> Sequence[int]:
         """The numbers of the demands that sit may meet, in order."""
         possible = self._possible(sit, facts) if self._every else _NONE
         left = self._left.get(possible)

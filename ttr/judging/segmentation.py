@@ -23,7 +23,7 @@ from ttr.judging.stated_dependence import Atom
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import spend
 from ttr.types.interning import identity
-from ttr.types.objects import EventString, Object, Unresolved
+from ttr.types.objects import EventString, Object, UnresolvedError
 from ttr.types.paths import subterms
 from ttr.types.printing import notation
 from ttr.types.substitution import Around, resolve_paths
@@ -168,7 +168,7 @@ class Segmentation:
         return self._atoms[T]
 
     def _reduce_to_atom(self, T: TypeNode) -> Atom | None:
-        with suppress(Unresolved):
+        with suppress(UnresolvedError):
             ground = resolve_paths(T, self._around) if isinstance(T, PType) else T
             applies = any(isinstance(part, Application) for part in subterms([ground]))
             if isinstance(ground, Basic | PType) and not applies:

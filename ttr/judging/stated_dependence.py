@@ -121,7 +121,7 @@ class Links:
         """The claims that have conditionals on this one."""
         return self.dependent.get(claim.key, ())
 
-    def concerning(self, sit: Object) -> list[Claim]:
+    def claims_about(self, sit: Object) -> list[Claim]:
         """The claims of an object that some conditional is about."""
         general = [
             Claim(sit, T)

@@ -134,7 +134,7 @@ def performed(act: TypeAct, model: Model) -> Outcome:
             extended = model.given(sit, T)
             return Outcome(act, (extended.judge(sit, T),), extended)
         case JudgeSome(T):
-            known = _known(T, model)
+            known = _known_judgements(T, model)
             if known:
                 return Outcome(act, known[:1], model)
             sit, extended = model.create(T)
@@ -142,13 +142,13 @@ def performed(act: TypeAct, model: Model) -> Outcome:
         case Query(sit, T):
             return Outcome(act, (model.judge(sit, T),), model)
         case QuerySome(T):
-            return Outcome(act, _known(T, model), model)
+            return Outcome(act, _known_judgements(T, model), model)
         case Create(T):
             sit, extended = model.create(T)
             return Outcome(act, (extended.judge(sit, T),), extended)
     raise TTRError(f"an act is one of ttr.judging.type_acts, found {kind_of(act)}")
 
 
-def _known(T: TypeNode, model: Model) -> tuple[Judgement, ...]:
+def _known_judgements(T: TypeNode, model: Model) -> tuple[Judgement, ...]:
     """The judgements of the known objects of a type, in the order of the facts."""
     return tuple(model.judge(sit, T) for sit in model.witnesses(as_type(T)))

@@ -16,7 +16,7 @@ from ttr.judging.evaluator import derivation, reduce_applications
 from ttr.probability import Degree
 from ttr.safety.budgets import spend
 from ttr.types.interning import identity
-from ttr.types.objects import Object, Record, Unresolved
+from ttr.types.objects import Object, Record, UnresolvedError
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     Application,
@@ -140,7 +140,7 @@ class _Listing:
         spend(4)
         try:
             field = resolve_paths(T[label], (fields,))
-        except Unresolved as unresolved:
+        except UnresolvedError as unresolved:
             raise UnsupportedError(
                 f"the records of {T} cannot be listed: {unresolved.message}",
                 hint="fields on a cycle can be judged, but not listed",

@@ -84,7 +84,7 @@ class _Parser(TermParser):
 
     def _import(self, start: int) -> Statement:
         """import "file"."""
-        return self._node(trees.Import, start, self._quoted())
+        return self._node(trees.Import, start, self._read_quoted())
 
     def _basic(self, start: int) -> Statement:
         """basic x, …."""
@@ -115,7 +115,7 @@ class _Parser(TermParser):
         if NAME.match(self._text, start):
             return self._word("a name")
         self._note_expected("a name")
-        return self._node(trees.Word, start, self._quoted())
+        return self._node(trees.Word, start, self._read_quoted())
 
     def _given(self, start: int) -> Statement:
         """given T : T ‹degree›, or given probability."""
@@ -180,7 +180,7 @@ class _Parser(TermParser):
         start = self._at
         if not QUOTED.match(self._text, start):
             return None
-        return self._node(trees.Literal, start, self._quoted())
+        return self._node(trees.Literal, start, self._read_quoted())
 
     def _where(self) -> trees.Fields | None:
         start = self._at

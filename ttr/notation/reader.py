@@ -64,7 +64,7 @@ from ttr.types.objects import (
     Operation,
     Path,
     Record,
-    Unresolved,
+    UnresolvedError,
     check_label,
     concat,
     fst,
@@ -266,7 +266,7 @@ class Reader:
             self._refuse_unknown(name, head, scope, f"{way_out}, or {quoted}")
         try:
             return follow_path(value, rest)
-        except Unresolved as error:
+        except UnresolvedError as error:
             raise error.at(self.source.span(name)) from None
 
     def _path(self, name: Name, carets: int, scope: Scope) -> Path:

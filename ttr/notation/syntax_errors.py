@@ -39,7 +39,7 @@ def syntax_error(
     text = source.text[start : start + length].rstrip()
     at = min(at, len(text))
     before, after = text[:at], text[at:]
-    found = _found(after)
+    found = _word_at_error(after)
     span = Span.of(source.name, source.text, start + at, start + at + len(found))
     found = excerpt(found) or _end(source, start + length)
     return NotationError(
@@ -56,7 +56,7 @@ def _end(source: Source, end: int) -> str:
 _FOUND = re.compile(r"\w+|->|[:<>=/\\|]{2}|[\"'][^\n]*|\S", re.DOTALL)
 
 
-def _found(after: str) -> str:
+def _word_at_error(after: str) -> str:
     """The word or sign at the error; at most forty characters."""
     found = _FOUND.match(after)
     return found[0][:40] if found else ""
@@ -154,6 +154,6 @@ def _misspelt(before: str, after: str) -> str:
     first = re.match(r"(\w+)\s+$", before)
     if first:
         return suggestion(first[1], KEYWORDS)
-    found = _found(after)
+    found = _word_at_error(after)
     known = (words for left, words in _WORDS if re.search(left, before))
     return suggestion(found, next(known, ()))

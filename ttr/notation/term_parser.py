@@ -159,7 +159,7 @@ class TermParser(Tokens):
         if self._accept("<"):
             return self._events(start)
         if QUOTED.match(text, start):
-            return self._node(trees.Literal, start, self._quoted())
+            return self._node(trees.Literal, start, self._read_quoted())
         if number := NUMBER.match(text, start):
             self._advance(number.end())
             return self._number(start, number[0])

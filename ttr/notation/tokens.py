@@ -166,7 +166,7 @@ class Tokens:
             hint="quotes are straight: 'a name'" if curly else "",
         )
 
-    def _quoted(self) -> str:
+    def _read_quoted(self) -> str:
         """The text in quotes; raises `NotationError` for an unknown escape."""
         start = self._at
         found = QUOTED.match(self._text, start)
@@ -174,7 +174,7 @@ class Tokens:
             self._fail("a quoted name")
         self._advance(found.end())
         try:
-            return _unquoted(found[0])
+            return _unquote(found[0])
         except ValueError:
             raise NotationError(
                 f"{excerpt(found[0])} has an unknown escape",
@@ -209,7 +209,7 @@ _SINGLE = re.compile(r"""\\.|\"""", re.DOTALL)
 _DOUBLED = {"\\'": "'", '"': '\\"'}
 
 
-def _unquoted(text: str) -> str:
+def _unquote(text: str) -> str:
     """The text in quotes; raises `ValueError` for an unknown escape."""
     body = text[1:-1]
     if text.startswith("'"):

@@ -56,7 +56,7 @@ class Component:
     whole: bool = True
     names: Mapping[Atom, object] = field(default_factory=dict)
 
-    def written(self, atom: Atom) -> str:
+    def format_atom(self, atom: Atom) -> str:
         """The atom as it is to be read."""
         return str(self.names.get(atom, atom))
 
@@ -67,7 +67,7 @@ class Component:
         >>> pair.links()
         ['a excludes b']
         """
-        write = self.written
+        write = self.format_atom
         found = [f"{write(one)} entails {write(other)}" for one, other in self.entailed]
         found += [
             f"{write(one)} excludes {write(other)}" for one, other in self.exclusive
@@ -95,7 +95,7 @@ class Component:
             waiting += new
         return list(found | dict.fromkeys(self.atoms))
 
-    def restricted(self, kept: Iterable[Atom]) -> Component:
+    def restrict(self, kept: Iterable[Atom]) -> Component:
         """What is known of some of the atoms."""
         inside = set(kept)
         return Component(

@@ -183,11 +183,11 @@ class _Solving:
         )
         if number is None:
             found = sum_over_cases(event)
-            return self._bound(event) if found is None else found
+            return self._bounds_of(event) if found is None else found
         event = _minimal(event, self._known.components[number])
         found = self._in_cases(number, event)
         self._exact = self._exact and not self._is_mixed(event)
-        return self._bound(event) if found is None else found
+        return self._bounds_of(event) if found is None else found
 
     def _in_cases(self, number: int, event: Event) -> Degree | None:
         """The probability from what is left in each case; None for too many cases."""
@@ -226,7 +226,7 @@ class _Solving:
             if one.atom not in self._known.place
         )
 
-    def _bound(self, event: Event) -> Degree:
+    def _bounds_of(self, event: Event) -> Degree:
         """Bounds that hold for any dependence; unknown under a condition on it."""
         self._exact = False
         given = {self._known.place.get(a, a) for a in self._condition}

@@ -109,7 +109,7 @@ def polytope(component: Component, needed: Sequence[Hashable]) -> Polytope | Non
         elif atom in needed:
             return None
     some = len(kept) < len(component.atoms)
-    inside = component.restricted(kept) if some else component
+    inside = component.restrict(kept) if some else component
     return Polytope(inside, list(cases), inside.whole and component.parents is None)
 
 

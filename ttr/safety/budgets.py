@@ -6,10 +6,10 @@ one that takes more than its budget ends honestly: with `unknown` where that is 
 answer, else with a `TooLargeError`. It never becomes a yes or a no.
 
 A question that is asked in order to answer another spends the budget of the outermost
-one. `Spent` is no `Exception`, so that no handler on the way out takes it for an error
-of the types and goes on; and nothing unfinished is remembered. Steps are counted, not
-seconds, and building a type that exists already counts as if it were new: so the
-answers are the same on every machine.
+one. `BudgetSpentError` is no `Exception`, so that no handler on the way out takes it
+for an error of the types and goes on; and nothing unfinished is remembered. Steps are
+counted, not seconds, and building a type that exists already counts as if it were new:
+so the answers are the same on every machine.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ EACH = 1_000
 """How many more steps each of these questions adds; most take a few hundred."""
 
 
-class Spent(BaseException):
+class BudgetSpentError(BaseException):
     """The budget is used up; only the question that opened it catches this."""
 
 
@@ -78,7 +78,7 @@ def spend(steps: int = 1) -> None:
     if purse is not None:
         purse.left -= steps
         if purse.left < 0:
-            raise Spent
+            raise BudgetSpentError
 
 
 def steps_allowed() -> int:
@@ -131,7 +131,7 @@ def one_of_several(purse: SharedPurse) -> Iterator[None]:
     token = _purse.set(own)
     try:
         yield
-    except Spent:
+    except BudgetSpentError:
         if mine == allowed:
             raise _too_large(f"it takes more than {mine:,} steps") from None
         raise _too_large(
@@ -195,7 +195,7 @@ def _within_budget(
             return function(*args, **kwargs)
         except RecursionError:
             raise _nests_too_deep() from None
-        except Spent:
+        except BudgetSpentError:
             error = _too_large(f"it takes more than {steps:,} steps")
         finally:
             _purse.reset(token)

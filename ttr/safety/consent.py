@@ -81,17 +81,17 @@ class Consent:
         """The consent of a user who allows these folders; raises `TTRError`."""
         if isinstance(allow, str | os.PathLike):
             raise TTRError("allow takes a list of folders", hint=f"[{str(allow)!r}]")
-        return cls(python=python).adding(*allow)
+        return cls(python=python).with_folders(*allow)
 
-    def adding(self, *folders: str | os.PathLike[str]) -> Consent:
+    def with_folders(self, *folders: str | os.PathLike[str]) -> Consent:
         """The same with more folders."""
         new = [it for it in map(_real_path, folders) if it not in self.folders]
         return replace(self, folders=(*self.folders, *dict.fromkeys(new)))
 
-    def naming(self, python: str, folder: Path) -> Consent:
+    def with_python(self, python: str, folder: Path) -> Consent:
         """The same, for a user who names a Python file in a folder, or a module."""
         if python.endswith(".py"):
-            return self.adding((folder / python).parent)
+            return self.with_folders((folder / python).parent)
         return replace(self, modules=self.modules | {python})
 
     def check(self, path: str | os.PathLike[str], named: str = "") -> None:

@@ -86,9 +86,9 @@ def read_line(stream: TextIO, limit: Limit = LINE) -> str:
     >>> read_line(io.StringIO("a b\\nc"))
     'a b\\n'
     """
-    line = stream.readline(limit.allowed + 1)
-    if len(line) > limit.allowed:
-        raise limit.exceeded()
+    line = stream.readline(limit.maximum + 1)
+    if len(line) > limit.maximum:
+        raise limit.too_much()
     return line
 
 
@@ -112,10 +112,10 @@ def ask_line(prompt: str, limit: Limit = LINE) -> str:
 
 def read_lines(stream: BinaryIO, limit: Limit = LINE) -> Iterator[bytes]:
     """The lines of an open file, with their ends; `OSError` for one too long."""
-    most = limit.allowed
+    most = limit.maximum
     while line := stream.readline(most + 1):
         if len(line) > most:
-            raise limit.exceeded()
+            raise limit.too_much()
         yield line
 
 
@@ -142,19 +142,19 @@ def _open(path: str | os.PathLike[str]) -> tuple[int, int]:
 
 def _pipe_pieces(opened: int) -> Iterator[bytes]:
     """The pieces that come through a pipe; `OSError` where it is silent too long."""
-    end = monotonic() + PIPE.allowed
+    end = monotonic() + PIPE.maximum
     with DefaultSelector() as waiting:
         waiting.register(opened, EVENT_READ)
         while True:
             patience = end - monotonic()
             if patience <= 0:
                 raise _NoFile(
-                    f"it is a pipe that does not end within {PIPE.allowed} seconds"
+                    f"it is a pipe that does not end within {PIPE.maximum} seconds"
                 )
-            if not waiting.select(min(SILENCE.allowed, patience)):
+            if not waiting.select(min(SILENCE.maximum, patience)):
                 raise _NoFile(
                     "it is a pipe into which nothing is written for "
-                    f"{SILENCE.allowed} seconds"
+                    f"{SILENCE.maximum} seconds"
                 )
             try:
                 piece = os.read(opened, _PIECE)
@@ -166,10 +166,10 @@ def _pipe_pieces(opened: int) -> Iterator[bytes]:
 
 
 def _join_pieces(pieces: Iterator[bytes], limit: Limit) -> bytes:
-    whole, most = io.BytesIO(), limit.allowed
+    whole, most = io.BytesIO(), limit.maximum
     for piece in pieces:
         if whole.tell() + len(piece) > most:
-            raise limit.exceeded()
+            raise limit.too_much()
         whole.write(piece)
     return whole.getvalue()
 

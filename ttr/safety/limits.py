@@ -18,7 +18,7 @@ FACTOR = "KILLE_LIMITS"
 """The environment variable that multiplies all limits."""
 
 
-class TooMuch(OSError):
+class InputLimitError(OSError):
     """An input that is over a limit: one line says by how much."""
 
     def __init__(self, why: str) -> None:
@@ -30,7 +30,7 @@ class Limit:
     """The largest input of one kind that is read, in some unit.
 
     >>> Limit(1_000, "pixels").check(999)
-    >>> Limit(1_000, "pixels").exceeded(3_500).strerror
+    >>> Limit(1_000, "pixels").too_much(3_500).strerror
     'it has 3,500 pixels, and no more than ...'
     """
 
@@ -38,26 +38,26 @@ class Limit:
     unit: str
 
     @property
-    def allowed(self) -> int:
+    def maximum(self) -> int:
         """The limit, as the environment multiplies it now."""
         return math.ceil(self.most * _factor())
 
     def check(self, found: int) -> None:
-        """Raises `TooMuch` where more was found than is allowed."""
-        if found > self.allowed:
-            raise self.exceeded(found)
+        """Raises `InputLimitError` where more was found than is allowed."""
+        if found > self.maximum:
+            raise self.too_much(found)
 
-    def exceeded(self, found: int | None = None) -> TooMuch:
+    def too_much(self, found: int | None = None) -> InputLimitError:
         """The error that an input is over the limit, with the way to have it read.
 
         Without `found`, it is not known how much there is, as with a pipe.
         """
-        most = amount(self.allowed, self.unit)
+        most = amount(self.maximum, self.unit)
         if found is None:
-            return TooMuch(
+            return InputLimitError(
                 f"it has more than {most} ({FACTOR}=10 reads ten times that)"
             )
-        return TooMuch(
+        return InputLimitError(
             f"it has {amount(found, self.unit)}, and no more than {most} are read "
             f"({FACTOR}={math.ceil(found / self.most)} reads it all the same)"
         )

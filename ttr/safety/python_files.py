@@ -22,7 +22,7 @@ def run_named(
     there is no consent, and whatever running it raises.
     """
     if consent is None:
-        consent = Consent.of([folder]).naming(python, folder)
+        consent = Consent.of([folder]).with_python(python, folder)
     consent.check_python(python, folder)
     if python.endswith(".py"):
         file = folder / python

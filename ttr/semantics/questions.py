@@ -26,7 +26,15 @@ from ttr.judging.models import Model
 from ttr.safety.budgets import spend
 from ttr.semantics.argument_checks import as_tuple
 from ttr.types.interning import identity
-from ttr.types.objects import BOUND, FiniteSet, Object, Path, Record, Unresolved, outer
+from ttr.types.objects import (
+    BOUND,
+    FiniteSet,
+    Object,
+    Path,
+    Record,
+    UnresolvedError,
+    outer,
+)
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     Basic,
@@ -328,7 +336,7 @@ def _with_values_inlined(P: TypeNode) -> TypeNode:
     fields: dict[str, TypeNode] = {}
     known: dict[str, Object] = {}
     for label, field in P.fields:
-        with suppress(Unresolved):
+        with suppress(UnresolvedError):
             field = resolve_paths(field, (known,))
         fields[label] = field
         if isinstance(field, Singleton):

@@ -95,7 +95,7 @@ class Course:
         event = freeze(event)
         after = self._after(event)
         if after.on_course == REFUTED:
-            raise self._unexpected(event)
+            raise self._unexpected_error(event)
         return after
 
     @within_budget
@@ -168,7 +168,7 @@ class Course:
         after = self._filter.after(lambda T: self.model.judge(event, T).why)
         return replace(self, _filter=after, length=self.length + 1)
 
-    def _unexpected(self, event: Object) -> UnexpectedError:
+    def _unexpected_error(self, event: Object) -> UnexpectedError:
         kinds = sorted(str(kind) for kind in self.model.facts.types_of(event))
         found = " and ".join(kinds) or "nothing that is known"
         wanted = self.expected

@@ -21,7 +21,7 @@ from ttr.probability import REFUTED, Degree
 from ttr.safety.budgets import within_budget
 from ttr.semantics.modality.necessity import ModalAnswer
 from ttr.signature.signature import Signature
-from ttr.types.objects import BOUND, Record, Unresolved, freeze, record
+from ttr.types.objects import BOUND, Record, UnresolvedError, freeze, record
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
 from ttr.types.substitution import resolve_paths
@@ -138,7 +138,7 @@ def _apply_to_situation(
     try:
         body = resolve_paths(warrant.fg.body, ({BOUND: freeze(sit)},))
         return background, as_type(model.reduce(body))
-    except (Unresolved, RefusedError) as wrong:
+    except (UnresolvedError, RefusedError) as wrong:
         raise RefusedError(
             f"the topos {warrant} fails there: {wrong.message}"
         ) from None

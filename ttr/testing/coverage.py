@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 
+from ttr.aliases import Alias
 from ttr.dialogues.dialogue import Dialogue
 from ttr.updates.games import Game
 
@@ -35,9 +36,11 @@ class Coverage:
             self.pairs.update(pairwise(names))
 
     @property
-    def missed(self) -> tuple[str, ...]:
+    def missed_rules(self) -> tuple[str, ...]:
         """The rules that no dialogue applied, in the order of the game."""
         return tuple(name for name in self.names if not self.rules[name])
+
+    missed = Alias("missed_rules")
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -65,7 +68,7 @@ class Coverage:
             lines.append(
                 f"{name:{width}}  {n:>{count}}  {self._most_frequent_successors(name)}"
             )
-        applied = len(self.names) - len(self.missed)
+        applied = len(self.names) - len(self.missed_rules)
         pairs = sum(1 for n in self.pairs.values() if n)
         lines.append(
             f"{applied} of {len(self.names)} rules applied, "
@@ -90,6 +93,6 @@ class Coverage:
             "dialogues": self.dialogues,
             "turns": self.turns,
             "rules": {name: self.rules[name] for name in self.names},
-            "never_applied": list(self.missed),
+            "never_applied": list(self.missed_rules),
             "pairs": [{"rule": a, "then": b, "times": n} for (a, b), n in pairs],
         }

@@ -70,11 +70,11 @@ class Report:
             parts = [f"{len(self.failures)} of {self.asked} checks failed"]
         if self.rules:
             rules = _count_of(self.rules, "rule", "rules")
-            parts.append(f"{self._found} in {rules}")
+            parts.append(f"{self._count_faults} in {rules}")
         return ", ".join(parts)
 
     @property
-    def _found(self) -> str:
+    def _count_faults(self) -> str:
         """The number of faults and warnings."""
         warnings = sum(fault.severity == "warning" for fault in self.faults)
         wrong = len(self.faults) - warnings

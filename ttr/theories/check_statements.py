@@ -23,7 +23,7 @@ from ttr.theories.queries import (
     Query,
     Updates,
 )
-from ttr.types.objects import Object, Unresolved
+from ttr.types.objects import Object, UnresolvedError
 from ttr.types.syntax import TypeNode
 from ttr.updates.rules import Rule
 
@@ -48,7 +48,7 @@ class CheckReader:
         """The query, or the error if a type is ill-formed: a check may ask for one."""
         try:
             return self._read_query(tree)
-        except (IllFormedError, Unresolved) as error:
+        except (IllFormedError, UnresolvedError) as error:
             return error
 
     def _read_query(self, tree: trees.Query) -> Query:

@@ -57,7 +57,9 @@ def draft_of_file(path: Path, consent: Consent = OWN_FOLDER) -> Draft:
     It, and what it imports, may import from its folder, or from where the user's
     consent allows. Raises `UnreadableError`, the mistake in it, or `MistakesError`.
     """
-    return _draft_if_sound(_Files(consent.adding(path.parent), {}).read_file(path, ()))
+    return _draft_if_sound(
+        _Files(consent.with_folders(path.parent), {}).read_file(path, ())
+    )
 
 
 @dataclass(frozen=True)

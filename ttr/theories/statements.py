@@ -65,7 +65,7 @@ class StatementReader:
             case trees.ObjectNames():
                 self._objects(tree)
             case trees.GivenFact():
-                self._given(tree)
+                self._read_given(tree)
             case trees.GivenChance():
                 self._given_chance(tree)
             case trees.Definition():
@@ -127,7 +127,7 @@ class StatementReader:
         self.draft.objects.update([word.text for word in tree.names])
         self.draft.givens += [Given(word.text, kind, span=span) for word in tree.names]
 
-    def _given(self, tree: trees.GivenFact) -> None:
+    def _read_given(self, tree: trees.GivenFact) -> None:
         kind = self.reader.type(tree.type, ())
         declares: tuple[str, ...] = ()
         sit: Object

@@ -144,7 +144,7 @@ class Theory(Signature):
         for declared in (self.definitions, self.basics, self.predicates):
             if name in declared:
                 return declared[name]
-        raise KeyError(self._missing(name))
+        raise KeyError(self._explain_missing(name))
 
     def __contains__(self, name: object) -> bool:
         """Is this the name of a definition, a basic type or a predicate?"""
@@ -157,9 +157,9 @@ class Theory(Signature):
         try:
             return self[name]
         except KeyError:
-            raise AttributeError(self._missing(name)) from None
+            raise AttributeError(self._explain_missing(name)) from None
 
-    def _missing(self, name: str) -> str:
+    def _explain_missing(self, name: str) -> str:
         played = {
             "rules": self.rules,
             "strategies": self.strategies,

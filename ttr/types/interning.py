@@ -17,7 +17,7 @@ from weakref import ref
 
 from ttr.errors import IllFormedError, TTRError
 from ttr.hooks import hook
-from ttr.safety.budgets import Spent, open_purse, within_budget
+from ttr.safety.budgets import BudgetSpentError, open_purse, within_budget
 from ttr.types.notebook_display import NotebookValue
 
 
@@ -80,7 +80,7 @@ class _Interning(type):
             if purse is not None:  # as `spend` does; this is the busiest place of all
                 purse.left -= 1
                 if purse.left < 0:
-                    raise Spent
+                    raise BudgetSpentError
             key = (cls, *cls._key(*values))
             entry = _pool.get(key)
             found = None if entry is None else entry()
@@ -201,7 +201,7 @@ def identity(value: object) -> object:
         if purse is not None:
             purse.left -= len(value)  # type: ignore[arg-type]
             if purse.left < 0:
-                raise Spent
+                raise BudgetSpentError
         return (tuple, *map(identity, value))  # type: ignore[call-overload]
     if kind is float:
         return (float, struct.pack("<d", value))

@@ -32,7 +32,7 @@ Object: TypeAlias = Any
 _Value = TypeVar("_Value")
 
 
-class Unresolved(TTRError):
+class UnresolvedError(TTRError):
     """An object that is not there: a path to nowhere, the first of an empty list."""
 
 
@@ -257,7 +257,7 @@ class Operation(Node):
 def concat(*parts: object) -> Object:
     """a + b: the concatenation of lists, or of strings of events.
 
-    Raises `Unresolved` for what is neither.
+    Raises `UnresolvedError` for what is neither.
 
     >>> concat(["a"], ["b", "c"])
     ('a', 'b', 'c')
@@ -271,7 +271,9 @@ def concat(*parts: object) -> Object:
         raise IllFormedError("a concatenation needs at least one list or string")
     for piece in flat:
         if not _is_symbolic(piece) and not isinstance(piece, tuple | EventString):
-            raise Unresolved(f"only lists and strings can be concatenated, not {piece}")
+            raise UnresolvedError(
+                f"only lists and strings can be concatenated, not {piece}"
+            )
     joined: list[Object] = []
     for stays, group in groupby(flat, _is_symbolic):
         pieces = list(group)
@@ -284,7 +286,9 @@ def _concatenate(pieces: list[Object]) -> Object:
     kinds = {type(piece) for piece in pieces}
     if len(kinds) > 1:
         whole = Operation("+", tuple(pieces))
-        raise Unresolved(f"two lists or two strings can be concatenated, not {whole}")
+        raise UnresolvedError(
+            f"two lists or two strings can be concatenated, not {whole}"
+        )
     if len(pieces) == 1:
         return pieces[0]
     events = tuple(chain.from_iterable(pieces))
@@ -292,7 +296,7 @@ def _concatenate(pieces: list[Object]) -> Object:
 
 
 def fst(value: object) -> Object:
-    """The first element of a list; raises `Unresolved` where there is none.
+    """The first element of a list; raises `UnresolvedError` where there is none.
 
     >>> fst(["a", "b"])
     'a'
@@ -304,7 +308,7 @@ def fst(value: object) -> Object:
 
 
 def rst(value: object) -> Object:
-    """A list without its first element; raises `Unresolved` where it has none.
+    """A list without its first element; raises `UnresolvedError` where it has none.
 
     >>> rst(["a", "b"])
     ('b',)
@@ -321,7 +325,7 @@ def _elements(value: Object, wanted: str) -> tuple[Object, ...]:
     if isinstance(value, tuple) and value:
         return value
     kind = "an empty list" if isinstance(value, tuple) else "no list"
-    raise Unresolved(f"there is no {wanted}: it is {kind}")
+    raise UnresolvedError(f"there is no {wanted}: it is {kind}")
 
 
 def _is_operation(value: Object, name: str) -> bool:

@@ -17,7 +17,7 @@ from ttr.types.objects import (
     Operation,
     Path,
     Record,
-    Unresolved,
+    UnresolvedError,
     concat,
     fst,
     rst,
@@ -126,7 +126,7 @@ def _apply_operation(name: str, args: Parts) -> Object:
     """The result of an operation; if there is none, the operation itself."""
     try:
         return _OPERATIONS[name](*args)
-    except Unresolved:
+    except UnresolvedError:
         return Operation(name, args)
 
 

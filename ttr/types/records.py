@@ -28,7 +28,7 @@ def replace(
     for path, value in combine_labels("replace", changes, labels).items():
         if not isinstance(path, str):
             raise TTRError(f"a path is written as a text, as in 'bg.x', found {path!r}")
-        new.set(path.split("."), freeze(value))
+        new.set_at(path.split("."), freeze(value))
     return new.record
 
 
@@ -42,7 +42,7 @@ class _RecordEditor:
         self.record = r
         self._copies: dict[int, Record] = {}
 
-    def set(self, path: list[str], value: Object) -> None:
+    def set_at(self, path: list[str], value: Object) -> None:
         """Put a frozen object at a path that is in the record."""
         *outer, last = path
         here = self.record = self._copy(self.record)

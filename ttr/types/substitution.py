@@ -10,7 +10,7 @@ from ttr.types.objects import (
     Object,
     Path,
     Record,
-    Unresolved,
+    UnresolvedError,
 )
 from ttr.types.paths import replace_paths
 from ttr.types.syntax import TypeNode
@@ -20,7 +20,7 @@ Around = tuple[Mapping[str, Object], ...]
 
 
 def follow_path(value: Object, labels: tuple[str, ...]) -> Object:
-    """r.ℓ₁.….ℓₙ; raises `Unresolved` where a step is missing.
+    """r.ℓ₁.….ℓₙ; raises `UnresolvedError` where a step is missing.
 
     >>> from ttr import record
     >>> follow_path(record(bg=record(x="fido")), ("bg", "x"))
@@ -30,7 +30,7 @@ def follow_path(value: Object, labels: tuple[str, ...]) -> Object:
         if not isinstance(value, Record) or label not in value:
             lacks = "there is no" if isinstance(value, Record) else "no record has"
             path = ".".join(labels)
-            raise Unresolved(f"the path {path} leads nowhere: {lacks} {label}")
+            raise UnresolvedError(f"the path {path} leads nowhere: {lacks} {label}")
         value = value._fields[label]
     return value
 
@@ -38,7 +38,7 @@ def follow_path(value: Object, labels: tuple[str, ...]) -> Object:
 def resolve_paths(value: Object, around: Around) -> Object:
     """A field's type or object with its paths replaced by what they lead to.
 
-    Raises `Unresolved` for a path that leads nowhere.
+    Raises `UnresolvedError` for a path that leads nowhere.
 
     >>> from ttr import Ind, Pred, this
     >>> print(resolve_paths(Pred("dog", Ind)(this.x), ({"x": "fido"},)))
@@ -48,10 +48,10 @@ def resolve_paths(value: Object, around: Around) -> Object:
     def at(path: Path) -> Object:
         name = ".".join(label for label in path.labels if label != BOUND)
         if path.up >= len(around):
-            raise Unresolved(f"the path {name} leads out of every record")
+            raise UnresolvedError(f"the path {name} leads out of every record")
         first, *rest = path.labels
         if first not in around[path.up]:
-            raise Unresolved(f"the path {name} leads nowhere: there is no {first}")
+            raise UnresolvedError(f"the path {name} leads nowhere: there is no {first}")
         return follow_path(around[path.up][first], tuple(rest))
 
     return replace_paths(value, at)

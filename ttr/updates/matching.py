@@ -10,7 +10,7 @@ from ttr.judging.certainty import is_certain
 from ttr.judging.evaluator import reduce_applications
 from ttr.judging.models import Model
 from ttr.safety.budgets import spend
-from ttr.types.objects import Object, Unresolved
+from ttr.types.objects import Object, UnresolvedError
 from ttr.types.paths import free_paths
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import PType, RecordType, Singleton, TypeNode
@@ -91,7 +91,7 @@ def _candidates(
         T = reduce_applications(model.facts, resolve_paths(field, around))
         known = [(one, model) for one in model.witnesses(T)]
         return known or _situations_seen(T, model)
-    except (Unresolved, RefusedError):
+    except (UnresolvedError, RefusedError):
         return []
 
 

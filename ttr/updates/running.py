@@ -183,7 +183,9 @@ class _Player:
                     error.steps = error.steps or so_far.trace
                     raise
             case First(parts):
-                for number in algorithm.sieve.left(so_far.state, so_far.model.facts):
+                for number in algorithm.sieve.possible_demands(
+                    so_far.state, so_far.model.facts
+                ):
                     after = self.play(parts[number], so_far)
                     if after is not None:
                         return after

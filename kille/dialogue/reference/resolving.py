@@ -300,7 +300,7 @@ class Judging:
         claim = pred, args
         known = self._degrees.get(claim)
         if known is None:
-            seen = self._model.facts.perceived(None, pred(*args))
+            seen = self._model.facts.perceive(None, pred(*args))
             known = self._degrees[claim] = 0.0 if seen is None else seen.lo
         return known
 

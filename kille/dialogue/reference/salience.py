@@ -47,7 +47,7 @@ def across(s: Record, model: Model, things: Iterable[str]) -> list[str]:
     order = {str(x): i for i, x in enumerate(s.view.things)}
 
     def rightness(x: str) -> tuple[float, int]:
-        degree = model.facts.perceived(x, place(x, s.view.look))
+        degree = model.facts.perceive(x, place(x, s.view.look))
         return (degree.lo if degree else 0.0), order.get(x, len(order))
 
     return sorted(things, key=rightness)

@@ -47,7 +47,7 @@ def plugged_in(bus: Bus | Driver) -> Iterator[Finding]:
 
 def _tried(driver: Driver, found: Kinect) -> Finding:
     """Whether this one gives pictures: found out as the robot would, by looking."""
-    from kille.sensors.kinect.commands import BadReply
+    from kille.sensors.kinect.commands import BadReplyError
     from kille.sensors.kinect.devices import again
     from kille.sensors.kinect.streams import COLOUR
     from kille.sensors.kinect.transport import TransportError
@@ -61,7 +61,7 @@ def _tried(driver: Driver, found: Kinect) -> Finding:
             head = _head(streams)
         finally:
             streams.close()
-    except (TransportError, BadReply, SensorError) as error:
+    except (TransportError, BadReplyError, SensorError) as error:
         return _refused(part, error)
     named = f":{found.serial}" if found.serial else ""
     return Finding(part, True, False, f"try kille talk --sensor kinect{named}{head}")
@@ -69,7 +69,7 @@ def _tried(driver: Driver, found: Kinect) -> Finding:
 
 def _head(streams: Streams) -> str:
     """What is to be said of its motor: nothing if it answers."""
-    from kille.sensors.kinect.commands import BadReply
+    from kille.sensors.kinect.commands import BadReplyError
     from kille.sensors.kinect.devices import Model
     from kille.sensors.kinect.motor import Tilt
     from kille.sensors.kinect.transport import TransportError
@@ -80,7 +80,7 @@ def _head(streams: Streams) -> str:
         return " (its head is turned by hand)"
     try:
         Tilt.from_reply(streams.motor_state())
-    except (TransportError, BadReply, SensorError) as error:
+    except (TransportError, BadReplyError, SensorError) as error:
         return (
             f" (its head cannot be turned: {'; '.join(filter(None, trouble(error)))})"
         )

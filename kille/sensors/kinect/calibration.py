@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from kille.sensors.kinect.commands import BadReply
+from kille.sensors.kinect.commands import BadReplyError
 from ttr.safety.inputs import parse_json
 
 _REGISTRATION = struct.Struct("<2x29i")
@@ -105,7 +105,9 @@ class Calibration:
     def from_replies(
         cls, registration: bytes, padding: bytes, fixed: bytes, const_shift: bytes
     ) -> Calibration:
-        """What the device answered; BadReply if a reply is too short or makes no sense.
+        """What the device answered.
+
+        Raises `BadReplyError` if a reply is too short or makes no sense.
 
         The four are the payloads of REGISTRATION, PADDING, FIXED_PARAMETERS and
         CONST_SHIFT, see `kille.sensors.kinect.commands`.
@@ -117,10 +119,12 @@ class Calibration:
             ("constant shift", const_shift, (_CONST_SHIFT.size,)),
         ):
             if len(reply) not in lengths:
-                raise BadReply(f"{what}: {len(reply)} bytes instead of {lengths[0]}")
+                raise BadReplyError(
+                    f"{what}: {len(reply)} bytes instead of {lengths[0]}"
+                )
         told = ZeroPlane(*_ZERO_PLANE.unpack_from(fixed, _ZERO_PLANE_AT))
         if not all(math.isfinite(length) and length > 0 for length in told):
-            raise BadReply(f"the zero plane cannot be {tuple(told)}")
+            raise BadReplyError(f"the zero plane cannot be {tuple(told)}")
         return cls(
             Registration(*_REGISTRATION.unpack(registration)),
             Padding(*_PADDING.unpack(padding)),

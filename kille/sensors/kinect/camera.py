@@ -9,13 +9,13 @@ from dataclasses import replace
 from kille.sensors.kinect import commands
 from kille.sensors.kinect.calibration import Calibration
 from kille.sensors.kinect.clock import Clock, Misses
-from kille.sensors.kinect.commands import BadReply
+from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.packets import Assembler, Counts, RawFrame
 from kille.sensors.kinect.streams import COLOUR, DEPTH_11, Mode, Script
 from kille.sensors.kinect.transport import (
     Batch,
     Connection,
-    Stalled,
+    StalledError,
     Stream,
     TransportError,
 )
@@ -33,8 +33,9 @@ _PAUSE = 0.001
 class Camera:
     """The camera behind a connection.
 
-    Every method but `close` may raise a TransportError, or BadReply if the camera
-    answers nonsense three times in a row. Stalled if it answered none of three times.
+    Every method but `close` may raise a TransportError, or BadReplyError if the camera
+    answers nonsense three times in a row, or `StalledError` if it does not answer three
+    times in a row.
     """
 
     def __init__(self, connection: Connection) -> None:
@@ -106,7 +107,7 @@ class Camera:
         for seconds in early:
             try:
                 return self._ask_once(number, words, seconds, first)
-            except (BadReply, Stalled):
+            except (BadReplyError, StalledError):
                 continue
         return self._ask_once(number, words, last, first)
 
@@ -126,7 +127,7 @@ class Camera:
             if len(reply) not in (0, commands.LONGEST_REPLY):
                 return commands.payload(reply, number, tag, first)
             if time.monotonic() > deadline:
-                raise Stalled(f"the camera does not answer command {number:#04x}")
+                raise StalledError(f"the camera does not answer command {number:#04x}")
             time.sleep(_PAUSE)
 
 

@@ -23,7 +23,7 @@ LONGEST_REPLY = 0x200
 _HEADER = struct.Struct("<2sHHH")
 
 
-class BadReply(Exception):
+class BadReplyError(Exception):
     """The device answered something that is no answer to what was asked."""
 
 
@@ -38,7 +38,7 @@ def command(number: int, tag: int, words: Sequence[int]) -> bytes:
 
 
 def payload(reply: bytes, number: int, tag: int, first: int | None = None) -> bytes:
-    """What a reply carries; BadReply if it does not belong to this command.
+    """What a reply carries; BadReplyError if it does not belong to this command.
 
     The command may have been sent several times, with the tags from `first` to `tag`.
 
@@ -46,19 +46,21 @@ def payload(reply: bytes, number: int, tag: int, first: int | None = None) -> by
     b'\\x00\\x00'
     """
     if len(reply) < _HEADER.size:
-        raise BadReply(f"command {number:#04x}: a reply of {len(reply)} bytes")
+        raise BadReplyError(f"command {number:#04x}: a reply of {len(reply)} bytes")
     magic, words, answered, its_tag = _HEADER.unpack_from(reply)
     if magic != b"RB":
-        raise BadReply(f"command {number:#04x}: a reply that begins with {magic.hex()}")
+        raise BadReplyError(
+            f"command {number:#04x}: a reply that begins with {magic.hex()}"
+        )
     earlier = 0 if first is None else (tag - first) & 0xFFFF
     if answered != number or (tag - its_tag) & 0xFFFF > earlier:
-        raise BadReply(
+        raise BadReplyError(
             f"command {number:#04x}, tag {tag}: "
             f"a reply to command {answered:#04x}, tag {its_tag}"
         )
     carried = reply[_HEADER.size :]
     if len(carried) != 2 * words:
-        raise BadReply(
+        raise BadReplyError(
             f"command {number:#04x}: {len(carried)} bytes of a reply of {2 * words}"
         )
     return carried
@@ -70,12 +72,16 @@ def parameters(which: int) -> tuple[int, ...]:
 
 
 def register_value(carried: bytes, register: int) -> int:
-    """The value in the reply to READ_REGISTER; BadReply if it is of another length.
+    """The value in the reply to READ_REGISTER.
+
+    Raises `BadReplyError` if it is of another length.
 
     >>> register_value(bytes.fromhex("06 00 02 00"), 0x06)
     2
     """
     if len(carried) != 4:
-        raise BadReply(f"register {register:#04x}: {len(carried)} bytes instead of 4")
+        raise BadReplyError(
+            f"register {register:#04x}: {len(carried)} bytes instead of 4"
+        )
     value: int = struct.unpack("<HH", carried)[1]
     return value

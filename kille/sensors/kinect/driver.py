@@ -18,7 +18,7 @@ from kille.sensors.kinect.transport import Bus, Plugged
 class Streams(Protocol):
     """One Kinect that streams; see `kille.sensors.kinect.session.Session`.
 
-    Every method but `close` may raise a TransportError, BadReply or SensorError.
+    Every method but `close` may raise a TransportError, BadReplyError or SensorError.
     """
 
     @property

@@ -16,11 +16,11 @@ from typing import Any
 import usb.backend.libusb1 as pyusb
 
 from kille.sensors.kinect.transport import (
-    Busy,
-    Denied,
-    Gone,
-    NoLibrary,
-    Stalled,
+    AccessDeniedError,
+    DeviceBusyError,
+    DeviceGoneError,
+    NoLibraryError,
+    StalledError,
     TransportError,
 )
 
@@ -49,12 +49,12 @@ completed_type = pyusb._libusb_transfer_cb_fn_p
 """Makes a function that libusb calls when a transfer has ended."""
 
 _KINDS: dict[int, type[TransportError]] = {
-    pyusb.LIBUSB_ERROR_NO_DEVICE: Gone,
-    pyusb.LIBUSB_ERROR_NOT_FOUND: Gone,
-    pyusb.LIBUSB_ERROR_ACCESS: Denied,
-    pyusb.LIBUSB_ERROR_BUSY: Busy,
-    pyusb.LIBUSB_ERROR_PIPE: Stalled,
-    pyusb.LIBUSB_ERROR_TIMEOUT: Stalled,
+    pyusb.LIBUSB_ERROR_NO_DEVICE: DeviceGoneError,
+    pyusb.LIBUSB_ERROR_NOT_FOUND: DeviceGoneError,
+    pyusb.LIBUSB_ERROR_ACCESS: AccessDeniedError,
+    pyusb.LIBUSB_ERROR_BUSY: DeviceBusyError,
+    pyusb.LIBUSB_ERROR_PIPE: StalledError,
+    pyusb.LIBUSB_ERROR_TIMEOUT: StalledError,
 }
 
 
@@ -67,12 +67,12 @@ class _Time(ctypes.Structure):
 def backend() -> Any:
     """pyusb's backend, with what it does not declare declared.
 
-    It is the system's libusb, else that of the package libusb-package. NoLibrary if
-    there is neither, another TransportError if it does not start.
+    It is the system's libusb, else that of the package libusb-package. Raises
+    `NoLibraryError` if there is neither, another `TransportError` if it does not start.
     """
     found = _library()
     if found is None:
-        raise NoLibrary("no libusb found")
+        raise NoLibraryError("no libusb found")
     loaded = pyusb.get_backend(find_library=lambda _: found)
     if loaded is None:
         raise TransportError(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from numbers import Real
 
-from kille.sensors.kinect.commands import BadReply
+from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.sensor import SensorError
 
 SET_TILT, SET_LIGHT, GET_STATE = 0x31, 0x06, 0x32
@@ -49,13 +49,15 @@ class Tilt:
 
     @classmethod
     def from_reply(cls, reply: bytes) -> Tilt:
-        """Read from the ten bytes of GET_STATE; BadReply if there are not ten.
+        """Read from the ten bytes of GET_STATE; BadReplyError if there are not ten.
 
         >>> Tilt.from_reply(bytes.fromhex("00 00 00 10 03 30 00 20 f6 00")).degrees
         -5.0
         """
         if len(reply) != STATE_LENGTH:
-            raise BadReply(f"the motor's state has {len(reply)} bytes instead of 10")
+            raise BadReplyError(
+                f"the motor's state has {len(reply)} bytes instead of 10"
+            )
         return cls(*struct.unpack(">2x3hbB", reply))
 
     @property

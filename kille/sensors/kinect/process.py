@@ -33,7 +33,12 @@ from kille.sensors.kinect.devices import Kinect
 from kille.sensors.kinect.motor import Tilt
 from kille.sensors.kinect.packets import Counts
 from kille.sensors.kinect.streams import Mode
-from kille.sensors.kinect.transport import Gone, Plugged, Stalled, TransportError
+from kille.sensors.kinect.transport import (
+    DeviceGoneError,
+    Plugged,
+    StalledError,
+    TransportError,
+)
 
 PICTURE = 480 * 640 * 3
 ROOM = PICTURE + 480 * 640 * 4
@@ -89,8 +94,8 @@ class InMemory(NamedTuple):
 class ProcessDriver:
     """Runs one Kinect's streams in another process, which lives until `close`.
 
-    Its methods may be called from any thread. A TransportError, BadReply or SensorError
-    of the other process is raised here.
+    Its methods may be called from any thread. A `TransportError`, `BadReplyError` or
+    `SensorError` of the other process is raised here.
     """
 
     def __init__(self) -> None:
@@ -136,10 +141,13 @@ class ProcessDriver:
             return self._answer_to(what, given, _LIMIT)
 
     def ask_of(self, start: int, what: str, *given: Any) -> Any:
-        """What it answers of the streams that it started then; Gone if it has ended."""
+        """What it answers of the streams that it started then.
+
+        Raises `DeviceGoneError` if it has ended.
+        """
         with self.lock:
             if not self.has(start):
-                raise Gone("its streams have ended")
+                raise DeviceGoneError("its streams have ended")
             return self.ask(what, *given)
 
     def has(self, start: int) -> bool:
@@ -215,7 +223,7 @@ class ProcessDriver:
             yield
         except TimeoutError as error:
             self._end(at_once=True)
-            raise Stalled("the process that reads it does not answer") from error
+            raise StalledError("the process that reads it does not answer") from error
         except (EOFError, OSError) as error:
             self._end()
             raise TransportError("the process that reads it has ended") from error

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from kille.sensors.kinect import libusb
 from kille.sensors.kinect.transport import (
     Batch,
-    Gone,
-    Interrupted,
+    DeviceGoneError,
+    InterruptedTransferError,
     Receiver,
     TransportError,
 )
@@ -229,7 +229,11 @@ class IsoStream:
         try:
             again = self._take(slot, status)
         except BaseException as error:
-            kind = TransportError if isinstance(error, Exception) else Interrupted
+            kind = (
+                TransportError
+                if isinstance(error, Exception)
+                else InterruptedTransferError
+            )
             self.ended = kind(f"the stream's receiver failed: {error!r}")
         # Until here it counts as under way, so that nobody frees it.
         if not (again and self._submitted(slot)):
@@ -241,7 +245,7 @@ class IsoStream:
         if over or status == libusb.CANCELLED:
             return False
         if status == libusb.NO_DEVICE:
-            self.ended = Gone("the device was unplugged")
+            self.ended = DeviceGoneError("the device was unplugged")
             return False
         if status == libusb.COMPLETED:
             self._failures = 0

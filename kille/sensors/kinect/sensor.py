@@ -13,7 +13,7 @@ from kille.scene import Frame
 from kille.sensors.kinect.address import parsed
 from kille.sensors.kinect.calibration import Calibration
 from kille.sensors.kinect.capture import Capture
-from kille.sensors.kinect.commands import BadReply
+from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.developing import calibration_for
 from kille.sensors.kinect.devices import Kinect, again, chosen, named
 from kille.sensors.kinect.driver import Driver, Streams, driver_of
@@ -29,8 +29,8 @@ from kille.sensors.kinect.packets import Counts
 from kille.sensors.kinect.streams import COLOUR, INFRARED
 from kille.sensors.kinect.transport import (
     Bus,
-    Gone,
-    Interrupted,
+    DeviceGoneError,
+    InterruptedTransferError,
     TransportError,
 )
 from kille.sensors.kinect.troubles import told
@@ -169,7 +169,7 @@ class KinectSensor:
         for _ in range(_RETURNS):
             try:
                 return self._streaming()
-            except Gone:
+            except DeviceGoneError:
                 continue
         return self._streaming()
 
@@ -236,9 +236,9 @@ class KinectSensor:
         """Whatever goes wrong is a line that begins with the sensor's name."""
         try:
             yield
-        except Interrupted as error:
+        except InterruptedTransferError as error:
             # The streams are begun again by whoever asks for a frame all the same.
             self.close()
             raise KeyboardInterrupt from error
-        except (TransportError, BadReply, SensorError) as error:
+        except (TransportError, BadReplyError, SensorError) as error:
             raise SensorError(told(self._name, error)) from error

@@ -19,14 +19,14 @@ from numpy.typing import NDArray
 from kille.sensors.kinect.calibration import Calibration
 from kille.sensors.kinect.capture import Capture, frame_of
 from kille.sensors.kinect.channel import Channel
-from kille.sensors.kinect.commands import BadReply
+from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.developing import calibration_for, capture_of
 from kille.sensors.kinect.devices import Kinect
 from kille.sensors.kinect.packets import Counts
 from kille.sensors.kinect.process import PICTURE, ROOM, Answer, InMemory
 from kille.sensors.kinect.session import Session
 from kille.sensors.kinect.streams import COLOUR, INFRARED
-from kille.sensors.kinect.transport import Bus, Gone, Plugged, TransportError
+from kille.sensors.kinect.transport import Bus, DeviceGoneError, Plugged, TransportError
 from kille.sensors.sensor import SensorError
 
 _LOOK_UP = 1.0
@@ -102,7 +102,7 @@ def _attempt(
 
 def _sendable(error: Exception) -> Exception:
     """The error as the other process knows it, without what it comes from."""
-    if isinstance(error, TransportError | BadReply | SensorError | ImportError):
+    if isinstance(error, TransportError | BadReplyError | SensorError | ImportError):
         return type(error)(*error.args)
     return TransportError(f"the process that reads it failed: {error!r}")
 
@@ -138,7 +138,7 @@ class _Kinects:
         motor = kinect.motor and self._known.get(kinect.motor.key)
         camera = self._known.get(kinect.camera.key)
         if camera is None:
-            raise Gone("the device is no longer plugged in")
+            raise DeviceGoneError("the device is no longer plugged in")
         ours = replace(kinect, camera=camera, motor=motor)
         self._session = Session(self._bus, ours, _MODES[colour])
         return self._session.calibration
@@ -196,7 +196,7 @@ class _Kinects:
 
     def _streaming(self) -> Session:
         if self._session is None:
-            raise Gone("its streams have ended")
+            raise DeviceGoneError("its streams have ended")
         return self._session
 
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 from kille.scene import Frame
 from kille.sensors.kinect.camera import Camera, Feed
 from kille.sensors.kinect.capture import Capture, frame_of
-from kille.sensors.kinect.commands import BadReply
+from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.developing import calibration_for, capture_of
 from kille.sensors.kinect.devices import Kinect
 from kille.sensors.kinect.head import Head
@@ -34,7 +34,7 @@ _LOOK_UP = 0.05
 class Session:
     """Both streams of a Kinect; `colour` is the mode of the one beside depth.
 
-    A TransportError or BadReply where the Kinect cannot be opened or started.
+    A TransportError or BadReplyError where the Kinect cannot be opened or started.
     """
 
     def __init__(self, bus: Bus, kinect: Kinect, colour: Mode) -> None:
@@ -75,7 +75,7 @@ class Session:
         """How the Kinect stands; a lost motor is looked for once a second only."""
         try:
             return Tilt.from_reply(self._head.state(at_once=False))
-        except (TransportError, BadReply, SensorError):
+        except (TransportError, BadReplyError, SensorError):
             return None
 
     def pair(self, seconds: float) -> Pair:
@@ -134,7 +134,7 @@ class Session:
             stack.callback(self._camera.close)
             stack.callback(self._head.close)
             # It may be gone, or not listen: then closing has to be enough.
-            stack.enter_context(suppress(TransportError, BadReply))
+            stack.enter_context(suppress(TransportError, BadReplyError))
             for feed in self._feeds:
                 self._camera.switch_off(feed.mode)
 

@@ -18,31 +18,31 @@ class TransportError(Exception):
     """The wire failed; see the kinds below, or what it says."""
 
 
-class Gone(TransportError):
+class DeviceGoneError(TransportError):
     """The device is no longer plugged in."""
 
 
-class Denied(TransportError):
+class AccessDeniedError(TransportError):
     """The operating system does not let this user open the device."""
 
 
-class Busy(TransportError):
+class DeviceBusyError(TransportError):
     """Something else has the device: another program, if no more is known."""
 
 
-class Driven(Busy):
+class Driven(DeviceBusyError):
     """A kernel driver has the device, and does not let go of it."""
 
 
-class Stalled(TransportError):
+class StalledError(TransportError):
     """The device refused a request, or did not answer in time."""
 
 
-class Interrupted(TransportError):
+class InterruptedTransferError(TransportError):
     """Ctrl-C came while a stream was served, from where it cannot be passed on."""
 
 
-class NoLibrary(TransportError):
+class NoLibraryError(TransportError):
     """There is no libusb to talk to any device with."""
 
 
@@ -127,6 +127,7 @@ class Bus(Protocol):
     def open(self, device: Plugged, alternate: int) -> Connection:
         """The device with its interface 0 claimed and set to that alternate setting.
 
-        Gone, Denied, Busy or another TransportError if it cannot be had.
+        Raises `DeviceGoneError`, `AccessDeniedError`, `DeviceBusyError` or another
+        `TransportError` if it cannot be had.
         """
         ...

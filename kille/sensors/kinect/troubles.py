@@ -6,16 +6,16 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from kille.sensors.kinect.commands import BadReply
+from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.devices import Kinect, Model
 from kille.sensors.kinect.packets import Counts
 from kille.sensors.kinect.transport import (
-    Busy,
-    Denied,
+    AccessDeniedError,
+    DeviceBusyError,
+    DeviceGoneError,
     Driven,
-    Gone,
-    NoLibrary,
-    Stalled,
+    NoLibraryError,
+    StalledError,
 )
 
 KERNEL_DRIVER = "gspca_kinect"
@@ -50,7 +50,7 @@ class Trouble(NamedTuple):
 def told(name: str, error: Exception) -> str:
     """The line for an error of opening, asking or streaming.
 
-    >>> told("kinect", Gone("No such device"))
+    >>> told("kinect", DeviceGoneError("No such device"))
     'kinect: it was unplugged; plug it in again'
     """
     return f"{name}: {'; '.join(filter(None, trouble(error)))}"
@@ -59,19 +59,19 @@ def told(name: str, error: Exception) -> str:
 def trouble(error: Exception) -> Trouble:
     """What an error of opening, asking or streaming means."""
     match error:
-        case NoLibrary():
+        case NoLibraryError():
             return Trouble("there is no libusb to talk to it", GET_LIBRARY)
-        case Denied():
+        case AccessDeniedError():
             return Trouble("there is no permission to open it", ALLOW)
         case Driven() if driver_loaded():
             return Trouble(f"the kernel's driver {KERNEL_DRIVER} has it", UNLOAD)
-        case Busy():
+        case DeviceBusyError():
             return Trouble("another program has it", "close that program")
-        case Gone():
+        case DeviceGoneError():
             return Trouble("it was unplugged", "plug it in again")
-        case Stalled():
+        case StalledError():
             return Trouble("it does not answer", "unplug it and plug it in again")
-        case BadReply():
+        case BadReplyError():
             state = f"it answers nonsense ({error})"
             return Trouble(state, "unplug it and plug it in again")
         case _:

@@ -14,8 +14,8 @@ from usb.core import USBError
 from kille.sensors.kinect import libusb, pump
 from kille.sensors.kinect.pump import Events, IsoStream
 from kille.sensors.kinect.transport import (
+    DeviceGoneError,
     Driven,
-    Gone,
     Plugged,
     Receiver,
     TransportError,
@@ -35,7 +35,7 @@ _ATTEMPTS = 3
 class UsbBus:
     """The computer's USB.
 
-    NoLibrary if there is no libusb, another TransportError if it does not start.
+    NoLibraryError if there is no libusb, another TransportError if it does not start.
     """
 
     def __init__(self) -> None:
@@ -168,7 +168,7 @@ class UsbConnection:
             return
         except USBError as error:
             problem = libusb.error_of(error.backend_error_code)
-            if not isinstance(problem, Gone):
+            if not isinstance(problem, DeviceGoneError):
                 problem = Driven(f"a kernel driver has it: {error}")
             raise problem from error
 
@@ -183,7 +183,7 @@ class UsbConnection:
         self, kind: int, request: int, value: int, index: int, data: Any
     ) -> int:
         if self._closed:
-            raise Gone("the device was closed")
+            raise DeviceGoneError("the device was closed")
         with _translated():
             came: int = self._backend.ctrl_transfer(
                 self._handle, kind, request, value, index, data, _TIMEOUT

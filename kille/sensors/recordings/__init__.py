@@ -6,6 +6,9 @@ reads it and, where it is written, one that writes it.
 
 from kille.sensors.recordings.galleries import Gallery
 from kille.sensors.recordings.opening import open_recording
-from kille.sensors.recordings.playing import Recording, RecordingOver
+from kille.sensors.recordings.playing import Recording, RecordingOverError
+from ttr.aliases import former_names
 
-__all__ = ["Gallery", "Recording", "RecordingOver", "open_recording"]
+__getattr__ = former_names(__name__, {"RecordingOver": "RecordingOverError"})
+
+__all__ = ["Gallery", "Recording", "RecordingOverError", "open_recording"]

@@ -13,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from kille.sensors.recordings.images import NotThis
+from kille.sensors.recordings.images import OtherFormatError
 from kille.sensors.sensor import SensorError
 from ttr.safety.inputs import open_file
 from ttr.safety.limits import FRAMES
@@ -191,7 +191,7 @@ def _salvaged(path: Path, usual: Typestore) -> AnyReader:
 
     held = ros_files(path) if path.is_dir() else [path]
     if len(held) != 1:
-        raise NotThis("a bag of several files is cut short: name one of them")
+        raise OtherFormatError("a bag of several files is cut short: name one of them")
     (path,) = held
     reader = AnyReader([path], default_typestore=usual)
     if reader.is2:
@@ -235,7 +235,7 @@ def told(name: str) -> Iterator[None]:
         raise
     except OSError as error:
         raise SensorError(f"{name}: cannot be read ({error.strerror})") from error
-    except NotThis as error:
+    except OtherFormatError as error:
         raise SensorError(f"{name}: {error}") from error
     except Exception as error:
         # A damaged bag makes rosbags fail in many ways, with no class in common.

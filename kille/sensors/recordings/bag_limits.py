@@ -56,10 +56,10 @@ class _Decompressor(Protocol):
 
 def _unpacked(kind: Callable[[], _Decompressor], data: bytes) -> bytes:
     """What is compressed in these bytes; `OSError` if it is too much."""
-    most = MESSAGE.allowed
+    most = MESSAGE.maximum
     found = kind().decompress(data, max_length=most + 1)
     if len(found) > most:
-        raise MESSAGE.exceeded()
+        raise MESSAGE.too_much()
     return found
 
 
@@ -79,7 +79,7 @@ def bounded() -> Iterator[None]:
 
 def _limit(database: apsw.Connection) -> None:
     """What is in the database runs nothing, and no value in it is too large."""
-    database.limit(apsw.SQLITE_LIMIT_LENGTH, MESSAGE.allowed)
+    database.limit(apsw.SQLITE_LIMIT_LENGTH, MESSAGE.maximum)
     database.config(apsw.SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0)
     database.config(apsw.SQLITE_DBCONFIG_ENABLE_VIEW, 0)
 
@@ -87,9 +87,9 @@ def _limit(database: apsw.Connection) -> None:
 def check_unpacked(folder: Path) -> None:
     """Refuses a bag of compressed files that would fill the disk when unpacked."""
     for file in sorted(folder.glob("*.zstd")):
-        count, most = 0, BAG_UNPACKED.allowed
+        count, most = 0, BAG_UNPACKED.maximum
         with open_file(file) as packed, zstd.open(packed, "rb") as opened:
             while piece := opened.read(_PIECE):
                 count += len(piece)
                 if count > most:
-                    raise BAG_UNPACKED.exceeded()
+                    raise BAG_UNPACKED.too_much()

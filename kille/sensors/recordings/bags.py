@@ -14,7 +14,7 @@ from pathlib import Path
 from kille.scene import Frame, Intrinsics
 from kille.sensors.recordings.bag_files import Bag, Stamp, opened, told
 from kille.sensors.recordings.images import (
-    NotThis,
+    OtherFormatError,
     colour_of,
     depth_of,
     kind_of,
@@ -144,7 +144,7 @@ def _lens(bag: Bag, colour: str, depth: str) -> Intrinsics:
         )
     try:
         return lens_of(message)
-    except NotThis as error:
+    except OtherFormatError as error:
         raise SensorError(
             f"{bag.name}: depth without calibration: {error}; {way_out}"
         ) from error

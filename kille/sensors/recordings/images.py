@@ -16,7 +16,7 @@ from kille.sensors.pictures import decoded, measured
 from kille.sensors.recordings.lenses import lens_from
 
 
-class NotThis(ValueError):
+class OtherFormatError(ValueError):
     """An image of another kind than was asked for, or a damaged one: one line."""
 
 
@@ -59,13 +59,16 @@ def kind_of(message: Any) -> str:
 
 
 def colour_of(message: Any) -> Colour:
-    """The picture (H, W, 3) RGB, read-only; NotThis if the message holds none."""
+    """The picture (H, W, 3) RGB, read-only.
+
+    Raises `OtherFormatError` if the message holds none.
+    """
     if is_compressed(message):
         content = np.asarray(message.data, np.uint8)
         return _fixed(_decoded(content, cv2.IMREAD_COLOR_RGB))
     channels = _CHANNELS.get(message.encoding)
     if channels is None:
-        raise NotThis(
+        raise OtherFormatError(
             f"the encoding {message.encoding} is not understood as colour; "
             f"known are {', '.join(COLOURS)}"
         )
@@ -76,18 +79,20 @@ def colour_of(message: Any) -> Colour:
 
 
 def depth_of(message: Any) -> Depth:
-    """The depth (H, W) in metres, read-only; NotThis if the message holds none.
+    """The depth (H, W) in metres, read-only.
+
+    Raises `OtherFormatError` if the message holds none.
 
     Whole numbers are millimetres, of which 0 is no reading; others are metres.
     """
     if is_compressed(message):
         if "16UC1" not in message.format:
-            raise NotThis(f"compressed depth of the kind `{message.format}`")
+            raise OtherFormatError(f"compressed depth of the kind `{message.format}`")
         content = np.asarray(message.data, np.uint8)[_HEAD_OF_DEPTH:]
         return _metres(_decoded(content, cv2.IMREAD_UNCHANGED))
     kind = _DEPTHS.get(message.encoding)
     if kind is None:
-        raise NotThis(
+        raise OtherFormatError(
             f"the encoding {message.encoding} is not understood as depth; "
             f"known are {', '.join(_DEPTHS)}"
         )
@@ -95,12 +100,14 @@ def depth_of(message: Any) -> Depth:
 
 
 def lens_of(message: Any) -> Intrinsics:
-    """The lens that a `CameraInfo` tells; NotThis if it tells none."""
+    """The lens that a `CameraInfo` tells; OtherFormatError if it tells none."""
     matrix = message.K if hasattr(message, "K") else message.k
     fx, _, cx, _, fy, cy = (float(number) for number in np.ravel(matrix)[:6])
     lens = lens_from([fx, fy, cx, cy])
     if lens is None:
-        raise NotThis("camera_info does not say fx and fy, it is not calibrated")
+        raise OtherFormatError(
+            "camera_info does not say fx and fy, it is not calibrated"
+        )
     return lens
 
 
@@ -112,7 +119,7 @@ def _rows(message: Any, kind: np.dtype[Any], channels: int) -> NDArray[Any]:
     step = int(message.step) or needed
     data = np.asarray(message.data, np.uint8)
     if not height or not width or step < needed or data.size < height * step:
-        raise NotThis(
+        raise OtherFormatError(
             f"an image of {width}x{height} with {data.size} bytes is damaged or empty"
         )
     rows = data[: height * step].reshape(height, step)[:, :needed]
@@ -121,7 +128,7 @@ def _rows(message: Any, kind: np.dtype[Any], channels: int) -> NDArray[Any]:
 
 def _metres(depth: NDArray[Any]) -> Depth:
     if depth.ndim != 2 or depth.dtype.kind not in "uf":
-        raise NotThis("a depth picture has one channel of numbers")
+        raise OtherFormatError("a depth picture has one channel of numbers")
     metres = depth.astype(np.float32)
     return measured(metres / np.float32(1000) if depth.dtype.kind == "u" else metres)
 
@@ -129,7 +136,7 @@ def _metres(depth: NDArray[Any]) -> Depth:
 def _decoded(content: NDArray[np.uint8], flags: int) -> NDArray[Any]:
     picture = decoded(np.ascontiguousarray(content), flags)
     if picture is None:
-        raise NotThis("a compressed picture does not open; it may be damaged")
+        raise OtherFormatError("a compressed picture does not open; it may be damaged")
     return picture
 
 

@@ -21,7 +21,13 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.archives import Damaged, damage_told, opened_zip, read_array, read_head
+from kille.archives import (
+    DamagedArchiveError,
+    damage_told,
+    opened_zip,
+    read_array,
+    read_head,
+)
 from kille.scene import Frame, Intrinsics
 from kille.sensors.captures import RATE
 from kille.sensors.pictures import measured
@@ -46,7 +52,7 @@ def open_npz(name: str, path: Path, options: Options) -> Reel:
     """The recording in this file; SensorError if an array is missing or misfits."""
     try:
         arrays = _arrays(path)
-    except Damaged as error:
+    except DamagedArchiveError as error:
         raise SensorError(
             f"{name}: this archive does not open; it may be cut short ({error})"
         ) from error

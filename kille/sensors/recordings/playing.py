@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _KEPT_FRAMES = 16
 
 
-class RecordingOver(SensorError):
+class RecordingOverError(SensorError):
     """The last frame was given, and the recording does not begin again."""
 
 
@@ -99,9 +99,9 @@ def latest(reel: Reel, elapsed: float) -> int:
 class Recording:
     """The frames of a recording in order of time.
 
-    After the last comes the first, or RecordingOver, as the options say. Frames are
-    those that were recorded, to the last bit of what their format keeps; their time is
-    on the recording's own clock, and goes on when it begins again.
+    After the last comes the first, or `RecordingOverError`, as the options say. Frames
+    are those that were recorded, to the last bit of what their format keeps; their time
+    is on the recording's own clock, and goes on when it begins again.
     """
 
     def __init__(
@@ -172,7 +172,7 @@ class Recording:
             return number
         if self._given < count:
             return count - 1
-        raise RecordingOver(
+        raise RecordingOverError(
             f"{self._name}: the recording is over after its "
             f"{count} frames; without loop=no it begins again"
         )

@@ -17,7 +17,7 @@ from typing import Self
 
 from kille.sensors.kinect.capture import Capture, RawSource
 from kille.sensors.recordings.developing import lens_of
-from kille.sensors.recordings.playing import RecordingOver
+from kille.sensors.recordings.playing import RecordingOverError
 from kille.sensors.recordings.replacing import empty, home, is_empty
 from kille.sensors.recordings.writing import CAPTURE_BYTES, FakenectWriter
 
@@ -92,7 +92,7 @@ class Progress:
         return self.seconds + (self.seconds / gaps if gaps > 0 else 0.0)
 
 
-class NoRoom(Exception):
+class NoRoomError(Exception):
     """The disk has not room for what is to be recorded: needed and free, in bytes."""
 
     def __init__(self, needed: int, free: int) -> None:
@@ -119,7 +119,7 @@ def check_room(folder: Path, limits: Limits, disk: Disk) -> None:
     free = disk.free(folder)
     needed = max(limits.bytes, CAPTURE_BYTES) + disk.reserve
     if free < needed:
-        raise NoRoom(needed, free)
+        raise NoRoomError(needed, free)
 
 
 def record(
@@ -147,7 +147,7 @@ def record(
     try:
         for progress in _captured(source, behind, limits, disk, folder):
             tell(progress)
-    except RecordingOver:
+    except RecordingOverError:
         progress = replace(progress, end=End.OVER)
     except KeyboardInterrupt:
         progress = replace(progress, end=End.STOPPED)

@@ -73,7 +73,7 @@ def study_of(
 ) -> Study:
     """The study of data without faults."""
     folder = path.resolve().parent
-    allowed = consent.adding(folder, PACKAGED)
+    allowed = consent.with_folders(folder, PACKAGED)
     seeds = data["seeds"]
     return Study(
         title=data["title"],

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kinect_emulator.descriptors import Part, Role
-from kinect_emulator.kinect import Kinect, Stalled
+from kinect_emulator.kinect import Kinect, StalledError
 
 
 class Code(IntEnum):
@@ -245,7 +245,7 @@ class Host:
             raise UsbError(Code.PIPE)
         try:
             device.kinect.write(device.part, request, value, data, self.now)
-        except Stalled as stalled:
+        except StalledError as stalled:
             raise UsbError(Code.PIPE) from stalled
         return len(data)
 
@@ -260,7 +260,7 @@ class Host:
             raise UsbError(Code.PIPE)
         try:
             return device.kinect.read(device.part, request, self.now)[:length]
-        except Stalled as stalled:
+        except StalledError as stalled:
             raise UsbError(Code.PIPE) from stalled
 
     def submit(self, handle: int, endpoint: int, packets: int, size: int) -> Transfer:

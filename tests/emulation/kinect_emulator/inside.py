@@ -13,13 +13,13 @@ from contextlib import contextmanager
 import numpy as np
 
 from kille.sensors.kinect.transport import (
+    AccessDeniedError,
     Batch,
-    Busy,
-    Denied,
-    Gone,
+    DeviceBusyError,
+    DeviceGoneError,
     Plugged,
     Receiver,
-    Stalled,
+    StalledError,
     TransportError,
 )
 from kinect_emulator.descriptors import MICROSOFT, Role
@@ -39,10 +39,10 @@ _TRANSFERS, _PACKETS = 8, 64
 _FAILURES = 64
 _STEP = 0.002
 _ERRORS: dict[Code, type[TransportError]] = {
-    Code.ACCESS: Denied,
-    Code.BUSY: Busy,
-    Code.NO_DEVICE: Gone,
-    Code.PIPE: Stalled,
+    Code.ACCESS: AccessDeniedError,
+    Code.BUSY: DeviceBusyError,
+    Code.NO_DEVICE: DeviceGoneError,
+    Code.PIPE: StalledError,
 }
 
 
@@ -210,7 +210,7 @@ class InsideStream:
                 return
             self._waiting.remove(completion.transfer)
             if completion.status is Status.NO_DEVICE:
-                self.ended = Gone("the emulated device was unplugged")
+                self.ended = DeviceGoneError("the emulated device was unplugged")
                 return
             failed = completion.status is Status.ERROR
             self._failures = self._failures + 1 if failed else 0

@@ -14,7 +14,7 @@ from kinect_emulator.stream import Stream, Window
 _TICKS_PER_MICROFRAME = TICKS_PER_SECOND // MICROFRAMES_PER_SECOND
 
 
-class Stalled(Exception):
+class StalledError(Exception):
     """The device refuses the transfer."""
 
 
@@ -68,7 +68,7 @@ class Kinect:
             case Role.MOTOR, 0x06:
                 self.motor.light(value)
             case _:
-                raise Stalled
+                raise StalledError
 
     def read(self, part: Part, request: int, microframe: int) -> bytes:
         """A vendor control transfer from the device."""
@@ -81,7 +81,7 @@ class Kinect:
             case Role.MOTOR, 0x10:
                 return b"\x22"
             case _:
-                raise Stalled
+                raise StalledError
 
     def window(self, endpoint: int, first: int, count: int) -> Window | None:
         """The packets at that endpoint, or nothing while no stream runs there."""
@@ -92,7 +92,7 @@ class Kinect:
 
     def _refuse_if_stalled(self) -> None:
         if self.faults.stalled:
-            raise Stalled
+            raise StalledError
 
     def _command(self, message: bytes, microframe: int) -> None:
         try:
@@ -100,7 +100,7 @@ class Kinect:
             reply = Reply.NEVER if lost else self.faults.reply
             self.camera.take(message, reply, microframe + self.faults.slow)
         except CommandError as error:
-            raise Stalled from error
+            raise StalledError from error
         modes = {mode.endpoint: mode for mode in self.camera.modes()}
         for endpoint in (0x81, 0x82):
             wanted, running = modes.get(endpoint), self.streams.get(endpoint)

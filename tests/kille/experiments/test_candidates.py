@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kille.experiments.candidates import MethodFailed, candidates
+from kille.experiments.candidates import MethodFailedError, candidates
 from kille.experiments.results import ExperimentError
 
 FILE = """
@@ -46,7 +46,7 @@ class Keyless:
 
 
 def failing(make: Any, x: object = None) -> str:
-    with pytest.raises(MethodFailed) as failure:
+    with pytest.raises(MethodFailedError) as failure:
         candidates(["it"], {"it": make})["it"]().predict_proba_one(x)
     assert failure.value.name == "it"
     assert "\n" not in str(failure.value)

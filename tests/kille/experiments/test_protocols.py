@@ -12,7 +12,7 @@ import pytest
 from kille.experiments import objects, parted, plans, shots, variations
 from kille.experiments import scenes as scenes_of
 from kille.experiments.asking import NOTHING, Answer, mean_degrees
-from kille.experiments.candidates import MethodFailed, candidates
+from kille.experiments.candidates import MethodFailedError, candidates
 from kille.experiments.gallery import Gallery, open_gallery
 from kille.experiments.labelled import Split, open_scenes, splits
 from kille.experiments.results import ExperimentError, Result, silent
@@ -240,7 +240,7 @@ def test_real_data_is_recognised_too(data: Path) -> None:
 def test_who_fails_is_left_out_and_the_others_go_on(
     gallery: Gallery, colour: Make, failing: Make
 ) -> None:
-    failures: list[MethodFailed] = []
+    failures: list[MethodFailedError] = []
     plan = plans.Plan("even-odd", lambda *a, **b: parted.every_other(gallery, *a, **b))
     taking_part = methods(failing=failing, colour=colour)
     result, able = plans.run(

@@ -190,10 +190,10 @@ def test_a_chunk_is_unpacked_no_further_than_a_message_may_be(
     import lz4.frame
 
     from kille.sensors.recordings.bag_limits import bounded
-    from ttr.safety.limits import MESSAGE, TooMuch
+    from ttr.safety.limits import MESSAGE, InputLimitError
 
     # So that not so much has to be made for it.
-    monkeypatch.setattr(type(MESSAGE), "allowed", 1000)
+    monkeypatch.setattr(type(MESSAGE), "maximum", 1000)
     ways = {"bz2": bz2.compress, "lz4": lz4.frame.compress, "zstd": mcap.zstd.compress}
     with bounded():
         unpack = {
@@ -204,7 +204,7 @@ def test_a_chunk_is_unpacked_no_further_than_a_message_may_be(
         }
         for way, one in unpack:
             assert one(ways[way](b"x" * 1000)) == b"x" * 1000
-            with pytest.raises(TooMuch, match="it has more than 1 kB"):
+            with pytest.raises(InputLimitError, match="it has more than 1 kB"):
                 one(ways[way](bytes(10**6)))
 
 

@@ -18,7 +18,7 @@ from rosbags.typesys import Stores, get_typestore
 from kille.scene import Intrinsics
 from kille.sensors.recordings.images import (
     COLOURS,
-    NotThis,
+    OtherFormatError,
     colour_of,
     depth_of,
     kind_of,
@@ -401,5 +401,5 @@ def test_compressed_images_of_a_bag_are_played(tmp_path: Path) -> None:
     ],
 )
 def test_an_image_that_cannot_be_read(read: Any, wrong: Any, told: str) -> None:
-    with pytest.raises(NotThis, match=told):
+    with pytest.raises(OtherFormatError, match=told):
         read(wrong)

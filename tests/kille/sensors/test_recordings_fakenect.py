@@ -30,7 +30,7 @@ from kille.sensors.recordings.recorder import (
     Disk,
     End,
     Limits,
-    NoRoom,
+    NoRoomError,
     Progress,
     check_room,
     record,
@@ -394,7 +394,7 @@ def test_what_does_not_fit_is_not_begun(tmp_path: Path) -> None:
     check_room(tmp_path, Limits(), disk)
     check_room(tmp_path, Limits(seconds=17), disk)
     for limits in (Limits(600), Limits(seconds=20)):
-        with pytest.raises(NoRoom) as caught:
+        with pytest.raises(NoRoomError) as caught:
             check_room(tmp_path, limits, disk)
         assert caught.value.needed == 600 * CAPTURE_BYTES + 200_000_000
 

@@ -17,7 +17,7 @@ from kille.sensors.recordings.pairing import paired
 from kille.sensors.recordings.playing import (
     Clock,
     Recording,
-    RecordingOver,
+    RecordingOverError,
     due,
     latest,
 )
@@ -71,7 +71,9 @@ def test_without_loop_it_is_over_after_the_last_frame() -> None:
     recording = Recording("r", REEL, Options(loop=False))
     assert [shown(recording) for _ in range(4)] == [0, 1, 2, 3]
     for _ in range(2):
-        with pytest.raises(RecordingOver, match="r: the recording is over after its 4"):
+        with pytest.raises(
+            RecordingOverError, match="r: the recording is over after its 4"
+        ):
             recording.frame()
     recording.seek(0.1)
     assert shown(recording) == 1
@@ -137,7 +139,7 @@ def test_who_is_slow_sees_the_last_frame_before_the_end() -> None:
     assert shown(recording) == 0
     hours.time += 60
     assert shown(recording) == 3
-    with pytest.raises(RecordingOver):
+    with pytest.raises(RecordingOverError):
         recording.frame()
 
 

@@ -38,7 +38,7 @@ def _fracas(options: argparse.Namespace) -> int:
     try:
         words = english()
         if options.lexicon is not None:
-            words = words.extended(options.lexicon, allow=options.allow)
+            words = words.extend(options.lexicon, allow=options.allow)
         some = problems(options.file)
     except TTRError as error:
         return complain(str(error))

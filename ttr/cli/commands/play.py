@@ -134,22 +134,22 @@ class _Playing:
         self.echo(f"--- {story.title}")
         start = perf_counter()
         try:
-            played = self._played(story)
+            played = self._play_story(story)
         except (StoryError, NotAllowedError) as error:
             seconds = perf_counter() - start
             return Outcome(file, story.title, seconds, error=error), None
         seconds = perf_counter() - start
         return Outcome(file, story.title, seconds, played.mismatch), played
 
-    def _played(self, story: Story) -> Played:
+    def _play_story(self, story: Story) -> Played:
         from ttr.dialogues.stories import opening, play
 
-        setting = self._setting(story)
+        setting = self._setting_of(story)
         if self.log is not None:
             self.log.begin(opening(story, setting), story.title)
         return play(story, setting, echo=self.echo, witness=self._witness)
 
-    def _setting(self, story: Story) -> Setting:
+    def _setting_of(self, story: Story) -> Setting:
         """The setting that the story names, found once for all stories that name it."""
         from ttr.dialogues.stories import setting_of
 

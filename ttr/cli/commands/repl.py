@@ -8,7 +8,7 @@ from pathlib import Path
 from ttr.cli.consent_options import add_allow, consent_of
 from ttr.cli.output import FAILED, FINE, Commands, ask, complain, say
 from ttr.errors import TTRError
-from ttr.safety.limits import TooMuch
+from ttr.safety.limits import InputLimitError
 
 
 def add(commands: Commands) -> None:
@@ -39,6 +39,6 @@ def _repl(options: argparse.Namespace) -> int:
         return FAILED
     try:
         talk(session, say, ask)
-    except TooMuch as error:
+    except InputLimitError as error:
         return complain(f"the input cannot be read: {error.strerror}")
     return FINE

@@ -86,14 +86,14 @@ def _replay_log(log: Log, options: argparse.Namespace) -> tuple[Log, Setting, Re
 
     place = f"{log.file}:{log.number}"
     try:
-        found = _setting(log, options, place)
+        found = _setting_of_log(log, options, place)
     except StoryError as error:
         raise LogError(f"{place}: {error.message}") from error
     turn = min(options.turn, len(log.entries))
     return log, found, replay(log, found, from_=turn)
 
 
-def _setting(log: Log, options: argparse.Namespace, place: str) -> Setting:
+def _setting_of_log(log: Log, options: argparse.Namespace, place: str) -> Setting:
     """The game that the user names, or else the log; raises `NotAllowedError`.
 
     A log runs nothing by itself: Python that it names needs the user's consent.

@@ -124,8 +124,8 @@ def _test(options: argparse.Namespace) -> int:
         outcome = _outcome(place, played, options)
         outcomes.append(outcome)
         if not options.json:
-            say(outcome.told())
-        if outcome.interrupted:
+            say(outcome.format_report())
+        if outcome.was_interrupted:
             break
     if options.json:
         facts = [one.facts() for one in outcomes]
@@ -161,7 +161,7 @@ def _roles(game: Game, declared: list[tuple[str, str]]) -> Roles | None:
     roles = roles_of(game)
     if not declared:
         return roles
-    return (roles or Roles.of(game.type)).declared(game.type, dict(declared))
+    return (roles or Roles.of(game.type)).with_declared(game.type, dict(declared))
 
 
 # --- testing one ---------------------------------------------------------------------
@@ -179,7 +179,7 @@ class _Outcome:
     seconds: float
 
     @property
-    def interrupted(self) -> bool:
+    def was_interrupted(self) -> bool:
         return self.report is None
 
     @property
@@ -188,9 +188,9 @@ class _Outcome:
             return INTERRUPTED
         return FINE if self.report.holds and not self.across else FAILED
 
-    def told(self) -> str:
+    def format_report(self) -> str:
         """The report for people: what went wrong, and what was covered."""
-        known = "\n".join(filter(None, [self._roles(), self._unchecked()]))
+        known = "\n".join(filter(None, [self._roles(), self._skipped_properties()]))
         parts = [self._failures(), self.coverage.table(), known, self._summary()]
         return "\n\n".join(filter(None, parts)) + "\n"
 
@@ -205,7 +205,7 @@ class _Outcome:
             return ""
         return f"{DETERMINISTIC}: {DETERMINISTIC.says}\n{self.across}"
 
-    def _unchecked(self) -> str:
+    def _skipped_properties(self) -> str:
         if self.report is None or not self.report.skipped:
             return ""
         lacking: dict[str, list[str]] = {}
@@ -235,7 +235,7 @@ class _Outcome:
         facts: dict[str, Any] = {
             "game": self.place.game.name,
             "holds": self.code == FINE,
-            "interrupted": self.interrupted,
+            "interrupted": self.was_interrupted,
             "seconds": round(self.seconds, 3),
             "coverage": self.coverage.facts(),
             "across_processes": self.across or None,

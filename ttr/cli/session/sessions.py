@@ -75,9 +75,9 @@ class Session:
     over: bool = False
     consent: Consent = OWN_FOLDER
 
-    def naming(self, path: Path) -> Session:
+    def with_file(self, path: Path) -> Session:
         """The session after the user has named this file."""
-        return replace(self, consent=self.consent.adding(path.parent))
+        return replace(self, consent=self.consent.with_folders(path.parent))
 
 
 # --- entering statements -------------------------------------------------------------
@@ -92,14 +92,14 @@ def declare(
     Raises `TTRError` for a mistake in it, for a fact that contradicts others, and where
     what rests on a name does not fit its new meaning.
 
-    >>> kennel, _ = declare(Session(), *_read("basic Ind"))
-    >>> kennel, _ = declare(kennel, *_read("Pair := [a : Ind, b : Ind]"))
-    >>> kennel, changed = declare(kennel, *_read("Ind := list(Type)"))
+    >>> kennel, _ = declare(Session(), *_parse_input("basic Ind"))
+    >>> kennel, _ = declare(kennel, *_parse_input("Pair := [a : Ind, b : Ind]"))
+    >>> kennel, changed = declare(kennel, *_parse_input("Ind := list(Type)"))
     >>> sorted(changed), str(kennel.theory.Pair)
     (['Ind', 'Pair'], '[a : list(Type), b : list(Type)]')
     """
     if isinstance(tree, trees.Import):
-        session = session.naming(Path(os.path.realpath(tree.path)))
+        session = session.with_file(Path(os.path.realpath(tree.path)))
         entries = (*session.entries, _make_entry(tree, source, Path(), session.consent))
         return _rebuild(session, entries, _theory_of(session, entries)), frozenset()
     entry = _make_entry(tree, source, Path(), session.consent)
@@ -267,11 +267,11 @@ def _redeclare(
 def _refuse_circle(
     names: frozenset[str], rests_on: frozenset[str], followers: frozenset[str]
 ) -> None:
-    new, hint = _listing(names), "give the new one another name"
+    new, hint = _comma_separated(names), "give the new one another name"
     if rests_on & names:
         raise NotationError(f"{new} would rest on itself", hint=hint)
     if rests_on & followers:
-        between = _listing(rests_on & followers)
+        between = _comma_separated(rests_on & followers)
         raise NotationError(
             f"{new} would rest on {between}, which rests on {new}", hint=hint
         )
@@ -294,7 +294,7 @@ def _replace_entries(
     except TTRError as error:
         first = error.errors[0] if isinstance(error, MistakesError) else error
         raise type(first)(
-            f"{_listing(names)} cannot change so: {first.message}",
+            f"{_comma_separated(names)} cannot change so: {first.message}",
             span=first.span,
             hint=first.hint,
         ) from None
@@ -333,34 +333,34 @@ def _without(entry: Entry, names: frozenset[str]) -> tuple[Entry, ...]:
     """The entry without its declarations of the names; empty if nothing is left."""
     if not entry.declares & names:
         return (entry,)
-    tree, source = _read(entry.text)
+    tree, source = _parse_input(entry.text)
     match tree:
         case trees.Import(_, _, path):
             raise NotationError(
-                f"{_listing(entry.declares & names)} is declared in {path}, "
+                f"{_comma_separated(entry.declares & names)} is declared in {path}, "
                 "which the session imports",
                 hint="give the new one another name",
             )
         case trees.GivenFact():
             text = entry.text
         case trees.BasicNames(_, _, words):
-            text = _shortened(
+            text = _declaration_of(
                 "basic", [w for w in words if w.text not in names], source
             )
         case trees.ObjectNames(_, _, words, kind):
-            text = _shortened(
+            text = _declaration_of(
                 "object", [w for w in words if w.text not in names], source
             )
             text += f" : {_text_of(source, kind)}" * bool(text)
         case trees.Predicates(_, _, arities):
             left = [one for one in arities if one.name.text not in names]
-            text = _shortened("pred", left, source)
+            text = _declaration_of("pred", left, source)
         case _:
             text = ""
     return (replace(entry, text=text, declares=entry.declares - names),) * bool(text)
 
 
-def _shortened(keyword: str, left: Sequence[trees.Part], source: Source) -> str:
+def _declaration_of(keyword: str, left: Sequence[trees.Part], source: Source) -> str:
     """The declaration of the parts that are left; empty without any."""
     written = ", ".join(_text_of(source, part) for part in left)
     return f"{keyword} {written}" if written else ""
@@ -370,11 +370,11 @@ def _text_of(source: Source, part: trees.Part) -> str:
     return source.text[part.start : part.end]
 
 
-def _listing(names: Iterable[str]) -> str:
+def _comma_separated(names: Iterable[str]) -> str:
     return ", ".join(sorted(names))
 
 
-def _read(text: str) -> tuple[Statement, Source]:
+def _parse_input(text: str) -> tuple[Statement, Source]:
     source = Source.of(text, INPUT)
     return parse_statement(source, 0, len(source.text)), source
 
@@ -393,7 +393,7 @@ def create_witness(session: Session, T: TypeNode) -> tuple[Session, Object]:
         is_new = isinstance(sit, str) and sit not in session.theory.names
         if is_new or session.model.judge(sit, kind).p != p:
             fact = _fact_statement(session.theory, sit, kind, p)
-            session, _ = declare(session, *_read(fact))
+            session, _ = declare(session, *_parse_input(fact))
     return session, witness
 
 
@@ -429,7 +429,7 @@ def load_file(session: Session, path: Path) -> tuple[Session, frozenset[str]]:
 
     Raises `TTRError` for a file that cannot be read and for the mistakes in it.
     """
-    session = session.naming(path)
+    session = session.with_file(path)
     theory = theory_of_file(path, session.consent)
     known = {entry.text for entry in session.entries}
     entries = _entries_of_file(path, session.consent)
@@ -469,7 +469,7 @@ def _with_relative_import(text: str, folder: Path) -> str:
     """The statement; an import is written relative to the folder."""
     if not text.startswith("import"):
         return text
-    tree, _ = _read(text)
+    tree, _ = _parse_input(text)
     if not isinstance(tree, trees.Import):
         return text
     return f"import {json_text(os.path.relpath(tree.path, folder))}"

@@ -74,8 +74,8 @@ class _Desk:
         """Takes one line; an empty one ends an incomplete input."""
         self.waiting.append(line)
         self._characters += len(line)
-        if self._characters > LINE.allowed:
-            raise LINE.exceeded()
+        if self._characters > LINE.maximum:
+            raise LINE.too_much()
         self._pending = self._pending.after(line)
         if line.strip() and not self._pending.is_complete:
             return

@@ -45,7 +45,7 @@ def automaton(T: TypeNode) -> Automaton:
     >>> print(first.label, "then", one.rest_of(first.target))
     A then str(plus(A) \\/ str(), B)
     """
-    return _Builder(_unchanged).of(T)
+    return _Builder(_identity).of(T)
 
 
 def automaton_above(T: TypeNode) -> Automaton:
@@ -59,7 +59,7 @@ def automaton_above(T: TypeNode) -> Automaton:
     return found
 
 
-def _unchanged(T: TypeNode) -> TypeNode:
+def _identity(T: TypeNode) -> TypeNode:
     return T
 
 

@@ -21,7 +21,7 @@ class LogError(TTRError):
     """A log that cannot be written, read or replayed: where, and why."""
 
 
-class Fault(Exception):
+class EntryError(Exception):
     """What is wrong with a line; the reader adds the place."""
 
 
@@ -77,13 +77,13 @@ def _json_line(facts: Mapping[str, Any]) -> str:
 
 
 def read_header(facts: object) -> Header | None:
-    """The header in a line, or None if it holds none; raises `Fault`."""
+    """The header in a line, or None if it holds none; raises `EntryError`."""
     if not isinstance(facts, dict) or "log" not in facts:
         return None
     if facts["log"] != FORMAT:
-        raise Fault(f"a log of another kind: {json.dumps(facts['log'])}")
+        raise EntryError(f"a log of another kind: {json.dumps(facts['log'])}")
     if facts.get("version") != VERSION:
-        raise Fault(
+        raise EntryError(
             f"a log of version {json.dumps(facts.get('version'))}, but {VERSION} is "
             "read here"
         )
@@ -97,9 +97,9 @@ def read_header(facts: object) -> Header | None:
 
 
 def read_entry(facts: object) -> Entry:
-    """The turn in a line; raises `Fault`."""
+    """The turn in a line; raises `EntryError`."""
     if not isinstance(facts, dict):
-        raise Fault("no turn of a log")
+        raise EntryError("no turn of a log")
     return Entry(
         _field(facts, "turn", int),
         _text(facts, "line"),
@@ -120,9 +120,9 @@ def read_entry(facts: object) -> Entry:
 
 def _field(facts: dict[str, Any], key: str, kind: type) -> Any:
     if key not in facts:
-        raise Fault(f"no turn of a log: {key} is missing")
+        raise EntryError(f"no turn of a log: {key} is missing")
     if type(facts[key]) is not kind:
-        raise Fault(
+        raise EntryError(
             f"{key} should be {_kind_name(kind)}, found {json.dumps(facts[key])}"
         )
     return facts[key]
@@ -146,7 +146,7 @@ def _list(facts: dict[str, Any], key: str) -> list[Any]:
 def _texts(facts: dict[str, Any], key: str) -> tuple[str, ...]:
     found = _list(facts, key)
     if not all(isinstance(one, str) for one in found):
-        raise Fault(f"{key} should be a list of texts")
+        raise EntryError(f"{key} should be a list of texts")
     return tuple(found)
 
 
@@ -154,7 +154,7 @@ def _element(one: object, index: int, *kinds: type) -> Any:
     """An element of a list inside a turn."""
     if isinstance(one, list) and index < len(one) and type(one[index]) in kinds:
         return one[index]
-    raise Fault(f"no turn of a log: {json.dumps(one)} is not expected in it")
+    raise EntryError(f"no turn of a log: {json.dumps(one)} is not expected in it")
 
 
 def _read_event(facts: dict[str, Any]) -> str | list[list[Any]] | None:
@@ -162,13 +162,13 @@ def _read_event(facts: dict[str, Any]) -> str | list[list[Any]] | None:
     if event is None or isinstance(event, str):
         return event
     if not isinstance(event, list):
-        raise Fault(f"event should be a text or a list, found {json.dumps(event)}")
+        raise EntryError(f"event should be a text or a list, found {json.dumps(event)}")
     return [[_element(one, 0, str), _element(one, 1, float, int)] for one in event]
 
 
 def _read_rule(one: object) -> Mapping[str, Any]:
     if not isinstance(one, dict):
-        raise Fault(f"no turn of a log: {json.dumps(one)} is no rule")
+        raise EntryError(f"no turn of a log: {json.dumps(one)} is no rule")
     return {
         "rule": _text(one, "rule"),
         "event": _text(one, "event"),

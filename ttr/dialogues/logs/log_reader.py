@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ttr.dialogues.logs.entries import (
     Entry,
-    Fault,
+    EntryError,
     Header,
     LogError,
     read_entry,
@@ -112,11 +112,11 @@ def _group_lines(path: Path, lines: list[bytes]) -> list[Log]:
 def _parse_lines(path: Path, lines: list[bytes]) -> Iterator[Header | Entry]:
     for number, line in enumerate(lines, start=1):
         try:
-            if len(line) > LINE.allowed:
-                raise LogError(f"{path}:{number}: {LINE.exceeded().strerror}")
+            if len(line) > LINE.maximum:
+                raise LogError(f"{path}:{number}: {LINE.too_much().strerror}")
             facts = parse_json(line.decode("utf-8"))
             yield read_header(facts) or read_entry(facts)
-        except Fault as fault:
+        except EntryError as fault:
             raise LogError(f"{path}:{number}: {fault}") from None
         except UnicodeDecodeError:
             raise LogError(f"{path}:{number}: this is no text in UTF-8") from None

@@ -90,7 +90,7 @@ class LogFile:
         Raises `LogError` where the log cannot be written.
         """
         run = start or setting.game.begin()
-        statements, objects = Declarations().missing([run.state])
+        statements, objects = Declarations().missing_declarations([run.state])
         declared = _declare(Declarations(), statements, objects)
         if not declared.reads_back(run.state):
             raise _no_notation("the state at the start", run.state)
@@ -199,7 +199,7 @@ def _make_entry(trial: Trial, turn: Turn, now: _Progress) -> tuple[Entry, Declar
     number = now.turn + 1
     facts = new_facts(now.model, turn.model)
     values = list(_values_of(turn, facts))
-    statements, objects = now.declared.missing(values)
+    statements, objects = now.declared.missing_declarations(values)
     declared = _declare(now.declared, statements, objects)
     for event in _events(turn.event):
         if not declared.reads_back(event):

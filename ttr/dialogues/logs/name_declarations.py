@@ -33,7 +33,9 @@ class Declarations:
         names = self.objects.union(objects)
         return Declarations(everything, names, replace(theory, objects=names))
 
-    def missing(self, values: Iterable[object]) -> tuple[list[str], list[str]]:
+    def missing_declarations(
+        self, values: Iterable[object]
+    ) -> tuple[list[str], list[str]]:
         """The further statements and names of objects that these values need."""
         needed = Theory.of(*values)
         known = self.theory
@@ -47,14 +49,14 @@ class Declarations:
         statements += map(_declaration, _in_order(predicates))
         return statements, sorted(needed.objects - self.objects)
 
-    def read(self, text: str, source: str) -> Object:
+    def read_value(self, text: str, source: str) -> Object:
         """The value that a text stands for."""
         return read_term(text, self.theory, source)
 
     def reads_back(self, value: Object) -> bool:
         """Has the value a notation that reads back to the same value?"""
         try:
-            again = self.read(notation(value), "<log>")
+            again = self.read_value(notation(value), "<log>")
         except TTRError:
             return False
         return again == value and type(again) is type(value)

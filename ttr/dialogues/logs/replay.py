@@ -258,7 +258,7 @@ def _first_line(error: TTRError) -> str:
 
 def _read_value(log: Log, turn: int, what: str, text: str) -> Object:
     try:
-        return log.declared.read(text, log.file)
+        return log.declared.read_value(text, log.file)
     except TTRError as error:
         raise LogError(
             f"{log.place(turn)}: {what} cannot be read: {_first_line(error)}"

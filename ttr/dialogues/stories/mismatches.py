@@ -42,7 +42,7 @@ class Mismatch:
         if self.trace:
             lines.append("  the rules of this turn:")
         for step in self.trace:
-            lines += [_cut(f"    {line}") for line in str(step).splitlines()]
+            lines += [_shorten(f"    {line}") for line in str(step).splitlines()]
         return "\n".join(lines)
 
     def _marks(self) -> tuple[str, str]:
@@ -81,7 +81,7 @@ def _carets(words: list[re.Match[str]]) -> str:
     return line
 
 
-def _cut(line: str) -> str:
+def _shorten(line: str) -> str:
     return line if len(line) <= _WIDTH else f"{line[: _WIDTH - 1]}…"
 
 

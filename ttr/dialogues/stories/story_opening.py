@@ -62,7 +62,7 @@ def _reference_of(line: Line) -> tuple[str, Path]:
 
 def _consent_beside(line: Line, consent: Consent) -> Consent:
     """The consent, extended to the folder of the story."""
-    return consent.adding(Path(line.file).parent)
+    return consent.with_folders(Path(line.file).parent)
 
 
 def opening(story: Story, setting: Setting) -> Setting:

@@ -279,7 +279,7 @@ class _Composer:
             raise OutsideFragmentError(f"{adj.parts[-1].word} needs a noun after it")
         if adj.parts[-1].kind == "ADJ" and len(adj.parts) == 1:
             return self._unary("ADJ", adj.parts[0])
-        return self._adjective(adj, _anything)
+        return self._adjective(adj, _universal_property)
 
     def _predicate_nominal(self, np: Phrase) -> Property:
         """The property of being a dog, being dogs, or being Fido."""
@@ -313,7 +313,7 @@ class _Composer:
     def _modification(self, terminal: str, token: Phrase, said: Property) -> Property:
         """Being P, and P in a certain way: a skilful vet is a vet."""
         way = self._operator(terminal, token, said)
-        return way if said is _anything else _conjunction(said, way)
+        return way if said is _universal_property else _conjunction(said, way)
 
     def _operator(self, terminal: str, token: Phrase, said: Property) -> Property:
         pred = self._words.meaning(terminal, token.word)
@@ -336,7 +336,7 @@ def _negation(said: Property) -> Property:
     return lambda x: absent(said(x))
 
 
-def _anything(x: str) -> TypeNode:
+def _universal_property(x: str) -> TypeNode:
     """The property of everything."""
     return Singleton(Ind, x)
 

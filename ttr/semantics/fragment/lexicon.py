@@ -98,7 +98,7 @@ class Lexicon:
             exclusions=tuple(it for one in self.theories for it in one.exclusions),
         )
 
-    def extended(
+    def extend(
         self,
         path: str | os.PathLike[str],
         *,

@@ -148,7 +148,7 @@ class WorldFinder:
                 kinds.setdefault(column, region)
         kinds = {column: kinds[column] for column in _undominated_columns(kinds)}
         demands: list[Demand] = [
-            (tuple(column[i] for column in kinds), _bound(it, true))
+            (tuple(column[i] for column in kinds), _bound_of(it, true))
             for i, (it, true) in enumerate(counts)
         ]
         found = integer_solution(demands, len(kinds))
@@ -182,13 +182,13 @@ class WorldFinder:
         """A relational property, as a formula about the other things; else None."""
         if isinstance(one, Is) or len(self._held) >= _DEPTH:
             return None
-        thing = self._thing
+        thing = self._next_name
         T = apply_property(one.function, thing)
         found = content_formula(T, self._thresholds, frozenset((*self._held, thing)))
         return None if isinstance(found, OpaqueSentence) else found
 
     @property
-    def _thing(self) -> str:
+    def _next_name(self) -> str:
         return f"·{len(self._held)}"
 
     def _ways_to_be_related(
@@ -210,7 +210,9 @@ class WorldFinder:
     @cached_property
     def _finder_around(self) -> WorldFinder:
         """Finds worlds around one thing: what it is related to, and what not."""
-        return WorldFinder(self._words, self._thresholds, (*self._held, self._thing))
+        return WorldFinder(
+            self._words, self._thresholds, (*self._held, self._next_name)
+        )
 
     def _plain_counts(
         self, counts: Sequence[tuple[Count, bool]], plain: set[_Simple]
@@ -317,13 +319,13 @@ def _weight(count: Count, true: bool, region: _Region) -> int:
     if not _holds(count.P, region):
         return 0
     score = inside if _holds(count.Q, region) else outside
-    return score if count.threshold.rising == true else -score
+    return score if count.threshold.is_lower_bound == true else -score
 
 
-def _bound(count: Count, true: bool) -> int:
+def _bound_of(count: Count, true: bool) -> int:
     """The bound of the demand that a count, or its negation, makes."""
-    bound = count.threshold.bound
-    return bound if count.threshold.rising == true else 1 - bound
+    least_score = count.threshold.least_score
+    return least_score if count.threshold.is_lower_bound == true else 1 - least_score
 
 
 def _holds(formula: Formula, region: _Region) -> bool:

@@ -15,11 +15,11 @@ Key: TypeAlias = int | str
 """The name of an observation, by which it can be taken back."""
 
 
-class KeyTaken(TTRError, ValueError):
+class KeyTakenError(TTRError, ValueError):
     """A key under which something was already learned."""
 
 
-class NoSuchKey(TTRError, KeyError):
+class NoSuchKeyError(TTRError, KeyError):
     """A key under which nothing was learned."""
 
 
@@ -39,14 +39,14 @@ class Evidence:
     def learned(self, seen: Features, label: str, key: Key) -> Evidence:
         """The evidence with one more observation.
 
-        Raises `KeyTaken`, and `TTRError` for a label that is no word.
+        Raises `KeyTakenError`, and `TTRError` for a label that is no word.
         """
         if not isinstance(label, str) or not label:
             raise TTRError(f"a label is a word, found {label!r}")
         if not isinstance(key, int | str):
             raise TTRError(f"a key is a number or a text, found {key!r}")
         if key in self.held:
-            raise KeyTaken(
+            raise KeyTakenError(
                 f"the key {key!r} is taken, by a lesson of {self.held[key][1]!r}",
                 hint="take that back first, or use another key",
             )
@@ -55,9 +55,9 @@ class Evidence:
         return Evidence(self.held.set(key, example), self.times.set(example, again))
 
     def retracted(self, key: Key) -> Evidence:
-        """The evidence without the observation of a key; raises `NoSuchKey`."""
+        """The evidence without the observation of a key; raises `NoSuchKeyError`."""
         if not isinstance(key, int | str) or key not in self.held:
-            raise NoSuchKey(f"nothing was learned under the key {key!r}")
+            raise NoSuchKeyError(f"nothing was learned under the key {key!r}")
         example = self.held[key]
         left = self.times[example] - 1
         times = self.times.set(example, left) if left else self.times.delete(example)

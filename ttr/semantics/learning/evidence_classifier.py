@@ -44,11 +44,11 @@ class EvidenceBased:
     def learned(self: C, x: TypeNode, label: str, *, key: Key) -> C:
         """The classifier after a lesson: what is of x has this label.
 
-        Raises `RefusedError` where nothing can be of x, and `KeyTaken`.
+        Raises `RefusedError` where nothing can be of x, and `KeyTakenError`.
         """
         found = features_below(x, self.features, self.theory)
         return replace(self, evidence=self.evidence.learned(found, label, key))  # type: ignore[type-var]
 
     def retracted(self: C, key: Key) -> C:
-        """The classifier without the lesson of a key; raises `NoSuchKey`."""
+        """The classifier without the lesson of a key; raises `NoSuchKeyError`."""
         return replace(self, evidence=self.evidence.retracted(key))  # type: ignore[type-var]

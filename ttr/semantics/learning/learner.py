@@ -7,7 +7,7 @@ from itertools import count
 from typing import Protocol, Self, runtime_checkable
 
 from ttr.errors import TTRError
-from ttr.semantics.learning.evidence import Key, KeyTaken
+from ttr.semantics.learning.evidence import Key, KeyTakenError
 from ttr.types.syntax import TypeNode, kind_of
 
 
@@ -75,7 +75,7 @@ class Learner:
         return self.copy()
 
     def learn_one(self, x: TypeNode, label: str, *, key: Key | None = None) -> None:
-        """Learn that what is of x has this label; raises `KeyTaken`.
+        """Learn that what is of x has this label; raises `KeyTakenError`.
 
         A lesson without a key gets the next free one of "lesson 1", "lesson 2", …
         """
@@ -83,7 +83,7 @@ class Learner:
             self.classifier = self.classifier.learned(x, label, key=key)
             return
         for number in count(self._lessons + 1):
-            with suppress(KeyTaken):
+            with suppress(KeyTakenError):
                 key = f"lesson {number}"
                 self.classifier = self.classifier.learned(x, label, key=key)
                 self._lessons = number
@@ -94,5 +94,5 @@ class Learner:
         return self.classifier.probabilities(x)
 
     def forget(self, key: Key) -> None:
-        """Be as if the lesson of a key had never been; raises `NoSuchKey`."""
+        """Be as if the lesson of a key had never been; raises `NoSuchKeyError`."""
         self.classifier = self.classifier.retracted(key)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from ttr.judging.judgements import Judgement
 from ttr.probability import CERTAIN, REFUTED, Degree
 from ttr.safety.budgets import spend
-from ttr.types.objects import Object, Record, Unresolved
+from ttr.types.objects import Object, Record, UnresolvedError
 from ttr.types.paths import subterms
 from ttr.types.substitution import Around, resolve_paths
 from ttr.types.syntax import (
@@ -87,7 +87,7 @@ def modal_claims(
     spend()
     match T:
         case PType(pred, _) if pred in (nec, poss):
-            with suppress(Unresolved):
+            with suppress(UnresolvedError):
                 yield sit, resolve_paths(T, around)
         case Meet(parts) | Join(parts):
             for part in parts:

@@ -12,7 +12,7 @@ from typing import Protocol
 
 from ttr.errors import TTRError
 from ttr.semantics.argument_checks import in_notation
-from ttr.types.objects import Object, Record, Unresolved
+from ttr.types.objects import Object, Record, UnresolvedError
 from ttr.types.printing import notation
 from ttr.types.substitution import follow_path
 
@@ -112,7 +112,7 @@ def _are_paths(value: object) -> bool:
 def _value_at(r: Record, path: str) -> Object:
     try:
         return follow_path(r, tuple(path.split(".")))
-    except Unresolved:
+    except UnresolvedError:
         raise TTRError(
             f"the percept is looked for at {path}, which {notation(r)} lacks"
         ) from None

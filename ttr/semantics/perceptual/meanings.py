@@ -23,7 +23,7 @@ from ttr.semantics.perceptual.interpretations import claim_of
 from ttr.semantics.perceptual.meaning_form import check_record
 from ttr.semantics.perceptual.vectors import RealVector, is_vector
 from ttr.types.interning import identity
-from ttr.types.objects import BOUND, Object, Path, Record, Unresolved, record
+from ttr.types.objects import BOUND, Object, Path, Record, UnresolvedError, record
 from ttr.types.paths import subterms
 from ttr.types.printing import notation
 from ttr.types.substitution import resolve_paths
@@ -273,7 +273,7 @@ class Meaning:
     def _ground(self, value: Object, around: tuple[Mapping[str, Object], ...]) -> Any:
         try:
             return resolve_paths(value, around)
-        except Unresolved as error:
+        except UnresolvedError as error:
             raise self._with_word(TTRError(error.message)) from None
 
     def _key(self, r: Record) -> object:

@@ -43,10 +43,10 @@ def antecedents(found: Quantification) -> Antecedents:
     >>> print(*antecedents(found).plural)
     {fido, kim, rex, sam} {kim, rex, sam}
     """
-    falls = not any(one.rising for one in found.asked)
-    compset = _set(found.compset) if falls and found.compset else None
-    return Antecedents(_set(found.refset), _set(found.maxset), compset)
+    falls = not any(one.is_lower_bound for one in found.asked)
+    compset = _set_of(found.compset) if falls and found.compset else None
+    return Antecedents(_set_of(found.refset), _set_of(found.maxset), compset)
 
 
-def _set(cases: tuple[Case, ...]) -> FiniteSet:
+def _set_of(cases: tuple[Case, ...]) -> FiniteSet:
     return FiniteSet(*[it.sit for it in cases])

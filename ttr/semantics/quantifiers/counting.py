@@ -68,7 +68,7 @@ def _chance(
 ) -> Degree:
     inside, outside = threshold.weights
     base = sure[0] * inside + sure[1] * outside
-    need = threshold.bound - base
+    need = threshold.least_score - base
     low = [(one.both.lo, one.only.hi) for one in open_]
     high = [(one.both.hi, one.only.lo) for one in open_]
     reached = _decide(need, inside, outside, low, high)
@@ -76,13 +76,13 @@ def _chance(
         lo = _chance_of_reaching(need, inside, outside, low)[0]
         hi = _chance_of_reaching(need, inside, outside, high)[1]
         reached = _uncertain(min(lo, hi), hi)
-    rising = threshold.rising
+    rising = threshold.is_lower_bound
     p = reached if rising else Degree(1.0 - reached.hi, 1.0 - reached.lo)
     if not threshold.presupposes or sure != (0, 0):
         return p
     # If there is nothing of P, it is neither true nor false.
     nothing = math.prod(1.0 - one.first.lo for one in open_)
-    met = threshold.met(0, 0)
+    met = threshold.is_met_by(0, 0)
     lo, hi = (p.lo - nothing, p.hi) if met else (p.lo, p.hi + nothing)
     return Degree(max(lo, 0.0), min(hi, 1.0))
 
@@ -117,7 +117,7 @@ def _chance_of_reaching(
 ) -> tuple[float, float]:
     """Lower and upper chance that the sum of the steps is at least `need`."""
     if len(steps) > EXACT:
-        return _bounded(need, inside, outside, steps)
+        return _hoeffding_bounds(need, inside, outside, steps)
     span = len(steps)
     least = outside * span
     sums = [0.0] * ((inside - outside) * span + 1)
@@ -136,7 +136,9 @@ def _chance_of_reaching(
     return found, found
 
 
-def _bounded(need: int, inside: int, outside: int, steps: Steps) -> tuple[float, float]:
+def _hoeffding_bounds(
+    need: int, inside: int, outside: int, steps: Steps
+) -> tuple[float, float]:
     """Hoeffding's bounds (1963) on a sum of many independent steps."""
     mean = math.fsum(inside * add + outside * take for add, take in steps)
     beyond = need - mean

@@ -52,7 +52,7 @@ class Split:
 _NO_ATOMS: Atoms = frozenset()
 
 
-def split(P: Members, Q: Members) -> Split:
+def split_by(P: Members, Q: Members) -> Split:
     """The members of P, each looked up in Q."""
     inside, outside, open_ = list[object](), list[object](), list[object]()
     for key, one in P.items():

@@ -26,7 +26,7 @@ from ttr.semantics.quantifiers.determiners import (
     properties,
     threshold_of,
 )
-from ttr.semantics.quantifiers.extension_pairs import Case, Split, split
+from ttr.semantics.quantifiers.extension_pairs import Case, Split, split_by
 from ttr.semantics.quantifiers.extensions import (
     Extension,
     extension,
@@ -109,7 +109,7 @@ class Quantification:
     def why(self) -> Why:
         """The derivation: the count, and then those that decide it."""
         exceptions = self._exceptions()
-        rising = self.asked[0].rising
+        rising = self.asked[0].is_lower_bound
         speaking = self.refset if rising else self.compset
         shown = exceptions or self.open_ or speaking or self.refset
         grounds = tuple([it.why for it in shown[:SHOWN] if it.why is not None])
@@ -131,8 +131,8 @@ class Quantification:
         if self.p != REFUTED:
             return ()
         k, n = len(self.refset), len(self.maxset)
-        failing = [one for one in self.asked if not one.met(k, n)]
-        return self.compset if failing and failing[0].rising else self.refset
+        failing = [one for one in self.asked if not one.is_met_by(k, n)]
+        return self.compset if failing and failing[0].is_lower_bound else self.refset
 
 
 def list_names(cases: tuple[Case, ...]) -> str:
@@ -165,7 +165,7 @@ def quantify(
     for one in (P, Q):
         if not isinstance(one, Extension):
             raise TTRError(f"a quantifier counts two extensions, found {kind_of(one)}")
-    found = split(P.members, Q.members)
+    found = split_by(P.members, Q.members)
     return _quantification(q(P.property, Q.property), found, thresholds_of(thresholds))
 
 
@@ -196,7 +196,7 @@ def settle(
     if P is not Q:
         each = members.items()
         others = {key: member(M, Q, one.sit, chosen) for key, one in each}
-    return _quantification(quantified, split(members, others), chosen)
+    return _quantification(quantified, split_by(members, others), chosen)
 
 
 @truth_of_quantified.provided_by

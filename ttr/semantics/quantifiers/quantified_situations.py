@@ -72,7 +72,7 @@ class _Fitting:
             return
         X = {identity(x): x for x in s._fields["X"]}
         yield from self._wrong_set(X)
-        if any(one.rising for one in self._found.asked):
+        if any(one.is_lower_bound for one in self._found.asked):
             yield from self._wrong_function(X, s._fields.get("f", ()))
 
     def _wrong_set(self, X: Mapping[object, Object]) -> Iterator[str]:
@@ -81,10 +81,10 @@ class _Fitting:
             if key not in self._cases:
                 yield f"{notation(x)} in X is not of the first property"
         size = len(self._found.maxset)
-        unmet = [one for one in self._found.asked if not one.met(len(X), size)]
+        unmet = [one for one in self._found.asked if not one.is_met_by(len(X), size)]
         if unmet and not self._found.open_:
             yield f"X has {len(X)} of {size}; it takes {unmet[0]}"
-        if all(one.rising for one in self._found.asked):
+        if all(one.is_lower_bound for one in self._found.asked):
             return
         for it in self._found.refset:
             if identity(it.sit) not in X:

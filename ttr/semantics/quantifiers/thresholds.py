@@ -25,7 +25,7 @@ class Threshold:
     Built by `number` and `share`. With k of n, a number m asks for k ≥ m or the like,
     and a share r for k ≥ r·n.
 
-    >>> share("more than", 1 / 2).met(2, 3), number("at most", 1).met(2, 3)
+    >>> share("more than", 1 / 2).is_met_by(2, 3), number("at most", 1).is_met_by(2, 3)
     (True, False)
     """
 
@@ -34,7 +34,7 @@ class Threshold:
     unit: Literal["number", "share"]
 
     @property
-    def rising(self) -> bool:
+    def is_lower_bound(self) -> bool:
         """Is it a lower bound: at least, or more than?"""
         return self.sign in RISING
 
@@ -52,7 +52,7 @@ class Threshold:
         return over, -self.amount.numerator
 
     @property
-    def bound(self) -> int:
+    def least_score(self) -> int:
         """The least score of "at least" and "fewer than", else the greatest, plus one.
 
         So a score s meets a threshold that rises iff s ≥ bound, else iff s < bound.
@@ -60,14 +60,14 @@ class Threshold:
         zero = int(self.amount) if self.unit == "number" else 0
         return zero + (self.sign in ("more than", "at most"))
 
-    def met(self, k: int, n: int) -> bool:
+    def is_met_by(self, k: int, n: int) -> bool:
         """Do k of n meet it?"""
         inside, outside = self.weights
-        return self.reached(k * inside + (n - k) * outside)
+        return self.is_reached_by(k * inside + (n - k) * outside)
 
-    def reached(self, score: int) -> bool:
+    def is_reached_by(self, score: int) -> bool:
         """Does a score meet it?"""
-        return (score >= self.bound) == self.rising
+        return (score >= self.least_score) == self.is_lower_bound
 
     def __str__(self) -> str:
         if self.unit == "number":
@@ -140,7 +140,7 @@ class Thresholds:
             found = getattr(self, name)
             if not isinstance(found, Threshold):
                 raise TTRError(f"{name} takes a threshold, found {found!r}")
-            if found.rising == (name == "few"):
+            if found.is_lower_bound == (name == "few"):
                 wanted = RISING if found.sign not in RISING else SIGNS[2:]
                 raise TTRError(f"{name} is {' or '.join(wanted)} so much, not {found}")
 

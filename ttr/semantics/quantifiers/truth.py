@@ -27,7 +27,7 @@ from ttr.semantics.quantifiers.degrees_of_truth import (
 )
 from ttr.semantics.quantifiers.determiners import determiner_of
 from ttr.semantics.quantifiers.thresholds import Thresholds, thresholds_of
-from ttr.types.objects import BOUND, Missing, Object, Record, Unresolved
+from ttr.types.objects import BOUND, Missing, Object, Record, UnresolvedError
 from ttr.types.paths import free_paths, subterms
 from ttr.types.printing import notation
 from ttr.types.substitution import resolve_paths
@@ -160,7 +160,7 @@ class _Truths:
         label, field = T.fields[len(way)]
         try:
             S = resolve_paths(field, ({k: found.witness for k, found in way},))
-        except Unresolved as lost:
+        except UnresolvedError as lost:
             raise UnsupportedError(f"{T} cannot be followed: {lost.message}") from None
         if label not in needed:
             found = self.of(S)
@@ -212,7 +212,7 @@ class _Truths:
 def _truth_of_atom(M: Model, T: Basic | PType) -> Truth:
     """The probability that one of the known situations is of T."""
     facts = M.facts
-    seen = facts.perceived(Missing(), T) if isinstance(T, PType) else None
+    seen = facts.perceive(Missing(), T) if isinstance(T, PType) else None
     if seen is not None:
         why = Why(Missing(), T, seen, "by the witness function")
         return Truth(seen, why, own_atoms(M, seen, T))

@@ -14,7 +14,7 @@ from ttr.probability import CERTAIN
 from ttr.testing.properties.property import Breaches, Property
 from ttr.testing.single_rules import state_when_rerun
 from ttr.testing.strategies.discourse_roles import Roles
-from ttr.types.objects import Unresolved
+from ttr.types.objects import UnresolvedError
 from ttr.types.records import differences
 from ttr.updates.running import Step
 
@@ -24,7 +24,7 @@ def _is_missing_name(fault: Exception) -> bool:
     cause = fault.__cause__
     if not isinstance(fault, RuleFailedError) or cause is None:
         return False
-    if isinstance(cause, AttributeError | KeyError | NameError | Unresolved):
+    if isinstance(cause, AttributeError | KeyError | NameError | UnresolvedError):
         return True
     return isinstance(cause, TTRError) and "cannot be replaced" in cause.message
 

@@ -10,10 +10,10 @@ ENOUGH = 5000
 
 
 def _why_dead(coverage: Coverage) -> str:
-    if coverage.turns < ENOUGH or not coverage.missed:
+    if coverage.turns < ENOUGH or not coverage.missed_rules:
         return ""
-    names = ", ".join(coverage.missed)
-    verb = "is" if len(coverage.missed) == 1 else "are"
+    names = ", ".join(coverage.missed_rules)
+    verb = "is" if len(coverage.missed_rules) == 1 else "are"
     return f"{names} {verb} never applied in {coverage.turns} turns"
 
 

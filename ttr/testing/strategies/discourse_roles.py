@@ -110,7 +110,7 @@ class Roles:
         found = {role: _path_for_role(role, fields) for role in _USUAL_NAMES}
         return cls(**found)  # type: ignore[arg-type]
 
-    def declared(self, type: RecordType, named: Mapping[str, str]) -> Roles:
+    def with_declared(self, type: RecordType, named: Mapping[str, str]) -> Roles:
         """The same roles, except that the ones named are played at these paths.
 
         No field plays a role whose path is empty; `drops` and `retracts` are names of
@@ -118,9 +118,9 @@ class Roles:
 
         >>> from ttr import Ind, rectype
         >>> Board = rectype(shared=rectype(wishes=ListOf(Ind)))
-        >>> Roles().declared(Board, {"qud": "shared.wishes", "drops": "a,b"}).qud
+        >>> Roles().with_declared(Board, {"qud": "shared.wishes", "drops": "a,b"}).qud
         'shared.wishes'
-        >>> Roles().declared(Board, {"qud": "shared.wish"})
+        >>> Roles().with_declared(Board, {"qud": "shared.wish"})
         Traceback (most recent call last):
         ttr.errors.TTRError: the role qud is played by shared.wish, but a state has ...
         help: did you mean shared.wishes?

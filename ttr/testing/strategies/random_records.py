@@ -15,7 +15,7 @@ from ttr.testing.strategies import random_types
 from ttr.testing.strategies.random_models import facts
 from ttr.testing.strategies.random_types import Words
 from ttr.theories.theory import Theory
-from ttr.types.objects import FiniteSet, Object, Record, Unresolved
+from ttr.types.objects import FiniteSet, Object, Record, UnresolvedError
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     Basic,
@@ -156,5 +156,5 @@ def _shapes_of_field(
     """Objects of the shape of a field, in a record that already has other fields."""
     try:
         return _shapes(resolve_paths(T, (fields,)), M, names)
-    except Unresolved:
+    except UnresolvedError:
         return st.sampled_from(names)

@@ -157,7 +157,7 @@ class _Ways:
     @classmethod
     def of(cls, T: TypeNode, M: Model, about: Record | None) -> Self:
         if not isinstance(T, RecordType):
-            return cls(T, {(): _known(T, M)})
+            return cls(T, {(): _known_objects(T, M)})
         if about is not None:
             among = set(map(identity, _names_in(about)))
             settable = dict(_settable(T, M, (), among))
@@ -197,11 +197,11 @@ def _settable(
     for label, field in T.fields:
         if isinstance(field, RecordType):
             yield from _settable(field, M, (*path, label), among)
-        elif values := _known(field, M, among):
+        elif values := _known_objects(field, M, among):
             yield (*path, label), values
 
 
-def _known(
+def _known_objects(
     T: TypeNode, M: Model, among: Container[object] | None = None
 ) -> tuple[Object, ...]:
     """Objects that the model knows of a type; of many, the first and the last ones."""

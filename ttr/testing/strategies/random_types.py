@@ -130,7 +130,7 @@ def _inside(label: str, T: TypeNode) -> dict[tuple[str, ...], TypeNode]:
     return found
 
 
-def _fitting(scopes: Scopes, wanted: TypeNode) -> list[Object]:
+def _fitting_paths(scopes: Scopes, wanted: TypeNode) -> list[Object]:
     """Paths to what has the form of a type, and the first elements of lists of it."""
     found: list[Object] = []
     for path, T in _visible(scopes):
@@ -179,7 +179,7 @@ def ptypes(draw: st.DrawFn, words: Words, scopes: Scopes, depth: int) -> TypeNod
 
 def _arguments(words: Words, scopes: Scopes, T: TypeNode) -> st.SearchStrategy[Object]:
     """Names, but mostly paths if there are any."""
-    found = _fitting(scopes, T)
+    found = _fitting_paths(scopes, T)
     mostly = 3 * len(words.names) // max(1, len(found)) + 1
     return st.sampled_from([*words.names, *found * mostly])
 
@@ -330,7 +330,7 @@ def objects(draw: st.DrawFn, words: Words, scopes: Scopes, depth: int) -> Object
     return draw(kind(words, scopes, depth - 1))
 
 
-def _named(words: Words, scopes: Scopes, depth: int) -> st.SearchStrategy[Object]:
+def _names(words: Words, scopes: Scopes, depth: int) -> st.SearchStrategy[Object]:
     paths = [path for path, _ in _visible(scopes)]
     return st.sampled_from([*words.names, *paths])
 
@@ -351,7 +351,7 @@ def _records(words: Words, scopes: Scopes, depth: int) -> st.SearchStrategy[Obje
 
 def _collections(words: Words, scopes: Scopes, depth: int) -> st.SearchStrategy[Object]:
     items = st.lists(objects(words, scopes, depth), max_size=2)
-    make = st.sampled_from([tuple, _set, _string])
+    make = st.sampled_from([tuple, _set_of, _string_of])
     return st.tuples(make, items).map(lambda drawn: drawn[0](drawn[1]))
 
 
@@ -361,11 +361,11 @@ def _any_functions(
     return _functions(words, scopes, depth, objects)
 
 
-def _set(items: list[Object]) -> FiniteSet:
+def _set_of(items: list[Object]) -> FiniteSet:
     return FiniteSet(*items)
 
 
-def _string(items: list[Object]) -> EventString:
+def _string_of(items: list[Object]) -> EventString:
     return EventString(*items)
 
 
@@ -397,7 +397,7 @@ def _of_form(
 ) -> st.SearchStrategy[Object]:
     """Objects of the form that a type asks for; half of them paths if there are any."""
     written = forms(words, scopes, depth, T)
-    found = _fitting(scopes, T)
+    found = _fitting_paths(scopes, T)
     return st.one_of(written, st.sampled_from(found)) if found else written
 
 
@@ -413,12 +413,12 @@ def forms(
         case ListOf(item) | NonEmpty(item):
             return _lists(words, scopes, depth, item)
         case SetOf(item):
-            return st.lists(_values(words, scopes, 0, item), max_size=2).map(_set)
+            return st.lists(_values(words, scopes, 0, item), max_size=2).map(_set_of)
         case Plus(item):
-            return st.lists(_values(words, scopes, 0, item), max_size=3).map(_string)
+            return st.lists(_values(words, scopes, 0, item), max_size=3).map(_string_of)
         case Str(items):
             events = [_values(words, scopes, 0, item) for item in items]
-            return st.tuples(*events).map(list).map(_string)
+            return st.tuples(*events).map(list).map(_string_of)
         case RecordType():
             return _record_forms(words, scopes, depth, T)
         case FunType():
@@ -455,7 +455,7 @@ def _lists(
     return draw(st.sampled_from([rst(path), concat(written, path), written]))
 
 
-_SIMPLE_OBJECT = st.sampled_from([_named, _numbers])
+_SIMPLE_OBJECT = st.sampled_from([_names, _numbers])
 _ANY_OBJECT = st.sampled_from(
-    [_named, _numbers, _records, _collections, _collections, _any_functions, types]
+    [_names, _numbers, _records, _collections, _collections, _any_functions, types]
 )

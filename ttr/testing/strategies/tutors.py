@@ -162,17 +162,17 @@ class _Talk:
         return chosen
 
     def _moves(self, state: Record, model: Model) -> Sequence[object]:
-        return acts_in(state, model, self.tutor.moves) or self._heard
+        return acts_in(state, model, self.tutor.moves) or self._heard_types
 
     def _replies(self, state: Record, model: Model) -> Sequence[object]:
         if self.tutor.replies is not None:
             return acts_in(state, model, self.tutor.replies)
         if self.tutor.moves:
             return self._moves(state, model)
-        return [T for T in self._heard if self._is_awaited(T, state, model)]
+        return [T for T in self._heard_types if self._is_awaited(T, state, model)]
 
     @cached_property
-    def _heard(self) -> tuple[TypeNode, ...]:
+    def _heard_types(self) -> tuple[TypeNode, ...]:
         return heard_by(self.game)
 
     def _is_awaited(self, T: TypeNode, state: Record, model: Model) -> bool:
@@ -187,5 +187,5 @@ class _Talk:
         taking = [(rule, rule.on) for rule in self.game.rules if rule.on is not None]
         return {
             T: tuple(rule for rule, on in taking if on <= T or on >= T)
-            for T in self._heard
+            for T in self._heard_types
         }

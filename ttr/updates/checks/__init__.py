@@ -74,7 +74,7 @@ def faults(
         raise UpdateError(f"the type of a state is a record type, found {type!r}")
     known = Model() if model is None else as_model(model)
     given = None if start is None else freeze(start)
-    return _found(RuleSet(algorithm, type, given, known, _events(hears)))
+    return _find_faults(RuleSet(algorithm, type, given, known, _events(hears)))
 
 
 def _events(hears: object) -> tuple[TypeNode, ...]:
@@ -102,7 +102,7 @@ def faults_of(game: Game) -> tuple[Fault, ...]:
     rules = RuleSet(
         game.algorithm, game.type, game.start, game.model, game.hears, agenda
     )
-    return _found(rules)
+    return _find_faults(rules)
 
 
 def faults_alone(rule: Rule) -> tuple[Fault, ...]:
@@ -112,7 +112,7 @@ def faults_alone(rule: Rule) -> tuple[Fault, ...]:
     """
     if not isinstance(rule, Rule):
         raise UpdateError(f"faults_alone takes a rule, found {rule!r}")
-    return _found(RuleSet(rule, rule.when, None, Model(), ()), ALONE)
+    return _find_faults(RuleSet(rule, rule.when, None, Model(), ()), ALONE)
 
 
 CHECKS = (
@@ -143,7 +143,7 @@ NEVER = ("dead", "unset")
 
 
 @within_budget
-def _found(rules: RuleSet, checks: Iterable[Check] = CHECKS) -> tuple[Fault, ...]:
+def _find_faults(rules: RuleSet, checks: Iterable[Check] = CHECKS) -> tuple[Fault, ...]:
     """The faults, except that a rule never fires if another fault explains it."""
     found: dict[object, Fault] = {}
     explained: set[Rule | None] = set()

@@ -59,7 +59,9 @@ def summarise_python(source: Source, rule: Rule) -> EffectSummary:
         outcomes=tuple(one for one in results if isinstance(one, tuple)),
         complete=not {_Unknown.STATE, _Unknown.ANYTHING}.intersection(results),
         may_refuse=not {_Unknown.NONE, _Unknown.ANYTHING}.isdisjoint(results),
-        replaced=tuple(dict.fromkeys((*_replaced(scope), *_replaced_in_result(scope)))),
+        replaced=tuple(
+            dict.fromkeys((*_paths_replaced_in(scope), *_replaced_in_result(scope)))
+        ),
         undefined=tuple(dict.fromkeys(_undefined_names(scope))),
         built=tuple(_built_types(scope)),
     )
@@ -145,7 +147,7 @@ class _Scope:
         }
         if not roles or any(isinstance(one, ast.Starred) for one in call.args):
             return None
-        return _Scope(source, roles, self.state, self._guarded, callers)
+        return _Scope(source, roles, self.state, self._guarded_labels, callers)
 
     # --- paths ------------------------------------------------------------------------
 
@@ -176,25 +178,25 @@ class _Scope:
         return _Chain(Access(start.variable, path, places))
 
     @cached_property
-    def _guarded(self) -> frozenset[str]:
+    def _guarded_labels(self) -> frozenset[str]:
         """The labels that are tested for before they are used."""
         return self.known.union(guarded_labels(self.source.body))
 
     @cached_property
-    def _tested(self) -> Sequence[_Chain]:
+    def _tested_paths(self) -> Sequence[_Chain]:
         """The paths whose type is tested before they are used."""
         found = map(self.access, tested_expressions(self.source.body))
         return [chain for chain in found if chain is not None]
 
     def is_guarded(self, access: Access) -> bool:
         """Does the effect itself make sure that there is such a path?"""
-        if self._guarded.intersection(access.path):
+        if self._guarded_labels.intersection(access.path):
             return True
         return any(
             chain.whole
             and chain.access.variable == access.variable
             and access.path[: len(chain.access.path)] == chain.access.path
-            for chain in self._tested
+            for chain in self._tested_paths
         )
 
     # --- calls of replace and rectype -------------------------------------------------
@@ -288,7 +290,7 @@ def _undefined_names(scope: _Scope) -> Iterator[tuple[str, Span]]:
 # --- what is replaced ----------------------------------------------------------------
 
 
-def _replaced(scope: _Scope) -> Iterator[Access]:
+def _paths_replaced_in(scope: _Scope) -> Iterator[Access]:
     """The paths that are replaced in a variable."""
     for node in walk_untried(scope.source.body):
         match node:
@@ -296,7 +298,7 @@ def _replaced(scope: _Scope) -> Iterator[Access]:
                 if scope.is_replace(node):
                     yield from _replaced_paths(scope, node, scope.variables[name])
     for helper in scope.helpers:
-        yield from _replaced(helper)
+        yield from _paths_replaced_in(helper)
 
 
 def _replaced_in_result(scope: _Scope) -> Iterator[Access]:

@@ -139,7 +139,7 @@ def source_of(effect: object) -> Source | None:
         return None
     code = effect.__code__
     lines = linecache.getlines(code.co_filename, effect.__globals__)
-    module = _parsed("".join(lines))
+    module = _parse("".join(lines))
     if module is None:
         return None
     found = [node for node in _functions(module) if _is_of(node, code)]
@@ -151,7 +151,7 @@ def source_of(effect: object) -> Source | None:
 
 
 @lru_cache(maxsize=64)
-def _parsed(text: str) -> ast.Module | None:
+def _parse(text: str) -> ast.Module | None:
     try:
         return ast.parse(text) if text else None
     except (SyntaxError, ValueError):

@@ -78,10 +78,10 @@ def _missing_labels(
     """The labels in a type or record that no state has."""
     for found, path in _labels_astray(rules, value):
         span = span_of_label(rule, found.label, path, role)
-        yield _missing(rule, does, path, found, span)
+        yield _missing_path(rule, does, path, found, span)
 
 
-def _missing(
+def _missing_path(
     rule: Rule, does: str, path: Labels, found: Missing, span: Span | None
 ) -> Fault:
     whole = found.place or "a state"
@@ -95,7 +95,7 @@ def _missing_in_built(rules: RuleSet, rule: Rule, built: Built) -> Iterator[Faul
     """The labels in a type built by a Python effect that no state has."""
     places = dict(built.places)
     for found, path in _labels_astray(rules, built.type):
-        yield _missing(rule, "writes", path, found, places[path])
+        yield _missing_path(rule, "writes", path, found, places[path])
 
 
 def _labels_astray(

@@ -18,7 +18,7 @@ from kille.sensors.kinect.calibration import (
     Registration,
 )
 from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture, frame_of
-from kille.sensors.kinect.commands import BadReply
+from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.metric import beyond, depths, millimetres, raw_of
 from kille.sensors.kinect.registration import registered
 from kinect_emulator.calibration import LIKELY
@@ -68,10 +68,10 @@ def test_replies_that_make_no_sense_are_refused() -> None:
     for place, what in enumerate(("registration", "padding", "fixed", "constant")):
         replies = [*good]
         replies[place] = replies[place][:-2]
-        with pytest.raises(BadReply, match=what):
+        with pytest.raises(BadReplyError, match=what):
             Calibration.from_replies(*replies)
     blank = [good[0], good[1], bytes(322), good[3]]
-    with pytest.raises(BadReply, match="zero plane cannot be"):
+    with pytest.raises(BadReplyError, match="zero plane cannot be"):
         Calibration.from_replies(*blank)
 
 

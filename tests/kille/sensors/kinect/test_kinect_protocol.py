@@ -10,7 +10,7 @@ from hypothesis.extra.numpy import arrays
 
 from kille.sensors.kinect import commands
 from kille.sensors.kinect.bayer import colour_of
-from kille.sensors.kinect.commands import BadReply
+from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.motor import Tilt, tilt_value
 from kille.sensors.kinect.streams import DEPTH_10, DEPTH_11
 from kille.sensors.kinect.unpacking import unpack_10, unpack_11
@@ -35,7 +35,7 @@ def test_a_reply_carries_its_payload() -> None:
     ],
 )
 def test_a_reply_that_does_not_fit_is_refused(reply: bytes, said: str) -> None:
-    with pytest.raises(BadReply, match=said):
+    with pytest.raises(BadReplyError, match=said):
         commands.payload(reply, commands.READ_REGISTER, 9)
 
 
@@ -43,7 +43,7 @@ def test_a_reply_that_does_not_fit_is_refused(reply: bytes, said: str) -> None:
 def test_any_bytes_are_a_reply_or_refused(reply: bytes) -> None:
     try:
         carried = commands.payload(reply, commands.READ_REGISTER, 9)
-    except BadReply:
+    except BadReplyError:
         return
     assert reply[:8] + carried == reply
 
@@ -52,7 +52,7 @@ def test_a_state_has_an_angle_gravity_and_motion() -> None:
     tilt = Tilt.from_reply(bytes.fromhex("00 00 ff cd 03 33 00 00 ec 04"))
     assert (tilt.degrees, tilt.moving) == (-10.0, True)
     assert tilt.gravity == pytest.approx((-51 / 819, 1.0, 0.0))
-    with pytest.raises(BadReply, match="9 bytes instead of 10"):
+    with pytest.raises(BadReplyError, match="9 bytes instead of 10"):
         Tilt.from_reply(bytes(9))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from kille.sensors.kinect import troubles, usb
-from kille.sensors.kinect.transport import Busy, Driven, TransportError
+from kille.sensors.kinect.transport import DeviceBusyError, Driven, TransportError
 
 
 def test_a_kernel_driver_is_blamed_only_for_what_it_has(
@@ -14,7 +14,7 @@ def test_a_kernel_driver_is_blamed_only_for_what_it_has(
     """It is loaded on most computers, but moved aside by whoever opens the Kinect."""
     monkeypatch.setattr(troubles, "driver_loaded", lambda: True)
     assert troubles.told("kinect", Driven("busy")).endswith(troubles.UNLOAD)
-    assert troubles.trouble(Busy("busy")).state == "another program has it"
+    assert troubles.trouble(DeviceBusyError("busy")).state == "another program has it"
 
 
 def test_what_libusb_cannot_do_here_is_told() -> None:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from ttr.judging.judgements import Judgement
 from ttr.semantics.gameboards.ibis.domains import Domain
 from ttr.semantics.gameboards.ibis.integrating import integration, own_integration
-from ttr.semantics.gameboards.ibis.planning import planning
+from ttr.semantics.gameboards.ibis.planning import plan_execution
 from ttr.semantics.gameboards.ibis.selecting import selection
 from ttr.semantics.gameboards.ibis.state import START, STATE, USER
 from ttr.semantics.gameboards.ibis.turn_grounding import GROUNDING, get_own_moves
@@ -26,7 +26,7 @@ def algorithm(domain: Domain) -> Algorithm:
     Both are grounded and integrated move by move, then the plan is carried out. After
     the user's turn the system selects what to say; after its own, whether to go on.
     """
-    carry_out, select = maybe(planning(domain)), selection(domain)
+    carry_out, select = maybe(plan_execution(domain)), selection(domain)
     integrated = maybe(own_integration(domain))
     own = seq(get_own_moves, integrated, carry_out, maybe(select.going_on))
     users = seq(GROUNDING, maybe(integration(domain)), carry_out)

@@ -93,7 +93,7 @@ def _believe(s: Record, P: TypeNode) -> Record:
     return replace(s, {"private.bel": tuple(dict.fromkeys((*s.private.bel, P)))})
 
 
-def planning(domain: Domain) -> Algorithm:
+def plan_execution(domain: Domain) -> Algorithm:
     """The algorithm that carries out the plan as far as nobody need be asked."""
 
     @rule(when=_WITHOUT_PLAN, kind="load")
