@@ -16,9 +16,9 @@ from ttr.hooks import set_providers
 if TYPE_CHECKING:
     from ttr import updates
     from ttr.building.constructors import Pi, fun, rectype
-    from ttr.building.formation import wellformed
     from ttr.building.merging import amerge, merge
     from ttr.building.relabelling import relabel
+    from ttr.building.well_formedness import wellformed
     from ttr.computing.subtyping import consistent, subtype
     from ttr.display.render import box, html, latex
     from ttr.errors import TTRError
@@ -85,7 +85,7 @@ _ROOMS = (
 
 _HOMES = {
     "ttr.building.constructors": "Pi fun rectype",
-    "ttr.building.formation": "wellformed",
+    "ttr.building.well_formedness": "wellformed",
     "ttr.building.merging": "amerge merge",
     "ttr.building.relabelling": "relabel",
     "ttr.computing.subtyping": "consistent subtype",

@@ -27,7 +27,7 @@ from ttr import (
     this,
 )
 from ttr.building import subtract
-from ttr.computing.cycles import describe_cycle
+from ttr.computing.path_cycles import describe_cycle
 from ttr.errors import IllFormedError, RefusedError
 from ttr.judging import proposition
 from ttr.semantics import quantifiers

@@ -22,7 +22,7 @@ from ttr import (
     this,
     wellformed,
 )
-from ttr.computing.cycles import describe_cycle
+from ttr.computing.path_cycles import describe_cycle
 from ttr.errors import IllFormedError, RefusedError
 from ttr.testing import strategies as tst
 from ttr.types import (

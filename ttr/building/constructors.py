@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
-from ttr.building.formation import check_binder, check_record_type
+from ttr.building.well_formedness import check_binder, check_record_type
 from ttr.errors import IllFormedError
 from ttr.types.derived_types import order_fields
 from ttr.types.objects import BOUND, Object, Path, check_label, combine_labels, freeze

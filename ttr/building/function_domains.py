@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import cast
 
-from ttr.building.formation import check_binder, check_record_type
 from ttr.building.merging import merge
+from ttr.building.well_formedness import check_binder, check_record_type
 from ttr.errors import IllFormedError
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Signature

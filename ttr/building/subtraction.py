@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TypeVar
 
 from ttr.building.field_addresses import Address, format_address, parse_address
-from ttr.building.formation import check_record_type
+from ttr.building.well_formedness import check_record_type
 from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget
 from ttr.signature.signature import Signature

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ttr.computing.case_analysis import cases
-from ttr.computing.cycles import has_fields_in_order
 from ttr.computing.generic_witness import ITSELF, Assumption
+from ttr.computing.path_cycles import has_fields_in_order
 from ttr.computing.prover import Finding, Prover
 from ttr.errors import TooLargeError
 from ttr.hooks import hook

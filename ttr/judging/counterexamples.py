@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from functools import partial
 from itertools import product
 
-from ttr.computing.cycles import break_cycles
 from ttr.computing.generic_witness import ITSELF, Assumption, elements
+from ttr.computing.path_cycles import break_cycles
 from ttr.computing.strings.pieces import is_of_strings
 from ttr.computing.subtyping import Refutation, counterexample
 from ttr.errors import TTRError

@@ -9,8 +9,8 @@ from typing import assert_never
 
 from ttr.building.merging import merge
 from ttr.computing.case_analysis import cases, has_cases
-from ttr.computing.cycles import describe_cycle
 from ttr.computing.generic_witness import ITSELF, GenericWitness, step
+from ttr.computing.path_cycles import describe_cycle
 from ttr.computing.strings.automata import automaton_above
 from ttr.computing.strings.automaton_runs import shortest_words
 from ttr.computing.strings.pieces import (

@@ -27,8 +27,8 @@ from ttr.judging.assignments import Assignment
 from ttr.judging.degrees_of_claims import explain_probability, probability_of
 from ttr.judging.dependence_analysis import dependence
 from ttr.judging.judgements import How, Why, combine_events
-from ttr.judging.segmentation import Segmentation, describe_stop, events_in_words
 from ttr.judging.stated_dependence import Atom, Claim
+from ttr.judging.string_segmentation import Segmentation, describe_stop, events_in_words
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import spend
 from ttr.types.interning import cache_on_node, identity

@@ -18,7 +18,7 @@ from ttr.computing.strings.pieces import is_of_strings
 from ttr.errors import UnexpectedError, UnsupportedError
 from ttr.judging.automaton_filter import AutomatonFilter, start_filter
 from ttr.judging.models import Model, as_model
-from ttr.judging.segmentation import events_in_words
+from ttr.judging.string_segmentation import events_in_words
 from ttr.probability import REFUTED, Degree
 from ttr.safety.budgets import within_budget
 from ttr.types.derived_types import star

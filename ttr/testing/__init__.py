@@ -24,10 +24,10 @@ except ImportError as missing:
 
 from ttr.dialogues.dialogue import Dialogue, Trial, play
 from ttr.testing.coverage import Coverage
+from ttr.testing.hypothesis_state_machines import machine
 from ttr.testing.properties.catalogue import ALL
 from ttr.testing.properties.property import Breach, Property
 from ttr.testing.pytest_decorator import on_dialogues
-from ttr.testing.state_machines import machine
 from ttr.testing.strategies.discourse_roles import Roles
 from ttr.testing.strategies.tutors import Tutor
 from ttr.testing.suites import Report, Suite, check_rule, check_rules

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, assert_never
 
 from ttr.building.merging import amerge, merge
-from ttr.computing.cycles import describe_cycle
+from ttr.computing.path_cycles import describe_cycle
 from ttr.computing.subtyping import subtype
 from ttr.errors import Span, TooLargeError, TTRError, UndecidedError
 from ttr.judging.models import model_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from ttr.building.formation import field_at_path
+from ttr.building.well_formedness import field_at_path
 from ttr.errors import IllFormedError, TTRError
 from ttr.judging.models import model_of
 from ttr.notation.reader import Reader

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NoReturn
 
-from ttr.building.formation import check_value, field_at_path
 from ttr.building.merging import merge
+from ttr.building.well_formedness import check_value, field_at_path
 from ttr.errors import IllFormedError, TTRError
 from ttr.notation.error_location import is_ill_formed, locate_error
 from ttr.notation.reader import Reader

@@ -3,7 +3,7 @@ r"""Interpretations λr:bg. [c : p(r.x)]: the type that a word gives a situation
 from __future__ import annotations
 
 from ttr.building.constructors import fun
-from ttr.building.formation import check_record_type
+from ttr.building.well_formedness import check_record_type
 from ttr.errors import IllFormedError
 from ttr.semantics.argument_checks import in_notation
 from ttr.types.derived_types import order_fields

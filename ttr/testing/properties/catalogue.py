@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from ttr.testing.properties.agendas import DONE_ONCE
 from ttr.testing.properties.determinism import CONFLUENT, DETERMINISTIC, REPLAYS
-from ttr.testing.properties.discourse import (
-    COMMITMENTS_STAY,
-    DOWNDATES_ONCE,
-    QUD_DISCIPLINE,
-)
 from ttr.testing.properties.event_uptake import NOTHING_DROPPED
 from ttr.testing.properties.groundedness import AGREED_ONCE, SAID_FIRST
 from ttr.testing.properties.pending_items import ANSWERED, EMPTIES
 from ttr.testing.properties.property import Property
+from ttr.testing.properties.questions_and_facts import (
+    COMMITMENTS_STAY,
+    DOWNDATES_ONCE,
+    QUD_DISCIPLINE,
+)
 from ttr.testing.properties.soundness import (
     KEEPS_TYPE,
     NAMES_BOUND,

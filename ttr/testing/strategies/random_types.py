@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 from hypothesis import strategies as st
 
 from ttr.building.constructors import rectype
-from ttr.building.formation import check_binder
+from ttr.building.well_formedness import check_binder
 from ttr.errors import TTRError
 from ttr.theories.theory import Theory
 from ttr.types.objects import (

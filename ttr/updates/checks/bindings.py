@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ttr.computing.cycles import find_cycle
+from ttr.computing.path_cycles import find_cycle
 from ttr.judging.witnesses import can_be_listed
 from ttr.types.objects import Object
 from ttr.types.paths import subterms

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import NamedTuple, TypeVar
 
-from ttr.computing.cycles import describe_cycle
+from ttr.computing.path_cycles import describe_cycle
 from ttr.computing.subtyping import Answer, subtype
 from ttr.errors import IllFormedError, suggestion
 from ttr.safety.budgets import spend, within_budget

@@ -15,7 +15,7 @@ from ttr import (
     this,
     wellformed,
 )
-from ttr.computing.cycles import has_fields_in_order
+from ttr.computing.path_cycles import has_fields_in_order
 from ttr.errors import IllFormedError
 from ttr.signature.signature import Axiom, Signature
 
