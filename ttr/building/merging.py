@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import reduce
+
 from ttr.building.constructors import rectype
 from ttr.computing.subtyping import subtype
 from ttr.errors import TTRError
@@ -10,7 +12,7 @@ from ttr.signature.signature import Signature, signature_of
 from ttr.types.interning import identity
 from ttr.types.objects import Record, sort_canonically
 from ttr.types.paths import subterms
-from ttr.types.syntax import RecordType, Singleton, TypeNode, as_type, meet
+from ttr.types.syntax import Meet, RecordType, Singleton, TypeNode, as_type, meet
 
 
 @within_budget
@@ -110,6 +112,22 @@ def amerge(S: TypeNode, T: TypeNode, theory: Signature | None = None, /) -> Type
         mine = fields.get(label)
         fields[label] = field if mine is None else amerge(mine, field, theory)
     return rectype(fields, theory)
+
+
+def merge_meet(T: TypeNode) -> TypeNode:
+    """A meet of record types as the one record type that is their merge.
+
+    Any other type is given back as it is.
+
+    >>> from ttr import Basic, Ind
+    >>> print(merge_meet(rectype(x=Ind) & rectype(y=Ind)))
+    [x : Ind, y : Ind]
+    >>> print(merge_meet(Basic("A") & Basic("B")))
+    A /\\ B
+    """
+    if isinstance(T, Meet) and all(isinstance(part, RecordType) for part in T.parts):
+        return reduce(merge, T.parts)
+    return T
 
 
 def singleton_type(

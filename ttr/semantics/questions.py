@@ -14,12 +14,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from functools import lru_cache, reduce
+from functools import lru_cache
 from typing import TYPE_CHECKING, TypeGuard
 
 from ttr.aliases import former_names
 from ttr.building.constructors import fun, rectype
-from ttr.building.merging import merge
+from ttr.building.merging import merge_meet
 from ttr.errors import TTRError
 from ttr.judging.certainty import is_certain
 from ttr.judging.models import Model
@@ -39,7 +39,6 @@ from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
     Basic,
     Function,
-    Meet,
     Negation,
     Pred,
     PType,
@@ -330,7 +329,7 @@ def _with_values_inlined(P: TypeNode) -> TypeNode:
 
     So [x = paris : City, e : dest_city(x)] matches like [e : dest_city(paris)].
     """
-    P = _merge_parts(P)
+    P = merge_meet(P)
     if not isinstance(P, RecordType):
         return P
     fields: dict[str, TypeNode] = {}
@@ -342,13 +341,6 @@ def _with_values_inlined(P: TypeNode) -> TypeNode:
         if isinstance(field, Singleton):
             known[label] = field.value
     return RecordType(tuple(fields.items()))
-
-
-def _merge_parts(P: TypeNode) -> TypeNode:
-    """A meet of record types as one record type."""
-    if isinstance(P, Meet) and all(isinstance(part, RecordType) for part in P.parts):
-        return reduce(merge, P.parts)
-    return P
 
 
 def _matches(

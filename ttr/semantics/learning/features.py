@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from functools import reduce
 
-from ttr.building.merging import merge
+from ttr.building.merging import merge_meet
 from ttr.computing.subtyping import consistent, subtype
 from ttr.errors import IllFormedError, RefusedError
 from ttr.safety.budgets import within_budget
@@ -29,9 +28,7 @@ def feature_types(T: TypeNode, /) -> tuple[TypeNode, ...]:
     >>> print(*feature_types(rectype(x=Ind, c=red(this.x), s=big(this.x))), sep="; ")
     [x : Ind]; [x : Ind, c : red(x)]; [x : Ind, s : big(x)]
     """
-    whole = as_type(T)
-    if isinstance(whole, Meet):
-        whole = reduce(merge, whole.parts)
+    whole = merge_meet(as_type(T))
     if not isinstance(whole, RecordType):
         return (whole,)
     return tuple(dict.fromkeys(_types_by_field(whole)))

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import reduce
 from typing import TYPE_CHECKING, TypeAlias
 
-from ttr.building.merging import merge
+from ttr.building.merging import merge_meet
 from ttr.computing.subtyping import subtype
 from ttr.errors import IllFormedError, RefusedError, UnsupportedError
 from ttr.judging.assignments import Assignment
@@ -178,7 +177,7 @@ class Notion:
                 return self.system.judge(name, (), P).p
             case TypeNode():
                 _refuse_modal(P)
-                return self.system[name].true(_merge_parts(P))
+                return self.system[name].true(merge_meet(P))
         sit, T, claimed = probabilistic_claim(P)
         found = self.system.judge(name, sit, T).p
         return borne_out(claimed, found) if "prob" in P else found
@@ -188,7 +187,7 @@ class Notion:
         model = self.system[name]
         try:
             _refuse_modal(S)
-            known = model.witnesses(_merge_parts(S))
+            known = model.witnesses(merge_meet(S))
         except (RefusedError, UnsupportedError) as error:
             return ModalAnswer(UNKNOWN, f"in {name}, {error.message}", name)
         judged = [self.system.judge(name, sit, T) for sit in known]
@@ -217,11 +216,6 @@ def _refuse_modal(T: TypeNode) -> None:
         )
 
 
-def _merge_parts(T: TypeNode) -> TypeNode:
-    """A meet as the merge of its parts, whose witnesses can be listed."""
-    return reduce(merge, T.parts) if isinstance(T, Meet) else T
-
-
 def _leaves_open(facts: Assignment, T: TypeNode) -> bool:
     """May there be more witnesses of T than are known, also by an axiom?"""
     atoms = [part for part in subterms([T]) if isinstance(part, Basic | PType)]
@@ -235,7 +229,7 @@ def _lists_all(S: TypeNode, T: TypeNode) -> bool:
     Records may have further fields, so there are infinitely many of S; but a flat
     record type says something of each field by itself.
     """
-    return not _mentions_records(S) or (_is_flat(_merge_parts(S)) and _is_flat(T))
+    return not _mentions_records(S) or (_is_flat(merge_meet(S)) and _is_flat(T))
 
 
 def _is_flat(T: TypeNode) -> bool:

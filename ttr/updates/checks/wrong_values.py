@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import reduce
 
-from ttr.building.merging import merge
+from ttr.building.merging import merge_meet
 from ttr.errors import Span
 from ttr.probability import REFUTED
 from ttr.types.objects import Object, Record
@@ -138,8 +137,8 @@ def _with_meets_merged(value: Object) -> Object:
     match value:
         case tuple():
             return tuple(map(_with_meets_merged, value))
-        case Meet(parts) if all(isinstance(part, RecordType) for part in parts):
-            return reduce(merge, parts)
+        case Meet():
+            return merge_meet(value)
     return value
 
 
