@@ -58,6 +58,10 @@ def counterexample(refutation: Refutation) -> Judgement | None:
     raise NotImplementedError
 
 
+VERDICTS = ("no", "unknown", "yes")
+"""The verdicts; that on several claims together is the first one of theirs."""
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Answer:
     """An answer to a question about types: `verdict` is yes, no or unknown.

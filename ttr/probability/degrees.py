@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from ttr.errors import TTRError
 
@@ -85,3 +86,58 @@ def order_ends(lo: float, hi: float) -> Degree:
     """
     lo, hi = min(max(lo, 0.0), 1.0), min(max(hi, 0.0), 1.0)
     return Degree(min(lo, hi), max(lo, hi))
+
+
+# --- degrees made of degrees ---------------------------------------------------------
+
+
+def degree_of_negation(p: Degree) -> Degree:
+    """p(¬E) for p = p(E).
+
+    >>> print(degree_of_negation(Degree(0.25, 1)))
+    [0, 0.75]
+    """
+    return Degree(1.0 - p.hi, 1.0 - p.lo)
+
+
+def bounds_of_all(degrees: Sequence[Degree]) -> Degree:
+    """The bounds on the probability that all hold, for any dependence (Fréchet).
+
+    These are max(0, Σ pᵢ − (n − 1)) and min pᵢ.
+
+    >>> print(bounds_of_all([Degree(0.75, 0.75), Degree(0.5, 1)]))
+    [0.25, 0.75]
+    """
+    low = sum(p.lo for p in degrees) - (len(degrees) - 1)
+    return order_ends(max(0.0, low), min((p.hi for p in degrees), default=1.0))
+
+
+def bounds_of_any(degrees: Sequence[Degree]) -> Degree:
+    """The bounds on the probability that one holds, for any dependence (Fréchet).
+
+    These are max pᵢ and min(1, Σ pᵢ).
+
+    >>> print(bounds_of_any([Degree(0.25, 0.25), Degree(0.5, 0.5)]))
+    [0.5, 0.75]
+    """
+    high = min(1.0, sum(p.hi for p in degrees))
+    return order_ends(max((p.lo for p in degrees), default=0.0), high)
+
+
+Weight: TypeAlias = tuple[float, float] | tuple[Fraction, Fraction]
+"""The least and the greatest value of a weight, of 0 or more."""
+
+
+def share(mine: Weight, rest: Weight) -> Degree | None:
+    """mine / (mine + rest), at its least and its greatest.
+
+    None where both are certainly 0; else the cases in which they are do not count.
+
+    >>> print(share((1, 2), (2, 3)), share((0, 1), (0, 0)), share((0, 0), (0, 0)))
+    [0.25, 0.5] 1 None
+    """
+    if not mine[1] + rest[1]:
+        return None
+    lo = mine[0] / (mine[0] + rest[1]) if rest[1] else 1.0
+    hi = mine[1] / (mine[1] + rest[0]) if mine[1] else 0.0
+    return order_ends(float(lo), float(hi))

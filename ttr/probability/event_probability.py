@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from typing import NamedTuple, TypeAlias
 
-from ttr.probability.degrees import CERTAIN, REFUTED, UNKNOWN, Degree, order_ends
+from ttr.probability.degrees import (
+    CERTAIN,
+    REFUTED,
+    UNKNOWN,
+    Degree,
+    degree_of_negation,
+    share,
+)
 from ttr.probability.dependence import INDEPENDENT, Component, Dependence
 from ttr.probability.events import (
     SURE,
@@ -98,13 +105,12 @@ def _quotient(event: Event, known: Dependence, given: Event) -> Chance:
         return chance(event, known)
     both = chance(All((event, given)), known)
     only = chance(All((Not(event), given)), known)
-    if both.p.hi == 0.0 == only.p.hi:
+    p = share(both.p, only.p)
+    if p is None:
         raise ImpossibleError
-    lo = both.p.lo / (both.p.lo + only.p.hi) if only.p.hi > 0.0 else 1.0
-    hi = both.p.hi / (both.p.hi + only.p.lo) if both.p.hi > 0.0 else 0.0
     points = both.p.lo == both.p.hi and only.p.lo == only.p.hi
     rests_on = tuple(dict.fromkeys((*both.rests_on, *only.rests_on)))
-    return Chance(order_ends(lo, hi), points and both.exact and only.exact, rests_on)
+    return Chance(p, points and both.exact and only.exact, rests_on)
 
 
 Joint: TypeAlias = Network | Polytope
@@ -128,7 +134,7 @@ def _conjoin(component: Component, event: Event, given: Truth) -> Degree | None:
     found = conjunction(component, wanted, given)
     if found is None or truth is not None:
         return found
-    return Degree(1.0 - found.hi, 1.0 - found.lo)
+    return degree_of_negation(found)
 
 
 class _Solving:

@@ -7,7 +7,13 @@ from collections import Counter
 from collections.abc import Hashable, Mapping
 from itertools import product
 
-from ttr.probability.degrees import Degree, order_ends
+from ttr.probability.degrees import (
+    Degree,
+    bounds_of_all,
+    bounds_of_any,
+    degree_of_negation,
+    order_ends,
+)
 from ttr.probability.events import All, AnyOf, Atomic, Event, Not, atoms, signs
 from ttr.safety.budgets import spend
 
@@ -99,13 +105,8 @@ def bounds(event: Event) -> Degree:
         case Atomic(_, p):
             return p
         case Not(part):
-            lo, hi = bounds(part)
-            return Degree(1.0 - hi, 1.0 - lo)
+            return degree_of_negation(bounds(part))
         case All(parts):
-            found = [bounds(part) for part in parts]
-            low = sum(p.lo for p in found) - (len(found) - 1)
-            return order_ends(max(0.0, low), min((p.hi for p in found), default=1.0))
+            return bounds_of_all([bounds(part) for part in parts])
         case AnyOf(parts):
-            found = [bounds(part) for part in parts]
-            high = min(1.0, sum(p.hi for p in found))
-            return order_ends(max((p.lo for p in found), default=0.0), high)
+            return bounds_of_any([bounds(part) for part in parts])

@@ -14,7 +14,13 @@ from fractions import Fraction
 from itertools import product
 from math import prod
 
-from ttr.probability.degrees import REFUTED, UNKNOWN, Degree, order_ends
+from ttr.probability.degrees import (
+    REFUTED,
+    UNKNOWN,
+    Degree,
+    degree_of_negation,
+    order_ends,
+)
 from ttr.probability.dependence import Component
 from ttr.probability.events import Truth
 from ttr.probability.linear_programs import scale_to_integers
@@ -135,8 +141,8 @@ def _product(component: Component, parents: Parents, truth: Truth) -> Degree:
     lo = hi = 1.0
     for atom, on in parents.items():
         p = _degree(component, parents, (atom, tuple([truth[one] for one in on])))
-        ends = (p.lo, p.hi) if truth[atom] else (1.0 - p.hi, 1.0 - p.lo)
-        lo, hi = lo * ends[0], hi * ends[1]
+        p = p if truth[atom] else degree_of_negation(p)
+        lo, hi = lo * p.lo, hi * p.hi
     return order_ends(lo, hi)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ttr.computing.subtyping import Answer, subtype
+from ttr.computing.subtyping import VERDICTS, Answer, subtype
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
 from ttr.probability import CERTAIN, Degree, complement
 from ttr.probability.degrees import order_ends
@@ -51,10 +51,7 @@ def equivalent(
 ) -> Answer:
     """Does each of two propositions entail the other?"""
     answers = [entails(first, second, theory), entails(second, first, theory)]
-    return min(answers, key=lambda answer: _WORST_FIRST.index(answer.verdict))
-
-
-_WORST_FIRST = ("no", "unknown", "yes")
+    return min(answers, key=lambda answer: VERDICTS.index(answer.verdict))
 
 
 def _entails_type(P: Object, T: TypeNode, theory: Signature | None) -> Answer:

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from ttr.errors import IllFormedError, RefusedError
 from ttr.judging.judgements import Judgement, Why
 from ttr.judging.models import Conditions, Model, as_model, conditions
-from ttr.probability import CERTAIN, REFUTED, Degree
-from ttr.probability.degrees import order_ends, shown
+from ttr.probability import REFUTED, Degree
+from ttr.probability.degrees import share, shown
 from ttr.types.interning import identity
 from ttr.types.objects import Object, freeze
 from ttr.types.printing import notation
@@ -85,7 +85,7 @@ class RandomVariable:
         mine, others = self._split_conditions(sit, conditions(when))
         whys = self._weights(M, sit, others)
         wanted = self._covered_values(T)
-        p, said = _share(whys, wanted & mine, mine - wanted)
+        p, said = _share_in_words(whys, wanted & mine, mine - wanted)
         if p is None:
             raise RefusedError(
                 f"{notation(sit)} is of no value of {self.name} that is possible here",
@@ -154,7 +154,7 @@ class RandomVariable:
         )
 
 
-def _share(
+def _share_in_words(
     whys: Mapping[TypeNode, Why], wanted: _Values, others: _Values
 ) -> tuple[Degree | None, str]:
     """The share of the values wanted among these and the others, and its arithmetic.
@@ -162,15 +162,14 @@ def _share(
     None where all of them have probability 0.
     """
     mine, rest = _sums(whys, wanted), _sums(whys, others)
-    if mine.hi + rest.hi == 0.0:
+    p = share(mine, rest)
+    if p is None:
         return None, ""
     if mine.hi == 0.0 or rest.hi == 0.0:
-        p = REFUTED if mine.hi == 0.0 else CERTAIN
         return p, f"{'no' if p == REFUTED else 'every'} value that is possible"
     ends = dict.fromkeys(((mine.lo, rest.hi), (mine.hi, rest.lo)))
     said = ", ".join(f"{shown(x)} / ({shown(x)} + {shown(y)})" for x, y in ends)
-    lo, hi = (x / (x + y) for x, y in ((mine.lo, rest.hi), (mine.hi, rest.lo)))
-    return order_ends(lo, hi), said
+    return p, said
 
 
 def _sums(whys: Mapping[TypeNode, Why], values: Iterable[TypeNode]) -> Degree:

@@ -16,11 +16,12 @@ from typing import Any, NamedTuple, TypeVar
 
 from immutables import Map
 
-from ttr.computing.subtyping import consistent, subtype
+from ttr.computing.subtyping import VERDICTS, consistent, subtype
 from ttr.errors import IllFormedError, RefusedError, TTRError
 from ttr.judging.judgements import Judgement
 from ttr.judging.propositions import judged, probabilistic, probabilistic_claim
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
+from ttr.probability.degrees import share
 from ttr.safety.budgets import within_budget
 from ttr.semantics.learning.smoothing import NO_SMOOTHING, Smoothing, as_smoothing
 from ttr.signature.signature import Signature, signature_of
@@ -53,7 +54,6 @@ class _Sum(NamedTuple):
         return _Sum(self.times + times, self.lo + lo, self.hi + hi)
 
 
-_WORST_FIRST = ("no", "unknown", "yes")
 _EMPTY: Map[Any, Any] = Map()
 _ZERO = Fraction(0)
 _NO_SUM = _Sum(0, _ZERO, _ZERO)
@@ -176,7 +176,7 @@ class Counts:
             inside = "yes" if given is None else self._verdict(kind, given)
             if inside == "no":
                 continue
-            verdict = min(inside, self._verdict(kind, T), key=_WORST_FIRST.index)
+            verdict = min(inside, self._verdict(kind, T), key=VERDICTS.index)
             if inside == "unknown" and verdict == "no":
                 known = known._replace(lo=_ZERO)
             shares[verdict].append(known)
@@ -293,14 +293,6 @@ def _fraction(yes: Weight, no: Weight, unknown: Weight, extra: Fraction) -> Degr
 
     The unknown counts as no for the least value, and as yes for the greatest.
     """
-    most = yes.hi + unknown.hi
-    if not most + no.hi + extra:
-        return UNKNOWN
-    low = _share(yes.lo + extra, no.hi + unknown.hi + extra, Fraction(1))
-    high = _share(most + extra, no.lo + extra, _ZERO)
-    return Degree(float(low), float(high))
-
-
-def _share(one: Fraction, other: Fraction, where_empty: Fraction) -> Fraction:
-    whole = one + other
-    return one / whole if whole else where_empty
+    mine = Weight(yes.lo + extra, yes.hi + unknown.hi + extra)
+    rest = Weight(no.lo + extra, no.hi + unknown.hi + extra)
+    return share(mine, rest) or UNKNOWN

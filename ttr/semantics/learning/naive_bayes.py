@@ -96,6 +96,10 @@ def _normalise(scores: Mapping[C, _Score]) -> dict[C, Degree]:
 
 
 def _share(one: C, scaled: Mapping[C, _Score]) -> Degree:
+    """A score as a share of all.
+
+    Unlike in `degrees.share`, a score of 0 may be possible: it may have been rounded.
+    """
     lo, hi = scaled[one]
     others = [score for other, score in scaled.items() if other != one]
     least = lo / (lo + sum(score[1] for score in others)) if lo else 0.0

@@ -16,7 +16,7 @@ from ttr.errors import IllFormedError, RefusedError, UnsupportedError
 from ttr.judging.assignments import Assignment
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
-from ttr.probability.degrees import order_ends
+from ttr.probability.degrees import bounds_of_all, bounds_of_any
 from ttr.safety.budgets import spend, within_budget
 from ttr.semantics.modality.necessity import (
     ModalAnswer,
@@ -90,9 +90,8 @@ class Notion:
         if isinstance(names, ModalAnswer):
             return names
         found = {name: self._degree_or_unknown(name, P) for name in names}
-        lows = sum(p.lo for p in found.values()) - (len(found) - 1)
         worst = min(found, key=lambda name: found[name])
-        p = order_ends(max(0.0, lows), min(p.hi for p in found.values()))
+        p = bounds_of_all(list(found.values()))
         if p == CERTAIN:
             return ModalAnswer(p, _describe_success(P, names))
         return ModalAnswer(p, _describe_failure(P, worst, found[worst]), worst)
@@ -109,8 +108,7 @@ class Notion:
             return names
         found = {name: self._degree_or_unknown(name, P) for name in names}
         best = max(found, key=lambda name: found[name])
-        highs = sum(p.hi for p in found.values())
-        p = order_ends(max(p.lo for p in found.values()), min(1.0, highs))
+        p = bounds_of_any(list(found.values()))
         if p == REFUTED:
             return ModalAnswer(p, _describe_failure(P, " or ".join(names), p))
         if p == CERTAIN:

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.probability.degrees import degree_of_negation
 from ttr.semantics.quantifiers.thresholds import Threshold
 
 EXACT = 500
@@ -77,7 +78,7 @@ def _chance(
         hi = _chance_of_reaching(need, inside, outside, high)[1]
         reached = _uncertain(min(lo, hi), hi)
     rising = threshold.is_lower_bound
-    p = reached if rising else Degree(1.0 - reached.hi, 1.0 - reached.lo)
+    p = reached if rising else degree_of_negation(reached)
     if not threshold.presupposes or sure != (0, 0):
         return p
     # If there is nothing of P, it is neither true nor false.

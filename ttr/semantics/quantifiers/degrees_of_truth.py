@@ -11,6 +11,7 @@ from ttr.judging.assignments import head
 from ttr.judging.judgements import Why
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.probability.degrees import bounds_of_all, bounds_of_any
 from ttr.types.interning import identity
 from ttr.types.objects import Missing, Object, Record
 from ttr.types.syntax import Basic, PType, RecordType, TypeNode
@@ -90,8 +91,7 @@ def all_true(grounds: list[Truth]) -> tuple[Degree, Atoms]:
     if _are_independent(grounds, atoms):
         lo, hi = math.prod(p.lo for p in degrees), math.prod(p.hi for p in degrees)
         return Degree(lo, hi), atoms
-    low = sum(p.lo for p in degrees) - (len(degrees) - 1)
-    return Degree(max(0.0, low), min(p.hi for p in degrees)), atoms
+    return bounds_of_all(degrees), atoms
 
 
 def one_true(T: TypeNode, truths: Iterable[Truth], rule: str) -> Truth:
@@ -106,8 +106,7 @@ def one_true(T: TypeNode, truths: Iterable[Truth], rule: str) -> Truth:
         low = 1.0 - math.prod(1.0 - p.lo for p in degrees)
         p = Degree(low, 1.0 - math.prod(1.0 - p.hi for p in degrees))
     else:
-        high = min(1.0, sum(p.hi for p in degrees))
-        p = Degree(max(p.lo for p in degrees), high)
+        p = bounds_of_any(degrees)
     best = max(grounds, key=lambda found: found.p.lo, default=None)
     shown = sorted(grounds, key=lambda found: -found.p.hi)[:SHOWN]
     return Truth(p, _sum_up(T, best, p, rule, shown), atoms)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from ttr.judging.judgements import Why
 from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.probability.degrees import bounds_of_all
 from ttr.semantics.quantifiers.counting import Chances, independent_chances
 from ttr.semantics.quantifiers.degrees_of_truth import Atoms
 from ttr.semantics.quantifiers.extensions import Member
@@ -96,6 +97,5 @@ def _chances(one: Member, other: Member) -> Chances:
         return Chances(p, p, REFUTED)
     if one.atoms.isdisjoint(other.atoms):
         return independent_chances(p, q)
-    both = Degree(max(0.0, p.lo + q.lo - 1.0), min(p.hi, q.hi))
     only = Degree(max(0.0, p.lo - q.hi), min(p.hi, 1.0 - q.lo))
-    return Chances(p, both, only)
+    return Chances(p, bounds_of_all([p, q]), only)

@@ -15,6 +15,7 @@ from ttr.judging.judgements import Why
 from ttr.judging.models import Model, as_model
 from ttr.judging.witnesses import candidates
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
+from ttr.probability.degrees import degree_of_negation
 from ttr.safety.budgets import spend, within_budget
 from ttr.semantics.quantifiers.degrees_of_truth import (
     SHOWN,
@@ -109,7 +110,7 @@ class _Truths:
 
     def _absent(self, T: TypeNode, denied: TypeNode) -> Truth:
         found = self.of(denied)
-        p = Degree(1.0 - found.p.hi, 1.0 - found.p.lo)
+        p = degree_of_negation(found.p)
         rules = {CERTAIN: "nothing is of it", REFUTED: "something is of it"}
         rule = rules.get(p, "as far as nothing is of it")
         why = Why(Record({}), T, p, rule, (found.why,), how="none")
