@@ -2,14 +2,9 @@
 
 import pytest
 
-from ttr.computing.strings.uncertain_states import (
-    NOWHERE,
-    SETS,
-    Beliefs,
-    frechet_conjunction,
-    independent_conjunction,
-)
+from ttr.computing.strings.uncertain_states import NOWHERE, SETS, Beliefs
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
+from ttr.probability.degrees import frechet_conjunction, independent_conjunction
 
 ONE, TWO, BOTH = frozenset((1,)), frozenset((2,)), frozenset((1, 2))
 

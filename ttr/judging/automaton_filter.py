@@ -15,11 +15,10 @@ from ttr.computing.strings.uncertain_states import (
     NOWHERE,
     Beliefs,
     States,
-    frechet_conjunction,
-    independent_conjunction,
 )
 from ttr.judging.judgements import Why
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
+from ttr.probability.degrees import frechet_conjunction, independent_conjunction
 from ttr.types.interning import identity
 from ttr.types.syntax import TypeNode, meet
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple, TypeAlias
 
@@ -100,28 +99,57 @@ def degree_of_negation(p: Degree) -> Degree:
     return Degree(1.0 - p.hi, 1.0 - p.lo)
 
 
-def bounds_of_all(degrees: Sequence[Degree]) -> Degree:
-    """The bounds on the probability that all hold, for any dependence (Fréchet).
+def independent_conjunction(*degrees: Degree) -> Degree:
+    """Π pᵢ: the probability that all of some independent events happen.
 
-    These are max(0, Σ pᵢ − (n − 1)) and min pᵢ.
-
-    >>> print(bounds_of_all([Degree(0.75, 0.75), Degree(0.5, 1)]))
-    [0.25, 0.75]
+    >>> print(independent_conjunction(Degree(0.5, 0.5), Degree(0.25, 1.0)))
+    [0.125, 0.5]
     """
-    low = sum(p.lo for p in degrees) - (len(degrees) - 1)
-    return order_ends(max(0.0, low), min((p.hi for p in degrees), default=1.0))
+    least = most = 1.0
+    for lo, hi in degrees:
+        least, most = least * lo, most * hi
+    return Degree(least, most)
 
 
-def bounds_of_any(degrees: Sequence[Degree]) -> Degree:
-    """The bounds on the probability that one holds, for any dependence (Fréchet).
+def independent_disjunction(*degrees: Degree) -> Degree:
+    """1 − Π (1 − pᵢ): the probability that one of some independent events happens.
 
-    These are max pᵢ and min(1, Σ pᵢ).
+    Rounding does not take it below any of them.
 
-    >>> print(bounds_of_any([Degree(0.25, 0.25), Degree(0.5, 0.5)]))
+    >>> print(independent_disjunction(Degree(0.5, 0.5), Degree(0.25, 1.0)))
+    [0.625, 1]
+    """
+    if not degrees:
+        return REFUTED
+    none_least = none_most = 1.0
+    for lo, hi in degrees:
+        none_least, none_most = none_least * (1.0 - hi), none_most * (1.0 - lo)
+    least, most = map(max, zip(*degrees, strict=True))
+    return Degree(max(least, 1.0 - none_most), max(most, 1.0 - none_least))
+
+
+def frechet_conjunction(*degrees: Degree) -> Degree:
+    """[max(0, Σ pᵢ − (n − 1)), min pᵢ]: the probability of all, however dependent.
+
+    >>> print(frechet_conjunction(Degree(0.75, 0.75), Degree(0.5, 0.5)))
+    [0.25, 0.5]
+    """
+    total, most = 0.0, 1.0
+    for lo, hi in degrees:
+        total, most = total + lo, min(most, hi)
+    return Degree(min(max(0.0, total - (len(degrees) - 1)), most), most)
+
+
+def frechet_disjunction(*degrees: Degree) -> Degree:
+    """[max pᵢ, min(1, Σ pᵢ)]: the probability of any, however dependent.
+
+    >>> print(frechet_disjunction(Degree(0.25, 0.25), Degree(0.5, 0.5)))
     [0.5, 0.75]
     """
-    high = min(1.0, sum(p.hi for p in degrees))
-    return order_ends(max((p.lo for p in degrees), default=0.0), high)
+    least = total = 0.0
+    for lo, hi in degrees:
+        least, total = max(least, lo), total + hi
+    return Degree(least, min(1.0, total))
 
 
 Weight: TypeAlias = tuple[float, float] | tuple[Fraction, Fraction]

@@ -8,10 +8,14 @@ from collections.abc import Hashable, Mapping
 from itertools import product
 
 from ttr.probability.degrees import (
+    CERTAIN,
+    REFUTED,
     Degree,
-    bounds_of_all,
-    bounds_of_any,
     degree_of_negation,
+    frechet_conjunction,
+    frechet_disjunction,
+    independent_conjunction,
+    independent_disjunction,
     order_ends,
 )
 from ttr.probability.events import All, AnyOf, Atomic, Event, Not, atoms, signs
@@ -66,31 +70,24 @@ def _weigh(event: Event, p: Mapping[Hashable, float]) -> tuple[float, float]:
         weight = math.prod(x if case[a] else 1.0 - x for a, x in p.items())
         if weight > 0.0:
             one = _separate(event, case)
-            lo, hi = lo + weight * one[0], hi + weight * one[1]
+            lo, hi = lo + weight * one.lo, hi + weight * one.hi
     return lo, hi
 
 
-def _separate(event: Event, case: Mapping[Hashable, bool]) -> tuple[float, float]:
+def _separate(event: Event, case: Mapping[Hashable, bool]) -> Degree:
     """The probability in a case where no other atom occurs twice."""
     spend()
     match event:
         case Atomic(atom, p):
-            return (float(case[atom]),) * 2 if atom in case else (p.lo, p.hi)
+            if atom in case:
+                return CERTAIN if case[atom] else REFUTED
+            return p
         case Not(part):
-            lo, hi = _separate(part, case)
-            return 1.0 - hi, 1.0 - lo
+            return degree_of_negation(_separate(part, case))
         case All(parts):
-            found = [_separate(part, case) for part in parts]
-            return math.prod([p[0] for p in found]), math.prod([p[1] for p in found])
+            return independent_conjunction(*[_separate(it, case) for it in parts])
         case AnyOf(parts):
-            found = [_separate(part, case) for part in parts]
-            return _any([p[0] for p in found]), _any([p[1] for p in found])
-
-
-def _any(found: list[float]) -> float:
-    """The probability of at least one; rounding does not take it below any of them."""
-    missed = math.prod([1.0 - p for p in found])
-    return max(1.0 - missed, max(found, default=0.0))
+            return independent_disjunction(*[_separate(it, case) for it in parts])
 
 
 def bounds(event: Event) -> Degree:
@@ -107,6 +104,6 @@ def bounds(event: Event) -> Degree:
         case Not(part):
             return degree_of_negation(bounds(part))
         case All(parts):
-            return bounds_of_all([bounds(part) for part in parts])
+            return frechet_conjunction(*[bounds(part) for part in parts])
         case AnyOf(parts):
-            return bounds_of_any([bounds(part) for part in parts])
+            return frechet_disjunction(*[bounds(part) for part in parts])

@@ -24,24 +24,6 @@ _Conjunction: TypeAlias = Callable[[Degree, Degree], Degree]
 """The probability of a conjunction, from those of its two parts."""
 
 
-def independent_conjunction(p: Degree, q: Degree) -> Degree:
-    """p · q: the probability of both of two independent events.
-
-    >>> print(independent_conjunction(Degree(0.5, 0.5), Degree(0.25, 1.0)))
-    [0.125, 0.5]
-    """
-    return Degree(p.lo * q.lo, p.hi * q.hi)
-
-
-def frechet_conjunction(p: Degree, q: Degree) -> Degree:
-    """[max(0, p + q − 1), min(p, q)]: the Fréchet bounds of the probability of both.
-
-    >>> print(frechet_conjunction(Degree(0.75, 0.75), Degree(0.5, 0.5)))
-    [0.25, 0.5]
-    """
-    return Degree(max(0.0, p.lo + q.lo - 1.0), min(p.hi, q.hi))
-
-
 @dataclass(frozen=True)
 class Beliefs:
     """Sets of states, one of which is reached, with their probabilities.

@@ -16,7 +16,7 @@ from ttr.errors import IllFormedError, RefusedError, UnsupportedError
 from ttr.judging.assignments import Assignment
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
-from ttr.probability.degrees import bounds_of_all, bounds_of_any
+from ttr.probability.degrees import frechet_conjunction, frechet_disjunction
 from ttr.safety.budgets import spend, within_budget
 from ttr.semantics.modality.necessity import (
     ModalAnswer,
@@ -91,7 +91,7 @@ class Notion:
             return names
         found = {name: self._degree_or_unknown(name, P) for name in names}
         worst = min(found, key=lambda name: found[name])
-        p = bounds_of_all(list(found.values()))
+        p = frechet_conjunction(*found.values())
         if p == CERTAIN:
             return ModalAnswer(p, _describe_success(P, names))
         return ModalAnswer(p, _describe_failure(P, worst, found[worst]), worst)
@@ -108,7 +108,7 @@ class Notion:
             return names
         found = {name: self._degree_or_unknown(name, P) for name in names}
         best = max(found, key=lambda name: found[name])
-        p = bounds_of_any(list(found.values()))
+        p = frechet_disjunction(*found.values())
         if p == REFUTED:
             return ModalAnswer(p, _describe_failure(P, " or ".join(names), p))
         if p == CERTAIN:

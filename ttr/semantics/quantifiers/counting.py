@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ttr.probability import CERTAIN, REFUTED, Degree
-from ttr.probability.degrees import degree_of_negation
+from ttr.probability.degrees import degree_of_negation, independent_conjunction
 from ttr.semantics.quantifiers.thresholds import Threshold
 
 EXACT = 500
@@ -36,8 +36,8 @@ def independent_chances(p: Degree, q: Degree) -> Chances:
     >>> print(found.first, found.both, found.only)
     0.5 [0.25, 0.5] [0, 0.25]
     """
-    both = Degree(p.lo * q.lo, p.hi * q.hi)
-    return Chances(p, both, Degree(p.lo * (1.0 - q.hi), p.hi * (1.0 - q.lo)))
+    only = independent_conjunction(p, degree_of_negation(q))
+    return Chances(p, independent_conjunction(p, q), only)
 
 
 def chance_of(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -11,7 +10,12 @@ from ttr.judging.assignments import head
 from ttr.judging.judgements import Why
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
-from ttr.probability.degrees import bounds_of_all, bounds_of_any
+from ttr.probability.degrees import (
+    frechet_conjunction,
+    frechet_disjunction,
+    independent_conjunction,
+    independent_disjunction,
+)
 from ttr.types.interning import identity
 from ttr.types.objects import Missing, Object, Record
 from ttr.types.syntax import Basic, PType, RecordType, TypeNode
@@ -88,10 +92,9 @@ def all_true(grounds: list[Truth]) -> tuple[Degree, Atoms]:
     atoms = frozenset[Hashable]().union(*(found.atoms for found in grounds))
     if REFUTED in degrees:
         return REFUTED, frozenset()
-    if _are_independent(grounds, atoms):
-        lo, hi = math.prod(p.lo for p in degrees), math.prod(p.hi for p in degrees)
-        return Degree(lo, hi), atoms
-    return bounds_of_all(degrees), atoms
+    apart = _are_independent(grounds, atoms)
+    conjunction = independent_conjunction if apart else frechet_conjunction
+    return conjunction(*degrees), atoms
 
 
 def one_true(T: TypeNode, truths: Iterable[Truth], rule: str) -> Truth:
@@ -100,13 +103,10 @@ def one_true(T: TypeNode, truths: Iterable[Truth], rule: str) -> Truth:
     sure = next((found for found in grounds if found.p == CERTAIN), None)
     if sure is not None:
         return Truth(CERTAIN, _sum_up(T, sure, CERTAIN, rule, [sure]))
-    degrees = [found.p for found in grounds]
     atoms = frozenset[Hashable]().union(*(found.atoms for found in grounds))
-    if _are_independent(grounds, atoms):
-        low = 1.0 - math.prod(1.0 - p.lo for p in degrees)
-        p = Degree(low, 1.0 - math.prod(1.0 - p.hi for p in degrees))
-    else:
-        p = bounds_of_any(degrees)
+    apart = _are_independent(grounds, atoms)
+    disjunction = independent_disjunction if apart else frechet_disjunction
+    p = disjunction(*[found.p for found in grounds])
     best = max(grounds, key=lambda found: found.p.lo, default=None)
     shown = sorted(grounds, key=lambda found: -found.p.hi)[:SHOWN]
     return Truth(p, _sum_up(T, best, p, rule, shown), atoms)

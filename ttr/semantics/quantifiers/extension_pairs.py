@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from ttr.judging.judgements import Why
 from ttr.probability import CERTAIN, REFUTED, Degree
-from ttr.probability.degrees import bounds_of_all
+from ttr.probability.degrees import frechet_conjunction
 from ttr.semantics.quantifiers.counting import Chances, independent_chances
 from ttr.semantics.quantifiers.degrees_of_truth import Atoms
 from ttr.semantics.quantifiers.extensions import Member
@@ -98,4 +98,4 @@ def _chances(one: Member, other: Member) -> Chances:
     if one.atoms.isdisjoint(other.atoms):
         return independent_chances(p, q)
     only = Degree(max(0.0, p.lo - q.hi), min(p.hi, 1.0 - q.lo))
-    return Chances(p, bounds_of_all([p, q]), only)
+    return Chances(p, frechet_conjunction(p, q), only)
