@@ -26,7 +26,7 @@ from ttr.hooks import hook
 from ttr.judging.assignments import Assignment
 from ttr.judging.degrees_of_claims import explain_probability, probability_of
 from ttr.judging.dependence_analysis import dependence
-from ttr.judging.judgements import How, Why, combine_events
+from ttr.judging.judgements import How, Why, combine_events, degree_if_decided
 from ttr.judging.stated_dependence import Atom, Claim
 from ttr.judging.string_segmentation import Segmentation, describe_stop, events_in_words
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
@@ -358,7 +358,7 @@ class _Derivation(Evaluator[Why]):
         grounds: Iterable[Why],
     ) -> Why:
         grounds = tuple(grounds)
-        p = _decide(how, [ground.p for ground in grounds])
+        p = degree_if_decided(how, [ground.p for ground in grounds])
         if p is not None:
             return Why(sit, T, p, rule, grounds, where, how)
         known = dependence(self.facts, claims_of(grounds))
@@ -482,18 +482,6 @@ def claims_of(grounds: Iterable[Why]) -> dict[Claim, Degree]:
         for step in ground.uncertain()
         if isinstance(step.type, Basic | PType)
     }
-
-
-def _decide(how: How, degrees: list[Degree]) -> Degree | None:
-    """The degree of a claim if its certain grounds settle it; else None."""
-    if how == "all":
-        if REFUTED in degrees:
-            return REFUTED
-        return CERTAIN if all(p == CERTAIN for p in degrees) else None
-    some = CERTAIN in degrees
-    if not some and any(p != REFUTED for p in degrees):
-        return None
-    return CERTAIN if some == (how == "any") else REFUTED
 
 
 # --- applications --------------------------------------------------------------------

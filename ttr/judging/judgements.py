@@ -151,6 +151,21 @@ def combine_events(how: How, parts: Sequence[Why]) -> Event:
     raise assert_never(how)
 
 
+def degree_if_decided(how: How, degrees: Sequence[Degree | None]) -> Degree | None:
+    """The degree of a claim if its certain or refuted grounds decide it; else None.
+
+    None among the degrees is one that is not known.
+    """
+    if how == "all":
+        if REFUTED in degrees:
+            return REFUTED
+        return CERTAIN if all(p == CERTAIN for p in degrees) else None
+    some = CERTAIN in degrees
+    if not some and any(p != REFUTED for p in degrees):
+        return None
+    return CERTAIN if some == (how == "any") else REFUTED
+
+
 def _describe_types(facts: Assignment, sit: Object) -> str:
     kinds = sorted(str(kind) for kind in facts.types_of(sit))
     shown = ", ".join(kinds[:SHOWN]) + ", …" * (len(kinds) > SHOWN)

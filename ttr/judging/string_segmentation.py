@@ -18,7 +18,7 @@ from ttr.computing.strings.automaton_runs import (
 from ttr.computing.strings.automaton_steps import Automaton
 from ttr.judging.assignments import Assignment
 from ttr.judging.automaton_filter import start_filter
-from ttr.judging.judgements import Why
+from ttr.judging.judgements import Why, degree_if_decided
 from ttr.judging.stated_dependence import Atom
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import spend
@@ -144,11 +144,11 @@ class Segmentation:
         spend()
         match T:
             case Join(parts):
-                return _any([self._decide(event, part) for part in parts])
+                return degree_if_decided("any", [self._decide(event, S) for S in parts])
             case Meet(parts):
-                return _all([self._decide(event, part) for part in parts])
+                return degree_if_decided("all", [self._decide(event, S) for S in parts])
             case Negation(body):
-                return _DENIED.get(self._decide(event, body))
+                return degree_if_decided("none", [self._decide(event, body)])
         atom = self._atom(T)
         if atom is None:
             return None
@@ -183,21 +183,6 @@ class Segmentation:
         if known is None:
             known = self._known[key] = self._derives(event, T)
         return known
-
-
-_DENIED: dict[Degree | None, Degree] = {CERTAIN: REFUTED, REFUTED: CERTAIN}
-
-
-def _any(degrees: list[Degree | None]) -> Degree | None:
-    if CERTAIN in degrees:
-        return CERTAIN
-    return None if None in degrees else REFUTED
-
-
-def _all(degrees: list[Degree | None]) -> Degree | None:
-    if REFUTED in degrees:
-        return REFUTED
-    return None if None in degrees else CERTAIN
 
 
 def describe_stop(facts: Assignment, sit: EventString, stop: Stop) -> str:
