@@ -1,4 +1,4 @@
-"""Laws of sieves: what they leave out could not be, so that nothing else changes."""
+"""Laws of rule indexes: what they leave out could not be, so nothing else changes."""
 
 from unittest.mock import patch
 
@@ -17,7 +17,7 @@ from ttr.semantics.gameboards import kos
 from ttr.semantics.questions import which
 from ttr.updates import First
 
-# --- what a sieve leaves out ----------------------------------------------------------
+# --- what an index leaves out ---------------------------------------------------------
 
 
 @given(st.lists(types(), min_size=1, max_size=5), objects(), models())
@@ -31,21 +31,23 @@ def test_what_is_left_out_is_certainly_not_so(several, a, M):
 def test_what_is_open_is_left():
     ask, tell = Pred("ask", Ind), Pred("tell", Ind)
     asks, tells = rectype(e=ask("a")), rectype(e=tell("a"))
-    sieve = RuleIndex(map(demands_of, (asks, tells)))
+    index = RuleIndex(map(demands_of, (asks, tells)))
     told = Model().given("a", Ind).given("s1", ask("a"))
-    assert list(sieve.possible_demands(record(e="s1"), told.facts)) == [0]
-    assert list(sieve.possible_demands(record(e="s2"), told.facts)) == []
-    assert list(sieve.possible_demands(record(x="s1"), told.facts)) == []
+    assert list(index.possible_demands(record(e="s1"), told.facts)) == [0]
+    assert list(index.possible_demands(record(e="s2"), told.facts)) == []
+    assert list(index.possible_demands(record(x="s1"), told.facts)) == []
     seen = told.witnessed(tell, by=lambda x: 1.0)
-    assert list(sieve.possible_demands(record(e="s1"), seen.facts)) == [0, 1]
+    assert list(index.possible_demands(record(e="s1"), seen.facts)) == [0, 1]
 
 
 # --- the games go on as they would without --------------------------------------------
 
 
-def without_sieves():
+def without_indexes():
     """Every part is tried, of strategies and of joins."""
-    return patch.object(RuleIndex, "left", lambda self, sit, facts: range(len(self)))
+    return patch.object(
+        RuleIndex, "possible_demands", lambda self, sit, facts: range(len(self))
+    )
 
 
 def traced(game, events):
@@ -101,9 +103,9 @@ SAYINGS = st.sampled_from(
 
 @settings(max_examples=15, deadline=None)
 @given(texts=st.lists(SAYINGS, min_size=1, max_size=6))
-def test_lessons_go_on_as_without_sieves(lessons, texts):
+def test_lessons_go_on_as_without_indexes(lessons, texts):
     events = [GLANCE, *map(lessons.hear, texts)]
-    with without_sieves():
+    with without_indexes():
         expected = traced(lessons, events)
     assert traced(lessons, events) == expected
 
@@ -123,13 +125,13 @@ MOVES = st.sampled_from(
 
 
 @given(st.lists(MOVES, min_size=1, max_size=6))
-def test_gameboards_go_on_as_without_sieves(moves):
+def test_gameboards_go_on_as_without_indexes(moves):
     model = Model()
     for name in ("a", "b", "kim"):
         model = model.given(name, Ind)
     board = kos.game(model, "a", "b")
     events = list(map(kos.utterance, moves))
-    with without_sieves():
+    with without_indexes():
         expected = traced(board, events)
     assert traced(board, events) == expected
 
@@ -142,7 +144,7 @@ def test_most_rules_of_the_lessons_are_left_out(lessons):
         and len(part.part.parts) > len(SIGNS) * 3
     )
     said = lessons.take(lessons.begin(), lessons.hear("Hello."))
-    left = answering.sieve.possible_demands(
+    left = answering.rule_index.possible_demands(
         said.trace[0].after, said.trace[0].model.facts
     )
     assert 0 < len(left) < len(answering.parts) / 2

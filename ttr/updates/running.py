@@ -183,7 +183,7 @@ class _Player:
                     error.steps = error.steps or so_far.trace
                     raise
             case First(parts):
-                for number in algorithm.sieve.possible_demands(
+                for number in algorithm.rule_index.possible_demands(
                     so_far.state, so_far.model.facts
                 ):
                     after = self.play(parts[number], so_far)

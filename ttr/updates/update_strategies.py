@@ -34,7 +34,7 @@ class First:
         return _format_call("first", self.parts)
 
     @cached_property
-    def sieve(self) -> RuleIndex:
+    def rule_index(self) -> RuleIndex:
         """An index of the parts that excludes those that cannot apply to a state."""
         return RuleIndex(map(_demands_of_strategy, self.parts))
 
