@@ -24,7 +24,6 @@ from ttr.types.objects import (
 )
 from ttr.types.paths import parts as contents
 from ttr.types.precedence import (
-    WORDS,
     begins_with_bracket,
     binds,
     holds_as_head,
@@ -32,6 +31,7 @@ from ttr.types.precedence import (
     is_loose_beside,
 )
 from ttr.types.printing import Scope, as_object, format_head, notation, variable
+from ttr.types.reserved_words import WORDS
 from ttr.types.syntax import (
     Application,
     Basic,

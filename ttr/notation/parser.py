@@ -15,6 +15,7 @@ from collections.abc import Callable
 from ttr.errors import NotationError
 from ttr.notation import syntax_trees as trees
 from ttr.notation.scanning import LETTER_OR_DIGIT, check_characters
+from ttr.notation.syntax_errors import KEYWORDS
 from ttr.notation.syntax_trees import Source, Statement, Term
 from ttr.notation.term_parser import ANY, FUNCTION, SIMPLE, TermParser
 from ttr.notation.tokens import NAME, PATH, QUOTED
@@ -291,18 +292,9 @@ class _Parser(TermParser):
 
 
 _STATEMENTS: dict[str, Callable[[_Parser, int], Statement]] = {
-    "basic": _Parser._basic,
-    "check": _Parser._check,
-    "game": _Parser._game,
-    "given": _Parser._given,
-    "import": _Parser._import,
-    "object": _Parser._object,
-    "open": _Parser._open,
-    "pred": _Parser._pred,
-    "rule": _Parser._rule,
-    "strategy": _Parser._strategy,
+    keyword: getattr(_Parser, f"_{keyword}") for keyword in KEYWORDS
 }
-"""The keywords, and the method that parses what follows each of them."""
+"""The keywords, and the method, of the same name, that parses what follows each."""
 
 _BEFORE_NAMES = ("game", "rule", "strategy")
 """Keywords only before a name: other things may be called `game`, too."""

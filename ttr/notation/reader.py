@@ -67,27 +67,20 @@ from ttr.types.objects import (
     UnresolvedError,
     check_label,
     concat,
-    fst,
-    rst,
 )
-from ttr.types.printing import RESERVED, Scope
+from ttr.types.printing import Scope
+from ttr.types.reserved_words import LIST_OPERATIONS, LOGICAL, RESERVED, WORDS
 from ttr.types.substitution import follow_path
 from ttr.types.syntax import (
     Application,
     Function,
     FunType,
-    ListOf,
     Negation,
-    NonEmpty,
-    Plus,
     Pred,
     Rec,
     RecordType,
-    RecType,
-    SetOf,
     Singleton,
     Str,
-    Type,
     TypeNode,
     Universe,
     apply_to,
@@ -96,14 +89,8 @@ from ttr.types.syntax import (
     meet,
 )
 
-LOGICAL: Mapping[str, TypeNode] = {"Type": Type, "RecType": RecType, "Rec": Rec}
-"""The types that every theory has."""
-
 _TYPE_CONSTRUCTORS: Mapping[str, Callable[[TypeNode], TypeNode]] = {
-    "list": ListOf,
-    "nelist": NonEmpty,
-    "set": SetOf,
-    "plus": Plus,
+    **{word: kind for kind, word in WORDS.items() if kind is not Str},
     "star": star,
 }
 """Words that make a type of a type in brackets."""
@@ -117,10 +104,7 @@ _TYPE_OPERATIONS: Mapping[str, Callable[[TypeNode, TypeNode, Signature], TypeNod
 _NOT_RESERVED = frozenset(("star", *_TYPE_OPERATIONS))
 """Words that a theory may declare: then they mean what it says."""
 
-_LIST_OPERATIONS: Mapping[str, Callable[[Object], Object]] = {"fst": fst, "rst": rst}
-"""Words that make an object of a list in brackets."""
-
-_BUILT_IN = ("str", *_TYPE_CONSTRUCTORS, *_TYPE_OPERATIONS, *_LIST_OPERATIONS)
+_BUILT_IN = ("str", *_TYPE_CONSTRUCTORS, *_TYPE_OPERATIONS, *LIST_OPERATIONS)
 
 _B = TypeVar("_B", Function, FunType)
 
@@ -134,7 +118,7 @@ def parse(text: str, using: Iterable[object] = ()) -> Object:
     types and objects in which they occur. Raises `NotationError` if the text is no
     notation, and `IllFormedError` if the type is ill-formed.
 
-    >>> from ttr import Ind
+    >>> from ttr import Ind, ListOf
     >>> parse("list(Ind)", using=[Ind]) is ListOf(Ind)
     True
     """
@@ -338,9 +322,7 @@ class Reader:
             self.refuse(term, f"{word} takes one {kind}, but has {len(term.args)}")
         if word in _TYPE_CONSTRUCTORS:
             return _TYPE_CONSTRUCTORS[word](self.type(term.args[0], scope))
-        return self._apply(
-            term, _LIST_OPERATIONS[word], self._objects(term.args, scope)
-        )
+        return self._apply(term, LIST_OPERATIONS[word], self._objects(term.args, scope))
 
     def _merge_of(self, term: Call, word: str, scope: Scope) -> TypeNode:
         """merge(S, T) or amerge(S, T)."""

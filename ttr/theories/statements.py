@@ -9,7 +9,7 @@ from functools import cached_property
 from ttr.errors import suggestion
 from ttr.notation import syntax_trees as trees
 from ttr.notation.names import is_declared
-from ttr.notation.reader import LOGICAL, Reader
+from ttr.notation.reader import Reader
 from ttr.notation.syntax_trees import (
     Application,
     Arity,
@@ -28,7 +28,7 @@ from ttr.theories.strategy_statements import kinds_gathered, read_strategy
 from ttr.theories.theory_draft import Draft
 from ttr.types.objects import Object, Path
 from ttr.types.paths import free_paths
-from ttr.types.printing import RESERVED
+from ttr.types.reserved_words import LOGICAL, RESERVED
 from ttr.types.syntax import Basic, Pred, PType
 
 

@@ -19,9 +19,8 @@ from ttr.types.objects import (
     Record,
     UnresolvedError,
     concat,
-    fst,
-    rst,
 )
+from ttr.types.reserved_words import LIST_OPERATIONS
 from ttr.types.syntax import (
     Application,
     Function,
@@ -119,7 +118,7 @@ def map_parts(value: Object, change: Callable[[Object, int], Object]) -> Object:
     return value
 
 
-_OPERATIONS: dict[str, Callable[..., Object]] = {"+": concat, "fst": fst, "rst": rst}
+_OPERATIONS: dict[str, Callable[..., Object]] = {"+": concat, **LIST_OPERATIONS}
 
 
 def _apply_operation(name: str, args: Parts) -> Object:

@@ -1,4 +1,4 @@
-"""Where the notation needs brackets, and its words: one rule for printing and display.
+"""Where the notation needs brackets: one rule for printing and display.
 
 From the loosest to the tightest: the dot of a function, arrow, join, meet, sum,
 negation, `@`, application. An arrow always stands in brackets of its own.
@@ -14,24 +14,10 @@ from ttr.types.syntax import (
     Function,
     FunType,
     Join,
-    ListOf,
     Meet,
     Negation,
-    NonEmpty,
-    Plus,
-    SetOf,
     Singleton,
-    Str,
 )
-
-WORDS: dict[type, str] = {
-    ListOf: "list",
-    NonEmpty: "nelist",
-    SetOf: "set",
-    Plus: "plus",
-    Str: "str",
-}
-"""Types that are written as a word with types in brackets."""
 
 
 def is_loose(value: Object) -> bool:
@@ -50,7 +36,7 @@ def is_loose(value: Object) -> bool:
 def is_loose_beside(value: Object) -> bool:
     """Does it need brackets beside `@` or `+`, before an arrow, or as an event?
 
-    >>> from ttr import Ind
+    >>> from ttr import Ind, ListOf
     >>> is_loose_beside(~Ind), is_loose_beside(ListOf(Ind))
     (True, False)
     >>> print(~Ind @ "a", ListOf(Ind) @ "l")

@@ -27,13 +27,13 @@ from ttr.types.objects import (
 from ttr.types.paths import parts as contents
 from ttr.types.paths import replace_paths, subterms
 from ttr.types.precedence import (
-    WORDS,
     begins_with_bracket,
     binds,
     holds_as_head,
     is_loose,
     is_loose_beside,
 )
+from ttr.types.reserved_words import RESERVED, WORDS
 from ttr.types.syntax import (
     Application,
     Basic,
@@ -292,10 +292,6 @@ def _name(name: str, scope: Scope) -> str:
     if bare and not _is_hidden(scope, name):
         return name
     return json_text(name)
-
-
-RESERVED = frozenset((*WORDS.values(), "Type", "RecType", "Rec", "fst", "rst", "fun"))
-"""The words of the notation, which name nothing else."""
 
 
 def _size(value: object) -> object:

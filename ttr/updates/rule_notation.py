@@ -12,7 +12,8 @@ from ttr.escapes import json_text
 from ttr.probability import CERTAIN, Degree
 from ttr.signature.signature import Opening
 from ttr.types.objects import Object
-from ttr.types.printing import RESERVED, as_object, notation
+from ttr.types.printing import as_object, notation
+from ttr.types.reserved_words import RESERVED
 from ttr.updates.rules import Body, Rule
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from ttr.cli.session.sessions import Session
 from ttr.notation.syntax_errors import KEYWORDS
 from ttr.types.objects import Record
 from ttr.types.paths import subterms
-from ttr.types.printing import RESERVED
+from ttr.types.reserved_words import RESERVED
 from ttr.types.syntax import RecordType
 
 
