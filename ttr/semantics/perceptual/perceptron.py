@@ -10,6 +10,7 @@ A perceptron says 1 or 0; a graded perceptron says a number in between.
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from ttr.errors import TTRError
@@ -37,7 +38,45 @@ def blank(dimensions: int) -> Record:
 
 
 @dataclass(frozen=True)
-class Perceptron:
+class _Linear(ABC):
+    """What the perceptrons share: only what they make of w · x − t is their own."""
+
+    rate: float = 1.0
+    threshold_rate: float | None = None
+
+    def __post_init__(self) -> None:
+        _check_rates(self.rate, self.threshold_rate)
+
+    @abstractmethod
+    def _activation(self, z: float) -> float:
+        """The degree where w · x − t is z."""
+
+    def score(self, params: Record, x: Object, /) -> float:
+        """w · x, which is compared with the threshold."""
+        w, _, x = _weights_and_percept(params, x)
+        return dot(w, x)
+
+    def degree(self, params: Record, x: Object, /) -> float:
+        """The degree to which the percept is of the class, from 0 to 1."""
+        w, t, x = _weights_and_percept(params, x)
+        return self._activation(dot(w, x) - t)
+
+    def confirmed(self, params: Record, x: Object, /) -> Record:
+        """The parameters after a step towards yes; the same if none is needed."""
+        return self._step(params, x, 1.0)
+
+    def rejected(self, params: Record, x: Object, /) -> Record:
+        """The parameters after a step towards no; the same if none is needed."""
+        return self._step(params, x, 0.0)
+
+    def _step(self, params: Record, x: Object, wanted: float) -> Record:
+        w, t, x = _weights_and_percept(params, x)
+        error = wanted - self._activation(dot(w, x) - t)
+        return _take_step(params, x, error, self.rate, self.threshold_rate)
+
+
+@dataclass(frozen=True)
+class Perceptron(_Linear):
     """Yes where w · x > t, else no; it learns only from its mistakes.
 
     A correction is one step of Rosenblatt's rule. Where it says no and should say yes,
@@ -54,41 +93,15 @@ class Perceptron:
     {t = -0.41000000000000003, w = [0.8500000000000001, 0.26]}
     """
 
-    rate: float = 1.0
-    threshold_rate: float | None = None
-
-    def __post_init__(self) -> None:
-        _check_rates(self.rate, self.threshold_rate)
-
     def __str__(self) -> str:
         return f"a perceptron{_rates_in_words(self.rate, self.threshold_rate)}"
 
-    def score(self, params: Record, x: Object, /) -> float:
-        """w · x, which is compared with the threshold."""
-        w, _, x = _weights_and_percept(params, x)
-        return dot(w, x)
-
-    def degree(self, params: Record, x: Object, /) -> float:
-        """1 if w · x > t, else 0."""
-        w, t, x = _weights_and_percept(params, x)
-        return float(dot(w, x) > t)
-
-    def confirmed(self, params: Record, x: Object, /) -> Record:
-        """The parameters after a step towards yes, if one is needed."""
-        return self._step(params, x, 1.0)
-
-    def rejected(self, params: Record, x: Object, /) -> Record:
-        """The parameters after a step towards no, if one is needed."""
-        return self._step(params, x, 0.0)
-
-    def _step(self, params: Record, x: Object, wanted: float) -> Record:
-        w, t, x = _weights_and_percept(params, x)
-        error = wanted - (dot(w, x) > t)
-        return _take_step(params, x, error, self.rate, self.threshold_rate)
+    def _activation(self, z: float) -> float:
+        return float(z > 0.0)
 
 
 @dataclass(frozen=True)
-class GradedPerceptron:
+class GradedPerceptron(_Linear):
     """The degree 1 / (1 + exp(−steepness · (w · x − t))), by the logistic function.
 
     It learns from every lesson, in proportion to its error (the delta rule, which for
@@ -99,12 +112,10 @@ class GradedPerceptron:
     0.959
     """
 
-    rate: float = 1.0
-    threshold_rate: float | None = None
     steepness: float = 10.0
 
     def __post_init__(self) -> None:
-        _check_rates(self.rate, self.threshold_rate)
+        super().__post_init__()
         if not finite_number(self.steepness, "the steepness of a perceptron") > 0.0:
             raise TTRError(
                 f"the steepness of a perceptron is above 0, found {self.steepness!r}"
@@ -114,28 +125,8 @@ class GradedPerceptron:
         rates = _rates_in_words(self.rate, self.threshold_rate)
         return f"a graded perceptron{rates}, steepness {self.steepness:g}"
 
-    def score(self, params: Record, x: Object, /) -> float:
-        """w · x, which is compared with the threshold."""
-        w, _, x = _weights_and_percept(params, x)
-        return dot(w, x)
-
-    def degree(self, params: Record, x: Object, /) -> float:
-        """The logistic function of steepness · (w · x − t)."""
-        w, t, x = _weights_and_percept(params, x)
-        return logistic(self.steepness * (dot(w, x) - t))
-
-    def confirmed(self, params: Record, x: Object, /) -> Record:
-        """The parameters after a step towards yes."""
-        return self._step(params, x, 1.0)
-
-    def rejected(self, params: Record, x: Object, /) -> Record:
-        """The parameters after a step towards no."""
-        return self._step(params, x, 0.0)
-
-    def _step(self, params: Record, x: Object, wanted: float) -> Record:
-        w, t, x = _weights_and_percept(params, x)
-        error = wanted - logistic(self.steepness * (dot(w, x) - t))
-        return _take_step(params, x, error, self.rate, self.threshold_rate)
+    def _activation(self, z: float) -> float:
+        return logistic(self.steepness * z)
 
 
 def _weights_and_percept(params: Record, x: Object) -> tuple[Vector, float, Vector]:
