@@ -133,19 +133,15 @@ def performed(act: TypeAct, model: Model) -> Outcome:
             sit = freeze(sit)
             extended = model.given(sit, T)
             return Outcome(act, (extended.judge(sit, T),), extended)
-        case JudgeSome(T):
-            known = _known_judgements(T, model)
-            if known:
-                return Outcome(act, known[:1], model)
+        case JudgeSome(T) if known := _known_judgements(T, model):
+            return Outcome(act, known[:1], model)
+        case JudgeSome(T) | Create(T):
             sit, extended = model.create(T)
             return Outcome(act, (extended.judge(sit, T),), extended)
         case Query(sit, T):
             return Outcome(act, (model.judge(sit, T),), model)
         case QuerySome(T):
             return Outcome(act, _known_judgements(T, model), model)
-        case Create(T):
-            sit, extended = model.create(T)
-            return Outcome(act, (extended.judge(sit, T),), extended)
     raise TTRError(f"an act is one of ttr.judging.type_acts, found {kind_of(act)}")
 
 
