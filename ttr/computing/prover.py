@@ -15,6 +15,7 @@ from itertools import combinations_with_replacement
 from typing import assert_never
 
 from ttr.computing.case_analysis import Clause, cases, clauses
+from ttr.computing.findings import YES, Finding, Where, every, no
 from ttr.computing.generic_witness import (
     ITSELF,
     Assumption,
@@ -62,30 +63,6 @@ from ttr.types.syntax import (
 
 ASSUMPTIONS = 24
 """How many assumptions may be nested before a question is left open."""
-
-
-@dataclass(frozen=True)
-class Finding:
-    """Is something derivable? If not, under which assumptions it failed.
-
-    `reason` makes the reason in words, and is called only when somebody asks: to print
-    types takes longer than to compare them.
-    """
-
-    yes: bool
-    reason: Callable[[], str] | None = None
-    assumed: tuple[Assumption, ...] = ()
-
-    @property
-    def why(self) -> str:
-        """Why, or why not; the empty string where there is nothing to say."""
-        return self.reason() if self.reason else ""
-
-
-_YES = Finding(True)
-
-Where = tuple[str, ...]
-"""The labels that lead from the witness to the field in question."""
 
 
 @dataclass(frozen=True)
@@ -179,16 +156,16 @@ class Prover:
         term = self.witness.normalise(term)
         known = self._types_of(term)
         if any(one is T for one in known):
-            return _YES
+            return YES
         if self.is_judged and _is_closed(term, T) and self.is_judged(term, T):
-            return _YES
+            return YES
         found = self._prove_by_form(term, T, where)
         if found.yes:
             return found
         if self._follows_in_each_case(term, T, known):
-            return _YES
+            return YES
         if isinstance(term, Application) and self._follows_from_function(term, T):
-            return _YES
+            return YES
         return found
 
     def _prove_by_form(self, term: Object, T: TypeNode, where: Where) -> Finding:
@@ -198,7 +175,7 @@ class Prover:
             case Singleton(base, value):
                 return self._prove_singleton(term, base, value, where)
             case Meet(parts):
-                return _every(self.prove(term, part, where) for part in parts)
+                return every(self.prove(term, part, where) for part in parts)
             case Join() | Negation():
                 return self._prove_clauses(term, T, where)
             case ListOf(item) | NonEmpty(item) | SetOf(item):
@@ -221,7 +198,7 @@ class Prover:
         wanted = self.witness.normalise(T)
         for known in self._types_of(term):
             if known is wanted:
-                return _YES
+                return YES
             if not isinstance(known, Basic | PType):
                 continue
             for axiom, upper in supertypes(known, self.theory.axioms):
@@ -248,17 +225,17 @@ class Prover:
         wanted = self._apply_functions(self.witness.normalise(value))
         if self.witness.are_equal(term, wanted):
             return self.prove(term, base, where)
-        return _no(where, partial(self._why_not_equal, wanted, where))
+        return no(where, partial(self._why_not_equal, wanted, where))
 
     def _prove_universe(self, term: Object, T: Universe, where: Where) -> Finding:
         if isinstance(term, TypeNode) and not isinstance(term, Application):
             outside = why_outside(term, T)
             if not outside:
-                return _YES
-            return _no(where, lambda: f"{self._format(term)}: {outside}")
+                return YES
+            return no(where, lambda: f"{self._format(term)}: {outside}")
         for known in self._types_of(term):
             if isinstance(known, Universe) and _is_among(known, T):
-                return _YES
+                return YES
         return self._not_below(term, T, where)
 
     # --- joins and negations ---
@@ -266,8 +243,8 @@ class Prover:
     def _prove_clauses(self, term: Object, T: TypeNode, where: Where) -> Finding:
         found = clauses(T)
         if found is None:
-            return _no(where, lambda: f"{self._format(T)} has too many cases")
-        return _every(self._prove_clause(term, clause, T, where) for clause in found)
+            return no(where, lambda: f"{self._format(T)} has too many cases")
+        return every(self._prove_clause(term, clause, T, where) for clause in found)
 
     def _prove_clause(
         self, term: Object, clause: Clause, T: TypeNode, where: Where
@@ -277,17 +254,17 @@ class Prover:
         denied = [part for part in clause if isinstance(part, Negation)]
         known = self._types_of(term)
         if any(self.witness.normalise(part) in known for part in denied):
-            return _YES
+            return YES
         found = self._prove_one_of(term, plain, where)
         if found.yes:
-            return _YES
+            return YES
         further = self._assume_new([(term, part.body) for part in denied])
         if further is not self:
             if further.is_impossible:
-                return _YES
+                return YES
             found = further._prove_one_of(term, plain, ())
         if found.yes:
-            return _YES
+            return YES
         why_not = self._not_below(term, T, where)
         return replace(why_not, assumed=found.assumed or further.assumed)
 
@@ -296,7 +273,7 @@ class Prover:
     ) -> Finding:
         """Is the term of one of the types, or a string of their join?"""
         if any(self.prove(term, part, where).yes for part in parts):
-            return _YES
+            return YES
         strings = [part for part in parts if is_of_strings(part)]
         return self._included_in(term, join(*strings)) if strings else Finding(False)
 
@@ -340,7 +317,7 @@ class Prover:
             return self._prove_computed_list(term, T, where)
         written = _written_elements(term, T)
         if written is not None:
-            return _every(self.prove(one, item, where) for one in written)
+            return every(self.prove(one, item, where) for one in written)
         if not any(
             isinstance(known, _BELOW[type(T)]) for known in self._types_of(term)
         ):
@@ -350,7 +327,7 @@ class Prover:
         place = element(term)
         inside = replace(self, given=self.given | {place})
         if inside._has_misfit or (place not in self.given and inside.is_impossible):
-            return _YES
+            return YES
         return inside.prove(place, item, where)
 
     def _prove_elementwise(
@@ -363,7 +340,7 @@ class Prover:
                 continue
             fits = isinstance(known, _BELOW[type(T)])
             if fits and self._prove_in_cases(one, known.item, _ask_of(one, T.item)).yes:
-                return _YES
+                return YES
         return self._not_below(term, T, where)
 
     def _prove_computed_list(
@@ -375,11 +352,11 @@ class Prover:
         if term.name == "rst" and not there:
             return self._not_below(term, T, where)
         whole = ListOf(T.item)
-        found = _every(self.prove(part, whole, where) for part in term.args)
+        found = every(self.prove(part, whole, where) for part in term.args)
         if not found.yes or isinstance(T, ListOf):
             return found
         if term.name == "+" and any(self.prove(part, T).yes for part in term.args):
-            return _YES
+            return YES
         return self._not_below(term, T, where)
 
     def _prove_string(self, term: Object, T: Str | Plus, where: Where) -> Finding:
@@ -387,7 +364,7 @@ class Prover:
         if events is not None:
             found = automaton(T)
             if accepts(len(events), found, lambda i, U: self.prove(events[i], U).yes):
-                return _YES
+                return YES
         inclusion = self._included_in(term, T)
         if inclusion.yes:
             return inclusion
@@ -419,7 +396,7 @@ class Prover:
             for one in (automaton, automaton_above):
                 found = check_inclusion(one(known), supertypes, inside._is_event_below)
                 if found.yes:
-                    return _YES
+                    return YES
         if found.against is None:
             return Finding(False)
         return Finding(False, None, (*self.assumed, (term, Str(*found.against))))
@@ -460,7 +437,7 @@ class Prover:
             return self._prove_maps(term.domain, term.body, T, where)
         for known in self._types_of(term):
             if isinstance(known, FunType) and self._prove_covers(known, T).yes:
-                return _YES
+                return YES
         return self._not_below(term, T, where)
 
     def _prove_maps(
@@ -507,7 +484,7 @@ class Prover:
         if len(self.assumed) >= ASSUMPTIONS:
             return Finding(False, lambda: "this nests too deep to be followed")
         further = [self.assume((place, case)) for case in _cases(S)]
-        return _every(prove_case(q) for q in further if not q._has_misfit)
+        return every(prove_case(q) for q in further if not q._has_misfit)
 
     def _follows_from_function(self, term: Application, T: TypeNode) -> bool:
         """Is a value of T because of the type of the function that gives it?"""
@@ -524,7 +501,7 @@ class Prover:
     def _prove_application(self, term: Object, T: Application, where: Where) -> Finding:
         wanted = self.witness.normalise(T)
         if any(known is wanted for known in self._types_of(term)):
-            return _YES
+            return YES
         value = self._apply_functions(wanted)
         if isinstance(value, TypeNode) and value is not wanted:
             return self.prove(term, value, where)
@@ -551,11 +528,11 @@ class Prover:
             elif isinstance(term, Path) and any(label in R for R in known):
                 inner = step(term, label)
             else:
-                return _no(where, partial(self._why_no_field, term, label))
+                return no(where, partial(self._why_no_field, term, label))
             found = self.prove(inner, field_type(field, term), (*where, label))
             if not found.yes:
                 return found
-        return _YES
+        return YES
 
     # --- what is known, in words ---
 
@@ -563,7 +540,7 @@ class Prover:
         return self.witness.types_of(term, self.given)
 
     def _not_below(self, term: Object, T: TypeNode, where: Where) -> Finding:
-        return _no(where, partial(self._why_not_below, term, T))
+        return no(where, partial(self._why_not_below, term, T))
 
     def _why_not_below(self, term: Object, T: TypeNode) -> str:
         return f"{self._format_types(term)} is not below {self._format(T)}"
@@ -620,18 +597,6 @@ def _cases(T: TypeNode) -> tuple[TypeNode, ...]:
 def _from_witness(place: Path) -> Path:
     inside = place.labels[: len(ITSELF.labels)] == ITSELF.labels
     return Path(place.up, place.labels[inside:] or place.labels)
-
-
-def _no(where: Where, why: Callable[[], str]) -> Finding:
-    """The finding that something is not derivable, and in which field."""
-    if not where:
-        return Finding(False, why)
-    return Finding(False, lambda: f"in the field {'.'.join(where)}, {why()}")
-
-
-def _every(findings: Iterable[Finding]) -> Finding:
-    """Yes if all findings are; else the first that is not."""
-    return next((found for found in findings if not found.yes), _YES)
 
 
 def _is_among(U: Universe, T: Universe) -> bool:
