@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ttr.computing.case_analysis import cases
-from ttr.computing.path_cycles import has_fields_in_order
 from ttr.computing.findings import Finding
 from ttr.computing.generic_witness import ITSELF, Assumption
+from ttr.computing.path_cycles import has_fields_in_order
 from ttr.computing.prover import Prover
 from ttr.errors import TooLargeError
 from ttr.hooks import hook
