@@ -18,15 +18,11 @@ from ttr.notation.syntax_errors import excerpt
 from ttr.notation.syntax_trees import Application, Literal, Name, Part, Term, inside
 from ttr.updates.update_strategies import (
     Algorithm,
-    All,
-    First,
-    Maybe,
-    Repeat,
-    Seq,
     all_,
     by_class,
     first,
     maybe,
+    parts_of,
     repeat,
     seq,
 )
@@ -66,11 +62,7 @@ def _why_too_large(algorithm: Algorithm) -> str:
             return f"strategies nest at most {DEPTH} deep, with those that they name"
         if count > _PARTS:
             return f"a strategy has at most {_PARTS:,} parts, with those that it names"
-        match one:
-            case Maybe(part) | Repeat(part):
-                waiting.append((part, depth + 1))
-            case First(parts) | All(parts) | Seq(parts):
-                waiting += [(part, depth + 1) for part in parts]
+        waiting += [(part, depth + 1) for part in parts_of(one)]
     return ""
 
 

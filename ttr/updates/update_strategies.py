@@ -211,17 +211,26 @@ def rules_of(algorithm: Algorithm) -> tuple[Rule, ...]:
 
 def rule_occurrences(algorithm: Algorithm) -> Iterator[Rule]:
     """The rules in a strategy, each as often as it occurs."""
+    return (one for one in strategies_in(algorithm) if isinstance(one, Rule))
+
+
+def strategies_in(algorithm: Algorithm) -> Iterator[Algorithm]:
+    """The strategy, then all strategies and rules in it, the outer before the inner."""
+    yield algorithm
+    for part in parts_of(algorithm):
+        yield from strategies_in(part)
+
+
+def parts_of(algorithm: Algorithm) -> tuple[Algorithm, ...]:
+    """The strategies and rules that a strategy is made of; a rule is made of none."""
     match algorithm:
         case Rule():
-            yield algorithm
+            return ()
         case Maybe(part) | Repeat(part):
-            yield from rule_occurrences(part)
+            return (part,)
         case ByClass(classes):
-            for _, members in classes:
-                yield from members
-        case First(parts) | All(parts) | Seq(parts) | Ask(parts):
-            for part in parts:
-                yield from rule_occurrences(part)
+            return tuple(rule for _, members in classes for rule in members)
+    return algorithm.parts
 
 
 def replace_rules(algorithm: Algorithm, rules: Mapping[str, Rule]) -> Algorithm:

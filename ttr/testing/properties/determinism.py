@@ -15,16 +15,7 @@ from ttr.types.records import differences
 from ttr.updates.games import Game
 from ttr.updates.rules import Rule
 from ttr.updates.running import Run, Step
-from ttr.updates.update_strategies import (
-    Algorithm,
-    All,
-    Ask,
-    ByClass,
-    First,
-    Maybe,
-    Repeat,
-    Seq,
-)
+from ttr.updates.update_strategies import Algorithm, ByClass, strategies_in
 
 # --- again ---------------------------------------------------------------------------
 
@@ -94,14 +85,9 @@ def _check_order(dialogue: Dialogue, roles: Roles) -> Breaches:
 
 def _rule_classes(algorithm: Algorithm) -> Iterator[tuple[str, tuple[Rule, ...]]]:
     """The classes of rules whose order is claimed not to matter."""
-    match algorithm:
-        case ByClass(classes):
-            yield from ((kind, rules) for kind, rules in classes if len(rules) > 1)
-        case Maybe(part) | Repeat(part):
-            yield from _rule_classes(part)
-        case First(parts) | All(parts) | Seq(parts) | Ask(parts):
-            for part in parts:
-                yield from _rule_classes(part)
+    for one in strategies_in(algorithm):
+        if isinstance(one, ByClass):
+            yield from ((kind, rules) for kind, rules in one.classes if len(rules) > 1)
 
 
 def _why_order_matters(game: Game, members: tuple[Rule, ...], step: Step) -> str:

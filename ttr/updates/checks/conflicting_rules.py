@@ -12,7 +12,7 @@ from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault, Severity
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.rules import Rule
-from ttr.updates.update_strategies import Algorithm, All, ByClass, Maybe, Repeat
+from ttr.updates.update_strategies import Algorithm, All, ByClass, strategies_in
 
 _Group = tuple[str, Severity, tuple[Rule, ...]]
 """Rules whose order should not matter: their description, severity of a conflict, and
@@ -28,20 +28,14 @@ def find_conflicts(rules: RuleSet) -> Iterator[Fault]:
 
 
 def _unordered_groups(algorithm: Algorithm) -> Iterator[_Group]:
-    match algorithm:
-        case ByClass(classes):
-            for kind, members in classes:
-                yield f"the class {kind}", "error", members
-        case Maybe(part) | Repeat(part):
-            yield from _unordered_groups(part)
-        case All(parts):
-            members = tuple(part for part in parts if isinstance(part, Rule))
-            yield str(algorithm), "warning", members
-            for part in parts:
-                yield from _unordered_groups(part)
-        case _ if not isinstance(algorithm, Rule):
-            for part in algorithm.parts:
-                yield from _unordered_groups(part)
+    for one in strategies_in(algorithm):
+        match one:
+            case ByClass(classes):
+                for kind, members in classes:
+                    yield f"the class {kind}", "error", members
+            case All(parts):
+                members = tuple(part for part in parts if isinstance(part, Rule))
+                yield str(one), "warning", members
 
 
 def _may_both_apply(rules: RuleSet, one: Rule, other: Rule) -> bool:

@@ -12,7 +12,7 @@ from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.state_layout import Labels, leaf_fields
 from ttr.updates.checks.untriggered_rules import may_set
 from ttr.updates.rules import Rule
-from ttr.updates.update_strategies import Algorithm, ByClass, Maybe, Repeat, rules_of
+from ttr.updates.update_strategies import Algorithm, Repeat, rules_of, strategies_in
 
 LONGEST = 60
 """How many characters the name of a repetition may have."""
@@ -61,18 +61,9 @@ def _format_loop(loop: Repeat) -> str:
 
 def _unbounded_loops(algorithm: Algorithm) -> Iterator[Repeat]:
     """The repetitions in a strategy that have neither a measure nor a bound."""
-    match algorithm:
-        case Rule() | ByClass():
-            return
-        case Repeat(part, times, measure):
-            if times is None and measure is None:
-                yield algorithm
-            yield from _unbounded_loops(part)
-        case Maybe(part):
-            yield from _unbounded_loops(part)
-        case _:
-            for part in algorithm.parts:
-                yield from _unbounded_loops(part)
+    for one in strategies_in(algorithm):
+        if isinstance(one, Repeat) and one.times is None and one.measure is None:
+            yield one
 
 
 def _surely_ends(rules: RuleSet, rule: Rule, members: tuple[Rule, ...]) -> bool:

@@ -14,7 +14,7 @@ from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.source_positions import span_of_label
 from ttr.updates.checks.state_layout import Labels, Missing
 from ttr.updates.rules import Body, Rule
-from ttr.updates.update_strategies import Algorithm, ByClass, Maybe, Repeat
+from ttr.updates.update_strategies import Repeat, strategies_in
 
 
 def find_missing_paths(rules: RuleSet) -> Iterator[Fault]:
@@ -30,10 +30,10 @@ def find_missing_paths(rules: RuleSet) -> Iterator[Fault]:
             yield from _missing_label(rules, rule, access, "replaces")
         if rule.gives is not None:
             yield from _missing_labels(rules, rule, rule.gives, "promises", "gives")
-    for path in _measure_paths(rules.algorithm):
-        yield from _missing_from_state(
-            rules, path, f"a repetition is measured by {path}"
-        )
+    for one in strategies_in(rules.algorithm):
+        if isinstance(one, Repeat) and isinstance(one.measure, str):
+            claim = f"a repetition is measured by {one.measure}"
+            yield from _missing_from_state(rules, one.measure, claim)
     if rules.agenda is not None:
         path = ".".join(rules.agenda)
         yield from _missing_from_state(rules, path, f"moves are planned at {path}")
@@ -128,20 +128,6 @@ def _fields_of(value: Object) -> Iterator[tuple[str, Object]]:
                 yield from _fields_of(part)
         case Record():
             yield from ((label, value[label]) for label in value)
-
-
-def _measure_paths(algorithm: Algorithm) -> Iterator[str]:
-    match algorithm:
-        case Rule() | ByClass():
-            return
-        case Repeat(part, _, str(measure)):
-            yield measure
-            yield from _measure_paths(part)
-        case Repeat(part) | Maybe(part):
-            yield from _measure_paths(part)
-        case _:
-            for part in algorithm.parts:
-                yield from _measure_paths(part)
 
 
 def _missing_from_state(rules: RuleSet, path: str, claim: str) -> Iterator[Fault]:
