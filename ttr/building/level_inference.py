@@ -24,6 +24,7 @@ from ttr.types.objects import (
     freeze,
 )
 from ttr.types.paths import free_paths, map_parts
+from ttr.types.records import field_at
 from ttr.types.syntax import (
     Application,
     Function,
@@ -210,9 +211,7 @@ def _field(path: Path, around: _Scopes) -> TypeNode | None:
         return None
     first, *rest = path.labels
     here = around[path.up].get(first)
-    for label in rest:
-        here = here.get(label) if isinstance(here, RecordType) else None
-    return here
+    return None if here is None else field_at(here, rest)
 
 
 # --- what the values of a constructor are made of ------------------------------------

@@ -12,12 +12,12 @@ from functools import lru_cache
 
 from ttr.judging.certainty import is_certain
 from ttr.judging.models import Model
-from ttr.testing.strategies.discourse_roles import value_at
 from ttr.testing.strategies.random_states import heard_by
 from ttr.types.interning import identity
 from ttr.types.objects import FiniteSet, Object, Path, Record
 from ttr.types.paths import subterms
 from ttr.types.printing import notation
+from ttr.types.records import field_at, value_at
 from ttr.types.syntax import (
     Basic,
     ListOf,
@@ -46,20 +46,10 @@ def items_at(state: Record, path: str | None) -> tuple[Object, ...]:
     return () if found is None else (found,)
 
 
-def field_at(T: TypeNode, path: str) -> TypeNode | None:
-    """The type of the field at a path of a record type, if there is one."""
-    found: TypeNode | None = T
-    for label in path.split("."):
-        if not isinstance(found, RecordType) or label not in found:
-            return None
-        found = found[label]
-    return found
-
-
 @lru_cache(maxsize=256)
 def item_type(T: RecordType, path: str) -> TypeNode | None:
     """The type of the elements of the list or set at a path of a state."""
-    found = field_at(T, path)
+    found = field_at(T, path.split("."))
     if isinstance(found, Singleton):
         found = found.base
     return found.item if isinstance(found, ListOf | NonEmpty | SetOf) else None
@@ -126,7 +116,7 @@ def _agents_in(T: RecordType) -> Iterator[str]:
         elif isinstance(field, PType) and field.args:
             first = field.args[0]
             if isinstance(first, Path) and first.up == 0:
-                named = field_at(T, first.labels[0])
+                named = T.get(first.labels[0])
                 first = named.value if isinstance(named, Singleton) else None
             if isinstance(first, str):
                 yield first

@@ -1,14 +1,43 @@
-"""Records as values: a changed copy of a record."""
+"""Records as values: what stands at a path, and a changed copy of a record."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from ttr.errors import TTRError, suggestion
 from ttr.safety.budgets import spend
 from ttr.types.interning import identity
 from ttr.types.objects import Object, Record, combine_labels, freeze, is_immutable
 from ttr.types.printing import notation
+from ttr.types.syntax import RecordType, TypeNode
+
+
+def value_at(r: Record, path: str) -> Object:
+    """The object at a path, written with dots; None if the record has no such path.
+
+    >>> from ttr import record
+    >>> r = record(x="fido", bg=record(size=3))
+    >>> value_at(r, "bg.size"), value_at(r, "bg.age")
+    (3, None)
+    """
+    try:
+        return r[path]
+    except KeyError:
+        return None
+
+
+def field_at(T: TypeNode, labels: Iterable[str]) -> TypeNode | None:
+    """The type of the field that the labels lead to; None if there is no such field.
+
+    >>> from ttr import Ind, rectype
+    >>> T = rectype(bg=rectype(x=Ind))
+    >>> field_at(T, ("bg", "x")), field_at(T, ("bg", "y"))
+    (Basic('Ind'), None)
+    """
+    found: TypeNode | None = T
+    for label in labels:
+        found = found.get(label) if isinstance(found, RecordType) else None
+    return found
 
 
 def replace(

@@ -19,7 +19,7 @@ from ttr.errors import TTRError
 from ttr.probability import Degree
 from ttr.types.objects import Object, Record
 from ttr.types.printing import notation
-from ttr.types.records import differences
+from ttr.types.records import differences, value_at
 from ttr.types.syntax import Basic, PType
 from ttr.updates import Run, Step, Turn, nbest
 
@@ -212,12 +212,8 @@ def _first_difference(logged: Record, found: Record) -> tuple[str, str, str]:
 
 
 def _notation_at(state: Record, path: str) -> str:
-    value: Object = state
-    for label in path.split("."):
-        if not isinstance(value, Record) or label not in value:
-            return "nothing"
-        value = value[label]
-    return notation(value)
+    value = value_at(state, path)
+    return "nothing" if value is None else notation(value)
 
 
 # --- values --------------------------------------------------------------------------

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.judging.certainty import is_certain
 from ttr.testing.event_subjects import (
-    field_at,
     format_objects,
     items_at,
     items_not_in,
@@ -18,6 +17,7 @@ from ttr.types.interning import identity
 from ttr.types.objects import Object
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
+from ttr.types.records import field_at
 from ttr.types.syntax import NonEmpty, Singleton, TypeNode
 from ttr.updates.running import Step
 
@@ -86,9 +86,9 @@ def _why_overwritten(step: Step, path: str) -> str:
 
 def _looks_at(step: Step, path: str) -> bool:
     """Does a rule look at the agenda, in its condition or its bindings?"""
-    if isinstance(field_at(step.rule.when, path), Singleton | NonEmpty):
-        return True
     labels = tuple(path.split("."))
+    if isinstance(field_at(step.rule.when, labels), Singleton | NonEmpty):
+        return True
     bound = free_paths(step.rule.where) if step.rule.where is not None else ()
     return any(one.labels[1:][: len(labels)] == labels for one in bound)
 

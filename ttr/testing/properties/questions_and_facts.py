@@ -22,10 +22,11 @@ from ttr.testing.event_subjects import (
     mentions_of_sort,
 )
 from ttr.testing.properties.property import Breaches, Property
-from ttr.testing.strategies.discourse_roles import Roles, value_at
+from ttr.testing.strategies.discourse_roles import Roles
 from ttr.types.interning import identity
 from ttr.types.objects import Object, Record
 from ttr.types.printing import notation
+from ttr.types.records import value_at
 from ttr.types.syntax import Function, RecordType, TypeNode
 from ttr.updates.games import Game
 from ttr.updates.nbest import NBest

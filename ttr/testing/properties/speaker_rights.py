@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from ttr.dialogues.dialogue import Dialogue
-from ttr.testing.event_subjects import agents_of, field_at, speaker_of
+from ttr.testing.event_subjects import agents_of, speaker_of
 from ttr.testing.properties.property import Breaches, Property
-from ttr.testing.strategies.discourse_roles import Roles, value_at
+from ttr.testing.strategies.discourse_roles import Roles
 from ttr.types.objects import Record
+from ttr.types.records import field_at, value_at
 from ttr.types.syntax import Singleton
 from ttr.updates.games import Game
 from ttr.updates.running import Step
@@ -33,7 +34,7 @@ def _check_speakers(dialogue: Dialogue, roles: Roles) -> Breaches:
 
 def _speaker_with_turn_asked(step: Step, path: str, game: Game) -> str | None:
     """Who made the event of a step, if its rule looks at who has the turn."""
-    asked = field_at(step.rule.when, path)
+    asked = field_at(step.rule.when, path.split("."))
     if step.rule.on is None or not isinstance(asked, Singleton):
         return None
     agents = agents_of(game)

@@ -8,11 +8,12 @@ from ttr.dialogues.dialogue import Dialogue, Trial, give
 from ttr.judging.judgements import Judgement
 from ttr.testing.event_subjects import format_objects
 from ttr.testing.properties.property import Breaches, Property
-from ttr.testing.strategies.discourse_roles import Roles, acts_in, value_at
+from ttr.testing.strategies.discourse_roles import Roles, acts_in
 from ttr.testing.strategies.random_states import heard_by, variants
 from ttr.types.interning import identity
 from ttr.types.objects import Object, Record, freeze
 from ttr.types.printing import notation
+from ttr.types.records import value_at
 from ttr.types.syntax import Rec, TypeNode
 from ttr.updates.games import Game, Turn
 from ttr.updates.nbest import NBest

@@ -194,13 +194,3 @@ def _field_paths(T: RecordType, above: str) -> Iterator[tuple[str, TypeNode]]:
         yield path, field
         if isinstance(field, RecordType):
             yield from _field_paths(field, path)
-
-
-def value_at(state: Record, path: str) -> Object:
-    """The value at a path; None if the state has no such path."""
-    value: Object = state
-    for label in path.split("."):
-        if not isinstance(value, Record) or label not in value:
-            return None
-        value = value[label]
-    return value

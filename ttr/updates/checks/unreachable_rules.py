@@ -10,12 +10,13 @@ from ttr.probability import CERTAIN
 from ttr.types.objects import Path
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
+from ttr.types.records import field_at
 from ttr.types.syntax import Singleton, TypeNode, meet
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
 from ttr.updates.checks.source_positions import span_of_label
 from ttr.updates.checks.state_layout import Labels, Missing, Term, leaf_fields
-from ttr.updates.checks.wrong_values import declared_type, is_misfit, views_of
+from ttr.updates.checks.wrong_values import is_misfit, views_of
 from ttr.updates.rules import Rule
 from ttr.updates.update_strategies import (
     Algorithm,
@@ -27,6 +28,7 @@ from ttr.updates.update_strategies import (
     Repeat,
     Seq,
     rule_occurrences,
+    strategies_in,
 )
 
 
@@ -59,7 +61,7 @@ def _why_impossible(rules: RuleSet, rule: Rule) -> Fault | None:
 
 def _impossible_states(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
     for path, T in leaf_fields(rule.when):
-        wanted = declared_type(rules, path)
+        wanted = field_at(rules.type, path)
         if wanted is None or not path:
             continue
         for view in views_of(T):
@@ -115,18 +117,10 @@ _Late = tuple[Rule, Fault]
 
 
 def _forestalled_rules(rules: RuleSet, algorithm: Algorithm) -> Iterator[_Late]:
-    match algorithm:
-        case Rule() | ByClass():
-            return
-        case Maybe(part) | Repeat(part):
-            yield from _forestalled_rules(rules, part)
-        case First(parts):
-            for i, part in enumerate(parts):
-                yield from _rules_covered_by(rules, algorithm, parts[:i], part)
-                yield from _forestalled_rules(rules, part)
-        case Seq(parts) | All(parts) | Ask(parts):
-            for part in parts:
-                yield from _forestalled_rules(rules, part)
+    for one in strategies_in(algorithm):
+        if isinstance(one, First):
+            for i, part in enumerate(one.parts):
+                yield from _rules_covered_by(rules, one, one.parts[:i], part)
 
 
 def _rules_covered_by(

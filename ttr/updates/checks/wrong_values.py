@@ -11,6 +11,7 @@ from ttr.probability import REFUTED
 from ttr.types.objects import Object, Record
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
+from ttr.types.records import field_at
 from ttr.types.syntax import (
     Basic,
     ListOf,
@@ -53,7 +54,7 @@ def _wrong_start(rules: RuleSet) -> Iterator[Fault]:
 
 def _wrong_writes(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
     for write in rules.summaries[rule].writes:
-        wanted = declared_type(rules, write.path)
+        wanted = field_at(rules.type, write.path)
         brought = rules.views_brought_by(rule, write)
         if wanted is None or not brought:
             continue
@@ -91,7 +92,7 @@ def _bracket_warning(rule: Rule, write: Write, found: View, wanted: TypeNode) ->
 
 def _wrong_promises(rules: RuleSet, rule: Rule) -> Iterator[Fault]:
     for path, T in leaf_fields(rule.gives) if rule.gives else ():
-        wanted = declared_type(rules, path)
+        wanted = field_at(rules.type, path)
         if wanted is None or not path:
             continue
         for view in views_of(T):
@@ -161,14 +162,6 @@ def _paths_lacking(r: Record, T: RecordType, at: Labels = ()) -> Iterator[Labels
 
 
 # --- what is of which type -----------------------------------------------------------
-
-
-def declared_type(rules: RuleSet, path: Labels) -> TypeNode | None:
-    """The type of a path by the type of states; None if that does not say."""
-    T: TypeNode | None = rules.type
-    for label in path:
-        T = T.get(label) if isinstance(T, RecordType) else None
-    return T
 
 
 def views_of(T: TypeNode) -> tuple[View, ...]:
