@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from ttr.errors import IllFormedError, TTRError
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
+from ttr.probability.degrees import ROUNDING, is_within
 from ttr.types.objects import Object, Record, record
 from ttr.types.syntax import TypeNode, as_type, kind_of
 
@@ -25,9 +26,6 @@ __all__ = [
     "probabilistic_claim",
     "proposition",
 ]
-
-ROUNDING = 1e-12
-"""How far apart two probabilities may be that count as equal."""
 
 
 def proposition(sit: object, T: TypeNode) -> Record:
@@ -108,5 +106,4 @@ def borne_out(claimed: Degree, found: Degree) -> Degree:
     """
     if found.hi < claimed.lo - ROUNDING or found.lo > claimed.hi + ROUNDING:
         return REFUTED
-    inside = claimed.lo - ROUNDING <= found.lo and found.hi <= claimed.hi + ROUNDING
-    return CERTAIN if inside else UNKNOWN
+    return CERTAIN if is_within(found, claimed) else UNKNOWN

@@ -34,6 +34,9 @@ def shown(x: float) -> str:
     return short if x in (0.0, 1.0) or 0.0 < float(short) < 1.0 else repr(x)
 
 
+ROUNDING = 1e-9
+"""Two probabilities that differ by no more than this count as the same."""
+
 CERTAIN = Degree(1.0, 1.0)
 REFUTED = Degree(0.0, 0.0)
 UNKNOWN = Degree(0.0, 1.0)
@@ -75,6 +78,16 @@ def complement(x: float) -> float:
     (0.1, 0.09999999999999998)
     """
     return float(1 - Fraction(repr(float(x))))
+
+
+def is_within(p: tuple[float, float], wanted: tuple[float, float]) -> bool:
+    """Is an interval within another one, up to rounding?
+
+    >>> is_within(Degree(0.1 + 0.2, 0.5), Degree(0.3, 0.5))
+    True
+    """
+    (lo, hi), (least, most) = p, wanted
+    return least - ROUNDING <= lo and hi <= most + ROUNDING
 
 
 def order_ends(lo: float, hi: float) -> Degree:

@@ -11,6 +11,7 @@ from ttr.computing.path_cycles import describe_cycle
 from ttr.computing.subtyping import subtype
 from ttr.errors import Span, TooLargeError, TTRError, UndecidedError
 from ttr.judging.models import model_of
+from ttr.probability.degrees import is_within
 from ttr.safety.budgets import SharedPurse, one_of_several, purse_of_several
 from ttr.signature.signature import Interval
 from ttr.theories.check_reports import Failure, Report
@@ -38,9 +39,6 @@ from ttr.updates.rules import Rule
 
 if TYPE_CHECKING:
     from ttr.judging.models import Model
-
-_TOLERANCE = 1e-9
-"""Two probabilities that differ by no more than this count as the same."""
 
 
 @dataclass(frozen=True)
@@ -206,18 +204,14 @@ def _is_well_formed(T: TypeNode | TTRError) -> _Answer:
 
 
 def _has_degree(query: HasDegree | Expects, p: Interval, why: str) -> _Answer:
-    least, most = query.interval
-    if query.relation == "=":
-        holds = _is_same(p, query.interval)
-    else:
-        holds = least - _TOLERANCE <= p[0] and p[1] <= most + _TOLERANCE
+    wanted = query.interval
+    holds = _is_same(p, wanted) if query.relation == "=" else is_within(p, wanted)
     return _Answer("yes" if holds else "no", _format_interval(p), why)
 
 
 def _is_same(p: Interval, wanted: Interval) -> bool:
     """Are both ends the same, up to rounding?"""
-    ends = zip(p, wanted, strict=True)
-    return all(abs(end - other) <= _TOLERANCE for end, other in ends)
+    return is_within(p, wanted) and is_within(wanted, p)
 
 
 def _format_interval(p: Interval) -> str:

@@ -12,13 +12,11 @@ from ttr.judging.certainty import is_certain
 from ttr.judging.evaluator import derivation
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
+from ttr.probability.degrees import ROUNDING, is_within
 from ttr.types.objects import Object, Record, freeze
 from ttr.types.printing import notation
 from ttr.types.syntax import RecordType, Singleton, TypeNode
 from ttr.updates.user_functions import excerpt
-
-TOLERANCE = 1e-9
-"""The rounding error that a sum of probabilities may have."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +37,7 @@ class NBest:
             )
         pairs = [_check_alternative(one) for one in self.alternatives]
         total = math.fsum(p for _, p in pairs)
-        if total > 1.0 + TOLERANCE:
+        if total > 1.0 + ROUNDING:
             raise UpdateError(
                 f"the probabilities of alternatives come to at most 1, found {total:g}"
             )
@@ -99,7 +97,7 @@ def match_event(
             return None
         else:
             found = MatchedEvent(event, derivation(model.facts, event, on).p)
-        return found if _is_within(found.p, wanted) else None
+        return found if is_within(found.p, wanted) else None
     if wanted.lo == 1.0 and any(_plainly_lacks_labels(one, on) for one, _ in event):
         return None
     judged = [(one, q, _degree_of(one, on, model)) for one, q in event]
@@ -108,7 +106,7 @@ def match_event(
         return None
     best = max(fitting, key=lambda one: one[1] * one[2].lo)
     found = MatchedEvent(best[0], _total_degree([(q, p) for _, q, p in fitting]))
-    return found if _is_within(found.p, wanted) else None
+    return found if is_within(found.p, wanted) else None
 
 
 def _plainly_lacks_labels(event: Object, on: TypeNode) -> bool:
@@ -133,13 +131,9 @@ def _plainly_lacks_labels(event: Object, on: TypeNode) -> bool:
 def _total_degree(weighted: list[tuple[float, Degree]]) -> Degree:
     """The probability that any of several alternatives is the case."""
     lo, hi = (math.fsum(q * p[end] for q, p in weighted) for end in (0, 1))
-    if lo > 1.0 - TOLERANCE:
+    if lo > 1.0 - ROUNDING:
         return CERTAIN
     return Degree(lo, min(1.0, hi))
-
-
-def _is_within(p: Degree, wanted: Degree) -> bool:
-    return wanted.lo - TOLERANCE <= p.lo and p.hi <= wanted.hi + TOLERANCE
 
 
 def _degree_of(event: Object, on: TypeNode, model: Model) -> Degree:
