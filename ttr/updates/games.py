@@ -22,7 +22,7 @@ from ttr.types.printing import notation
 from ttr.types.syntax import RecordType, TypeNode, as_type, kind_of
 from ttr.updates.nbest import NBest
 from ttr.updates.rules import Rule
-from ttr.updates.running import Run, Step, continue_run
+from ttr.updates.running import Run, Step, continue_run, endless
 from ttr.updates.states import check_state
 from ttr.updates.update_strategies import Algorithm, check_strategies, rules_of
 from ttr.updates.user_functions import blame, excerpt
@@ -175,17 +175,16 @@ class Game:
         """The run after the moves on the agenda, which are appended to `said`."""
         while planned := self.planned(after.state):
             if len(said) >= MOVES:
-                raise _endless(after)
+                raise _endless_moves(after)
             move, model = self._make_move(planned[0], after.model)
             ready = after._replace(model=model)
             following = self._play_event(ready, move, after.model)
             if len(following.trace) == len(after.trace):
-                error = EndlessError(
+                raise endless(
                     f"no rule takes the move {planned[0]}, so it stays on the agenda",
-                    hint="write a rule that takes it off when it has been made",
+                    after,
+                    "write a rule that takes it off when it has been made",
                 )
-                error.steps = after.trace
-                raise error
             said.append(self._judge_move(move, planned[0], model))
             after = following
         return after
@@ -301,15 +300,14 @@ class Game:
         return Judgement(move, T, CERTAIN, lambda: model.judge(move, T).why, model)
 
 
-def _endless(after: Run) -> EndlessError:
+def _endless_moves(after: Run) -> EndlessError:
     """The error that an agenda does not become empty, and which rules repeat."""
     circle = " → ".join(_repeating_names([str(step.rule) for step in after.trace]))
-    error = EndlessError(
+    return endless(
         f"the agenda is not empty after {MOVES} moves in a turn: {circle} → …",
-        hint="let a rule take the last move off without planning another",
+        after,
+        "let a rule take the last move off without planning another",
     )
-    error.steps = after.trace
-    return error
 
 
 def _repeating_names(names: Sequence[str]) -> Sequence[str]:

@@ -258,7 +258,7 @@ class _Player:
         most = repeat.times or (ROUNDS if repeat.measure is None else inf)
         if rounds > most:
             last = ", ".join(str(step.rule) for step in before.trace[-3:])
-            raise _endless(
+            raise endless(
                 f"a repetition did not end after {rounds - 1} rounds; the last rules: "
                 f"{last}",
                 before,
@@ -268,7 +268,7 @@ class _Player:
         had, has = (_measure_of(repeat.measure, one.state) for one in (before, after))
         if not 0 <= has < had:
             named = repeat.measure if isinstance(repeat.measure, str) else "the measure"
-            raise _endless(
+            raise endless(
                 f"{named} should get smaller each time {repeat.part} is repeated, but "
                 f"{after.trace[-1].rule} took it from {had} to {has}",
                 after,
@@ -291,12 +291,12 @@ class _Player:
         steps = run.trace[seen[run.state] :]
         names = [str(step.rule) for step in steps]
         if len(names) == 1 and run.trace[-1].before == run.state:
-            raise _endless(
+            raise endless(
                 f"{names[0]} is repeated without changing anything",
                 run,
                 "let its precondition fail once its work is done",
             )
-        raise _endless(
+        raise endless(
             f"a repetition goes in a circle: {' → '.join([*names, names[0]])}",
             run,
             "let a precondition fail once the work is done",
@@ -390,8 +390,8 @@ class _Player:
             check_state(after, rule.gives, model, f"after {rule}, by what it gives,")
 
 
-def _endless(message: str, run: Run, hint: str = "") -> EndlessError:
-    """The error that a repetition does not end, with the steps up to there."""
+def endless(message: str, run: Run, hint: str = "") -> EndlessError:
+    """The error that something does not end, with the steps up to there."""
     error = EndlessError(message, hint=hint)
     error.steps = run.trace
     return error
