@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from types import ModuleType
+from typing import TypeVar
 
 from hypothesis import strategies as st
 
@@ -14,6 +15,8 @@ from ttr.testing.strategies.tutors import Tutor
 from ttr.types.objects import Record
 from ttr.updates.games import Game
 
+_T = TypeVar("_T")
+
 
 def module_and_name(game: Game) -> tuple[ModuleType, str] | None:
     """A module that has the game, and the game's name there; None if no module has."""
@@ -22,20 +25,23 @@ def module_and_name(game: Game) -> tuple[ModuleType, str] | None:
 
 def tutor_of(game: Game) -> Tutor | None:
     """The tutor that a module of the game calls `tutor`."""
-    found = (getattr(module, "tutor", None) for module, _ in _modules_with(game))
-    return next((one for one in found if isinstance(one, Tutor)), None)
+    return _beside(game, "tutor", Tutor)
 
 
 def roles_of(game: Game) -> Roles | None:
     """The roles that a module of the game calls `roles`."""
-    found = (getattr(module, "roles", None) for module, _ in _modules_with(game))
-    return next((one for one in found if isinstance(one, Roles)), None)
+    return _beside(game, "roles", Roles)
 
 
 def starts_of(game: Game) -> st.SearchStrategy[tuple[Record, Model]] | None:
     """The strategy for states and models that a module of the game calls `starts`."""
-    found = (getattr(module, "starts", None) for module, _ in _modules_with(game))
-    return next((one for one in found if isinstance(one, st.SearchStrategy)), None)
+    return _beside(game, "starts", st.SearchStrategy)
+
+
+def _beside(game: Game, name: str, kind: type[_T]) -> _T | None:
+    """What a module of the game has under a name, if it is of this kind."""
+    found = (getattr(module, name, None) for module, _ in _modules_with(game))
+    return next((one for one in found if isinstance(one, kind)), None)
 
 
 def _modules_with(game: Game) -> Iterator[tuple[ModuleType, str]]:

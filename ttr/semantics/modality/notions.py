@@ -86,14 +86,13 @@ class Notion:
         Bounds: max(0, Σ pᵢ − (n − 1)) to min pᵢ.
         """
         P = freeze(proposition)
-        names = self.scope(self.system, (P,))
-        if isinstance(names, ModalAnswer):
-            return names
-        found = {name: self._degree_or_unknown(name, P) for name in names}
+        found = self._degrees(P)
+        if isinstance(found, ModalAnswer):
+            return found
         worst = min(found, key=lambda name: found[name])
         p = frechet_conjunction(*found.values())
         if p == CERTAIN:
-            return ModalAnswer(p, _describe_success(P, names))
+            return ModalAnswer(p, _describe_success(P, tuple(found)))
         return ModalAnswer(p, _describe_failure(P, worst, found[worst]), worst)
 
     @within_budget
@@ -103,14 +102,13 @@ class Notion:
         Bounds: max pᵢ to min(1, Σ pᵢ).
         """
         P = freeze(proposition)
-        names = self.scope(self.system, (P,))
-        if isinstance(names, ModalAnswer):
-            return names
-        found = {name: self._degree_or_unknown(name, P) for name in names}
+        found = self._degrees(P)
+        if isinstance(found, ModalAnswer):
+            return found
         best = max(found, key=lambda name: found[name])
         p = frechet_disjunction(*found.values())
         if p == REFUTED:
-            return ModalAnswer(p, _describe_failure(P, " or ".join(names), p))
+            return ModalAnswer(p, _describe_failure(P, " or ".join(found), p))
         if p == CERTAIN:
             return ModalAnswer(p, _describe_success(P, (best,)), best)
         return ModalAnswer(p, _describe_failure(P, best, found[best]), best)
@@ -154,6 +152,13 @@ class Notion:
         refuting = [answer for answer in failing if answer.no]
         same = f"the same is of {S} and of {T}"
         return next(iter([*refuting, *failing]), ModalAnswer(CERTAIN, same))
+
+    def _degrees(self, P: Object) -> dict[str, Degree] | ModalAnswer:
+        """How certain P is in each possibility in scope, or why none is in scope."""
+        names = self.scope(self.system, (P,))
+        if isinstance(names, ModalAnswer):
+            return names
+        return {name: self._degree_or_unknown(name, P) for name in names}
 
     def _degree_or_unknown(self, name: str, P: Object) -> Degree:
         """The degree of a proposition in a possibility; [0, 1] if it is undefined."""
