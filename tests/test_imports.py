@@ -15,7 +15,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 CODE = sorted(
     file
-    for folder in ("ttr", "kille", "grammars", "examples", "benchmarks")
+    for folder in ("ttr", "kille", "grammars", "examples", "benchmarks", "tools")
     for file in (ROOT / folder).rglob("*.py")
 )
 
@@ -49,7 +49,7 @@ def test_what_a_script_imports_is_there(script: Path) -> None:
         f"{node.module}.{alias.name}"
         for node in ast.walk(ast.parse(script.read_text(encoding="utf-8")))
         if isinstance(node, ast.ImportFrom)
-        if (node.module or "").partition(".")[0] in {"ttr", "kille"}
+        if (node.module or "").partition(".")[0] in {"ttr", "kille", "tools"}
         for alias in node.names
         if not is_importable(str(node.module), alias.name)
     ]
@@ -63,7 +63,7 @@ def is_importable(module: str, name: str) -> bool:
             import_module(f"{module}.{name}")
         )
     except ModuleNotFoundError as error:
-        return not str(error.name).startswith(("ttr", "kille"))
+        return not str(error.name).startswith(("ttr", "kille", "tools"))
 
 
 @pytest.mark.parametrize("module", ["kille", "kille.memory", "kille.scene"])
@@ -92,7 +92,7 @@ def imports(tree: ast.Module, known: set[str]) -> Iterator[str]:
                 waiting += ast.iter_child_nodes(node)
 
 
-@pytest.mark.parametrize("package", ["ttr", "kille"])
+@pytest.mark.parametrize("package", ["ttr", "kille", "tools"])
 def test_no_module_imports_itself_by_way_of_others(package: str) -> None:
     files = {
         ".".join(file.relative_to(ROOT).with_suffix("").parts): file

@@ -27,17 +27,12 @@ WRITERS = {
     "kille/interfaces/terminal.py": "what the commands of kille print",
     "kille/studies/persons/lines.py": "what people in a study are shown",
     "kille/sensors/kinect/serving.py": "what it found when nobody is left to be told",
-    "kille/experiments/fitting/codebook.py": "a tool that is run by hand",
-    "kille/experiments/fitting/colour_words.py": "a tool that is run by hand",
-    "kille/experiments/fitting/evidence.py": "a tool that is run by hand",
-    "kille/experiments/fitting/merge.py": "a tool that is run by hand",
 }
 """The modules that may write to a stream, and what it is that they write."""
 
 ESCAPES = "ttr/escapes.py"
 UNSEEN_IN_JSON = {
     "kille/bus/packing.py",  # messages between nodes
-    "kille/experiments/fitting/colour_words.py",
     "kille/memory/exporting.py",  # files, by a package that cannot know `ttr`
     "kille/studies/log/cells.py",  # cells of a database
     "kille/studies/log/writing.py",

@@ -15,7 +15,7 @@ takes off how unlike the example nearest in size is:
 where d_size is 3 at most, and 0 for a word no example of which has a known size. Size
 alone rejects: it is what light, distance and dirt do not change, while a thing may
 well have another colour than all examples of its word. b, r, a and v were fitted
-(`kille.experiments.fitting.evidence`) to things of which many had not been taught, seen
+(`tools.fitting.evidence`) to things of which many had not been taught, seen
 in another light and partly hidden, and to pictures of things that are mostly new.
 """
 

@@ -99,7 +99,7 @@ def xkcd() -> ColourWords:
 
 
 def read(fitted: Mapping[str, Any]) -> ColourWords:
-    """The words of a file as `kille.experiments.fitting.colour_words` writes it."""
+    """The words of a file as `tools.fitting.colour_words` writes it."""
     words: Mapping[str, Any] = fitted["words"]
     hues = np.array([word["hue"] for word in words.values()], float)
     return ColourWords(

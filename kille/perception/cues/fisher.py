@@ -94,7 +94,7 @@ def _signs(length: int) -> Array:
 def shipped(name: str) -> Codebook:
     """A codebook that comes with the package: `texture` or `paint`.
 
-    They are made by `python -m kille.experiments.fitting.codebook`.
+    They are made by `python -m tools.fitting.codebook`.
     """
     return _stored()[name]
 

@@ -5,7 +5,7 @@ log-odds are the weights of a graph, whose edges are contracted greedily, the mo
 certain first; the weights of parallel edges add up [1]. What came of it is measured
 anew and judged by other networks, to which a leg and a body are pairs of pieces where
 the first saw patches of them only [2]. The networks were fitted by
-`kille.experiments.fitting.merge`, which says on what.
+`tools.fitting.merge`, which says on what.
 
 [1] M. Keuper et al.: Efficient decomposition of image and mesh graphs by lifted
 multicuts. ICCV 2015 (greedy additive edge contraction).
@@ -118,7 +118,7 @@ def unpacked(stored: Mapping[str, NDArray[np.float32]]) -> Rounds:
             raise ValueError(
                 f"the merger judges {merger.touching.mean.size} features, not "
                 f"{len(FEATURES)}: "
-                "fit it anew by `python -m kille.experiments.fitting.merge`"
+                "fit it anew by `python -m tools.fitting.merge`"
             )
     return rounds
 

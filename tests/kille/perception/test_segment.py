@@ -11,7 +11,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tabletop import LENS, SHAPE, UP, Card, frame_of, share
 
-from kille.experiments.fitting.piles import a_bowl, lifted, pile
 from kille.experiments.regions import Score, captures, score
 from kille.perception.geometry import CAMERA_UP, offset, table_axes
 from kille.perception.segment import (
@@ -30,6 +29,7 @@ from kille.sensors.synthetic.faults import FAULTS, degraded_depth
 from kille.sensors.synthetic.model import Model, Part, assembled
 from kille.sensors.synthetic.render import Body, Pose, rendered
 from kille.sensors.synthetic.shapes import box, disc, lathe, moved
+from tools.fitting.piles import a_bowl, lifted, pile
 
 THREE = (Card(-0.15, 0.75), Card(0.12, 0.65, width=0.08), Card(0.05, 1.0, seed=2))
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kille.experiments.fitting.codebook import fitted
 from kille.perception.cues.dense import Descriptors
 from kille.perception.cues.fisher import numbers
+from tools.fitting.codebook import fitted
 
 
 def found(seed: int, kinds: int = 4, count: int = 800) -> Descriptors:

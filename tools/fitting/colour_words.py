@@ -1,6 +1,6 @@
 """Fits the borders of colour words to the names that people gave to colours.
 
-`python -m kille.experiments.fitting.colour_words DATA [OUT]` reads the folder
+`python -m tools.fitting.colour_words DATA [OUT]` reads the folder
 colour_names_xkcd (or the one that holds it), writes the fitted words, and prints how
 well they foretell the names of colours that were held out, one colour of Lab in five.
 
@@ -25,12 +25,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.experiments.fitting.edges import agreement, choice, minimised
 from kille.experiments.metrics import auroc
 from kille.experiments.results import Table
+from kille.perception.colours import borders
 from kille.perception.colours.borders import AXES, along
 from kille.perception.colours.space import even
 from kille.perception.colours.words import ColourWords, read
+from tools.fitting.edges import agreement, choice, minimised
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import TABLE
 from ttr.safety.unforeseen_errors import run_guarded
@@ -38,10 +39,10 @@ from ttr.safety.unforeseen_errors import run_guarded
 Numbers = NDArray[np.float64]
 
 FOLDER, COUNTS = "colour_names_xkcd", "colour_name_counts.csv"
-SHIPPED = Path(__file__).parents[2] / "perception" / "colours" / "xkcd.json"
+SHIPPED = Path(borders.__file__).with_name("xkcd.json")
 ABOUT = {
     "about": "Borders of colour words in Oklab; see borders.py and words.py.",
-    "fitted by": "python -m kille.experiments.fitting.colour_words",
+    "fitted by": "python -m tools.fitting.colour_words",
     "source": "xkcd colour survey (2010), as binned by Heer and Stone (CHI 2012) in "
     "github.com/StanfordHCI/c3; BSD-3-Clause, (c) 2011 Stanford University",
     "edges": "[low, how vague, high, how vague], about in units of Lab",

@@ -1,4 +1,4 @@
-"""Fits how evidence is weighed: `python -m kille.experiments.fitting.evidence DATA`.
+"""Fits how evidence is weighed: `python -m tools.fitting.evidence DATA`.
 
 DATA holds `ycb_meshes` and `sota_kinect`. Two kinds of things are learned from, half
 each: things rendered in many poses, most of them made darker or lighter, tinted,

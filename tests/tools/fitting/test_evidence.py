@@ -7,7 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from kille.experiments.fitting.evidence import (
+from kille.perception.evidence import Weighing
+from kille.perception.index import View
+from kille.perception.likeness import Kernel
+from tools.fitting.evidence import (
     Asked,
     _surprise,
     episode,
@@ -16,9 +19,6 @@ from kille.experiments.fitting.evidence import (
     right,
     widths,
 )
-from kille.perception.evidence import Weighing
-from kille.perception.index import View
-from kille.perception.likeness import Kernel
 
 NONE = np.zeros((0, 128), np.uint8)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kille.experiments.fitting.edges import agreement, choice, minimised
 from kille.perception.colours.borders import Borders, along
+from tools.fitting.edges import agreement, choice, minimised
 
 LAB = np.random.default_rng(3).uniform((5, -60, -60), (95, 60, 60), (250, 3))
 HUES = np.array([30.0, 250.0])

@@ -1,4 +1,4 @@
-"""Fits the merge of patches: `python -m kille.experiments.fitting.merge DATA`.
+"""Fits the merge of patches: `python -m tools.fitting.merge DATA`.
 
 The examples are of rendered heaps (`piles`) alone; the scanned things in them are those
 of DATA/ycb_meshes (YCB Object and Model Set, Calli et al. 2015, CC BY 4.0). Nothing is
@@ -36,7 +36,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.experiments.fitting.piles import pile, screened, tidy
 from kille.experiments.regions import Score, captures, score
 from kille.perception.segment import merging_by
 from kille.perception.surfaces import merging
@@ -53,6 +52,7 @@ from kille.perception.surfaces.relief import (
 )
 from kille.scene import Frame
 from kille.sensors.synthetic import obj
+from tools.fitting.piles import pile, screened, tidy
 from ttr.safety.unforeseen_errors import run_guarded
 
 HEAPS, SCREENS, TIDY = range(700), range(200), range(200)
@@ -219,12 +219,12 @@ def add_second(data: Path, first: Merger) -> None:
     path = Path(merging.__file__).with_name(merging.WEIGHTS)
     arrays: dict[str, Any] = packed(rounds)
     np.savez_compressed(path, **arrays)
-    print(f"{len(MORE_HEAPS)} heaps -> {path}")  # noqa: T201
+    print(f"{len(MORE_HEAPS)} heaps -> {path}")
     way = merging_by(rounds)
     for folder in (data / name for name in _REAL if (data / name).is_dir()):
         shown = (it.shot.read() for it in captures(folder))
         found = sum((score(way(it).regions, it) for it in shown), Score())
-        print(f"{folder.name}: {_told(found)}")  # noqa: T201
+        print(f"{folder.name}: {_told(found)}")
 
 
 def _meshes(data: Path) -> list[Path]:

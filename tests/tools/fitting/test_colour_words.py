@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from kille.experiments.fitting.colour_words import (
+from kille.perception.colours import xkcd
+from tools.fitting.colour_words import (
     SHIPPED,
     by_word,
     measured,
     read_survey,
     written,
 )
-from kille.perception.colours import xkcd
 
 
 @pytest.mark.data

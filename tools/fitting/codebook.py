@@ -1,6 +1,6 @@
 """Fits the codebooks of texture and paint.
 
-`python -m kille.experiments.fitting.codebook DATA` is given the data folder, with
+`python -m tools.fitting.codebook DATA` is given the data folder, with
 `ycbv_scenes` (frames of the YCB-Video data set, Xiang et al. 2018, MIT), `mosd_scenes`
 (after the Object Segmentation Database, Richtsfeld et al. 2012) and `ycb_meshes` (scans
 of the YCB Object and Model Set, Calli et al. 2015, CC BY 4.0).
@@ -49,7 +49,7 @@ def main(data: Path) -> None:
     }
     path = Path(fisher.__file__).with_name("codebooks.npz")
     np.savez_compressed(path, allow_pickle=False, **stored)
-    print(f"{len(cut)} windows -> {path}")  # noqa: T201
+    print(f"{len(cut)} windows -> {path}")
 
 
 def windows(data: Path, chance: np.random.Generator) -> Iterator[Window]:

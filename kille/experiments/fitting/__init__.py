@@ -1,1 +1,0 @@
-"""How the fitted numbers that come with the package were made."""
