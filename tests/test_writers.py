@@ -19,7 +19,7 @@ MODULES = sorted(
 
 WRITERS = {
     "ttr/cli/output.py": "what the commands of ttr print",
-    "ttr/cli/parser.py": "the version",
+    "ttr/cli/command_line.py": "the version",
     "ttr/safety/inputs.py": "prompts",
     "ttr/safety/unforeseen_errors.py": "the error that nobody foresaw",
     "ttr/testing/hash_seeds.py": "digests, read by the process that asked for them",

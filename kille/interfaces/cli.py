@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from kille.interfaces.parsing import counted, positive, seed
 from kille.interfaces.streams import drop_output, end_line, prepare_streams, write_error
+from ttr.cli.command_line import Parser, Version
 from ttr.cli.consent_options import add_consent, consent_of
-from ttr.cli.parser import Parser, Version
 
 if TYPE_CHECKING:
     from kille.interfaces.experiment.running import Request

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from errno import ENOSPC
 from io import TextIOWrapper
 
+from ttr.cli.command_line import Parser, Version
 from ttr.cli.commands import COMMANDS
 from ttr.cli.output import (
     FAILED,
@@ -15,7 +16,6 @@ from ttr.cli.output import (
     PIPE_CLOSED,
     complain,
 )
-from ttr.cli.parser import Parser, Version
 from ttr.safety.unforeseen_errors import report_unforeseen
 
 

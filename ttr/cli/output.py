@@ -9,7 +9,7 @@ import argparse
 import sys
 from typing import TYPE_CHECKING, Any
 
-from ttr.cli.parser import WRONG_USE
+from ttr.cli.command_line import WRONG_USE
 from ttr.escapes import json_text, terminal_line, terminal_text
 
 if TYPE_CHECKING:

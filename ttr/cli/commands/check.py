@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ttr.cli.command_line import WRONG_USE
 from ttr.cli.consent_options import add_allow
 from ttr.cli.output import (
     FAILED,
@@ -19,7 +20,6 @@ from ttr.cli.output import (
     say_json,
     step_count,
 )
-from ttr.cli.parser import WRONG_USE
 from ttr.errors import TooLargeError, TTRError
 from ttr.safety.budgets import STEPS, budget
 

@@ -10,13 +10,13 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from ttr.cli.command_line import WRONG_USE
 from ttr.cli.consent_options import (
     add_consent,
     consent_of,
     named_game,
 )
 from ttr.cli.output import FAILED, FINE, Commands, complain, say, say_json
-from ttr.cli.parser import WRONG_USE
 from ttr.errors import TTRError
 from ttr.safety.consent import Consent, NotAllowedError
 from ttr.safety.files import check_outputs, write_whole
