@@ -16,9 +16,9 @@ from ttr.errors import TTRError, suggestion
 from ttr.semantics.learning.counts import NO_THEORY
 from ttr.semantics.learning.evidence import NO_EVIDENCE, Evidence
 from ttr.semantics.learning.evidence_classifier import EvidenceBased
-from ttr.semantics.learning.features import Features, features_below, features_of
+from ttr.semantics.learning.features import Features, features_below
 from ttr.semantics.learning.logistic_regression import Example, fit_weights, logistic
-from ttr.signature.signature import Signature, signature_of
+from ttr.signature.signature import Signature
 from ttr.types.syntax import TypeNode
 
 _WIDEST = 1e6
@@ -48,8 +48,7 @@ class LogOdds(EvidenceBased):
     evidence: Evidence = NO_EVIDENCE
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "features", features_of(self.features))
-        object.__setattr__(self, "theory", signature_of(self.theory))
+        super().__post_init__()
         is_number = isinstance(self.variance, int | float)
         if not is_number or not 0.0 < self.variance <= _WIDEST:
             raise TTRError(

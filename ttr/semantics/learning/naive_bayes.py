@@ -20,11 +20,10 @@ from ttr.semantics.learning.evidence_classifier import EvidenceBased
 from ttr.semantics.learning.features import (
     Features,
     features_below,
-    features_of,
     types_of,
 )
 from ttr.semantics.learning.smoothing import NO_SMOOTHING, Smoothing, as_smoothing
-from ttr.signature.signature import Signature, signature_of
+from ttr.signature.signature import Signature
 from ttr.types.syntax import TypeNode, kind_of
 
 
@@ -128,8 +127,7 @@ class NaiveBayes(EvidenceBased):
     evidence: Evidence = NO_EVIDENCE
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "features", features_of(self.features))
-        object.__setattr__(self, "theory", signature_of(self.theory))
+        super().__post_init__()
         as_smoothing(self.smoothing)
 
     def probabilities(self, x: TypeNode) -> dict[str, float]:
