@@ -27,6 +27,15 @@ def as_tuple(values: Iterable[T], what: str) -> tuple[T, ...]:
     raise TTRError(f"expected a list of {what}, found {in_notation(values)}")
 
 
+def missing_methods(value: object, *names: str) -> list[str]:
+    """Those of some methods that a value lacks.
+
+    >>> missing_methods([], "append", "learn")
+    ['learn']
+    """
+    return [name for name in names if not callable(getattr(value, name, None))]
+
+
 def in_notation(value: object) -> str:
     """A value as the notation writes it, also where it is a list or a dictionary.
 

@@ -12,8 +12,8 @@ from ttr.types.printing import notation
 from ttr.types.syntax import RecordType, TypeNode
 
 
-def value_at(r: Record, path: str) -> Object:
-    """The object at a path, written with dots; None if the record has no such path.
+def value_at(r: Object, path: str) -> Object:
+    """The object at a path, written with dots; None if there is no such path.
 
     >>> from ttr import record
     >>> r = record(x="fido", bg=record(size=3))
@@ -21,7 +21,7 @@ def value_at(r: Record, path: str) -> Object:
     (3, None)
     """
     try:
-        return r[path]
+        return r[path] if isinstance(r, Record) else None
     except KeyError:
         return None
 

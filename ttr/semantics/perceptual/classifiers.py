@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ttr.errors import TTRError
-from ttr.semantics.argument_checks import in_notation
+from ttr.semantics.argument_checks import in_notation, missing_methods
 from ttr.types.objects import Object, Record, UnresolvedError
 from ttr.types.printing import notation
+from ttr.types.records import value_at
 from ttr.types.substitution import follow_path
 
 
@@ -46,11 +47,7 @@ class Classifier:
     through: Callable[..., object] | None = None
 
     def __post_init__(self) -> None:
-        lacking = [
-            name
-            for name in ("degree", "confirmed", "rejected")
-            if not callable(getattr(self.method, name, None))
-        ]
+        lacking = missing_methods(self.method, "degree", "confirmed", "rejected")
         if lacking:
             raise TTRError(
                 "a method of classifying has degree, confirmed and rejected, "
@@ -72,18 +69,14 @@ class Classifier:
 
     def has_percept(self, r: Record) -> bool:
         """Has a situation something at each of the paths?"""
-        try:
-            return all(_value_at(r, path) is not None for path in self.of)
-        except TTRError:
-            return False
+        return all(value_at(r, path) is not None for path in self.of)
 
     def percept(self, r: Record) -> Object | None:
         """The percept in a situation; None where nothing can be seen.
 
         Raises `TTRError` for a situation that lacks a path, and where `through` fails.
         """
-        found = [_value_at(r, path) for path in self.of]
-        return self.percept_of(*found)
+        return self.percept_of(*[_find(r, path) for path in self.of])
 
     def percept_of(self, *found: Object) -> Object | None:
         """The percept made of what is at the paths; None where nothing can be seen."""
@@ -109,7 +102,7 @@ def _are_paths(value: object) -> bool:
     )
 
 
-def _value_at(r: Record, path: str) -> Object:
+def _find(r: Record, path: str) -> Object:
     try:
         return follow_path(r, tuple(path.split(".")))
     except UnresolvedError:

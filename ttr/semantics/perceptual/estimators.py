@@ -34,47 +34,70 @@ def as_learner(
     raise TTRError(f"{type(estimator).__name__} has neither partial_fit nor fit")
 
 
-class Incremental:
-    """An estimator that learns by `partial_fit`, from lists of numbers."""
+class _Learner:
+    """A learner made of an estimator."""
 
-    def __init__(self, estimator: Any, classes: Iterable[object] = ()) -> None:
+    def __init__(self, estimator: Any) -> None:
         self.estimator = estimator
-        self.labels = _as_plain_tuple(getattr(estimator, "classes_", tuple(classes)))
-        if not self.labels:
-            raise TTRError(
-                f"{type(estimator).__name__} learns by partial_fit, so it has to know "
-                "its classes beforehand: as_learner(estimator, classes)"
-            )
 
     @property
     def name(self) -> str:
         """The class of the estimator."""
         return type(self.estimator).__name__
+
+    def predict_proba_one(self, x: object) -> dict[Any, float]:
+        """The degree of each class; nothing as long as too little was learned."""
+        if not hasattr(self.estimator, "classes_"):
+            return {}
+        with self._reporting_errors():
+            (row,) = self.estimator.predict_proba([vector(x)])
+        classes = _as_plain_tuple(self.estimator.classes_)
+        return dict(zip(classes, map(float, row), strict=True))
+
+    @contextmanager
+    def _reporting_errors(self) -> Iterator[None]:
+        """Report errors of the estimator as `TTRError`s with its name."""
+        try:
+            yield
+        except TTRError:
+            raise
+        except Exception as error:
+            fault = " ".join(str(error).split())
+            raise TTRError(
+                f"{self.name} failed: {type(error).__name__}: {fault}"
+            ) from error
+
+
+class Incremental(_Learner):
+    """An estimator that learns by `partial_fit`, from lists of numbers."""
+
+    def __init__(self, estimator: Any, classes: Iterable[object] = ()) -> None:
+        super().__init__(estimator)
+        self.labels = _as_plain_tuple(getattr(estimator, "classes_", tuple(classes)))
+        if not self.labels:
+            raise TTRError(
+                f"{self.name} learns by partial_fit, so it has to know "
+                "its classes beforehand: as_learner(estimator, classes)"
+            )
 
     def learn_one(self, x: object, y: object) -> None:
         """Take x as an example of class y; `TTRError` where it has no such class."""
         if not any(y is label or _is_same(y, label) for label in self.labels):
             known = ", ".join(map(notation, self.labels))
             raise TTRError(f"{in_notation(y)} is none of the classes {known}")
-        with _reporting_errors_of(self):
+        with self._reporting_errors():
             self.estimator.partial_fit([vector(x)], [y], classes=list(self.labels))
 
-    def predict_proba_one(self, x: object) -> dict[Any, float]:
-        """The degree of each class; nothing before the first example."""
-        return _degrees(self, x)
 
+class Refitted(_Learner):
+    """An estimator that is fitted anew to all examples, which are kept.
 
-class Refitted:
-    """An estimator that is fitted anew to all examples, which are kept."""
+    It gives degrees when two classes have examples.
+    """
 
     def __init__(self, estimator: Any) -> None:
-        self.estimator = estimator
+        super().__init__(estimator)
         self.examples: tuple[tuple[Vector, object], ...] = ()
-
-    @property
-    def name(self) -> str:
-        """The class of the estimator."""
-        return type(self.estimator).__name__
 
     def learn_one(self, x: object, y: object) -> None:
         """Take x as an example of class y, and fit if there are two classes or more.
@@ -83,43 +106,16 @@ class Refitted:
         """
         examples = (*self.examples, (vector(x), y))
         classes = [label for _, label in examples]
-        with _reporting_errors_of(self):
+        with self._reporting_errors():
             if len(set(classes)) > 1:
                 self.estimator.fit([x for x, _ in examples], classes)
         self.examples = examples
-
-    def predict_proba_one(self, x: object) -> dict[Any, float]:
-        """The degree of each class; nothing before two classes have examples."""
-        return _degrees(self, x)
-
-
-@contextmanager
-def _reporting_errors_of(learner: Incremental | Refitted) -> Iterator[None]:
-    """Report errors of the estimator as `TTRError`s with its name."""
-    try:
-        yield
-    except TTRError:
-        raise
-    except Exception as error:
-        fault = " ".join(str(error).split())
-        raise TTRError(
-            f"{learner.name} failed: {type(error).__name__}: {fault}"
-        ) from error
 
 
 def _is_same(one: object, label: object) -> bool:
     """Is a class equal to a label? No for arrays, for which == has no one answer."""
     same = one == label
     return same if isinstance(same, bool) else False
-
-
-def _degrees(learner: Incremental | Refitted, x: object) -> dict[Any, float]:
-    estimator = learner.estimator
-    if not hasattr(estimator, "classes_"):
-        return {}
-    with _reporting_errors_of(learner):
-        (row,) = estimator.predict_proba([vector(x)])
-    return dict(zip(_as_plain_tuple(estimator.classes_), map(float, row), strict=True))
 
 
 def _as_plain_tuple(classes: Any) -> tuple[Any, ...]:

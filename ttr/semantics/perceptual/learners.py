@@ -14,7 +14,12 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ttr.errors import TTRError, UnsupportedError
-from ttr.semantics.argument_checks import as_tuple, in_notation, in_one_line
+from ttr.semantics.argument_checks import (
+    as_tuple,
+    in_notation,
+    in_one_line,
+    missing_methods,
+)
 from ttr.types.objects import Object, Record, freeze, record
 from ttr.types.printing import notation
 
@@ -47,11 +52,7 @@ def learner_params(
     copy what was learned, which `clone` of scikit-learn and river does not. Raises
     `TTRError` for what is no learner.
     """
-    lacking = [
-        name
-        for name in ("learn_one", "predict_proba_one")
-        if not callable(getattr(learner, name, None))
-    ]
+    lacking = missing_methods(learner, "learn_one", "predict_proba_one")
     if lacking:
         raise TTRError(
             f"a learner has the methods learn_one and predict_proba_one, "
