@@ -38,7 +38,7 @@ class Header:
     def text(self) -> str:
         """The line of the log."""
         begun = {"log": FORMAT, "version": VERSION}
-        return _json_line({**begun, **vars(self)})
+        return json_text({**begun, **vars(self)})
 
 
 @dataclass(frozen=True)
@@ -66,11 +66,7 @@ class Entry:
 
     def text(self) -> str:
         """The line of the log."""
-        return _json_line(vars(self))
-
-
-def _json_line(facts: Mapping[str, Any]) -> str:
-    return json_text(facts)
+        return json_text(vars(self))
 
 
 # --- reading -------------------------------------------------------------------------
