@@ -2,7 +2,9 @@
 
 p(T) is the probability that something is of T; p(T | S) that something is, given that
 something is of S; and p(T || S) that any one object is of T, given that it is of S
-(Cooper, Dobnik, Lappin and Larsson 2015).
+(Cooper, Dobnik, Lappin and Larsson 2015). Of an open type there may be more objects
+than are known; `ttr.semantics.quantifiers.truth`, which is for quantified types, takes
+the known ones for all.
 """
 
 from __future__ import annotations

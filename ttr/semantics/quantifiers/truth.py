@@ -1,8 +1,8 @@
 """How certain it is that a type is true: that something is of it.
 
 Unlike `Model.true` it evaluates quantified types, sentence negation and function types
-as "whatever is of S", and takes the situations that are known to be of a type for all
-that there are.
+as "whatever is of S", takes the situations that are known to be of a type for all that
+there are, and gives Fréchet's bounds where parts rest on the same judgements.
 """
 
 from __future__ import annotations
