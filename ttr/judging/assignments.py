@@ -12,10 +12,9 @@ from dataclasses import dataclass
 from operator import itemgetter
 from typing import Any, TypeAlias
 
-from immutables import Map
-
 from ttr.errors import RefusedError, TTRError
 from ttr.judging.stated_dependence import Atom, Claim, Conditioned, Expectation, Links
+from ttr.persistent_maps import Map
 from ttr.probability import (
     CERTAIN,
     REFUTED,

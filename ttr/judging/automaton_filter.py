@@ -8,8 +8,6 @@ from functools import partial
 from itertools import product
 from typing import TypeAlias
 
-from immutables import Map
-
 from ttr.computing.strings.automaton_steps import Automaton
 from ttr.computing.strings.uncertain_states import (
     NOWHERE,
@@ -17,6 +15,7 @@ from ttr.computing.strings.uncertain_states import (
     States,
 )
 from ttr.judging.judgements import Why
+from ttr.persistent_maps import Map
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.probability.degrees import frechet_conjunction, independent_conjunction
 from ttr.types.interning import identity

@@ -11,8 +11,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Protocol, TypeAlias, cast
 
-from immutables import Map
-
 from ttr.aliases import Alias
 from ttr.errors import (
     IllFormedError,
@@ -37,6 +35,7 @@ from ttr.judging.perception import fill_fields
 from ttr.judging.propositions import borne_out, claim, probabilistic_claim
 from ttr.judging.truth_of_types import Range, probability_of_any, probability_of_some
 from ttr.judging.witnesses import witnesses
+from ttr.persistent_maps import Map
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree, degree
 from ttr.safety.budgets import (
     SharedPurse,

@@ -9,8 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
-from immutables import Map
-
+from ttr.persistent_maps import Map
 from ttr.probability import Degree
 from ttr.types.interning import identity
 from ttr.types.objects import Object

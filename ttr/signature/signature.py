@@ -7,11 +7,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from immutables import Map
-
 from ttr.aliases import Alias
 from ttr.errors import IllFormedError, Span
 from ttr.escapes import json_text
+from ttr.persistent_maps import Map
 from ttr.types.interning import as_notation
 from ttr.types.objects import Object, Path, Record
 from ttr.types.syntax import Basic, Pred, PType, RecordType, TypeNode, kind_of

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from immutables import Map
-
 from ttr.judging.models import Model
 from ttr.judging.stated_dependence import Atom
+from ttr.persistent_maps import Map
 from ttr.probability import Degree
 from ttr.types.objects import Object
 

@@ -14,12 +14,11 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple, TypeVar
 
-from immutables import Map
-
 from ttr.computing.subtyping import VERDICTS, consistent, subtype
 from ttr.errors import IllFormedError, RefusedError, TTRError
 from ttr.judging.judgements import Judgement
 from ttr.judging.propositions import judged, probabilistic, probabilistic_claim
+from ttr.persistent_maps import Map
 from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.probability.degrees import share
 from ttr.safety.budgets import within_budget

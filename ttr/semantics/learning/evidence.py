@@ -6,9 +6,8 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from immutables import Map
-
 from ttr.errors import TTRError
+from ttr.persistent_maps import Map
 from ttr.semantics.learning.features import Features
 
 Key: TypeAlias = int | str

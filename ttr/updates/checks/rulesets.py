@@ -7,13 +7,12 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TypeAlias
 
-from immutables import Map
-
 from ttr.computing.case_analysis import cases
 from ttr.computing.prover import Prover
 from ttr.computing.subtyping import subtype
 from ttr.errors import TTRError
 from ttr.judging.models import Model
+from ttr.persistent_maps import Map
 from ttr.probability import REFUTED
 from ttr.signature.signature import Signature
 from ttr.types.objects import Object, Path, Record
