@@ -119,7 +119,10 @@ FORMER_NAMES: Mapping[str, Mapping[str, str]] = {
     "ttr.errors": _ERRORS | _errors(" Mistakes"),
     "ttr.probability": _errors("Contradiction Impossible"),
     "ttr.semantics.fragment": _errors(" OutsideFragment")
-    | {"picked_up": "pronoun_antecedents"},
+    | {
+        "Inference": "ttr.computing:Answer",
+        "picked_up": "pronoun_antecedents",
+    },
     "ttr.semantics.gameboards.kos": {"said": "utterance"},
     "ttr.semantics.perceptual": {
         "detected": "detections",

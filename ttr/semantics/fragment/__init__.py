@@ -16,13 +16,12 @@ parametric_content, theories and all below.
 from typing import TYPE_CHECKING
 
 from ttr.aliases import former_names
-from ttr.semantics.fragment.inference import Inference, follows
+from ttr.semantics.fragment.inference import follows
 from ttr.semantics.fragment.lexicon import Lexicon, english, lexicon
 from ttr.semantics.fragment.sentence_parsing import OutsideFragmentError
 from ttr.semantics.fragment.sentences import Sentence, pronoun_antecedents, understand
 
 __all__ = [
-    "Inference",
     "Lexicon",
     "OutsideFragmentError",
     "Sentence",

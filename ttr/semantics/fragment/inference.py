@@ -10,9 +10,8 @@ is proved that does not hold, but what depends on its parts stays unknown.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Literal, TypeAlias
 
+from ttr.computing.subtyping import Answer
 from ttr.errors import UnsupportedError
 from ttr.safety.budgets import within_budget
 from ttr.semantics.argument_checks import as_tuple
@@ -23,19 +22,6 @@ from ttr.semantics.fragment.sentences import Sentence, understand
 from ttr.semantics.fragment.venn_regions import World, WorldFinder
 from ttr.semantics.quantifiers.thresholds import Thresholds, thresholds_of
 
-Verdict: TypeAlias = Literal["yes", "no", "unknown"]
-
-
-@dataclass(frozen=True)
-class Inference:
-    """An answer and the reason; where it is unknown, that is a world each way."""
-
-    verdict: Verdict
-    why: str
-
-    def __str__(self) -> str:
-        return f"{self.verdict}: {self.why}"
-
 
 @within_budget
 def follows(
@@ -43,10 +29,11 @@ def follows(
     hypothesis: str | Sentence,
     words: Lexicon | None = None,
     thresholds: Thresholds | None = None,
-) -> Inference:
+) -> Answer:
     """Does a sentence follow from others, for an agent with these thresholds?
 
-    Raises `OutsideFragmentError` for a sentence that cannot be read.
+    Where that is unknown, the reason is a world each way. Raises `OutsideFragmentError`
+    for a sentence that cannot be read.
 
     >>> print(follows(["Every dog barks.", "Fido is a dog."], "Fido barks.").verdict)
     yes
@@ -62,7 +49,7 @@ def follows(
     try:
         return _answer(given, wanted, WorldFinder(chosen, agent))
     except (UndecidedError, UnsupportedError) as error:
-        return Inference("unknown", str(error) or "it takes too many steps")
+        return Answer("unknown", str(error) or "it takes too many steps")
 
 
 def _formula_of(one: str | Sentence, words: Lexicon, thresholds: Thresholds) -> Formula:
@@ -70,17 +57,17 @@ def _formula_of(one: str | Sentence, words: Lexicon, thresholds: Thresholds) -> 
     return content_formula(sentence.content, thresholds)
 
 
-def _answer(given: list[Formula], wanted: Formula, worlds: WorldFinder) -> Inference:
+def _answer(given: list[Formula], wanted: Formula, worlds: WorldFinder) -> Answer:
     so = worlds.find_world([*given, wanted])
     not_so = worlds.find_world([*given, Negated(wanted)])
     if so is None and not_so is None:
-        return Inference("unknown", "the premises contradict each other")
+        return Answer("unknown", "the premises contradict each other")
     if not_so is None:
-        return Inference("yes", "nothing makes the premises true and it false")
+        return Answer("yes", "nothing makes the premises true and it false")
     if so is None:
-        return Inference("no", "nothing makes the premises true and it too")
+        return Answer("no", "nothing makes the premises true and it too")
     why = f"true with {_in_words(so)}, false with {_in_words(not_so)}"
-    return Inference("unknown", why)
+    return Answer("unknown", why)
 
 
 def _in_words(world: World) -> str:
