@@ -1,8 +1,14 @@
-"""Measures of how well answers agree with what is right, and with each other."""
+"""Measures of how well answers agree with what is right, and with each other.
+
+SciPy and scikit-learn compute what they have; they take a second to load, and so are
+loaded by what needs them. Ours are what they do not have: a Brier score with *none of
+these*, a reliability with counts, a confusion that refuses words without a row.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,8 +34,6 @@ Band = tuple[float, float]
 
 Degrees = Mapping[str, float]
 
-_Z = 1.959963984540054  # of 95 % of a normal distribution, both sides
-
 
 def accuracy(right: Sequence[str], answers: Sequence[str]) -> float:
     """The share of the answers that are right; NaN of no answers.
@@ -51,12 +55,11 @@ def kappa(one: Sequence[str], other: Sequence[str]) -> float:
     >>> kappa(["left", "left", "near", "near"], ["left", "near", "near", "near"])
     0.5
     """
-    labels = sorted({*one, *other})
-    if not labels:
+    from sklearn.metrics import cohen_kappa_score
+
+    if not len(one):
         return float("nan")
-    table = confusion(one, other, labels) / len(one)
-    expected = float(table.sum(axis=1) @ table.sum(axis=0))
-    return kappa_of_margins(float(np.trace(table)), expected)
+    return 1.0 if list(one) == list(other) else float(cohen_kappa_score(one, other))
 
 
 def kappa_of_margins(observed: float, expected: float) -> float:
@@ -120,12 +123,14 @@ def auroc(of_these: ArrayLike, of_others: ArrayLike) -> float:
     >>> auroc([0.9, 0.8], [0.1, 0.8])
     0.875
     """
+    from scipy.stats import rankdata
+
     these, others = _numbers(of_these), _numbers(of_others)
     if not len(these) or not len(others):
         return float("nan")
-    higher = (these[:, None] > others).mean()
-    equal = (these[:, None] == others).mean()
-    return float(higher + equal / 2)
+    ranks = rankdata(np.concatenate((these, others)))[: len(these)]
+    above = ranks.sum() - len(these) * (len(these) + 1) / 2
+    return float(above / (len(these) * len(others)))
 
 
 def spearman(one: ArrayLike, other: ArrayLike) -> float:
@@ -137,15 +142,15 @@ def spearman(one: ArrayLike, other: ArrayLike) -> float:
     >>> spearman([1, 2, 3], [10, 20, 90])
     1.0
     """
-    first, second = _ranks(_numbers(one)), _ranks(_numbers(other))
-    if not len(first):
+    from scipy.stats import spearmanr
+
+    first, second = _numbers(one), _numbers(other)
+    if len({*first}) < 2 or len({*second}) < 2:
         return float("nan")
-    first, second = first - first.mean(), second - second.mean()
-    scale = float(np.sqrt((first @ first) * (second @ second)))
-    return round(float(first @ second) / scale, 12) if scale else float("nan")
+    return round(float(spearmanr(first, second).statistic), 12)
 
 
-def wilson(successes: float, count: int) -> Band:
+def wilson(successes: int, count: int) -> Band:
     """The 95 % band of a share: where it may well lie, after so many trials.
 
     It stays in [0, 1] and says something even after 10 of 10.
@@ -155,22 +160,19 @@ def wilson(successes: float, count: int) -> Band:
     >>> round(low, 2), high
     (0.72, 1.0)
     """
+    from scipy.stats import binomtest
+
     if not count:
         return 0.0, 1.0
-    share = successes / count
-    spread = _Z**2 / count
-    middle = (share + spread / 2) / (1 + spread)
-    half = _Z * np.sqrt(share * (1 - share) / count + spread / count / 4) / (1 + spread)
-    low = middle - half if successes > 0 else 0.0
-    high = middle + half if successes < count else 1.0
-    return float(low), float(high)
+    band = binomtest(successes, count).proportion_ci(method="wilson")
+    return float(band.low), float(band.high)
 
 
 def bootstrap(
     values: ArrayLike,
     chance: np.random.Generator,
     *,
-    of: Callable[[NDArray[np.float64]], float] = np.mean,
+    of: Callable[..., Any] = np.mean,
     rounds: int = 1000,
 ) -> Band:
     """The 95 % band of a statistic of the values, by drawing them again and again.
@@ -180,13 +182,16 @@ def bootstrap(
     >>> bootstrap([0.5, 0.5, 0.5], np.random.default_rng(7))
     (0.5, 0.5)
     """
+    from scipy import stats
+
     values = _numbers(values)
-    if not len(values):
-        return float("nan"), float("nan")
-    drawn = chance.integers(len(values), size=(rounds, len(values)))
-    found = [float(of(values[rows])) for rows in drawn]
-    low, high = np.percentile(found, [2.5, 97.5])
-    return float(low), float(high)
+    if len(values) < 2:
+        only = float(of(values)) if len(values) else float("nan")
+        return only, only
+    drawn = stats.bootstrap(
+        (values,), of, n_resamples=rounds, method="percentile", random_state=chance
+    )
+    return float(drawn.confidence_interval.low), float(drawn.confidence_interval.high)
 
 
 def brier(right: Sequence[str], degrees: Sequence[Degrees]) -> float:
@@ -236,9 +241,3 @@ def _mean(values: Iterable[float] | NDArray[np.float64]) -> float:
 
 def _numbers(values: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(values, np.float64).ravel()
-
-
-def _ranks(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    _, place, counts = np.unique(values, return_inverse=True, return_counts=True)
-    ranks: NDArray[np.float64] = (np.cumsum(counts) - (counts - 1) / 2)[place]
-    return ranks
