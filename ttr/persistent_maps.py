@@ -1,9 +1,12 @@
 """Persistent maps: immutable mappings that are cheap to extend.
 
-A map is a tree whose leaves are dictionaries of at most `LEAF` entries; the bits of the
-hash of a key choose the way to its leaf. An extended map copies one leaf and the nodes
-above it, and shares the rest with the map that it was made from. A small map is one
-dictionary.
+`Map` is that of the library `immutables` where it is installed, and `PlainMap` where it
+is not: it is in C, and has no wheel for the newest versions of Python.
+
+A plain map is a tree whose leaves are dictionaries of at most `LEAF` entries; the bits
+of the hash of a key choose the way to its leaf. An extended map copies one leaf and the
+nodes above it, and shares the rest with the map that it was made from. A small map is
+one dictionary.
 """
 
 from __future__ import annotations
@@ -16,7 +19,7 @@ from collections.abc import (
     Mapping,
     ValuesView,
 )
-from typing import Any, TypeAlias, TypeVar, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, overload
 
 K = TypeVar("K")
 V = TypeVar("V")
@@ -37,16 +40,16 @@ Leaf: TypeAlias = dict[Any, Any]
 Node: TypeAlias = "Leaf | tuple[Node, ...]"
 
 
-class Map(Mapping[K, V]):
+class PlainMap(Mapping[K, V]):
     """An immutable mapping, of which extended and reduced copies are cheap.
 
     Maps with the same entries are equal. A map of at most `LEAF` entries has them in
     the order in which they were set, a larger map in no particular order.
 
-    >>> one = Map({"a": 1})
+    >>> one = PlainMap({"a": 1})
     >>> two = one.set("b", 2)
     >>> one, two, two.delete("a")
-    (Map({'a': 1}), Map({'a': 1, 'b': 2}), Map({'b': 2}))
+    (PlainMap({'a': 1}), PlainMap({'a': 1, 'b': 2}), PlainMap({'b': 2}))
     """
 
     __slots__ = ("__weakref__", "_root", "_size")
@@ -99,12 +102,12 @@ class Map(Mapping[K, V]):
         return hash(frozenset(self.items()))
 
     def __repr__(self) -> str:
-        return f"Map({self._entries()!r})"
+        return f"PlainMap({self._entries()!r})"
 
-    def __reduce__(self) -> tuple[type[Map[K, V]], tuple[dict[K, V]]]:
-        return Map, (self._entries(),)
+    def __reduce__(self) -> tuple[type[PlainMap[K, V]], tuple[dict[K, V]]]:
+        return PlainMap, (self._entries(),)
 
-    def set(self, key: K, value: V) -> Map[K, V]:
+    def set(self, key: K, value: V) -> PlainMap[K, V]:
         """The map in which a key has this value."""
         root = self._root
         if isinstance(root, dict):
@@ -113,11 +116,11 @@ class Map(Mapping[K, V]):
         size = self._size + (key not in self)
         return _map(_with_entry(root, hash(key), 0, key, value), size)
 
-    def delete(self, key: K) -> Map[K, V]:
+    def delete(self, key: K) -> PlainMap[K, V]:
         """The map without a key; raises `KeyError` where it is not in the map."""
         return _map(_without_entry(self._root, hash(key), key), self._size - 1)
 
-    def update(self, entries: Mapping[K, V]) -> Map[K, V]:
+    def update(self, entries: Mapping[K, V]) -> PlainMap[K, V]:
         """The map with all these entries."""
         new = self
         for key, value in entries.items():
@@ -135,8 +138,8 @@ class Map(Mapping[K, V]):
         return entries
 
 
-def _map(root: Node, size: int) -> Map[Any, Any]:
-    new: Map[Any, Any] = object.__new__(Map)
+def _map(root: Node, size: int) -> PlainMap[Any, Any]:
+    new: PlainMap[Any, Any] = object.__new__(PlainMap)
     new._root = root
     new._size = size
     return new
@@ -189,3 +192,12 @@ def _without_entry(node: Node, bits: int, key: object) -> Node:
     branch = bits % BRANCHES
     branches[branch] = _without_entry(node[branch], bits >> BITS, key)
     return tuple(branches)
+
+
+if TYPE_CHECKING:
+    Map = PlainMap
+else:
+    try:
+        from immutables import Map
+    except ImportError:
+        Map = PlainMap

@@ -1,4 +1,7 @@
-"""Laws of persistent maps: a map is as a dictionary is, and never changes."""
+"""Laws of persistent maps: a map is as a dictionary is, and never changes.
+
+They hold of maps in plain Python and, where it is installed, of those of `immutables`.
+"""
 
 import copy
 import pickle
@@ -8,7 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ttr.persistent_maps import BITS, DEEPEST, LEAF, Map
+from ttr.persistent_maps import BITS, DEEPEST, LEAF, Map, PlainMap
+
+MAPS = sorted({Map, PlainMap}, key=lambda kind: kind.__module__)
+of_each_kind = pytest.mark.parametrize("kind", MAPS, ids=lambda kind: kind.__module__)
 
 
 @dataclass(frozen=True)
@@ -31,9 +37,10 @@ changes = st.lists(st.tuples(keys, st.none() | st.integers(0, 3)), max_size=4 * 
 starts = st.dictionaries(keys, st.integers(0, 3), max_size=4 * LEAF)
 
 
+@of_each_kind
 @given(starts, changes)
-def test_a_map_is_as_a_dictionary_is(start, changes):
-    entries, changed = dict(start), Map(start)
+def test_a_map_is_as_a_dictionary_is(kind, start, changes):
+    entries, changed = dict(start), kind(start)
     for key, value in changes:
         before, was = changed, dict(changed.items())
         if value is not None:
@@ -46,8 +53,9 @@ def test_a_map_is_as_a_dictionary_is(start, changes):
             with pytest.raises(KeyError):
                 changed.delete(key)
         assert dict(before.items()) == was
-    assert changed == Map(entries) == entries
-    assert hash(changed) == hash(Map(entries))
+    assert changed == kind(entries)
+    assert dict(changed) == entries
+    assert hash(changed) == hash(kind(entries))
     assert len(changed) == len(entries)
     assert set(changed) == set(changed.keys()) == set(entries)
     assert sorted(changed.values()) == sorted(entries.values())
@@ -59,30 +67,37 @@ def test_a_map_is_as_a_dictionary_is(start, changes):
         assert changed[key] == value
 
 
+@of_each_kind
 @given(starts, starts)
-def test_updating_sets_every_entry(one, other):
-    assert Map(one).update(other) == {**one, **other}
+def test_updating_sets_every_entry(kind, one, other):
+    assert dict(kind(one).update(other)) == {**one, **other}
+
+
+@of_each_kind
+@given(starts)
+def test_a_map_is_copied_and_pickled_as_a_value(kind, entries):
+    whole = kind(entries)
+    assert pickle.loads(pickle.dumps(whole)) == copy.deepcopy(whole) == whole
 
 
 @given(starts)
-def test_a_map_is_copied_and_pickled_as_a_value(entries):
-    whole = Map(entries)
-    assert pickle.loads(pickle.dumps(whole)) == copy.deepcopy(whole) == whole
-    assert eval(repr(whole), {"Map": Map, "Clash": Clash}) == whole
+def test_a_plain_map_prints_as_python_reads_it(entries):
+    whole = PlainMap(entries)
+    assert eval(repr(whole), {"PlainMap": PlainMap, "Clash": Clash}) == whole
 
 
+@of_each_kind
 @given(starts, keys)
-def test_maps_of_other_entries_are_not_equal(entries, key):
-    whole = Map(entries)
+def test_maps_of_other_entries_are_not_equal(kind, entries, key):
+    whole = kind(entries)
     assert whole.set(key, "another value") != whole
-    assert whole.set(key, 0).delete(key) == {
-        k: v for k, v in entries.items() if k != key
-    }
+    others = {k: v for k, v in entries.items() if k != key}
+    assert whole.set(key, 0).delete(key) == kind(others)
 
 
 @given(st.lists(st.text(), unique=True, max_size=LEAF))
 def test_a_small_map_keeps_the_order_in_which_keys_were_set(keys):
-    whole = Map()
+    whole = PlainMap()
     for key in keys:
         whole = whole.set(key, 0)
     for key in keys:
@@ -90,12 +105,13 @@ def test_a_small_map_keeps_the_order_in_which_keys_were_set(keys):
     assert list(whole) == keys
 
 
-def test_a_missing_key_and_a_key_without_a_hash_are_errors():
-    many = Map((n, n) for n in range(10 * LEAF))
-    for whole in (Map(), many):
+@of_each_kind
+def test_a_missing_key_and_a_key_without_a_hash_are_errors(kind):
+    many = kind((n, n) for n in range(10 * LEAF))
+    for whole in (kind(), many):
         with pytest.raises(KeyError):
             whole["missing"]
         with pytest.raises(TypeError):
             whole.set([], 1)
         with pytest.raises(TypeError):
-            whole.get([])
+            PlainMap(whole).get([])
