@@ -47,7 +47,7 @@ from kille.perception.geometry import points_at
 from kille.perception.index import Background, Index, View, rooted
 from kille.perception.look import look
 from kille.perception.objects import ObjectMemory
-from kille.perception.paper import PaperObjects
+from kille.perception.paper_objects import PaperObjects
 from kille.perception.segment import overlap, plainly, region_of, segment
 from kille.perception.votes import beyond_chance, votes
 from kille.scene import Features, Frame, Look, Mask, Percept, Point, Region

@@ -18,11 +18,11 @@ from random import Random
 
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import sign
-from kille.speech.expecting import expected, speech
+from kille.speech.expectations import expected, speech
 from kille.speech.grammar import in_full, parted
-from kille.speech.network import allows
 from kille.speech.recognition import Recogniser
 from kille.speech.sound import RATE, Sound, read_wav
+from kille.speech.word_network import allows
 
 UTTERANCES = Path(__file__).parent.parent / "tests/kille/dialogue/utterances.en.toml"
 VOICES = ("rms", "awb")

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.colours import Palette, colours_of
-from kille.perception.relations.fronts import AWAY, turned
+from kille.perception.relations.configurations import configurations
 from kille.perception.relations.memory import template_odds
-from kille.perception.relations.seeing import configurations
+from kille.perception.relations.perspectives import AWAY, turned
 from kille.scene import Configuration, Look
 
 Pair = tuple[int, int]

@@ -22,7 +22,7 @@ from kille.perception.colours import ColourMemory, xkcd
 from kille.perception.evidence import Evidence
 from kille.perception.objects import ObjectMemory
 from kille.perception.relations import RelationMemory
-from kille.perception.relations.fronts import AWAY, FRONTS
+from kille.perception.relations.perspectives import AWAY, FRONTS
 from kille.scene import Configuration, Look, Percept
 from kille.seen import Seen
 from ttr import Model, Record

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 
 from kille.perception.colours import BASIC, lab_of, rgb_of, xkcd
-from kille.perception.sheet import write_picture
+from kille.perception.picture_sheet import write_picture
 from kille.scene import Colour
 
 HERE = Path(__file__).parent

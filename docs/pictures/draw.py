@@ -9,7 +9,7 @@ import numpy as np
 
 from kille.demo import OBJECTS
 from kille.perception.look import look
-from kille.perception.sheet import sheet, write_picture
+from kille.perception.picture_sheet import sheet, write_picture
 from kille.scene import Colour
 from kille.sensors.synthetic.sensor import Synthetic, open_synthetic
 

@@ -1,7 +1,6 @@
 """The bus: messages as values, topics, and what carries them between parts."""
 
-from kille.bus.asking import Asking, Service, serve
-from kille.bus.bus import Bus, Publisher, Subscription
+from kille.bus.interface import Bus, Publisher, Subscription
 from kille.bus.local import LocalBus
 from kille.bus.messages import (
     Bundle,
@@ -13,6 +12,7 @@ from kille.bus.messages import (
     Text,
     Topic,
 )
+from kille.bus.services import Asking, Service, serve
 
 __all__ = [
     "Asking",

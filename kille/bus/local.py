@@ -7,7 +7,7 @@ from collections.abc import Callable
 from threading import Condition, Lock, Thread, current_thread
 from typing import Any, Generic, TypeVar
 
-from kille.bus.bus import Kinds, Publisher, Subscription, Taking
+from kille.bus.interface import Kinds, Publisher, Subscription, Taking
 from kille.bus.messages import Message, Topic
 
 M = TypeVar("M", bound=Message)

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from kille.experiments.results import ExperimentError
-from kille.perception.relations.bounds import Bounds, hold
+from kille.perception.relations.bounding_boxes import Bounds, hold
 from kille.scene import Configuration, Direction
 from ttr.safety.inputs import parse_json, read_text
 from ttr.safety.limits import TABLE

@@ -17,7 +17,7 @@ import numpy as np
 from kille.experiments.judges import ACCEPTED, Person, Place, answer
 from kille.experiments.metrics import kappa
 from kille.experiments.results import Cell, Progress, Table
-from kille.perception.relations.seeing import configuration
+from kille.perception.relations.configurations import configuration
 from kille.perception.segment import segment
 from kille.scene import Configuration, Frame, Region
 from kille.sensors.sensor import At, SensorError

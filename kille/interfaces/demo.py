@@ -14,7 +14,7 @@ from kille.demo import Answer, Event, demonstration
 from kille.gaze import View
 from kille.interfaces.showing import claims, explained
 from kille.interfaces.terminal import FINE, complain, console
-from kille.perception.sheet import sheet, write_picture
+from kille.perception.picture_sheet import sheet, write_picture
 
 Row = tuple[str, View]
 

@@ -11,10 +11,10 @@ from kille.agent import Agent
 from kille.dialogue.language import understand
 from kille.dialogue.state import words
 from kille.interfaces.terminal import complain, console
-from kille.speech.expecting import LANGUAGES, expected, speech
-from kille.speech.hearing import from_file, from_microphone, from_pipe
+from kille.speech.expectations import LANGUAGES, expected, speech
 from kille.speech.recognition import Perhaps, Recogniser
 from kille.speech.sound import SoundError
+from kille.speech.utterances import from_file, from_microphone, from_pipe
 
 DEVICE, ALWAYS, PIPE = "device", "always", "-"
 """Where speech comes from, if not from a file: the microphone after Enter, the

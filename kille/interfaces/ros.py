@@ -127,7 +127,7 @@ def launch(arguments: Sequence[str]) -> int:
 
 def _sensor(bus: Bus, setting: Setting) -> Callable[[], None]:
     """Starts the sensor node; what ends it."""
-    from kille.nodes.sensing import Sensing
+    from kille.nodes.sensor import Sensing
     from kille.sensors.sources import open_sensor
 
     rate = setting("rate")
@@ -143,7 +143,7 @@ def _sensor(bus: Bus, setting: Setting) -> Callable[[], None]:
 
 def _perception(bus: Bus, setting: Setting) -> Callable[[], None]:
     """Starts the perception node; what ends it."""
-    from kille.nodes.seeing import Seeing
+    from kille.nodes.perception import Seeing
 
     return Seeing(bus, patience=setting("patience") / 2).close
 
@@ -151,8 +151,8 @@ def _perception(bus: Bus, setting: Setting) -> Callable[[], None]:
 def _dialogue(bus: Bus, setting: Setting) -> Callable[[], None]:
     """Starts the dialogue node; what ends it."""
     from kille.agent import Agent
-    from kille.nodes.eyes import Eyes
-    from kille.nodes.talking import Talking
+    from kille.nodes.dialogue import Talking
+    from kille.nodes.remote_sensor import Eyes
 
     patience = setting("patience")
     memory = memory_path(Path(setting("memory")) if setting("memory") else None)

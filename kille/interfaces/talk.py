@@ -15,12 +15,12 @@ from kille.interfaces.ears import Ears, Heard, answered
 from kille.interfaces.showing import Account, explained, things_in_view
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import MemoryFileError
-from kille.perception.sheet import overview, write_picture
+from kille.perception.picture_sheet import overview, write_picture
 from kille.perception.thumbnails import outlined
 from kille.private import create_private_file
 from kille.sensors.sensor import SensorError, Stage
 from kille.speech.sound import SoundError
-from kille.speech.speaking import Voice, voice
+from kille.speech.synthesis import Voice, voice
 from ttr import TTRError
 from ttr.safety.inputs import ask_line
 from ttr.safety.limits import UTTERANCE, InputLimitError

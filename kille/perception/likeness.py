@@ -17,7 +17,7 @@ been taught more often. One example more stands for all that was never taught: i
 no word, and as like to anything as different things mostly are, k = 1/e. So a single
 word is told from everything else. A score is a sum over cues: it shows how much each
 spoke for a word. What a word was denied of counts against that word and for no other
-(see `kille.perception.opposing`).
+(see `kille.perception.negative_examples`).
 
 Only some examples of a word are compared, so that the time does not grow with what was
 learned: the newest, and as many of the older ones, whose keys come first in an order of
@@ -44,9 +44,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.index import View
-from kille.perception.inverses import Places, updated
 from kille.perception.learners import Key
-from kille.perception.opposing import opposed
+from kille.perception.matrix_inverses import Places, updated
+from kille.perception.negative_examples import opposed
 from kille.scene import Traits, Vector
 
 Numbers = NDArray[np.float64]

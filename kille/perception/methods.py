@@ -14,8 +14,8 @@ from kille.perception.cues import with_embedding
 from kille.perception.evidence import weighing
 from kille.perception.learners import Learner
 from kille.perception.objects import ObjectMemory
-from kille.perception.paper import PaperObjects
-from kille.perception.pooled import PooledVotes
+from kille.perception.paper_objects import PaperObjects
+from kille.perception.pooled_votes import PooledVotes
 from kille.perception.relations import AngleRule, PaperRelations, RelationMemory
 from kille.scene import Configuration, Percept
 

@@ -8,9 +8,9 @@ has not been learned.
 
 A word may also be denied of a thing: "this is not a cup". That weakens this word there
 and for what is like that, and is evidence for no other: it is an example against it
-(`kille.perception.opposing`), and features near those of the denied view vote for it no
-more than if another word had such (`kille.perception.votes`). Other words gain only
-what it leaves them.
+(`kille.perception.negative_examples`), and features near those of the denied view vote
+for it no more than if another word had such (`kille.perception.votes`). Other words
+gain only what it leaves them.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from kille.perception.cues import CUES, Cue, measured
 from kille.perception.evidence import Evidence, Weighing, weighing
 from kille.perception.features import NONE
 from kille.perception.index import Index, View, distances, rooted
-from kille.perception.index.building import Builder
+from kille.perception.index.builders import Builder
 from kille.perception.learners import Key, own_key
 from kille.perception.likeness import Examples, Likeness
 from kille.perception.votes import beyond_chance, rivals, votes

@@ -14,9 +14,9 @@ from xmlrpc.client import Error as XMLRPCError
 from xmlrpc.client import ServerProxy, Transport
 
 from kille.bus import BusError, Facts, Message, Publisher, Subscription, Topic
-from kille.bus.bus import Kinds, Taking
+from kille.bus.interface import Kinds, Taking
 from kille.ros.conversion import Form, form_of
-from kille.ros.finding import ros
+from kille.ros.modules import ros
 
 M = TypeVar("M", bound=Message)
 

@@ -21,7 +21,7 @@ from kille.bus import (
     Subscription,
     Topic,
 )
-from kille.bus.bus import Kinds, Taking
+from kille.bus.interface import Kinds, Taking
 from kille.ros2.conversion import Form, form_of
 from kille.ros2.types import module, sample_type
 

@@ -12,8 +12,8 @@ from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from kille.speech.network import NOTHING, Place, either, following, said
-from kille.speech.spelling import EndlessError, spellings
+from kille.speech.pattern_expansion import EndlessError, spellings
+from kille.speech.word_network import NOTHING, Place, either, following, said
 
 if TYPE_CHECKING:
     from lark.grammar import Symbol
@@ -86,7 +86,7 @@ def tutors_grammar(language: str, *unsaid: str) -> Place:
 def sayable(source: str, unsaid: Iterable[str] = ()) -> Place:
     """All that can be said by a grammar, from `start` on; without the words unsaid.
 
-    >>> from kille.speech.network import sentences
+    >>> from kille.speech.word_network import sentences
     >>> rules = ['start: _YES? "a" _noun', "_noun: /[^ ]+/", "_YES: /(yes|yeah)/"]
     >>> list(sentences(sayable(chr(10).join(rules))))
     ['a _noun', 'yeah a _noun', 'yes a _noun']

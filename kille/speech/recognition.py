@@ -16,11 +16,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import islice
 from typing import Any, NamedTuple
 
-from kille.speech.expecting import Expected, Speech
+from kille.speech.expectations import Expected, Speech
 from kille.speech.grammar import in_full
-from kille.speech.network import NOTHING, Place, allows, places
-from kille.speech.pronouncing import Pronouncing
+from kille.speech.pronunciation import Pronouncing
 from kille.speech.sound import RATE
+from kille.speech.word_network import NOTHING, Place, allows, places
 
 _WORDS, _SOUNDS = "words", "sounds"
 """The names of the two searches."""

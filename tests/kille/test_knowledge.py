@@ -16,7 +16,7 @@ from kille.knowledge import Evidence, Knowledge
 from kille.memory import Memory, NoSuchLessonError, Turn
 from kille.memory.lessons import Kind
 from kille.perception.look import look
-from kille.perception.relations.seeing import configurations
+from kille.perception.relations.configurations import configurations
 from kille.scene import Look, Percept
 from kille.sensors.synthetic import open_synthetic
 from kille.witness import Witnesses, thing

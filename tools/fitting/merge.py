@@ -39,9 +39,9 @@ from numpy.typing import NDArray
 from kille.experiments.regions import Score, captures, score
 from kille.perception.segment import merging_by
 from kille.perception.surfaces import merging
-from kille.perception.surfaces.measures import Vectors, measured
 from kille.perception.surfaces.merging import Committee, Merger, Rounds, merged, packed
 from kille.perception.surfaces.pairs import Pairs, pairs_of
+from kille.perception.surfaces.patch_measures import Vectors, measured
 from kille.perception.surfaces.patches import patches_of, surface_of
 from kille.perception.surfaces.relief import (
     Labels,

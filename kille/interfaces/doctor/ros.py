@@ -14,7 +14,7 @@ def ros() -> Iterator[Finding]:
     """What `kille ros` and sensors of ROS need."""
     from kille.bus import BusError
     from kille.ros.bus import reach_master
-    from kille.ros.finding import REMEDY, place_of
+    from kille.ros.modules import REMEDY, place_of
 
     for module in ("rospy", "sensor_msgs"):
         if place_of(module) is None:

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kille.perception.colours.histogram import cells_of
-from kille.perception.colours.light import balanced
 from kille.perception.colours.space import Lab, lab_of
+from kille.perception.colours.white_balance import balanced
 from kille.scene import Frame, Region, Vector
 
 Numbers = NDArray[np.float64]

@@ -5,9 +5,9 @@ parts, searched by kd-trees, and an exact search over the newest views. Parts ar
 in the background, or when somebody asks.
 """
 
-from kille.perception.index.building import AtOnce, Background, Builder
+from kille.perception.index.builders import AtOnce, Background, Builder
 from kille.perception.index.index import Index
-from kille.perception.index.parts import NOBODY, Neighbours
+from kille.perception.index.index_parts import NOBODY, Neighbours
 from kille.perception.index.searches import SEARCHES
 from kille.perception.index.views import (
     Descriptors,

@@ -10,9 +10,9 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.index.building import AtOnce, Builder
-from kille.perception.index.parting import Parting, parting_of
-from kille.perception.index.parts import NOBODY, Exact, Neighbours, Part
+from kille.perception.index.builders import AtOnce, Builder
+from kille.perception.index.index_parts import NOBODY, Exact, Neighbours, Part
+from kille.perception.index.partition import Parting, parting_of
 from kille.perception.index.searches import search_called
 from kille.perception.index.views import Rows, View, count, thinned
 from kille.perception.learners import Key

@@ -9,8 +9,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.index.cells import cells
-from kille.perception.index.trees import Trees
+from kille.perception.index.inverted_file import cells
+from kille.perception.index.kd_trees import Trees
 from kille.perception.index.views import Descriptors, Rows
 
 

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from kille.perception.learners import Key, own_key
 from kille.perception.relations.judgements import Judgements, degrees_at, log_odds
-from kille.perception.relations.space import space
+from kille.perception.relations.template_space import space
 from kille.scene import Configuration
 
 Vector = NDArray[np.float64]

@@ -23,8 +23,8 @@ from importlib.resources import files
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.surfaces.measures import Vectors, measured
 from kille.perception.surfaces.pairs import FEATURES, Pairs, pairs_of
+from kille.perception.surfaces.patch_measures import Vectors, measured
 from kille.perception.surfaces.patches import Surface
 from kille.perception.surfaces.relief import Labels, Relief
 from kille.perception.table import Plane

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.geometry import Array
-from kille.perception.surfaces.measures import Indices, Measures, Vectors
+from kille.perception.surfaces.patch_measures import Indices, Measures, Vectors
 from kille.perception.surfaces.patches import CONCAVE, Surface
 from kille.perception.surfaces.relief import Labels, Relief, jump_of
 

@@ -11,7 +11,7 @@ from kille.experiments import growth as module
 from kille.experiments.growth import growth
 from kille.experiments.results import Result
 from kille.perception.objects import ObjectMemory
-from kille.perception.paper import PaperObjects
+from kille.perception.paper_objects import PaperObjects
 from kille.scene import Percept
 
 SIZES = (10, 20, 40)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.perception.inverses import updated
+from kille.perception.matrix_inverses import updated
 
 
 @given(st.integers(0, 1000), st.integers(0, 12), st.integers(0, 5), st.integers(0, 5))

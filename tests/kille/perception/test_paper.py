@@ -10,7 +10,7 @@ from tabletop import Camera, Card, frame_of, percept_of, prototypes
 
 from kille.perception.learners import check_learner
 from kille.perception.look import look
-from kille.perception.paper import PaperObjects, _scans
+from kille.perception.paper_objects import PaperObjects, _scans
 from kille.scene import Percept, Point
 
 WORDS = {"cup": 1, "book": 2, "shoe": 3}

@@ -10,7 +10,7 @@ from tabletop import percept_of, prototypes
 
 from kille.perception.features import NONE
 from kille.perception.learners import check_learner
-from kille.perception.pooled import PooledVotes
+from kille.perception.pooled_votes import PooledVotes
 from kille.scene import Percept
 
 WORDS = {"cup": 1, "book": 2, "shoe": 3}

@@ -17,11 +17,11 @@ from hypothesis.extra import numpy as arrays
 from kille import Agent, Memory
 from kille.bus import Asking, Bundle, Bus, BusError, Facts, LocalBus, Text, serve
 from kille.bus.packing import packed, unpacked
-from kille.nodes.eyes import Eyes
-from kille.nodes.looks import bundle_of, look_in, mask_in, runs_of
-from kille.nodes.seeing import Seeing
-from kille.nodes.sensing import Sensing
-from kille.nodes.talking import Talking
+from kille.nodes.dialogue import Talking
+from kille.nodes.look_messages import bundle_of, look_in, mask_in, runs_of
+from kille.nodes.perception import Seeing
+from kille.nodes.remote_sensor import Eyes
+from kille.nodes.sensor import Sensing
 from kille.nodes.topics import (
     CALLS,
     FRAMES,

@@ -12,7 +12,7 @@ from shutil import which
 import pytest
 
 from kille.dialogue.meanings import sign
-from kille.speech.expecting import expected, speech
+from kille.speech.expectations import expected, speech
 from kille.speech.recognition import Recogniser
 from kille.speech.sound import RATE, read_wav
 

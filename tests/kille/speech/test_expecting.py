@@ -10,10 +10,10 @@ import pytest
 
 from kille.dialogue.language import understand
 from kille.dialogue.meanings import sign
-from kille.speech.expecting import Expected, expected, speech
+from kille.speech.expectations import Expected, expected, speech
 from kille.speech.grammar import parted
-from kille.speech.network import Place, allows, places
 from kille.speech.recognition import joined
+from kille.speech.word_network import Place, allows, places
 
 KNOWN = [
     *(sign(it, "noun") for it in ("cup", "apple", "teddy bear", "shoe-box")),

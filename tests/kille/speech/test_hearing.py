@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from kille.speech.hearing import LONGEST, from_file, from_microphone, from_pipe
 from kille.speech.sound import RATE, SoundError
+from kille.speech.utterances import LONGEST, from_file, from_microphone, from_pipe
 
 pytest.importorskip("pocketsphinx")
 

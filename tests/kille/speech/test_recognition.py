@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kille.dialogue.meanings import sign
-from kille.speech.expecting import expected, speech
+from kille.speech.expectations import expected, speech
 from kille.speech.grammar import in_full, parted
 from kille.speech.recognition import Recogniser
 from kille.speech.sound import RATE

@@ -26,7 +26,7 @@ from kille.perception.index import (
     View,
     distances,
     index,
-    parting,
+    partition,
     rooted,
 )
 
@@ -70,8 +70,8 @@ def search(request: pytest.FixtureRequest) -> str:
 @pytest.fixture
 def small(monkeypatch: pytest.MonkeyPatch) -> None:
     """Trees from so few descriptors on that tests are quick."""
-    monkeypatch.setattr(parting, "TAIL", 150)
-    monkeypatch.setattr(parting, "FACTOR", 4)
+    monkeypatch.setattr(partition, "TAIL", 150)
+    monkeypatch.setattr(partition, "FACTOR", 4)
 
 
 @pytest.fixture(params=[AtOnce, Background], ids=["at once", "background"])

@@ -7,7 +7,7 @@ from itertools import pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.perception.index.parting import FACTOR, TAIL, parting_of
+from kille.perception.index.partition import FACTOR, TAIL, parting_of
 
 sizes = st.lists(st.integers(0, 3 * TAIL), max_size=200)
 

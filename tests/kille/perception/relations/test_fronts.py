@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.perception.relations import RelationMemory
-from kille.perception.relations.fronts import AWAY, FRONTS, turned
+from kille.perception.relations.perspectives import AWAY, FRONTS, turned
 from kille.scene import Configuration
 
 metres = st.floats(-2, 2)

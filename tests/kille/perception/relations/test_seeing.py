@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.perception.relations.bounds import Bounds, bounds_of, hold
-from kille.perception.relations.seeing import configuration, configurations
+from kille.perception.relations.bounding_boxes import Bounds, bounds_of, hold
+from kille.perception.relations.configurations import configuration, configurations
 from kille.perception.segment import region_of
 from kille.scene import Configuration, Region
 from kille.sensors.sensor import At

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from kille.bus import Asking, Bundle, Bus, BusError
-from kille.nodes.looks import frame_in, look_in, runs_of
+from kille.nodes.look_messages import frame_in, look_in, runs_of
 from kille.nodes.topics import LOOKS, STAGE
 from kille.perception.look import Sighting
 from kille.scene import Frame, Look

@@ -12,7 +12,7 @@ from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import named, predicate_at
 from kille.exchange import Exchange
 from kille.memory import MemoryFileError
-from kille.nodes.calls import text_of
+from kille.nodes.program_calls import text_of
 from kille.nodes.topics import (
     CALLS,
     HYPOTHESES,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.geometry import offset, points_in, table_axes
-from kille.perception.relations.bounds import Bounds, bounds_of, hold
+from kille.perception.relations.bounding_boxes import Bounds, bounds_of, hold
 from kille.scene import Configuration, Direction, Frame, Point, Region
 
 _STRAYS = 0.02

@@ -28,7 +28,7 @@ def spellings(pattern: str) -> Spelled:
     ('good bye', 'goodbye', "'s", '’s')
     >>> spellings(r"\w+")
     Traceback (most recent call last):
-    kille.speech.spelling.EndlessError: \w+: \w stands for any character
+    kille.speech.pattern_expansion.EndlessError: \w+: \w stands for any character
     """
     try:
         found, at = _alternatives(pattern, 0)

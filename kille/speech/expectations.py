@@ -16,7 +16,7 @@ from typing import Any
 
 from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.speech.grammar import CONTRACTED, TAUGHT, parted, tutors_grammar
-from kille.speech.network import Place, either, filled, fused, only, places, said
+from kille.speech.word_network import Place, either, filled, fused, only, places, said
 from ttr import Record
 
 LANGUAGES = ("en",)
@@ -79,7 +79,7 @@ def expected(words: Iterable[Record], language: str = "en") -> Expected:
     """What may be said to a robot that knows these words.
 
     >>> from kille.dialogue.meanings import sign
-    >>> from kille.speech.network import allows
+    >>> from kille.speech.word_network import allows
     >>> network = expected([sign("cup", "noun")]).network
     >>> [
     ...     allows(network, text.split())

@@ -18,7 +18,7 @@ from threading import Lock
 from typing import Any, Generic, TypeVar
 from uuid import uuid4
 
-from kille.bus.bus import Bus, Publisher, Subscription
+from kille.bus.interface import Bus, Publisher, Subscription
 from kille.bus.messages import Bundle, BusError, Facts, Topic
 
 _logger = logging.getLogger("kille.bus")

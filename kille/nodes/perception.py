@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from kille.bus import Bundle, Bus, BusError, serve
-from kille.nodes.looks import bundle_of, frame_bundle, mask_in
+from kille.nodes.look_messages import bundle_of, frame_bundle, mask_in
 from kille.nodes.topics import FRAMES, LOOKS
 from kille.perception.look import SCANS, Sighting, look
 from kille.perception.segment import region_of

@@ -11,7 +11,7 @@ the ratio: the former are those of OpenCV's tutorial on matching, the latter is 
 
 It is slow on purpose: its time grows with every view. It also has KILLE's bias, that
 things with few features are taken for things with many. Where hardly a view matches, as
-in pictures of categories, the votes of `kille.perception.pooled` do better.
+in pictures of categories, the votes of `kille.perception.pooled_votes` do better.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ from collections import deque
 from collections.abc import Sequence
 from typing import Protocol
 
-from kille.perception.index.parts import Part
+from kille.perception.index.index_parts import Part
 
 _QUICK = 200_000  # descriptors; trees over these take about a third of a second
 _PATIENCE = 20_000  # descriptors; trees over these take about .03 s
