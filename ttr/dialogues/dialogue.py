@@ -206,7 +206,7 @@ def _attempt(
 ) -> tuple[Turn | None, Exception | None]:
     """The turn, or what went wrong; neither where the game does not take it."""
     try:
-        event = _event_of(game, given)
+        event = event_heard(game, given)
     except TTRError:
         return None, None
     except Exception as error:
@@ -219,8 +219,11 @@ def _attempt(
         return None, error if _can_happen(event, before.model) else None
 
 
-def _event_of(game: Game, given: object) -> object:
-    """The event that a text is for; raises `TTRError` where it is not understood."""
+def event_heard(game: Game, given: object) -> object:
+    """The event that the game hears a text as; anything else is the event itself.
+
+    Raises `TTRError` for a text that is not understood.
+    """
     if isinstance(given, str) and game.hear is not None:
         return game.hear(given)
     return given

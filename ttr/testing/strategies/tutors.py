@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 from hypothesis import strategies as st
 
-from ttr.dialogues.dialogue import Dialogue
+from ttr.dialogues.dialogue import Dialogue, event_heard
 from ttr.errors import TTRError
 from ttr.judging.certainty import is_certain
 from ttr.judging.models import Model
@@ -134,16 +134,10 @@ class _Talk:
         self, one: Object, other: Object, certainties: tuple[float, float]
     ) -> Object:
         """Two things of which either may have been heard; the first, if one is none."""
-        events = [self._event(one), self._event(other)]
+        events = [event_heard(self.game, one), event_heard(self.game, other)]
         if any(event is None or isinstance(event, NBest) for event in events):
             return one
         return nbest(*zip(events, certainties, strict=True))
-
-    def _event(self, said: Object) -> Object:
-        """The event that a text is heard as; any other event itself."""
-        if isinstance(said, str) and self.game.hear is not None:
-            return self.game.hear(said)
-        return said
 
     def _one(
         self,
