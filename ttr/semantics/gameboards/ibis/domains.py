@@ -95,12 +95,6 @@ class Domain:
         """The first proposition known that resolves a question, or None."""
         return find_answer(question, known, self.model)
 
-    def open_questions(
-        self, questions: Iterable[Object], known: Sequence[Object]
-    ) -> tuple[Object, ...]:
-        """The questions among these that nothing known resolves."""
-        return tuple(q for q in questions if self.find_answer(q, known) is None)
-
     def issues_about(self, answer: Object) -> list[Object]:
         """The issues whose plans ask a question that an answer is about."""
         return [

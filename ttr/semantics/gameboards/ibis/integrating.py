@@ -203,7 +203,7 @@ def integration(domain: Domain) -> Algorithm:
         """
         if _is_short(m) or domain.questions_about(content_of(m), s.shared.qud[:1]):
             return None
-        asked = domain.open_questions(questions_in(s.private.plan), s.shared.com)
+        asked = downdate(questions_in(s.private.plan), s.shared.com, domain.model)
         concerned = domain.questions_about(content_of(m), asked)
         if len(concerned) != 1:
             return None
