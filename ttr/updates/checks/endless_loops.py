@@ -9,7 +9,7 @@ from ttr.types.syntax import TypeNode
 from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
-from ttr.updates.checks.state_layout import Labels, leaf_fields
+from ttr.updates.checks.state_layout import Labels, leaf_fields, overlap
 from ttr.updates.checks.untriggered_rules import may_set
 from ttr.updates.rules import Rule
 from ttr.updates.update_strategies import Algorithm, Repeat, rules_of, strategies_in
@@ -126,7 +126,5 @@ def _touches(rules: RuleSet, rule: Rule, path: Labels) -> bool:
     summary = rules.summaries[rule]
     if not summary.complete:
         return True
-    shared = (
-        write.path[: len(path)] == path[: len(write.path)] for write in summary.writes
-    )
-    return any(shared) and path not in _shortened_lists(rules, rule)
+    writes = any(overlap(write.path, path) for write in summary.writes)
+    return writes and path not in _shortened_lists(rules, rule)

@@ -122,6 +122,15 @@ def views_along(view: View, path: Labels) -> Views:
     return views
 
 
+def overlap(path: Labels, other: Labels) -> bool:
+    """Does one of two paths lead to where the other does, or into that?
+
+    >>> overlap(("bg",), ("bg", "x")), overlap(("bg", "y"), ("bg", "x"))
+    (True, False)
+    """
+    return path[: len(other)] == other[: len(path)]
+
+
 def leaf_fields(T: TypeNode, at: Labels = ()) -> Iterator[tuple[Labels, TypeNode]]:
     """The paths and types of the innermost fields of a record type."""
     match T:

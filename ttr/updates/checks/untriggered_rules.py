@@ -12,7 +12,14 @@ from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import Demand, RuleSet
 from ttr.updates.checks.source_positions import span_of_label
-from ttr.updates.checks.state_layout import Labels, Missing, Term, descend, views_along
+from ttr.updates.checks.state_layout import (
+    Labels,
+    Missing,
+    Term,
+    descend,
+    overlap,
+    views_along,
+)
 from ttr.updates.rules import Rule
 
 
@@ -108,13 +115,12 @@ def _may_set_place(rules: RuleSet, rule: Rule, path: Labels, T: TypeNode) -> boo
 def _may_bring(
     rules: RuleSet, rule: Rule, write: Write, path: Labels, T: TypeNode
 ) -> bool:
-    shared = min(len(write.path), len(path))
-    if write.path[:shared] != path[:shared]:
+    if not overlap(write.path, path):
         return False
     views = rules.views_brought_by(rule, write)
     if not views or len(write.path) > len(path):
         return True
-    rest = path[shared:]
+    rest = path[len(write.path) :]
     for view in views:
         found = descend((view,), rest)
         if isinstance(found, Missing):
@@ -163,8 +169,7 @@ def _planned_moves(
         if not summary.complete:
             return None
         for write in summary.writes:
-            shared = min(len(write.path), len(agenda))
-            if write.path[:shared] != agenda[:shared]:
+            if not overlap(write.path, agenda):
                 continue
             if (
                 write.path != agenda
