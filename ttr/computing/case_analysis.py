@@ -88,6 +88,11 @@ def cases(T: TypeNode) -> tuple[TypeNode, ...] | None:
     return (T,)
 
 
+def cases_or_whole(T: TypeNode) -> tuple[TypeNode, ...]:
+    """The cases of a type, or the type itself where they are too many."""
+    return cases(T) or (T,)
+
+
 def _record_type_of(labels: Iterable[str], *types: TypeNode) -> RecordType:
     return RecordType(order_fields(dict(zip(labels, types, strict=True))))
 

@@ -14,7 +14,7 @@ from functools import partial
 from itertools import combinations_with_replacement
 from typing import assert_never
 
-from ttr.computing.case_analysis import Clause, cases, clauses
+from ttr.computing.case_analysis import Clause, cases_or_whole, clauses
 from ttr.computing.findings import YES, Finding, Where, every, no
 from ttr.computing.generic_witness import (
     ITSELF,
@@ -297,7 +297,7 @@ class Prover:
         for one in known:
             if not isinstance(one, Join):
                 continue
-            further = [self._assume_new([(term, case)]) for case in _cases(one)]
+            further = [self._assume_new([(term, case)]) for case in cases_or_whole(one)]
             if self in further:
                 continue
             if all(case.is_impossible or case.prove(term, T).yes for case in further):
@@ -422,7 +422,7 @@ class Prover:
         if len(self.assumed) >= ASSUMPTIONS:
             return False
         one = self._new_place()
-        further = [self.assume((one, case)) for case in _cases(S)]
+        further = [self.assume((one, case)) for case in cases_or_whole(S)]
         return all(
             q._has_misfit
             or q._is_contradictory
@@ -483,7 +483,7 @@ class Prover:
         """Does it hold in each case of S, when something of S is at the place?"""
         if len(self.assumed) >= ASSUMPTIONS:
             return Finding(False, lambda: "this nests too deep to be followed")
-        further = [self.assume((place, case)) for case in _cases(S)]
+        further = [self.assume((place, case)) for case in cases_or_whole(S)]
         return every(prove_case(q) for q in further if not q._has_misfit)
 
     def _follows_from_function(self, term: Application, T: TypeNode) -> bool:
@@ -587,11 +587,6 @@ def _ask_of(term: Object, T: TypeNode) -> Callable[[Prover], Finding]:
 def _is_closed(term: Object, T: TypeNode) -> bool:
     """Can a model be asked? Questions about functions are answered here."""
     return not (isinstance(T, FunType) or free_paths(term) or free_paths(T))
-
-
-def _cases(T: TypeNode) -> tuple[TypeNode, ...]:
-    """The cases of a type, or the type itself if they are too many."""
-    return cases(T) or (T,)
 
 
 def _from_witness(place: Path) -> Path:

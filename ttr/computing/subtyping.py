@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ttr.computing.case_analysis import cases
+from ttr.computing.case_analysis import cases, cases_or_whole
 from ttr.computing.findings import Finding
 from ttr.computing.generic_witness import ITSELF, Assumption
 from ttr.computing.path_cycles import has_fields_in_order
@@ -251,7 +251,7 @@ def consistent(*types: TypeNode, theory: Signature | None = None) -> Answer:
     signature = signature_of(theory)
     open_cases = [
         case
-        for case in cases(T) or (T,)
+        for case in cases_or_whole(T)
         if not Prover.for_type(case, signature).is_impossible
     ]
     if not open_cases:

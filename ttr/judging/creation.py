@@ -8,7 +8,7 @@ from itertools import count, cycle, islice
 from typing import assert_never
 
 from ttr.building.merging import merge
-from ttr.computing.case_analysis import cases, has_cases
+from ttr.computing.case_analysis import cases_or_whole, has_cases
 from ttr.computing.generic_witness import ITSELF, GenericWitness, step
 from ttr.computing.path_cycles import describe_cycle
 from ttr.computing.strings.automata import automaton_above
@@ -40,7 +40,7 @@ from ttr.types.objects import (
     Record,
     UnresolvedError,
 )
-from ttr.types.paths import free_paths, mentions, replace_paths, shift_paths
+from ttr.types.paths import free_paths, mentions, shift_paths
 from ttr.types.printing import notation
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import (
@@ -250,9 +250,8 @@ class _WitnessMaker:
         if size == 0:
             return (), facts
         spend(size)
-        kinds = cases(item) or (item,)
         items: list[Object] = []
-        for _, kind in zip(range(size), cycle(kinds), strict=False):
+        for _, kind in zip(range(size), cycle(cases_or_whole(item)), strict=False):
             made, facts = self.make(facts, kind)
             items.append(made)
         return tuple(items), facts
@@ -276,7 +275,7 @@ class _WitnessMaker:
 
     def _piece_types(self, T: Plus) -> list[TypeNode]:
         """The types of `size` pieces; the parts of a join take turns."""
-        kinds = [case for one in alternatives(T.item) for case in cases(one) or (one,)]
+        kinds = [case for one in alternatives(T.item) for case in cases_or_whole(one)]
         return list(islice(cycle(kinds), max(1, self._size)))
 
     def _record(self, facts: Assignment, T: RecordType) -> Made:
@@ -330,14 +329,14 @@ class _WitnessMaker:
         if isinstance(T.result, Singleton):
             yield T.result.value, facts
         if all(path.up > 0 for path in free_paths(T.result)):
-            yield self.make(facts, replace_paths(T.result, _further_out))
+            yield self.make(facts, shift_paths(T.result, -1))
 
     # --- meets, joins, negations ---
 
     def _make_case(self, facts: Assignment, T: TypeNode) -> Made:
         """A witness of the first case that has one."""
         refused = RefusedError(f"a witness of {T} cannot be made up, only be given")
-        for case in cases(T) or (T,):
+        for case in cases_or_whole(T):
             try:
                 sit, known = self._case(facts, case)
                 _check(known, sit, case)
@@ -407,10 +406,6 @@ def _type(T: Universe, size: int) -> TypeNode:
 def _another(labels: Collection[str]) -> str:
     """A label that is not among these."""
     return next(one for one in map("more{}".format, count()) if one not in labels)
-
-
-def _further_out(path: Path) -> Path:
-    return Path(path.up - 1, path.labels)
 
 
 def _with_certainty(facts: Assignment, sit: Object, T: TypeNode) -> Assignment:

@@ -15,7 +15,7 @@ from functools import partial
 from itertools import islice, product
 from typing import Any, ClassVar, Generic, TypeVar
 
-from ttr.computing.case_analysis import cases
+from ttr.computing.case_analysis import cases_or_whole
 from ttr.computing.prover import Prover
 from ttr.computing.strings.automata import automaton
 from ttr.computing.strings.automaton_runs import Stop
@@ -457,7 +457,7 @@ class _Derivation(Evaluator[Why]):
         if isinstance(domain, Basic | PType):
             for x in islice(self.facts.witnesses(domain), TRIED):
                 yield x, self.facts
-        for case, size in product(cases(domain) or (domain,), (1, 0, 2)):
+        for case, size in product(cases_or_whole(domain), (1, 0, 2)):
             with suppress(RefusedError):
                 yield make_witness(self.facts, case, size)
 

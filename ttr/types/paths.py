@@ -247,7 +247,7 @@ def _reaches_out(T: TypeNode, depth: int) -> bool:
 
 
 def shift_paths(value: Object, depth: int) -> Object:
-    """The value as it must be written `depth` scopes further in."""
+    """The value as it must be written `depth` scopes further in; out, below 0."""
     if depth == 0:
         return value
     return replace_paths(value, lambda path: Path(path.up + depth, path.labels))

@@ -25,7 +25,7 @@ from ttr.types.objects import (
     Record,
 )
 from ttr.types.paths import parts as contents
-from ttr.types.paths import replace_paths, subterms
+from ttr.types.paths import replace_paths, shift_paths, subterms
 from ttr.types.precedence import (
     begins_with_bracket,
     binds,
@@ -361,8 +361,7 @@ def _python_binder(value: FunType | Function) -> str:
         case Function(domain, body, hint):
             call, inside = "fun", body
         case FunType(domain, result) if not binds(result):
-            outside = replace_paths(result, lambda p: Path(p.up - 1, p.labels))
-            return f"({python(domain)} >> {python(outside)})"
+            return f"({python(domain)} >> {python(shift_paths(result, -1))})"
         case FunType(domain, inside, hint):
             call = "Pi"
     named = replace_paths(inside, lambda path: _name_variable(path, hint))

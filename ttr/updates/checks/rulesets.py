@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TypeAlias
 
-from ttr.computing.case_analysis import cases
+from ttr.computing.case_analysis import cases_or_whole
 from ttr.computing.prover import Prover
 from ttr.computing.subtyping import subtype
 from ttr.errors import TTRError
@@ -250,7 +250,7 @@ class RuleSet:
 def _is_impossible(T: TypeNode, theory: Signature) -> bool:
     """Is surely nothing of a type, under any assignment?"""
     try:
-        every = cases(T) or (T,)
-        return all(Prover.for_type(case, theory).is_impossible for case in every)
+        provers = (Prover.for_type(case, theory) for case in cases_or_whole(T))
+        return all(prover.is_impossible for prover in provers)
     except TTRError:
         return False
