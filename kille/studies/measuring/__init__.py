@@ -6,8 +6,10 @@ from kille.studies.measuring.comparing import (
     differences,
     holm,
     in_pairs,
+    least_p,
     mcnemar,
     mcnemar_of,
+    pairs_needed,
 )
 from kille.studies.measuring.measures import Measure, estimate, value
 from kille.studies.measuring.power import least_difference, power_of, runs_needed
@@ -23,8 +25,10 @@ __all__ = [
     "in_pairs",
     "kappas",
     "least_difference",
+    "least_p",
     "mcnemar",
     "mcnemar_of",
+    "pairs_needed",
     "power_of",
     "runs_needed",
     "scored",

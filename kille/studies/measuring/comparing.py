@@ -146,6 +146,27 @@ def exchanged(
     return large / count
 
 
+def least_p(pairs: int) -> float:
+    """The smallest p that so many pairs can give: all of them differ the same way.
+
+    >>> least_p(2), least_p(5)
+    (0.5, 0.0625)
+    """
+    return min(1.0, 2.0 ** (1 - pairs)) if pairs <= _EXACT else 1 / (_SHUFFLES + 1)
+
+
+def pairs_needed(tests: int, alpha: float) -> int | None:
+    """How many pairs the best of so many tests needs for p < alpha, after Holm.
+
+    None where no number of pairs would do.
+
+    >>> pairs_needed(1, 0.05), pairs_needed(3, 0.05)
+    (6, 7)
+    """
+    enough = (n for n in range(1, _EXACT + 1) if tests * least_p(n) < alpha)
+    return next(enough, None)
+
+
 # --- question by question ------------------------------------------------------------
 
 

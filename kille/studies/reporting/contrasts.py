@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from kille.experiments.report import shown
 from kille.experiments.results import Cell, Estimate, Figure, Result, Table
-from kille.studies.measuring.comparing import Contrast, Difference, contrasts, holm
+from kille.studies.measuring.comparing import (
+    Contrast,
+    Difference,
+    contrasts,
+    holm,
+    least_p,
+    pairs_needed,
+)
 from kille.studies.measuring.measures import ACCURACY, Measure
 from kille.studies.measuring.power import POWER, least_difference, power_of, runs_needed
 from kille.studies.reporting.findings import Theories
@@ -29,7 +36,9 @@ _SOUGHT = (0.05, 0.02)
 TESTED = (
     "p: permutation test, in which the two of a pair are exchanged; then with Holm's "
     "correction, for accuracy, the main measure, over its own tests, and for the "
-    "others over all of theirs. What is the same in each pair is left out."
+    "others over all of theirs. What is the same in each pair is left out. The "
+    "brackets are of 95 %, of pairs drawn anew; where they and the test of the same "
+    "difference disagree about zero, the test counts, and no brackets are shown."
 )
 _NOTE = (
     "Each is that of the later theory less that of the earlier one, over dialogues "
@@ -66,7 +75,8 @@ def contrasted(
         _powers(found),
     )
     told = tuple(it for it in tables if it.rows)
-    return [Result("How they differ", told, _figures(found), text=_in_words(asked))]
+    text = "\n\n".join([*out_of_reach(asked), _in_words(asked)])
+    return [Result("How they differ", told, _figures(found), text=text)]
 
 
 def _in_words(found: Sequence[Contrast]) -> str:
@@ -102,7 +112,41 @@ def _sentence(it: Contrast, p: float) -> str:
 
 def told_by(difference: Difference, p: float) -> str:
     """A difference, with its band and how likely it is by chance, in a sentence."""
-    return f"{shown(difference.estimate)} (p = {told_p(p)})".replace("= <", "<")
+    estimate = agreeing(difference.estimate, p)
+    return f"{shown(estimate)} (p = {told_p(p)})".replace("= <", "<")
+
+
+def agreeing(estimate: Estimate, p: float) -> Estimate:
+    """A difference beside its p: without a band that says otherwise of zero.
+
+    >>> agreeing(Estimate(0.2, 0.1, 0.3), 0.01), agreeing(Estimate(0.2, 0.1, 0.3), 0.06)
+    (Estimate(value=0.2, low=0.1, ...), Estimate(value=0.2, low=nan, high=nan, ...))
+    """
+    apart = not estimate.low <= 0 <= estimate.high
+    if apart == (p < CHANCE):
+        return estimate
+    return estimate._replace(low=float("nan"), high=float("nan"))
+
+
+def out_of_reach(found: Sequence[Contrast]) -> Iterator[str]:
+    """That no difference can be significant, where there are too few pairs for it."""
+    mains = [it.differences[_MAIN] for it in found if _MAIN in it.differences]
+    most, tests = max((it.pairs for it in mains), default=0), len(mains)
+    least = min(1.0, tests * least_p(most))
+    if not most or least < CHANCE:
+        return
+    needed = pairs_needed(tests, CHANCE)
+    corrected = f" after Holm's correction for {tests} tests" if tests > 1 else ""
+    yield (
+        f"No difference in {_MAIN} can be significant: with {most} "
+        f"pair{'s' if most != 1 else ''} of dialogues p is {told_p(least)} at "
+        f"best{corrected}. "
+        + (
+            f"It takes {needed} pairs: give the study more seeds."
+            if needed
+            else "Compare fewer theories."
+        )
+    )
 
 
 def contrast_names(contrast: Contrast) -> str:
@@ -133,7 +177,14 @@ def _differences(
     ]
     ps = corrected([(name, d.p) for _, name, d in told])
     rows = tuple(
-        (contrast_names(it), name, d.estimate, told_p(d.p), told_p(p), d.pairs)
+        (
+            contrast_names(it),
+            name,
+            agreeing(d.estimate, d.p),
+            told_p(d.p),
+            told_p(p),
+            d.pairs,
+        )
         for (it, name, d), p in zip(told, ps, strict=True)
     )
     columns = ("theories", "measure", "difference", "p", "p (Holm)", "pairs")
@@ -230,7 +281,9 @@ def _figures(found: Sequence[Contrast]) -> tuple[Figure, ...]:
 
 def _estimate(difference: Difference | None) -> Estimate:
     nothing = Estimate(float("nan"), float("nan"), float("nan"))
-    return nothing if difference is None else difference.estimate
+    if difference is None:
+        return nothing
+    return agreeing(difference.estimate, difference.p)
 
 
 def _on_two_lines(other: str, one: str) -> str:

@@ -17,6 +17,7 @@ from kille.studies.reporting.contrasts import (
     CORRECTED,
     FEW,
     TESTED,
+    agreeing,
     corrected,
     told_by,
     told_p,
@@ -85,8 +86,7 @@ def _against(
         return
     ps = corrected([(it.measure, it.difference.p) for it in told])
     rows = tuple(
-        (*it.named, it.difference.estimate, *_tested(it.difference, p))
-        for it, p in zip(told, ps, strict=True)
+        (*it.named, *_tested(it.difference, p)) for it, p in zip(told, ps, strict=True)
     )
     columns = ("theory", "measure", what, "difference", "p", "p (Holm)", "pairs")
     links = {(row, 3): it.place for row, it in enumerate(told)}
@@ -124,7 +124,8 @@ def _sentence(what: str, first: str, it: _Told, p: float) -> str:
 
 
 def _tested(difference: Difference, p: float) -> tuple[Cell, ...]:
-    return told_p(difference.p), told_p(p), difference.pairs
+    told = agreeing(difference.estimate, difference.p)
+    return told, told_p(difference.p), told_p(p), difference.pairs
 
 
 def _one(

@@ -18,8 +18,10 @@ from kille.studies.measuring.comparing import (
     exchanges,
     holm,
     in_pairs,
+    least_p,
     mcnemar,
     mcnemar_of,
+    pairs_needed,
 )
 from kille.studies.measuring.measures import ACCURACY, LESSONS, tallies
 from kille.studies.measuring.scored import Dialogue, scored
@@ -212,3 +214,24 @@ def test_what_is_no_number_is_no_test() -> None:
     nan = float("nan")
     assert holm([nan, 0.02])[1] == 0.02
     assert holm([nan])[0] != holm([nan])[0]
+
+
+@pytest.mark.parametrize("count", [1, 2, 5, 8, 15, 16])
+def test_the_least_p_is_that_of_pairs_that_all_differ_one_way(count: int) -> None:
+    first = np.tile([0.0, 1.0], (count, 1))
+    second = np.ones((count, 2))
+    stays = exchanges(count, np.random.default_rng(1))
+    found = exchanged(ACCURACY, first, second, stays)
+    assert found >= least_p(count)
+    if count <= 15:
+        assert found == least_p(count)
+
+
+@pytest.mark.parametrize("tests", [1, 3, 10, 100])
+def test_with_one_pair_less_than_needed_the_best_of_the_tests_fails(tests: int) -> None:
+    needed = pairs_needed(tests, 0.05)
+    assert needed is not None
+    others = [1.0] * (tests - 1)
+    assert min(holm([least_p(needed), *others])) < 0.05
+    assert min(holm([least_p(needed - 1), *others])) >= 0.05
+    assert pairs_needed(10_000, 0.05) is None

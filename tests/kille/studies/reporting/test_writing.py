@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import sys
 from collections.abc import Iterator
@@ -11,12 +12,15 @@ from pathlib import Path
 from random import Random
 from urllib.parse import unquote
 
+import numpy as np
 import pytest
 
 from kille.experiments.figures import MISSING
 from kille.experiments.results import Estimate
+from kille.studies.measuring.comparing import Contrast, Difference, McNemar
 from kille.studies.measuring.scored import Dialogue, scored
 from kille.studies.played import Answer, Played, Turn
+from kille.studies.reporting.contrasts import out_of_reach
 from kille.studies.reporting.findings import grouped
 from kille.studies.reporting.places import places_of
 from kille.studies.reporting.writing import Subject, every_two, results_of, write
@@ -304,3 +308,57 @@ def test_the_better_theory_is_found_to_be_better() -> None:
     assert row[2].high < 0
     assert row[3] == "< 0.001"
     assert row[5] == 20
+
+
+@pytest.mark.parametrize(
+    ("theories", "seeds", "told"),
+    [
+        ((SURE, ODD), 5, "with 5 pairs of dialogues p is 0.062 at best. It takes 6 "),
+        ((SURE, ODD), 1, "with 1 pair of dialogues p is 1.000 at best. It takes 6 "),
+        ((SURE, ODD), 6, ""),
+    ],
+)
+def test_too_few_seeds_for_any_difference_are_told_first(
+    theories: tuple[str, ...], seeds: int, told: str, tmp_path: Path
+) -> None:
+    page = tmp_path / "report.html"
+    found = write(subject(*theories, seeds=seeds), page)
+    if not told:
+        assert "can be significant" not in page.read_text("utf-8")
+        return
+    line = next(it for it in found[1].text.splitlines() if "significant" in it)
+    assert line.startswith(f"No difference in accuracy can be significant: {told}")
+    assert line in page.read_text("utf-8").partition("The theories</h2>")[0]
+
+
+def test_the_correction_for_many_theories_is_counted_among_what_is_out_of_reach() -> (
+    None
+):
+    def contrast(pairs: int) -> Contrast:
+        told = Difference(Estimate(0.1, 0.0, 0.2), 0.5, pairs, 0.1, np.zeros(pairs))
+        return Contrast("a", "b", {"accuracy": told}, McNemar(0, 0, 1.0))
+
+    (line,) = out_of_reach([contrast(6), contrast(6), contrast(5)])
+    assert "p is 0.094 at best after Holm's correction for 3 tests. It takes 7" in line
+    (line,) = out_of_reach([contrast(20)] * 1000)
+    assert line.endswith("Compare fewer theories.")
+    assert not [
+        *out_of_reach([contrast(6), Contrast("a", "c", {}, McNemar(0, 0, 1.0))])
+    ]
+    assert not [*out_of_reach([contrast(0)])]
+    assert not [*out_of_reach([])]
+
+
+@pytest.mark.parametrize("seeds", range(1, 13))
+def test_no_band_says_otherwise_of_zero_than_the_p_beside_it(seeds: int) -> None:
+    told = subject(seeds=seeds)
+    talks = [it for them in told.theories.values() for it in them]
+    found = results_of(told, places_of([SURE, ODD], talks, ""))
+    (table,) = (
+        it for one in found for it in one.tables if it.title == "Paired differences"
+    )
+    for _, _, difference, p, _, _ in table.rows:
+        assert isinstance(difference, Estimate)
+        if math.isfinite(difference.low) and p != "–":
+            small = p.startswith("<") or float(p) < 0.05
+            assert small == (not difference.low <= 0 <= difference.high)
