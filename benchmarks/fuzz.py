@@ -587,7 +587,7 @@ def _bundle(folder: Path) -> Reader:
 
 def _mesh(folder: Path) -> Reader:
     from kille.sensors.sensor import SensorError
-    from kille.sensors.synthetic.obj import loaded
+    from kille.sensors.synthetic.obj import load_scan
 
     (folder / "a.png").write_bytes(_pictures()["png"])
     (folder / "a.mtl").write_text("newmtl a\nmap_Kd a.png\n")
@@ -597,8 +597,8 @@ def _mesh(folder: Path) -> Reader:
     )
 
     def read(path: Path) -> object:
-        loaded.cache_clear()
-        return loaded(path)
+        load_scan.cache_clear()
+        return load_scan(path)
 
     return Reader([seed], _file(folder, "a.obj", read), (SensorError,))
 

@@ -45,7 +45,7 @@ def measured(frames: int) -> dict[str, float]:
     A faulty frame of a changed scene is the sum of its drawing and its degrading.
     """
     result = {
-        "ten models, built once": once_ms(
+        "ten models, read once": once_ms(
             lambda: [catalogue.model(name) for name in catalogue.NAMES]
         ),
         "the room, painted once": once_ms(lambda: room(Camera())),

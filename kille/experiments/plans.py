@@ -182,7 +182,7 @@ def _meshes(data: str) -> tuple[Plan, ...]:
     from kille.experiments import objects, variations
     from kille.sensors.synthetic import obj
 
-    things = tuple(obj.found(Path(data).expanduser()))
+    things = tuple(obj.find_meshes(Path(data).expanduser()))
     if len(things) < 2:
         raise ExperimentError(f"{data}: it takes two meshes at least to tell apart")
     return (

@@ -228,7 +228,7 @@ def add_second(data: Path, first: Merger) -> None:
 
 
 def _meshes(data: Path) -> list[Path]:
-    return sorted(obj.found(data / "ycb_meshes").values())
+    return sorted(obj.find_meshes(data / "ycb_meshes").values())
 
 
 def _examples(frames: Iterable[Frame], rounds: Rounds = ()) -> list[Examples]:

@@ -20,9 +20,10 @@ from kille.scene import Depth, Frame
 from kille.sensors.synthetic import catalogue, obj
 from kille.sensors.synthetic.camera import Camera
 from kille.sensors.synthetic.faults import infrared_shadow, lost_edges
-from kille.sensors.synthetic.model import Model, Part, assembled
+from kille.sensors.synthetic.model import Model
 from kille.sensors.synthetic.render import Body, Pose, rendered
-from kille.sensors.synthetic.shapes import (
+from kille.sensors.synthetic.specimens import specimen
+from tools.modelling.shapes import (
     Grid,
     box,
     curve,
@@ -33,7 +34,7 @@ from kille.sensors.synthetic.shapes import (
     moved,
     rotation,
 )
-from kille.sensors.synthetic.specimens import specimen
+from tools.modelling.sheets import Part, assembled
 
 Chance = np.random.Generator
 
@@ -198,7 +199,9 @@ def a_manifold(chance: Chance, meshes: Sequence[Path]) -> Model:
 
 
 def _scanned(chance: Chance, meshes: Sequence[Path]) -> Model:
-    return _fallen(obj.loaded(meshes[int(chance.integers(len(meshes)))]), chance, 0.35)
+    return _fallen(
+        obj.load_scan(meshes[int(chance.integers(len(meshes)))]), chance, 0.35
+    )
 
 
 def _specimen(chance: Chance) -> Model:

@@ -1,4 +1,4 @@
-"""Scanned objects: Wavefront OBJ meshes with one texture, z up, in metres."""
+"""Wavefront OBJ meshes with one texture, z up, in metres: scans, and the toys."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from ttr.safety.inputs import read_text
 from ttr.safety.limits import MESH
 
 
-def found(path: Path) -> dict[str, Path]:
+def find_meshes(path: Path) -> dict[str, Path]:
     """The meshes at a path, name -> OBJ file, the names in order.
 
     The path is an OBJ file, a folder with one, or a folder of such folders. A mesh is
@@ -45,33 +45,60 @@ def found(path: Path) -> dict[str, Path]:
 
 
 @lru_cache(maxsize=64)
-def loaded(path: Path) -> Model:
-    """The model in an OBJ file, set down on z = 0 around the origin.
+def load_scan(path: Path) -> Model:
+    """The scanned thing in an OBJ file, set down on z = 0 around the origin.
 
-    The texture's v axis points up. Raises SensorError for a file that cannot be used.
+    The texture's v axis points up. Normals are computed from the triangles, and a
+    texture that is finer than can be rendered is made smaller. Raises SensorError for
+    a file that cannot be used.
     """
     lines = _read(path).splitlines()
     positions = _rows(path, lines, "v", 3)
     uv = _rows(path, lines, "vt", 2)
-    corners = _corners(path, lines, len(positions), len(uv))
     texture = _texture(path, lines)
-    # One vertex for every pair (position, texel) that a corner uses.
-    pairs, index = np.unique(corners.reshape(-1, 2), axis=0, return_inverse=True)
-    vertices = standing(positions[pairs[:, 0]])
+    corners, triangles = _corners(path, lines, len(positions), len(uv))
+    vertices = standing(positions[corners[0]])
     _check_size(path, vertices)
-    triangles = _outwards(vertices, index.reshape(-1, 3).astype(np.int32))
-    texels = uv[pairs[:, 1]]
+    triangles = _outwards(vertices, triangles)
+    texels = uv[corners[1]]
     density = _texels_per_metre(vertices, texels * texture.shape[1::-1], triangles)
     picture = _shrunk(texture, min(1.0, TEXELS_PER_METRE / max(density, 1.0)))
-    height, width = picture.shape[:2]
-    places = np.stack([texels[:, 0] * width, (1 - texels[:, 1]) * height], axis=1) - 0.5
     return Model(
         vertices=vertices,
         normals=smooth_normals(vertices, triangles),
-        uv=places.astype(np.float32),
+        uv=texel_places(texels, picture),
         triangles=triangles,
         texture=picture,
     )
+
+
+def load_model(path: Path) -> Model:
+    """The model in an OBJ file with normals, all of it just as it stands there.
+
+    Raises SensorError for a file that cannot be used.
+    """
+    lines = _read(path).splitlines()
+    positions = _rows(path, lines, "v", 3)
+    uv = _rows(path, lines, "vt", 2)
+    normals = _rows(path, lines, "vn", 3)
+    texture = _texture(path, lines)
+    sizes = len(positions), len(uv), len(normals)
+    corners, triangles = _corners(path, lines, *sizes)
+    return Model(
+        vertices=positions[corners[0]].astype(np.float32),
+        normals=normals[corners[2]].astype(np.float32),
+        uv=texel_places(uv[corners[1]], texture),
+        triangles=triangles,
+        texture=texture,
+    )
+
+
+def texel_places(uv: NDArray[np.float64], texture: Colour) -> NDArray[np.float32]:
+    """Places (n, 2) from 0 to 1, the second upwards, as (column, row) in texels."""
+    height, width = texture.shape[:2]
+    rows = height - uv[:, 1] * height
+    places = np.stack([uv[:, 0] * width, rows], axis=1) - 0.5
+    return places.astype(np.float32)
 
 
 def _in_folder(folder: Path) -> list[Path]:
@@ -103,7 +130,7 @@ def _rows(path: Path, lines: list[str], kind: str, count: int) -> NDArray[np.flo
         line.split()[1 : count + 1] for line in lines if line.startswith(kind + " ")
     ]
     try:
-        numbers = np.array(rows, np.float64)
+        numbers = np.array([list(map(float, row)) for row in rows])
     except ValueError as error:
         raise SensorError(f"{path}: a `{kind}` line is no {count} numbers") from error
     if numbers.ndim != 2 or not np.isfinite(numbers).all():
@@ -114,34 +141,40 @@ def _rows(path: Path, lines: list[str], kind: str, count: int) -> NDArray[np.flo
 
 
 def _corners(
-    path: Path, lines: list[str], positions: int, texels: int
-) -> NDArray[np.int64]:
-    """The faces as triangles (m, 3, 2) of indices (position, texel)."""
+    path: Path, lines: list[str], *sizes: int
+) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+    """The vertices that the faces have, and their triangles (m, 3).
+
+    There are so many positions, texels and, if they count, normals. A vertex is every
+    combination of them that a corner uses: their indices are (2 or 3, n).
+    """
     faces = [line.split()[1:] for line in lines if line.startswith("f ")]
     fans = [
-        (face[0], face[k], face[k + 1])
+        corner
         for face in faces
         for k in range(1, len(face) - 1)
+        for corner in (face[0], face[k], face[k + 1])
     ]
     try:
-        numbers = [[corner.split("/")[:2] for corner in fan] for fan in fans]
+        numbers = [list(map(int, corner.split("/")[: len(sizes)])) for corner in fans]
         corners = np.array(numbers, np.int64)
     except (ValueError, OverflowError) as error:
         raise SensorError(
             f"{path}: an `f` line has no position/texture pairs"
         ) from error
-    if corners.ndim != 3:
+    if corners.ndim != 2:
         raise SensorError(f"{path}: no `f` lines, so it is no mesh")
-    if corners.shape[2] != 2:
+    if corners.shape[1] != len(sizes):
         raise SensorError(
             f"{path}: its faces have no texture, so it is no textured mesh"
         )
-    corners = np.where(
-        corners < 0, corners + np.array([positions + 1, texels + 1]), corners
-    )
-    if corners.min() < 1 or (corners.max(axis=(0, 1)) > [positions, texels]).any():
+    corners = np.where(corners < 0, corners + np.array(sizes) + 1, corners) - 1
+    if corners.min() < 0 or (corners.max(axis=0) >= sizes).any():
         raise SensorError(f"{path}: an `f` line names a vertex that is not there")
-    return corners - 1
+    flat = np.ravel_multi_index(tuple(corners.T), sizes)
+    used, triangles = np.unique(flat, return_inverse=True)
+    indices = np.stack(np.unravel_index(used, sizes))
+    return indices, triangles.reshape(-1, 3).astype(np.int32)
 
 
 def _file_names(lines: Iterable[str], key: str) -> list[str]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from pathlib import Path
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from kille.scene import Colour, Depth, Mask
-from kille.sensors.synthetic import drawing as draw
+from kille.sensors.pictures import read_colour
 from kille.sensors.synthetic.camera import HEIGHT, WIDTH, Camera
 
 TABLE_LEFT, TABLE_RIGHT = -0.70, 0.70
@@ -18,6 +19,7 @@ TABLE_NEAR, TABLE_END = -0.60, 0.50
 _WALL = 0.85
 _FLOOR = -0.72
 _FINER = 2
+_WOOD = Path(__file__).with_name("wood.png")  # two millimetres a texel
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +93,7 @@ def _painted(
     colour = np.full((*depth.shape, 3), (118, 112, 106), np.float32)
     colour[on_wall] = (202, 200, 192)
     colour[table] = cv2.remap(
-        _wood(),
+        read_colour(_WOOD),
         ((x - TABLE_LEFT) * 500).astype(np.float32),
         ((TABLE_END - y) * 500).astype(np.float32),
         cv2.INTER_LINEAR,
@@ -99,13 +101,3 @@ def _painted(
     )[table]
     light = np.where(on_wall, 1.0 + 0.12 * z - 0.08 * x, 1.0 - 0.10 * x - 0.06 * y)
     return colour * light[..., None].astype(np.float32)
-
-
-def _wood() -> Colour:
-    """Pale boards with a faint grain, two millimetres a texel."""
-    rng = np.random.default_rng(71)
-    wood = draw.blank(700, 550, (196, 168, 132))
-    draw.mottle(wood, 4.0, (160, 5), rng)
-    draw.mottle(wood, 2.0, (40, 2), rng)
-    draw.mottle(wood, 3.0, (300, 90), rng)
-    return wood

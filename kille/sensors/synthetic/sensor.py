@@ -44,7 +44,7 @@ class Synthetic:
     def __init__(self, address: Address, name: str = "synthetic") -> None:
         self._name = name
         self._address = address
-        self._meshes = obj.found(address.meshes) if address.meshes else {}
+        self._meshes = obj.find_meshes(address.meshes) if address.meshes else {}
         self._camera = Camera()
         self._frames = 0
         self._changes = 0
@@ -191,14 +191,14 @@ class Synthetic:
     def _model(self, thing: str) -> Model:
         mesh = self._meshes.get(thing)
         if mesh is not None:
-            return obj.loaded(mesh)
+            return obj.load_scan(mesh)
         return specimen(thing, self._address.specimen)
 
     def _recognised(self, name: str) -> str:
         """The object that is meant; a path of a mesh makes it known by its name."""
         path = Path(name).expanduser()
         if "/" in name or path.suffix.lower() == ".obj":
-            found = obj.found(path)
+            found = obj.find_meshes(path)
             if len(found) > 1:
                 raise SensorError(f"{name} holds {len(found)} meshes: name one of them")
             self._meshes |= found

@@ -26,10 +26,11 @@ from kille.sensors.synthetic import open_synthetic
 from kille.sensors.synthetic.camera import Camera
 from kille.sensors.synthetic.catalogue import NAMES
 from kille.sensors.synthetic.faults import FAULTS, degraded_depth
-from kille.sensors.synthetic.model import Model, Part, assembled
+from kille.sensors.synthetic.model import Model
 from kille.sensors.synthetic.render import Body, Pose, rendered
-from kille.sensors.synthetic.shapes import box, disc, lathe, moved
 from tools.fitting.piles import a_bowl, lifted, pile
+from tools.modelling.shapes import box, disc, lathe, moved
+from tools.modelling.sheets import Part, assembled
 
 THREE = (Card(-0.15, 0.75), Card(0.12, 0.65, width=0.08), Card(0.05, 1.0, seed=2))
 

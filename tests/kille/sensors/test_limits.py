@@ -17,7 +17,7 @@ from kille.perception.thumbnails import decoded as decoded_crop
 from kille.sensors.pictures import read_colour, read_depth, read_labels, shows_picture
 from kille.sensors.recordings import open_recording
 from kille.sensors.sensor import SensorError
-from kille.sensors.synthetic.obj import loaded
+from kille.sensors.synthetic.obj import load_scan
 from ttr.safety.limits import Limit
 
 
@@ -174,7 +174,7 @@ def test_a_mesh_is_no_larger_than_it_may_be(tmp_path: Path) -> None:
     with mesh.open("wb") as file:
         file.truncate(10**9)
     with pytest.raises(SensorError, match="it has 1 GB, and no more than 20 MB"):
-        loaded(mesh)
+        load_scan(mesh)
 
 
 # --- bags ----------------------------------------------------------------------------

@@ -11,7 +11,7 @@ import pytest
 
 from kille.sensors.sensor import At, SensorError
 from kille.sensors.synthetic import open_synthetic
-from kille.sensors.synthetic.obj import found, loaded
+from kille.sensors.synthetic.obj import find_meshes, load_scan
 
 PLATE = """mtllib plate.mtl
 v -0.1 0 0
@@ -53,8 +53,8 @@ def test_a_plate_is_seen_upright_and_not_mirrored(tmp_path: Path) -> None:
 
 
 def test_indices_may_count_from_the_end(tmp_path: Path) -> None:
-    forward = loaded(plate(tmp_path / "a"))
-    backward = loaded(plate(tmp_path / "b", "-4/-4 -3/-3 -2/-2 -1/-1"))
+    forward = load_scan(plate(tmp_path / "a"))
+    backward = load_scan(plate(tmp_path / "b", "-4/-4 -3/-3 -2/-2 -1/-1"))
     assert np.array_equal(forward.vertices, backward.vertices)
     assert np.array_equal(forward.uv, backward.uv)
     assert np.array_equal(forward.triangles, backward.triangles)
@@ -63,8 +63,8 @@ def test_indices_may_count_from_the_end(tmp_path: Path) -> None:
 def test_meshes_are_called_by_their_folder(tmp_path: Path) -> None:
     plate(tmp_path / "blue_jug", name="textured.obj")
     plate(tmp_path / "dish")
-    assert list(found(tmp_path)) == ["blue jug", "plate"]
-    assert list(found(tmp_path / "blue_jug")) == ["blue jug"]
+    assert list(find_meshes(tmp_path)) == ["blue jug", "plate"]
+    assert list(find_meshes(tmp_path / "blue_jug")) == ["blue jug"]
     sensor = open_synthetic(f"synthetic:empty?meshes={tmp_path}")
     assert sensor.things()[-2:] == ("blue jug", "plate")
     sensor.show("the Blue Jug")
@@ -94,7 +94,7 @@ def test_meshes_are_called_by_their_folder(tmp_path: Path) -> None:
 def test_a_broken_mesh_is_one_clear_line(tmp_path: Path, text: str, words: str) -> None:
     file = write_mesh(tmp_path, text)
     with pytest.raises(SensorError, match=words) as caught:
-        loaded(file)
+        load_scan(file)
     assert "\n" not in str(caught.value)
     assert str(file.parent) in str(caught.value)
 
@@ -103,15 +103,15 @@ def test_a_missing_texture_is_named(tmp_path: Path) -> None:
     file = plate(tmp_path)
     (tmp_path / "plate.png").unlink()
     with pytest.raises(SensorError, match=r"plate\.png: the mesh's texture"):
-        loaded(file)
+        load_scan(file)
 
 
 def test_a_place_without_meshes_is_said(tmp_path: Path) -> None:
     with pytest.raises(SensorError, match="no OBJ mesh"):
-        found(tmp_path)
+        find_meshes(tmp_path)
     (tmp_path / "notes.txt").write_text("no mesh")
     with pytest.raises(SensorError, match="no OBJ mesh"):
-        found(tmp_path / "notes.txt")
+        find_meshes(tmp_path / "notes.txt")
 
 
 def test_several_meshes_are_not_one(tmp_path: Path) -> None:

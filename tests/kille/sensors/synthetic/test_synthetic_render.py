@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from kille.scene import Depth, Intrinsics
 from kille.sensors.synthetic.camera import Camera
 from kille.sensors.synthetic.catalogue import NAMES, model
-from kille.sensors.synthetic.model import Part, assembled
 from kille.sensors.synthetic.render import Body, Pose, rendered
 from kille.sensors.synthetic.room import room
-from kille.sensors.synthetic.shapes import box, ellipsoid
+from tools.modelling.shapes import box, ellipsoid
+from tools.modelling.sheets import Part, assembled
 
 CAMERA = Camera()
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from kille.scene import Colour
-from kille.sensors.synthetic import drawing as draw
-from kille.sensors.synthetic.model import Model, Part, assembled
-from kille.sensors.synthetic.shapes import (
+from kille.sensors.synthetic.model import Model
+from tools.modelling import drawing as draw
+from tools.modelling.shapes import (
     Grid,
     curve,
     disc,
@@ -16,6 +16,7 @@ from kille.sensors.synthetic.shapes import (
     moved,
     tube,
 )
+from tools.modelling.sheets import Part, assembled
 
 _GLAZE: draw.RGB = (238, 236, 228)
 _BLUE: draw.RGB = (32, 66, 150)

@@ -6,9 +6,10 @@ import cv2
 import numpy as np
 
 from kille.scene import Colour
-from kille.sensors.synthetic import drawing as draw
-from kille.sensors.synthetic.model import Model, Part, assembled
-from kille.sensors.synthetic.shapes import curve, ellipsoid, lathe, moved, tube, turned
+from kille.sensors.synthetic.model import Model
+from tools.modelling import drawing as draw
+from tools.modelling.shapes import curve, ellipsoid, lathe, moved, tube, turned
+from tools.modelling.sheets import Part, assembled
 
 _WOOD: draw.RGB = (92, 62, 36)
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from kille.scene import Colour
-from kille.sensors.synthetic import drawing as draw
-from kille.sensors.synthetic.model import Model, Part, assembled
-from kille.sensors.synthetic.shapes import (
+from kille.sensors.synthetic.model import Model
+from tools.modelling import drawing as draw
+from tools.modelling.shapes import (
     Grid,
     curve,
     ellipsoid,
@@ -16,6 +16,7 @@ from kille.sensors.synthetic.shapes import (
     moved,
     turned,
 )
+from tools.modelling.sheets import Part, assembled
 
 _BLUE: draw.RGB = (30, 62, 142)
 _RED: draw.RGB = (204, 40, 44)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from kille.scene import Colour
-from kille.sensors.synthetic import drawing as draw
-from kille.sensors.synthetic.model import Model, Part, assembled
-from kille.sensors.synthetic.shapes import box, moved
+from kille.sensors.synthetic.model import Model
+from tools.modelling import drawing as draw
+from tools.modelling.shapes import box, moved
+from tools.modelling.sheets import Part, assembled
 
 _NAVY: draw.RGB = (22, 40, 84)
 _ORANGE: draw.RGB = (238, 112, 34)
