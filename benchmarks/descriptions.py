@@ -30,8 +30,8 @@ from kille.dialogue.phrases import phrase
 from kille.scene import Frame, Percept
 from kille.sensors.synthetic import catalogue
 from kille.sensors.synthetic.camera import Camera
-from kille.sensors.synthetic.faults import FAULTS, degraded_colour, degraded_depth
-from kille.sensors.synthetic.render import Body, Image, Pose, rendered
+from kille.sensors.synthetic.faults import FAULTS, degrade_colour, degrade_depth
+from kille.sensors.synthetic.render import Body, Image, Pose, render_scene
 from kille.sensors.synthetic.specimens import specimen
 from ttr import replace
 from ttr.updates import Run
@@ -64,15 +64,15 @@ class Table:
         self.put({})
 
     def put(self, bodies: Bodies) -> None:
-        self._image: Image = rendered(self._camera, bodies)
+        self._image: Image = render_scene(self._camera, bodies)
 
     def frame(self) -> Frame:
         self._frames += 1
         image, seed = self._image, (7, 1, self._frames)
         intrinsics = self._camera.intrinsics
         return Frame(
-            colour=degraded_colour(image.colour, frozenset(FAULTS), seed),
-            depth=degraded_depth(image.depth, intrinsics.fx, frozenset(FAULTS), seed),
+            colour=degrade_colour(image.colour, frozenset(FAULTS), seed),
+            depth=degrade_depth(image.depth, intrinsics.fx, frozenset(FAULTS), seed),
             intrinsics=intrinsics,
             time=self._frames / 30,
             outlines=image.outlines,

@@ -16,7 +16,7 @@ import cv2
 
 from kille.sensors.synthetic import catalogue, open_synthetic
 from kille.sensors.synthetic.camera import Camera
-from kille.sensors.synthetic.render import rendered
+from kille.sensors.synthetic.render import render_scene
 from kille.sensors.synthetic.room import room
 
 SCENES = ("empty", "desk", "all")
@@ -53,7 +53,7 @@ def measured(frames: int) -> dict[str, float]:
     for scene in SCENES:
         clean = open_synthetic(f"synthetic:{scene}?faults=none")
         faulty = open_synthetic(f"synthetic:{scene}")
-        drawn = median_ms(partial(rendered, clean.camera, clean.bodies), frames)
+        drawn = median_ms(partial(render_scene, clean.camera, clean.bodies), frames)
         still = median_ms(faulty.frame, frames)
         result[f"{scene}: clean frame, scene changed"] = drawn
         result[f"{scene}: clean frame, scene as before"] = median_ms(

@@ -21,7 +21,7 @@ from kille.sensors.synthetic import catalogue, obj
 from kille.sensors.synthetic.camera import Camera
 from kille.sensors.synthetic.faults import infrared_shadow, lost_edges
 from kille.sensors.synthetic.model import Model
-from kille.sensors.synthetic.render import Body, Pose, rendered
+from kille.sensors.synthetic.render import Body, Pose, render_scene
 from kille.sensors.synthetic.specimens import specimen
 from tools.modelling.shapes import (
     Grid,
@@ -31,10 +31,10 @@ from tools.modelling.shapes import (
     ellipsoid,
     inside_out,
     lathe,
-    moved,
+    move,
     rotation,
 )
-from tools.modelling.sheets import Part, assembled
+from tools.modelling.sheets import Part, assemble
 
 Chance = np.random.Generator
 
@@ -62,7 +62,7 @@ def pile(seed: int, meshes: Sequence[Path] = ()) -> Frame:
         spread, more = chance.uniform(0.03, 0.25), int(chance.integers(1, 12))
     for _ in range(more):
         heap.put_anywhere(spread)
-    return _captured(camera, heap)
+    return _capture_heap(camera, heap)
 
 
 def screened(seed: int) -> Frame:
@@ -72,7 +72,7 @@ def screened(seed: int) -> Frame:
     heap = _Heap(chance, ())
     for right in (-0.22, 0.22):
         heap.put_screened(right + chance.normal(0, 0.03))
-    return _captured(camera, heap)
+    return _capture_heap(camera, heap)
 
 
 def tidy(seed: int, meshes: Sequence[Path] = ()) -> Frame:
@@ -82,11 +82,11 @@ def tidy(seed: int, meshes: Sequence[Path] = ()) -> Frame:
     heap = _Heap(chance, meshes)
     for right in np.linspace(-0.36, 0.36, 4) + chance.uniform(-0.03, 0.03, 4):
         heap.put_down(a_manifold(chance, meshes), float(right))
-    return _captured(camera, heap)
+    return _capture_heap(camera, heap)
 
 
-def _captured(camera: Camera, heap: _Heap) -> Frame:
-    image = rendered(camera, {str(i): body for i, body in enumerate(heap.bodies)})
+def _capture_heap(camera: Camera, heap: _Heap) -> Frame:
+    image = render_scene(camera, {str(i): body for i, body in enumerate(heap.bodies)})
     outlines = {k: mask for k, mask in image.outlines.items() if mask.sum() > _SEEN}
     depth = _as_measured(image.depth, camera, heap.chance)
     return Frame(image.colour, depth, camera.intrinsics, 0.0, outlines)
@@ -115,11 +115,11 @@ class _Heap:
             height = float(under.max())
             borne = np.mean(under > height - _LEVEL) >= _BORNE
             if borne and height <= _HIGHEST:
-                return self._put(lifted(model, height), pose)
+                return self._put(lift_model(model, height), pose)
             if self.chance.random() < 0.1:
                 axis, lean = _level_axis(self.chance), self.chance.uniform(8, 25)
-                leaning = turned(model, axis, lean)
-                return self._put(lifted(leaning, float(np.median(under))), pose)
+                leaning = turn_model(model, axis, lean)
+                return self._put(lift_model(leaning, float(np.median(under))), pose)
 
     def put_before_wider(self, right: float) -> None:
         """Something wide, and something narrower before it."""
@@ -145,7 +145,7 @@ class _Heap:
         height = self.chance.uniform(0.05, 0.26)
         wide = _of(*box(self.chance.uniform(0.14, 0.32), 0.08, height).values())
         if self.chance.random() < 0.25:
-            wide = turned(_tin(self.chance.uniform(0.04, 0.09), 0.3), (0, 1, 0), 90)
+            wide = turn_model(_tin(self.chance.uniform(0.04, 0.09), 0.3), (0, 1, 0), 90)
         away = self.chance.uniform(0, 0.15)
         self._put(wide, Pose(right, away, self.chance.uniform(-35, 35)))
         tall = height + self.chance.uniform(-0.03, 0.12)
@@ -165,7 +165,7 @@ class _Heap:
 
     def _ground(self, model: Model, pose: Pose) -> NDArray[np.bool_]:
         """The cells that a thing in this pose is above."""
-        corners = pose.applied(model.footprint) / _CELL + _CELLS / 2
+        corners = pose.move_points(model.footprint) / _CELL + _CELLS / 2
         cells = np.zeros((_CELLS, _CELLS), np.uint8)
         cv2.fillConvexPoly(cells, corners.astype(np.int32), (1,))
         return cells > 0
@@ -180,7 +180,7 @@ def a_thing(chance: Chance, meshes: Sequence[Path]) -> Model:
         return _fallen(a_tin(chance), chance, 0.15)
     if kind < 0.55:
         bowl = a_bowl(chance)
-        return turned(bowl, (1, 0, 0), 180) if chance.random() < 0.15 else bowl
+        return turn_model(bowl, (1, 0, 0), 180) if chance.random() < 0.15 else bowl
     if kind < 0.65:
         return a_toy(chance)
     if kind < 0.83 and meshes:
@@ -234,12 +234,12 @@ def a_tin(chance: Chance) -> Model:
     inner, floor = 0.95 * r, 0.006
     hollow = inside_out(lathe([(inner, h), (inner, floor)]))
     rim = lathe([(inner, h), (r, h)])
-    return _of(wall, hollow, rim, moved(disc(inner), z=floor))
+    return _of(wall, hollow, rim, move(disc(inner), z=floor))
 
 
 def _tin(radius: float, height: float) -> Model:
     wall = lathe([(radius, height), (radius, 0)])
-    return _of(wall, moved(disc(radius), z=height))
+    return _of(wall, move(disc(radius), z=height))
 
 
 def a_bowl(chance: Chance) -> Model:
@@ -251,7 +251,7 @@ def a_bowl(chance: Chance) -> Model:
     profile = [(0.94 * r, h), (0.93 * belly, 0.47 * h), (0.9 * foot, 0.006)]
     hollow = inside_out(lathe(curve(profile, 10)))
     rim = lathe([(0.94 * r, h), (r, h)])
-    return _of(outer, hollow, rim, moved(disc(0.9 * foot), z=0.006))
+    return _of(outer, hollow, rim, move(disc(0.9 * foot), z=0.006))
 
 
 def a_toy(chance: Chance) -> Model:
@@ -263,11 +263,11 @@ def a_toy(chance: Chance) -> Model:
         way /= np.linalg.norm(way)
         x, y, z = body * way * chance.uniform(0.8, 1.15)
         radii = body.mean() * chance.uniform(0.25, 0.75, 3)
-        limbs.append(moved(ellipsoid(radii), x, y, z))
+        limbs.append(move(ellipsoid(radii), x, y, z))
     return _of(ellipsoid(body), *limbs)
 
 
-def turned(model: Model, axis: tuple[float, float, float], degrees: float) -> Model:
+def turn_model(model: Model, axis: tuple[float, float, float], degrees: float) -> Model:
     """The model turned about an axis and set down on z = 0."""
     turn = rotation(axis, degrees).astype(np.float32).T
     vertices = model.vertices @ turn
@@ -277,14 +277,16 @@ def turned(model: Model, axis: tuple[float, float, float], degrees: float) -> Mo
     return replace(model, vertices=standing, normals=model.normals @ turn)
 
 
-def lifted(model: Model, height: float) -> Model:
+def lift_model(model: Model, height: float) -> Model:
     """The model so much higher."""
     up = np.array([0, 0, height], np.float32)
     return replace(model, vertices=model.vertices + up)
 
 
 def _fallen(model: Model, chance: Chance, share: float) -> Model:
-    return turned(model, _level_axis(chance), 90) if chance.random() < share else model
+    return (
+        turn_model(model, _level_axis(chance), 90) if chance.random() < share else model
+    )
 
 
 def _level_axis(chance: Chance) -> tuple[float, float, float]:
@@ -293,7 +295,7 @@ def _level_axis(chance: Chance) -> tuple[float, float, float]:
 
 
 def _of(*sheets: Grid) -> Model:
-    return assembled([Part(sheet, _PLAIN) for sheet in sheets])
+    return assemble([Part(sheet, _PLAIN) for sheet in sheets])
 
 
 def _as_measured(depth: Depth, camera: Camera, chance: Chance) -> Depth:

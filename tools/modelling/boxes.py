@@ -7,8 +7,8 @@ import numpy as np
 from kille.scene import Colour
 from kille.sensors.synthetic.model import Model
 from tools.modelling import drawing as draw
-from tools.modelling.shapes import box, moved
-from tools.modelling.sheets import Part, assembled
+from tools.modelling.shapes import box, move
+from tools.modelling.sheets import Part, assemble
 
 _NAVY: draw.RGB = (22, 40, 84)
 _ORANGE: draw.RGB = (238, 112, 34)
@@ -26,7 +26,7 @@ def book() -> Model:
         "back": _pages(300, 60),
     }
     faces = box(0.15, 0.22, 0.03)
-    return assembled([Part(faces[side], boards[side]) for side in boards])
+    return assemble([Part(faces[side], boards[side]) for side in boards])
 
 
 def shoe_box() -> Model:
@@ -48,9 +48,9 @@ def shoe_box() -> Model:
     }
     faces = box(0.30, 0.19, 0.106)
     over = {
-        side: moved(sheet, z=0.075) for side, sheet in box(0.306, 0.196, 0.035).items()
+        side: move(sheet, z=0.075) for side, sheet in box(0.306, 0.196, 0.035).items()
     }
-    return assembled(
+    return assemble(
         [Part(faces[side], body[side]) for side in body]
         + [Part(over[side], lid[side]) for side in lid]
     )

@@ -8,8 +8,8 @@ import numpy as np
 from kille.scene import Colour
 from kille.sensors.synthetic.model import Model
 from tools.modelling import drawing as draw
-from tools.modelling.shapes import Grid, box, curve, disc, lathe, moved, quad, turned
-from tools.modelling.sheets import Part, assembled
+from tools.modelling.shapes import Grid, box, curve, disc, lathe, move, quad, turn
+from tools.modelling.sheets import Part, assemble
 
 _CAR: draw.RGB = (214, 30, 34)
 _GLASS: draw.RGB = (58, 84, 112)
@@ -19,8 +19,8 @@ _PER_METRE = 3000
 
 def car() -> Model:
     """A toy rally car of 20 cm seen from its side, the bonnet to the right."""
-    tilted = [Part(turned(p.points, (0, 0, 1), 24), p.picture) for p in _car_parts()]
-    return assembled(tilted)
+    tilted = [Part(turn(p.points, (0, 0, 1), 24), p.picture) for p in _car_parts()]
+    return assemble(tilted)
 
 
 def _car_parts() -> list[Part]:
@@ -190,12 +190,12 @@ def _tail() -> Colour:
 
 def _wheel(x: float, away: float) -> list[Part]:
     """A tyre with its hub, on the side that a turn of `away` degrees brings it to."""
-    hub = moved(turned(disc(0.0195, 20), (1, 0, 0), 90), x, -0.0445, 0.0195)
-    tread = turned(lathe([(0.0195, 0.0), (0.0195, -0.016)], 20), (1, 0, 0), 90)
-    tread = moved(tread, x, -0.0445, 0.0195)
+    hub = move(turn(disc(0.0195, 20), (1, 0, 0), 90), x, -0.0445, 0.0195)
+    tread = turn(lathe([(0.0195, 0.0), (0.0195, -0.016)], 20), (1, 0, 0), 90)
+    tread = move(tread, x, -0.0445, 0.0195)
     return [
-        Part(turned(hub, (0, 0, 1), away), _hub()),
-        Part(turned(tread, (0, 0, 1), away), draw.blank(40, 8, draw.BLACK)),
+        Part(turn(hub, (0, 0, 1), away), _hub()),
+        Part(turn(tread, (0, 0, 1), away), draw.blank(40, 8, draw.BLACK)),
     ]
 
 
@@ -215,10 +215,10 @@ def _spoiler() -> list[Part]:
     """A wing on two struts over the boot."""
     black = draw.blank(20, 8, draw.BLACK)
     wing = [
-        moved(sheet, -0.088, 0, 0.060) for sheet in box(0.020, 0.078, 0.003).values()
+        move(sheet, -0.088, 0, 0.060) for sheet in box(0.020, 0.078, 0.003).values()
     ]
     struts = [
-        moved(sheet, -0.088, y, 0.040)
+        move(sheet, -0.088, y, 0.040)
         for y in (-0.026, 0.026)
         for sheet in box(0.010, 0.003, 0.021).values()
     ]

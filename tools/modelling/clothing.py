@@ -13,10 +13,10 @@ from tools.modelling.shapes import (
     ellipsoid,
     inside_out,
     lathe,
-    moved,
-    turned,
+    move,
+    turn,
 )
-from tools.modelling.sheets import Part, assembled
+from tools.modelling.sheets import Part, assemble
 
 _BLUE: draw.RGB = (30, 62, 142)
 _RED: draw.RGB = (204, 40, 44)
@@ -35,17 +35,17 @@ def cap() -> Model:
     parts = [
         Part(crown, _crown()),
         Part(
-            moved(ellipsoid((0.008, 0.008, 0.005), 12), z=0.118), draw.blank(8, 8, _RED)
+            move(ellipsoid((0.008, 0.008, 0.005), 12), z=0.118), draw.blank(8, 8, _RED)
         ),
         Part(_visor(), _brim()),
-        Part(inside_out(moved(_visor(), z=-0.002)), draw.blank(20, 20, (90, 30, 34))),
+        Part(inside_out(move(_visor(), z=-0.002)), draw.blank(20, 20, (90, 30, 34))),
     ]
-    return assembled([Part(turned(p.points, (0, 0, 1), -38), p.picture) for p in parts])
+    return assemble([Part(turn(p.points, (0, 0, 1), -38), p.picture) for p in parts])
 
 
 def shoe() -> Model:
     """A running shoe of 28 cm seen from its side, the toe to the right."""
-    return assembled(
+    return assemble(
         [
             Part(_upper(), _upper_picture()),
             Part(_sole(), _sole_picture()),

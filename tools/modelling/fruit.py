@@ -8,8 +8,8 @@ import numpy as np
 from kille.scene import Colour
 from kille.sensors.synthetic.model import Model
 from tools.modelling import drawing as draw
-from tools.modelling.shapes import curve, ellipsoid, lathe, moved, tube, turned
-from tools.modelling.sheets import Part, assembled
+from tools.modelling.shapes import curve, ellipsoid, lathe, move, tube, turn
+from tools.modelling.sheets import Part, assemble
 
 _WOOD: draw.RGB = (92, 62, 36)
 
@@ -28,12 +28,12 @@ def apple() -> Model:
         (0.000, 0.004),
     ]
     stalk = curve([(0, 0, 0.058), (0.002, 0, 0.070), (0.007, 0, 0.083)], 6)
-    leaf = turned(ellipsoid((0.017, 0.009, 0.0015), 12), (0, 1, 0), -20)
-    return assembled(
+    leaf = turn(ellipsoid((0.017, 0.009, 0.0015), 12), (0, 1, 0), -20)
+    return assemble(
         [
             Part(lathe(curve(outline, 20), 30), _apple_skin()),
             Part(tube(stalk, 0.0018, 6), draw.blank(8, 8, _WOOD)),
-            Part(moved(leaf, 0.020, 0, 0.079), _leaf()),
+            Part(move(leaf, 0.020, 0, 0.079), _leaf()),
         ]
     )
 
@@ -58,7 +58,7 @@ def banana() -> Model:
     sheet = tube(spine, girth, 20)
     angle = np.linspace(-np.pi, np.pi, 21)[:, None, None]
     ridged = spine + (sheet - spine) * (1 + 0.07 * np.cos(5 * angle))
-    return assembled([Part(ridged, _banana_skin())])
+    return assemble([Part(ridged, _banana_skin())])
 
 
 def _apple_skin() -> Colour:

@@ -15,16 +15,16 @@ from numpy.typing import ArrayLike, NDArray
 Grid = NDArray[np.float64]
 
 
-def moved(points: Grid, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Grid:
+def move(points: Grid, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Grid:
     """The points shifted by (x, y, z)."""
     there: Grid = points + np.array([x, y, z])
     return there
 
 
-def turned(points: Grid, axis: ArrayLike, degrees: float) -> Grid:
+def turn(points: Grid, axis: ArrayLike, degrees: float) -> Grid:
     """The points turned about an axis through the origin, by the right-hand rule.
 
-    >>> turned(np.array([[1.0, 0.0, 0.0]]), (0, 0, 1), 90).round(6) + 0.0
+    >>> turn(np.array([[1.0, 0.0, 0.0]]), (0, 0, 1), 90).round(6) + 0.0
     array([[0., 1., 0.]])
     """
     return points @ rotation(axis, degrees).T

@@ -13,8 +13,8 @@ from kille.scene import Colour
 from kille.sensors.synthetic.model import (
     TEXELS_PER_METRE,
     Model,
+    set_down,
     smooth_normals,
-    standing,
 )
 from tools.modelling.shapes import Grid
 
@@ -27,10 +27,10 @@ class Part:
     picture: Colour
 
 
-def assembled(parts: Sequence[Part]) -> Model:
+def assemble(parts: Sequence[Part]) -> Model:
     """The parts as one model, set down on z = 0 around the origin."""
-    pictures = [_printed(part) for part in parts]
-    texture, tops = _stacked(pictures)
+    pictures = [_print_at_size(part) for part in parts]
+    texture, tops = _stack(pictures)
     sheets = [
         _sheet(part.points, picture.shape, top)
         for part, picture, top in zip(parts, pictures, tops, strict=True)
@@ -38,7 +38,7 @@ def assembled(parts: Sequence[Part]) -> Model:
     sizes = [len(vertices) for vertices, _, _, _ in sheets]
     firsts = np.concatenate([[0], np.cumsum(sizes)[:-1]])
     return Model(
-        vertices=standing(np.concatenate([sheet[0] for sheet in sheets])),
+        vertices=set_down(np.concatenate([sheet[0] for sheet in sheets])),
         normals=np.concatenate([sheet[1] for sheet in sheets]),
         uv=np.concatenate([sheet[2] for sheet in sheets]),
         triangles=np.concatenate(
@@ -48,7 +48,7 @@ def assembled(parts: Sequence[Part]) -> Model:
     )
 
 
-def _printed(part: Part) -> Colour:
+def _print_at_size(part: Part) -> Colour:
     """The picture at the number of texels that the sheet's size asks for."""
     steps_right = np.linalg.norm(np.diff(part.points, axis=1), axis=2).sum(axis=1)
     steps_down = np.linalg.norm(np.diff(part.points, axis=0), axis=2).sum(axis=0)
@@ -60,7 +60,7 @@ def _printed(part: Part) -> Colour:
     return cv2.resize(part.picture, (width, height), interpolation=how).astype(np.uint8)
 
 
-def _stacked(pictures: Sequence[Colour]) -> tuple[Colour, list[int]]:
+def _stack(pictures: Sequence[Colour]) -> tuple[Colour, list[int]]:
     """The pictures one under the other, and the row where each begins."""
     width = max(picture.shape[1] for picture in pictures)
     heights = [picture.shape[0] for picture in pictures]

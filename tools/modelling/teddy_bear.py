@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike
 from kille.scene import Colour
 from kille.sensors.synthetic.model import Model
 from tools.modelling import drawing as draw
-from tools.modelling.shapes import Grid, ellipsoid, moved, turned
-from tools.modelling.sheets import Part, assembled
+from tools.modelling.shapes import Grid, ellipsoid, move, turn
+from tools.modelling.sheets import Part, assemble
 
 _FUR: draw.RGB = (164, 108, 58)
 _PALE_FUR: draw.RGB = (222, 184, 130)
@@ -29,17 +29,17 @@ def teddy_bear() -> Model:
         Part(_ball((0.010, 0.007, 0.007), (0, -0.076, 0.192)), dark),
     ]
     for side in (-1, 1):
-        arm = turned(ellipsoid((0.023, 0.025, 0.055), 16), (0, 1, 0), -side * 32)
-        arm = turned(arm, (1, 0, 0), -18)
-        leg = turned(ellipsoid((0.030, 0.060, 0.029), 16), (0, 0, 1), side * 14)
+        arm = turn(ellipsoid((0.023, 0.025, 0.055), 16), (0, 1, 0), -side * 32)
+        arm = turn(arm, (1, 0, 0), -18)
+        leg = turn(ellipsoid((0.030, 0.060, 0.029), 16), (0, 0, 1), side * 14)
         parts += [
             Part(_ball((0.008, 0.005, 0.008), (side * 0.023, -0.056, 0.209)), _eye()),
             Part(
                 _ball((0.023, 0.013, 0.023), (side * 0.047, -0.004, 0.240)),
                 _ear(brown, pale),
             ),
-            Part(moved(arm, side * 0.074, -0.024, 0.112), brown),
-            Part(moved(leg, side * 0.054, -0.066, 0.031), brown),
+            Part(move(arm, side * 0.074, -0.024, 0.112), brown),
+            Part(move(leg, side * 0.054, -0.066, 0.031), brown),
             Part(
                 _ball((0.031, 0.017, 0.038), (side * 0.068, -0.117, 0.040)),
                 _paw(brown, pale),
@@ -49,11 +49,11 @@ def teddy_bear() -> Model:
             ),
         ]
     parts.append(Part(_ball((0.008, 0.010, 0.009), (0, -0.058, 0.150)), _ribbon()))
-    return assembled(parts)
+    return assemble(parts)
 
 
 def _ball(radii: ArrayLike, middle: tuple[float, float, float]) -> Grid:
-    return moved(ellipsoid(radii, 16), *middle)
+    return move(ellipsoid(radii, 16), *middle)
 
 
 def _fur(colour: draw.RGB, rng: np.random.Generator) -> Colour:

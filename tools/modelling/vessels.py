@@ -13,10 +13,10 @@ from tools.modelling.shapes import (
     disc,
     inside_out,
     lathe,
-    moved,
+    move,
     tube,
 )
-from tools.modelling.sheets import Part, assembled
+from tools.modelling.sheets import Part, assemble
 
 _GLAZE: draw.RGB = (238, 236, 228)
 _BLUE: draw.RGB = (32, 66, 150)
@@ -47,8 +47,8 @@ def cup() -> Model:
         ],
         18,
     )
-    coffee = moved(disc(0.041), z=0.088)
-    return assembled(
+    coffee = move(disc(0.041), z=0.088)
+    return assemble(
         [
             Part(lathe(curve(wall, 12), 40), _folk_pattern()),
             Part(lathe(lip, 40), draw.blank(40, 4, _BLUE)),
@@ -71,9 +71,9 @@ def can_of_paint() -> Model:
     foot = [(0.053, 0.006), (0.0545, 0.004), (0.0545, 0.0)]
     groove = [(0.044, 0.1205), (0.050, 0.125)]
     steel = draw.blank(80, 20, _STEEL)
-    return assembled(
+    return assemble(
         [
-            Part(moved(disc(0.043), z=0.1226), _lid()),
+            Part(move(disc(0.043), z=0.1226), _lid()),
             Part(lathe(groove, 40), steel),
             Part(lathe(shell, 40), _rim()),
             Part(lathe([(0.053, 0.116), (0.053, 0.006)], 40), _label()),

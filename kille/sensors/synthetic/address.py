@@ -9,7 +9,7 @@ from urllib.parse import unquote
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic.faults import FAULTS
 from kille.sensors.synthetic.layout import SCENES
-from kille.sensors.synthetic.names import recognised
+from kille.sensors.synthetic.names import recognise_name
 
 
 @dataclass(frozen=True)
@@ -26,21 +26,21 @@ class Address:
     specimen: int = 0
 
 
-def parsed(name: str) -> Address:
+def parse_address(name: str) -> Address:
     """The address that a name such as `synthetic:desk?seed=7` gives.
 
     Raises SensorError for a scene, option, fault or value that is not known.
 
-    >>> parsed("synthetic:empty?seed=7&faults=none")
+    >>> parse_address("synthetic:empty?seed=7&faults=none")
     Address(scene='empty', seed=7, faults=frozenset(), meshes=None, specimen=0)
     """
     source, _, query = name.strip().partition("?")
     kind, _, scene = source.partition(":")
-    recognised("source", kind, ["synthetic"])
+    recognise_name("source", kind, ["synthetic"])
     options = dict(_option(text) for text in query.split("&") if text)
     meshes = options.get("meshes")
     return Address(
-        scene=recognised("scene", scene or "desk", SCENES),
+        scene=recognise_name("scene", scene or "desk", SCENES),
         seed=_number("seed", options.get("seed", "0")),
         faults=_faults(options.get("faults", "all")),
         meshes=None if meshes is None else Path(meshes).expanduser(),
@@ -50,7 +50,7 @@ def parsed(name: str) -> Address:
 
 def _option(text: str) -> tuple[str, str]:
     key, equals, value = text.partition("=")
-    option = recognised("option", key, ["seed", "faults", "meshes", "specimen"])
+    option = recognise_name("option", key, ["seed", "faults", "meshes", "specimen"])
     if not equals or not value:
         raise SensorError(f"option '{option}' has no value: write {option}=...")
     return option, unquote(value)
@@ -66,7 +66,7 @@ def _number(option: str, text: str) -> int:
 
 def _faults(text: str) -> frozenset[str]:
     known = ["all", "none", *FAULTS]
-    words = [recognised("fault", word, known) for word in text.split(",")]
+    words = [recognise_name("fault", word, known) for word in text.split(",")]
     if words in (["all"], ["none"]):
         return frozenset(FAULTS if words == ["all"] else ())
     if "all" in words or "none" in words:

@@ -54,18 +54,18 @@ class Camera:
         """How far the lens is above the table; on the table, up . point = -height."""
         return float(self.position[2])
 
-    def seen(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
+    def points(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
         """Points (n, 3) of the table's axes in the camera's."""
         there: NDArray[np.float64] = (points - self.position) @ self.rotation.T
         return there
 
     def pixels(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
         """Where points (n, 3) of the table's axes are in the picture, as (u, v)."""
-        x, y, z = self.seen(points).T
+        x, y, z = self.points(points).T
         lens = self.intrinsics
         return np.stack([lens.fx * x / z + lens.cx, lens.fy * y / z + lens.cy], axis=1)
 
     def point(self, place: NDArray[np.floating]) -> Point:
         """One place (3,) of the table's axes in the camera's."""
-        x, y, z = self.seen(place[None])[0].tolist()
+        x, y, z = self.points(place[None])[0].tolist()
         return Point(x, y, z)

@@ -47,7 +47,7 @@ def depth_of(raw: NDArray[np.floating]) -> NDArray[np.float32]:
     return (_RAW_SCALE / (_RAW_AT_INFINITY - raw)).astype(np.float32)
 
 
-def degraded_depth(
+def degrade_depth(
     depth: Depth, focal: float, faults: Collection[str], seed: tuple[int, ...]
 ) -> Depth:
     """The depth (H, W) with the faults among `noise steps shadow edges`.
@@ -135,7 +135,7 @@ def with_bayer(colour: Colour, rng: np.random.Generator) -> Colour:
     return cv2.cvtColor(seen, cv2.COLOR_BayerGRBG2RGB).astype(np.uint8, copy=False)
 
 
-def degraded_colour(
+def degrade_colour(
     colour: Colour, faults: Collection[str], seed: tuple[int, ...]
 ) -> Colour:
     """The colour (H, W, 3) with the fault `bayer`, if it is among them."""

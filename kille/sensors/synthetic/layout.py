@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from kille.sensors.synthetic.camera import HEIGHT, WIDTH, Camera
 from kille.sensors.synthetic.model import Model
-from kille.sensors.synthetic.render import Body, Pose, rendered
+from kille.sensors.synthetic.render import Body, Pose, render_scene
 from kille.sensors.synthetic.room import TABLE_END, TABLE_LEFT, TABLE_NEAR, TABLE_RIGHT
 
 SCENES: Mapping[str, Mapping[str, Pose]] = {
@@ -47,7 +47,7 @@ _APART = 0.008
 _SEEN = 0.3
 
 
-def jittered(
+def jitter_pose(
     pose: Pose, rng: np.random.Generator, metres: float, degrees: float
 ) -> Pose:
     """The pose moved by up to so many metres each way, turned by up to degrees."""
@@ -74,7 +74,9 @@ def poses_beside(
         angle = np.radians(_DIRECTIONS.get(relation, rng.uniform(-180, 180)) + degrees)
         way = np.array([np.cos(angle), np.sin(angle)])
         turned = Pose(0, 0, float(rng.uniform(-12, 12)))
-        reach = (around @ way).max() + (turned.turned(model.footprint) @ -way).max()
+        reach = (around @ way).max() + (
+            turned.turn_points(model.footprint) @ -way
+        ).max()
         gap = rng.uniform(0.04, 0.07) + rng.uniform(0, 0.12) * freedom
         right, away = way * (reach + gap)
         yield Pose(
@@ -99,7 +101,7 @@ def objection(camera: Camera, name: str, bodies: Mapping[str, Body]) -> str | No
     for other, neighbour in bodies.items():
         if other != name and _meet(hull, _hull(neighbour)):
             return f"it would cut into the {other}"
-    hidden = _hidden(camera, bodies)
+    hidden = _hidden_thing(camera, bodies)
     if hidden is None:
         return None
     return "it would be hidden" if hidden == name else f"it would hide the {hidden}"
@@ -107,7 +109,7 @@ def objection(camera: Camera, name: str, bodies: Mapping[str, Body]) -> str | No
 
 def _hull(body: Body) -> NDArray[np.float64]:
     """What the body covers of the table, as a convex polygon (k, 2)."""
-    return body.pose.applied(body.model.footprint)
+    return body.pose.move_points(body.model.footprint)
 
 
 def _on_table(hull: NDArray[np.float64]) -> bool:
@@ -116,7 +118,7 @@ def _on_table(hull: NDArray[np.float64]) -> bool:
 
 
 def _in_picture(camera: Camera, body: Body) -> bool:
-    pixels = camera.pixels(body.pose.applied(body.model.vertices))
+    pixels = camera.pixels(body.pose.move_points(body.model.vertices))
     size = np.array([WIDTH, HEIGHT])
     return bool(((pixels > _BORDER) & (pixels < size - _BORDER)).all())
 
@@ -142,13 +144,13 @@ def _gaps(hull: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.f
     return gaps
 
 
-def _hidden(camera: Camera, bodies: Mapping[str, Body]) -> str | None:
+def _hidden_thing(camera: Camera, bodies: Mapping[str, Body]) -> str | None:
     """A thing of which too little is seen among the others, if there is one."""
     if not any(_cross(camera, a, b) for a, b in combinations(bodies.values(), 2)):
         return None
-    outlines = rendered(camera, bodies).outlines
+    outlines = render_scene(camera, bodies).outlines
     for name, body in bodies.items():
-        alone = rendered(camera, {name: body}).outlines
+        alone = render_scene(camera, {name: body}).outlines
         if name not in outlines:
             return name
         if outlines[name].sum() < _SEEN * alone[name].sum():
@@ -158,8 +160,8 @@ def _hidden(camera: Camera, bodies: Mapping[str, Body]) -> str | None:
 
 def _cross(camera: Camera, body: Body, other: Body) -> bool:
     """Whether the boxes around two bodies in the picture meet."""
-    a = camera.pixels(body.pose.applied(body.model.vertices))
-    b = camera.pixels(other.pose.applied(other.model.vertices))
+    a = camera.pixels(body.pose.move_points(body.model.vertices))
+    b = camera.pixels(other.pose.move_points(other.model.vertices))
     low = np.maximum(a.min(axis=0), b.min(axis=0))
     high = np.minimum(a.max(axis=0), b.max(axis=0))
     return bool((low < high).all())

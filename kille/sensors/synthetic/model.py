@@ -45,7 +45,7 @@ class Model:
         return cv2.convexHull(ground)[:, 0].astype(np.float32)
 
 
-def standing(vertices: NDArray[np.floating]) -> NDArray[np.float32]:
+def set_down(vertices: NDArray[np.floating]) -> NDArray[np.float32]:
     """The vertices shifted so that their box stands on z = 0 around the origin."""
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     middle = (low + high) / 2

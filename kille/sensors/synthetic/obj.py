@@ -16,8 +16,8 @@ from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic.model import (
     TEXELS_PER_METRE,
     Model,
+    set_down,
     smooth_normals,
-    standing,
 )
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import MESH
@@ -41,7 +41,7 @@ def find_meshes(path: Path) -> dict[str, Path]:
         raise SensorError(
             f"{path}: no OBJ mesh: give an .obj file or a folder of meshes"
         )
-    return {_called(file): file for file in files}
+    return {_name_of(file): file for file in files}
 
 
 @lru_cache(maxsize=64)
@@ -57,12 +57,12 @@ def load_scan(path: Path) -> Model:
     uv = _rows(path, lines, "vt", 2)
     texture = _texture(path, lines)
     corners, triangles = _corners(path, lines, len(positions), len(uv))
-    vertices = standing(positions[corners[0]])
+    vertices = set_down(positions[corners[0]])
     _check_size(path, vertices)
-    triangles = _outwards(vertices, triangles)
+    triangles = _turn_outwards(vertices, triangles)
     texels = uv[corners[1]]
     density = _texels_per_metre(vertices, texels * texture.shape[1::-1], triangles)
-    picture = _shrunk(texture, min(1.0, TEXELS_PER_METRE / max(density, 1.0)))
+    picture = _shrink(texture, min(1.0, TEXELS_PER_METRE / max(density, 1.0)))
     return Model(
         vertices=vertices,
         normals=smooth_normals(vertices, triangles),
@@ -110,7 +110,7 @@ def _in_folder(folder: Path) -> list[Path]:
     return textured or files
 
 
-def _called(file: Path) -> str:
+def _name_of(file: Path) -> str:
     name = file.resolve().parent.name if file.stem == "textured" else file.stem
     return name.replace("_", " ")
 
@@ -207,7 +207,7 @@ def _check_size(path: Path, vertices: NDArray[np.float32]) -> None:
         )
 
 
-def _outwards(
+def _turn_outwards(
     vertices: NDArray[np.float32], triangles: NDArray[np.int32]
 ) -> NDArray[np.int32]:
     """The triangles wound so that the volume inside them is positive."""
@@ -231,7 +231,7 @@ def _texels_per_metre(
     return float(np.sqrt(printed / max(surface, 1e-12)))
 
 
-def _shrunk(picture: Colour, factor: float) -> Colour:
+def _shrink(picture: Colour, factor: float) -> Colour:
     if factor >= 1.0:
         return picture
     height, width = picture.shape[:2]

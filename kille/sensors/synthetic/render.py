@@ -46,7 +46,7 @@ class Pose:
     away: float
     turn: float = 0.0
 
-    def turned(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
+    def turn_points(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
         """Points or directions (n, 2 or 3) turned about the vertical."""
         sine, cosine = np.sin(np.radians(self.turn)), np.cos(np.radians(self.turn))
         there = points.astype(np.float64)
@@ -54,9 +54,9 @@ class Pose:
         there[:, 0], there[:, 1] = cosine * x - sine * y, sine * x + cosine * y
         return there
 
-    def applied(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
+    def move_points(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
         """Points (n, 2 or 3) moved from around the origin to their place."""
-        there = self.turned(points)
+        there = self.turn_points(points)
         there[:, :2] += (self.right, self.away)
         return there
 
@@ -94,17 +94,17 @@ class _Triangles:
     indices: NDArray[np.int32]
 
 
-def rendered(camera: Camera, bodies: Mapping[str, Body]) -> Image:
+def render_scene(camera: Camera, bodies: Mapping[str, Body]) -> Image:
     """The room with the bodies in it; a thing that is wholly hidden has no outline."""
     empty = room(camera)
     if not bodies:
         return Image(empty.colour, empty.depth, MappingProxyType({}))
     triangles = _triangles(list(bodies.values()))
-    channels, depth = _rasterized(camera, triangles, empty)
+    channels, depth = _rasterize(camera, triangles, empty)
     colour = _with_shadows(camera, triangles, empty)
     outlines = {}
     for number, (name, body) in enumerate(bodies.items(), start=1):
-        window = _window(camera.pixels(body.pose.applied(body.model.vertices)))
+        window = _window(camera.pixels(body.pose.move_points(body.model.vertices)))
         mask = channels[window][..., 2].astype(np.uint8) == number
         if not mask.any():
             continue
@@ -122,7 +122,9 @@ def _triangles(bodies: Sequence[Body]) -> _Triangles:
     sizes = [len(body.model.vertices) for body in bodies]
     firsts = [0, *np.cumsum(sizes)[:-1].tolist()]
     numbers = np.repeat(np.arange(1, len(bodies) + 1), sizes)
-    normals = np.concatenate([body.pose.turned(body.model.normals) for body in bodies])
+    normals = np.concatenate(
+        [body.pose.turn_points(body.model.normals) for body in bodies]
+    )
     attributes = np.empty((sum(sizes), 3), np.float32)
     attributes[:, :2] = np.concatenate([body.model.uv for body in bodies])
     attributes[:, 2] = numbers + _light(normals)
@@ -131,7 +133,7 @@ def _triangles(bodies: Sequence[Body]) -> _Triangles:
     ]
     return _Triangles(
         vertices=np.concatenate(
-            [body.pose.applied(body.model.vertices) for body in bodies]
+            [body.pose.move_points(body.model.vertices) for body in bodies]
         ),
         attributes=attributes,
         indices=np.concatenate(indices).astype(np.int32),
@@ -145,12 +147,12 @@ def _light(normals: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(np.clip(lit / _FULL_LIGHT, 0.02, 0.98), np.float64)
 
 
-def _rasterized(
+def _rasterize(
     camera: Camera, triangles: _Triangles, empty: Room
 ) -> tuple[NDArray[np.float32], Depth]:
     """The three channels, zero where only the room is seen, and the depth."""
     channels, depth = cv2.triangleRasterize(
-        camera.seen(triangles.vertices).astype(np.float32),
+        camera.points(triangles.vertices).astype(np.float32),
         triangles.indices,
         triangles.attributes,
         np.zeros((HEIGHT, WIDTH, 3), np.float32),
@@ -205,7 +207,7 @@ def _with_shadows(camera: Camera, triangles: _Triangles, empty: Room) -> Colour:
     if colour[window].size == 0:
         return colour
     depth = cv2.triangleRasterizeDepth(
-        camera.seen(flat).astype(np.float32),
+        camera.points(flat).astype(np.float32),
         triangles.indices,
         np.full((HEIGHT // 2, WIDTH // 2), FAR, np.float32),
         _TO_GL,

@@ -38,8 +38,8 @@ def room(camera: Camera) -> Room:
     Every pixel's ray is met with the table, the wall and the floor; colour is the mean
     of four rays, depth that of the pixel's middle.
     """
-    depth, table, _ = _met(camera, *_grid(1))
-    fine = _painted(*_met(camera, *_grid(_FINER)))
+    depth, table, _ = _meet_rays(camera, *_grid(1))
+    fine = _paint_places(*_meet_rays(camera, *_grid(_FINER)))
     colour = cv2.resize(fine, (WIDTH, HEIGHT), interpolation=cv2.INTER_AREA)
     picture = np.clip(colour, 0, 255).astype(np.uint8)
     for array in (picture, depth, table):
@@ -55,7 +55,7 @@ def _grid(finer: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     return columns, rows
 
 
-def _met(
+def _meet_rays(
     camera: Camera, u: NDArray[np.float32], v: NDArray[np.float32]
 ) -> tuple[Depth, Mask, NDArray[np.float32]]:
     """Depth, whether it is table, and the place (.., 3) that each pixel's ray meets."""
@@ -84,7 +84,7 @@ def _on_table(x: NDArray[np.float32], y: NDArray[np.float32]) -> Mask:
     return inside
 
 
-def _painted(
+def _paint_places(
     depth: Depth, table: Mask, places: NDArray[np.float32]
 ) -> NDArray[np.float32]:
     """The colour of every place: wood, plaster or carpet, lit from the upper left."""

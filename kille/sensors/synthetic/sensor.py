@@ -13,13 +13,13 @@ from kille.scene import Frame, Point
 from kille.sensors.sensor import At, Beside, SensorError
 from kille.sensors.stage import RELATIONS
 from kille.sensors.synthetic import catalogue, obj
-from kille.sensors.synthetic.address import Address, parsed
+from kille.sensors.synthetic.address import Address, parse_address
 from kille.sensors.synthetic.camera import Camera
-from kille.sensors.synthetic.faults import degraded_colour, degraded_depth
-from kille.sensors.synthetic.layout import SCENES, jittered, objection, poses_beside
+from kille.sensors.synthetic.faults import degrade_colour, degrade_depth
+from kille.sensors.synthetic.layout import SCENES, jitter_pose, objection, poses_beside
 from kille.sensors.synthetic.model import Model
-from kille.sensors.synthetic.names import recognised
-from kille.sensors.synthetic.render import Body, Image, Pose, rendered
+from kille.sensors.synthetic.names import recognise_name
+from kille.sensors.synthetic.render import Body, Image, Pose, render_scene
 from kille.sensors.synthetic.specimens import specimen
 
 FRAMES_PER_SECOND = 30.0
@@ -31,7 +31,7 @@ def open_synthetic(name: str) -> Synthetic:
 
     Raises SensorError for a name that is not understood.
     """
-    return Synthetic(parsed(name), name)
+    return Synthetic(parse_address(name), name)
 
 
 class Synthetic:
@@ -52,7 +52,7 @@ class Synthetic:
         self._image: Image | None = None
         rng = np.random.default_rng([address.seed, _POSES])
         self._bodies = {
-            thing: Body(self._model(thing), jittered(pose, rng, 0.012, 6))
+            thing: Body(self._model(thing), jitter_pose(pose, rng, 0.012, 6))
             for thing, pose in SCENES[address.scene].items()
         }
 
@@ -80,13 +80,13 @@ class Synthetic:
         if self._closed:
             raise SensorError(f"{self._name} is closed: open it again")
         if self._image is None:
-            self._image = rendered(self._camera, self._bodies)
+            self._image = render_scene(self._camera, self._bodies)
         image, faults = self._image, self._address.faults
         seed = (self._address.seed, _FAULTS, self._frames)
         focal = self._camera.intrinsics.fx
         frame = Frame(
-            colour=degraded_colour(image.colour, faults, seed),
-            depth=degraded_depth(image.depth, focal, faults, seed),
+            colour=degrade_colour(image.colour, faults, seed),
+            depth=degrade_depth(image.depth, focal, faults, seed),
             intrinsics=self._camera.intrinsics,
             time=self._frames / FRAMES_PER_SECOND,
             outlines=image.outlines,
@@ -111,9 +111,9 @@ class Synthetic:
         The pose is up to 5 cm off the middle each way, and turned by at most 25 degrees
         from the object's front. Raises SensorError for a name not known.
         """
-        thing = self._recognised(name)
+        thing = self._recognise(name)
         model = self._model(thing)
-        pose = jittered(Pose(0, 0), self._chance(thing), 0.05, 25)
+        pose = jitter_pose(Pose(0, 0), self._chance(thing), 0.05, 25)
         self._change({thing: Body(model, pose)})
 
     def place(self, name: str, spot: At | Beside) -> None:
@@ -123,7 +123,7 @@ class Synthetic:
         for a name or relation not known, a landmark not on the table, and a spot where
         the object would be off the table, out of view, hidden, or in another.
         """
-        thing = self._recognised(name)
+        thing = self._recognise(name)
         match spot:
             case At():
                 pose = Pose(spot.right, spot.away, spot.turn)
@@ -133,19 +133,19 @@ class Synthetic:
 
     def remove(self, name: str) -> None:
         """Take the object away. Raises SensorError when it is not on the table."""
-        thing = self._present(name)
+        thing = self._find_on_table(name)
         self._change(
             {other: body for other, body in self._bodies.items() if other != thing}
         )
 
     def true_place(self, name: str) -> Point:
         """The middle of the box around an object on the table, in camera axes."""
-        body = self._bodies[self._present(name)]
+        body = self._bodies[self._find_on_table(name)]
         pose, height = body.pose, float(body.model.size[2])
         return self._camera.point(np.array([pose.right, pose.away, height / 2]))
 
     def _place_at(self, thing: str, pose: Pose) -> None:
-        after = self._with(thing, Body(self._model(thing), pose))
+        after = self._bodies_with(thing, Body(self._model(thing), pose))
         if reason := objection(self._camera, thing, after):
             raise SensorError(
                 f"cannot place the {thing} at {pose.right:.2f} {pose.away:.2f}: "
@@ -155,15 +155,15 @@ class Synthetic:
         self._change(after)
 
     def _place_beside(self, thing: str, spot: Beside) -> None:
-        phrase = recognised("relation", spot.relation, RELATIONS)
-        landmark = self._present(spot.landmark)
+        phrase = recognise_name("relation", spot.relation, RELATIONS)
+        landmark = self._find_on_table(spot.landmark)
         if landmark == thing:
             raise SensorError(f"cannot place the {thing} {phrase} itself")
         model, rng = self._model(thing), self._chance(thing)
         reason = None
         around = poses_beside(model, RELATIONS[phrase], self._bodies[landmark], rng)
         for pose in around:
-            after = self._with(thing, Body(model, pose))
+            after = self._bodies_with(thing, Body(model, pose))
             reason = objection(self._camera, thing, after)
             if reason is None:
                 self._change(after)
@@ -173,7 +173,7 @@ class Synthetic:
             f"move the {landmark} or take something away"
         )
 
-    def _with(self, thing: str, body: Body) -> dict[str, Body]:
+    def _bodies_with(self, thing: str, body: Body) -> dict[str, Body]:
         others = {name: each for name, each in self._bodies.items() if name != thing}
         return {**others, thing: body}
 
@@ -194,7 +194,7 @@ class Synthetic:
             return obj.load_scan(mesh)
         return specimen(thing, self._address.specimen)
 
-    def _recognised(self, name: str) -> str:
+    def _recognise(self, name: str) -> str:
         """The object that is meant; a path of a mesh makes it known by its name."""
         path = Path(name).expanduser()
         if "/" in name or path.suffix.lower() == ".obj":
@@ -203,10 +203,10 @@ class Synthetic:
                 raise SensorError(f"{name} holds {len(found)} meshes: name one of them")
             self._meshes |= found
             return next(iter(found))
-        return recognised("object", name, self.things(), catalogue.ALSO_CALLED)
+        return recognise_name("object", name, self.things(), catalogue.ALSO_CALLED)
 
-    def _present(self, name: str) -> str:
-        thing = self._recognised(name)
+    def _find_on_table(self, name: str) -> str:
+        thing = self._recognise(name)
         if thing in self._bodies:
             return thing
         present = ", ".join(self._bodies) or "nothing"

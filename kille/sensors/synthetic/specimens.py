@@ -42,12 +42,12 @@ def specimen(name: str, number: int) -> Model:
         return first
     rng = np.random.default_rng([zlib.crc32(name.encode()), number])
     grown = _GROWN.get(name)
-    texture = first.texture if grown is not None else _printed_over(first.texture, rng)
+    texture = first.texture if grown is not None else _print_over(first.texture, rng)
     tint = rng.uniform(-grown, grown) if grown is not None else rng.uniform(60, 300)
-    return _stretched(replace(first, texture=_recoloured(texture, tint, rng)), rng)
+    return _stretch(replace(first, texture=_recolour(texture, tint, rng)), rng)
 
 
-def _stretched(model: Model, rng: np.random.Generator) -> Model:
+def _stretch(model: Model, rng: np.random.Generator) -> Model:
     factors = np.exp(rng.uniform(-_WHOLE, _WHOLE) + rng.uniform(-_EACH, _EACH, 3))
     # A normal stays upright on a stretched surface if it is stretched the other way.
     normals = model.normals / factors
@@ -59,7 +59,7 @@ def _stretched(model: Model, rng: np.random.Generator) -> Model:
     )
 
 
-def _recoloured(texture: Colour, tint: float, rng: np.random.Generator) -> Colour:
+def _recolour(texture: Colour, tint: float, rng: np.random.Generator) -> Colour:
     """Every hue turned by so many degrees, chroma and contrast changed alike."""
     lab = cv2.cvtColor(texture.astype(np.float32) / 255, cv2.COLOR_RGB2Lab)
     angle, chroma = np.radians(tint), rng.uniform(*_CHROMA)
@@ -71,7 +71,7 @@ def _recoloured(texture: Colour, tint: float, rng: np.random.Generator) -> Colou
     return np.asarray(np.clip(rgb * 255, 0, 255).round(), np.uint8)
 
 
-def _printed_over(texture: Colour, rng: np.random.Generator) -> Colour:
+def _print_over(texture: Colour, rng: np.random.Generator) -> Colour:
     """The texture faded, with stripes as broad as a finger across it, and dots."""
     along = np.arange(texture.shape[1], dtype=np.float32)[None, :]
     down = np.arange(texture.shape[0], dtype=np.float32)[:, None]
@@ -81,7 +81,9 @@ def _printed_over(texture: Colour, rng: np.random.Generator) -> Colour:
         across = np.cos(angle) * along + np.sin(angle) * down
         phase, period = rng.uniform(0, 400), rng.uniform(90, 400)
         stripe = ((across + phase) % period < width)[..., None]
-        printed = _mixed(printed, stripe, rng.uniform(0, 255, 3), rng.uniform(0.5, 0.9))
+        printed = _mix_ink(
+            printed, stripe, rng.uniform(0, 255, 3), rng.uniform(0.5, 0.9)
+        )
     for _ in range(int(rng.integers(0, _DOTS + 1))):
         middle = rng.uniform(0, 1, 2) * texture.shape[1::-1]
         ink, radius = rng.uniform(0, 255, 3).tolist(), int(rng.integers(3, 14))
@@ -89,7 +91,7 @@ def _printed_over(texture: Colour, rng: np.random.Generator) -> Colour:
     return np.asarray(printed.round(), np.uint8)
 
 
-def _mixed(
+def _mix_ink(
     picture: NDArray[np.float32],
     where: NDArray[np.bool_],
     ink: NDArray[np.float64],

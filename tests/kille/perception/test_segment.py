@@ -25,12 +25,12 @@ from kille.sensors.recordings import open_recording
 from kille.sensors.synthetic import open_synthetic
 from kille.sensors.synthetic.camera import Camera
 from kille.sensors.synthetic.catalogue import NAMES
-from kille.sensors.synthetic.faults import FAULTS, degraded_depth
+from kille.sensors.synthetic.faults import FAULTS, degrade_depth
 from kille.sensors.synthetic.model import Model
-from kille.sensors.synthetic.render import Body, Pose, rendered
-from tools.fitting.piles import a_bowl, lifted, pile
-from tools.modelling.shapes import box, disc, lathe, moved
-from tools.modelling.sheets import Part, assembled
+from kille.sensors.synthetic.render import Body, Pose, render_scene
+from tools.fitting.piles import a_bowl, lift_model, pile
+from tools.modelling.shapes import box, disc, lathe, move
+from tools.modelling.sheets import Part, assemble
 
 THREE = (Card(-0.15, 0.75), Card(0.12, 0.65, width=0.08), Card(0.05, 1.0, seed=2))
 
@@ -196,7 +196,7 @@ def test_what_stands_apart_is_whole_either_way(way: Segmentation) -> None:
 
 def test_things_that_lie_on_each_other_are_taken_apart() -> None:
     book, tin = _lying(0.24, 0.18, 0.04), _standing(0.035, 0.1)
-    frame = seen(Body(book, Pose(0, 0, 20)), Body(lifted(tin, 0.04), Pose(0.03, 0)))
+    frame = seen(Body(book, Pose(0, 0, 20)), Body(lift_model(tin, 0.04), Pose(0.03, 0)))
     assert score(segment(frame).regions, frame).exact == 1
     assert len(plainly(frame).regions) == 1
 
@@ -332,19 +332,19 @@ def test_a_large_picture_has_the_same_regions() -> None:
 
 def seen(*bodies: Body, camera: Camera = Camera()) -> Frame:  # noqa: B008
     """What a Kinect sees of these bodies; `outlines` are by number from 0."""
-    image = rendered(camera, {str(i): body for i, body in enumerate(bodies)})
+    image = render_scene(camera, {str(i): body for i, body in enumerate(bodies)})
     lens = camera.intrinsics
-    depth = degraded_depth(image.depth, lens.fx, FAULTS, (1,))
+    depth = degrade_depth(image.depth, lens.fx, FAULTS, (1,))
     return Frame(image.colour, depth, lens, 0.0, image.outlines)
 
 
 def _lying(*size: float) -> Model:
-    return assembled([Part(face, _GREY) for face in box(*size).values()])
+    return assemble([Part(face, _GREY) for face in box(*size).values()])
 
 
 def _standing(radius: float, height: float) -> Model:
-    sheets = lathe([(radius, height), (radius, 0)]), moved(disc(radius), z=height)
-    return assembled([Part(sheet, _GREY) for sheet in sheets])
+    sheets = lathe([(radius, height), (radius, 0)]), move(disc(radius), z=height)
+    return assemble([Part(sheet, _GREY) for sheet in sheets])
 
 
 _GREY = np.full((4, 4, 3), 128, np.uint8)

@@ -15,7 +15,7 @@ from kille.sensors.synthetic.model import Model
 from kille.sensors.synthetic.obj import load_model
 from tools.modelling.obj_files import obj_text
 from tools.modelling.shapes import disc, ellipsoid, lathe
-from tools.modelling.sheets import Part, assembled
+from tools.modelling.sheets import Part, assemble
 from tools.modelling.toys import MAKERS, SHIPPED, write_picture
 from tools.modelling.wood import wood
 
@@ -68,7 +68,7 @@ def test_a_model_is_read_as_it_was_written(tmp_path: Path, seed: int) -> None:
 
     profile = chance.uniform(0.01, 0.1, (4, 2))
     sheets = ellipsoid(chance.uniform(0.01, 0.1, 3), 8), lathe(profile, 7), disc(0.05)
-    model = assembled([Part(sheet, picture()) for sheet in sheets])
+    model = assemble([Part(sheet, picture()) for sheet in sheets])
     read = load_model(save(tmp_path, model))
     for name in ("vertices", "normals", "triangles", "texture"):
         assert np.array_equal(getattr(read, name), getattr(model, name))

@@ -8,7 +8,7 @@ import pytest
 
 from kille.sensors.sensor import SensorError
 from kille.sensors.synthetic import open_synthetic
-from kille.sensors.synthetic.address import Address, parsed
+from kille.sensors.synthetic.address import Address, parse_address
 from kille.sensors.synthetic.faults import FAULTS
 
 
@@ -32,7 +32,7 @@ from kille.sensors.synthetic.faults import FAULTS
     ],
 )
 def test_an_address_reads(name: str, address: Address) -> None:
-    assert parsed(name) == address
+    assert parse_address(name) == address
 
 
 @pytest.mark.parametrize(

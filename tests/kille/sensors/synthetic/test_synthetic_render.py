@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from kille.scene import Depth, Intrinsics
 from kille.sensors.synthetic.camera import Camera
 from kille.sensors.synthetic.catalogue import NAMES, model
-from kille.sensors.synthetic.render import Body, Pose, rendered
+from kille.sensors.synthetic.render import Body, Pose, render_scene
 from kille.sensors.synthetic.room import room
 from tools.modelling.shapes import box, ellipsoid
-from tools.modelling.sheets import Part, assembled
+from tools.modelling.sheets import Part, assemble
 
 CAMERA = Camera()
 
@@ -33,7 +33,7 @@ def painted(colour: tuple[int, int, int]) -> np.ndarray:
 
 def test_table_pixels_lie_on_the_table() -> None:
     empty = room(CAMERA)
-    image = rendered(CAMERA, {"cup": Body(model("cup"), Pose(0, 0))})
+    image = render_scene(CAMERA, {"cup": Body(model("cup"), Pose(0, 0))})
     table = empty.table & ~image.outlines["cup"]
     heights = points(image.depth, CAMERA.intrinsics)[table] @ CAMERA.up + CAMERA.height
     assert table.sum() > 150_000
@@ -54,7 +54,7 @@ def test_a_box_has_the_depth_of_its_planes() -> None:
     sheets = [
         Part(sheet, painted((90, 90, 90))) for sheet in box(0.2, 0.1, 0.1).values()
     ]
-    image = rendered(CAMERA, {"box": Body(assembled(sheets), Pose(0.05, 0.02, 30))})
+    image = render_scene(CAMERA, {"box": Body(assemble(sheets), Pose(0.05, 0.02, 30))})
     seen = points(image.depth, CAMERA.intrinsics)[image.outlines["box"]]
     there = seen @ CAMERA.rotation + CAMERA.position - (0.05, 0.02, 0.0)
     sine, cosine = np.sin(np.radians(30)), np.cos(np.radians(30))
@@ -69,7 +69,7 @@ def test_a_box_has_the_depth_of_its_planes() -> None:
 def test_things_are_nearer_than_the_room() -> None:
     empty = room(CAMERA)
     for name in NAMES:
-        image = rendered(CAMERA, {name: Body(model(name), Pose(0, 0, 40))})
+        image = render_scene(CAMERA, {name: Body(model(name), Pose(0, 0, 40))})
         mask = image.outlines[name]
         assert (image.depth[mask] < empty.depth[mask] + 1e-3).all()
         assert np.abs(image.depth[~mask] - empty.depth[~mask]).max() < 1e-4
@@ -80,9 +80,9 @@ def test_the_nearer_thing_hides_the_farther() -> None:
         "book": Body(model("book"), Pose(0, 0.15)),
         "shoe-box": Body(model("shoe-box"), Pose(0, -0.05)),
     }
-    image = rendered(CAMERA, bodies)
-    book = rendered(CAMERA, {"book": bodies["book"]}).outlines["book"]
-    case = rendered(CAMERA, {"shoe-box": bodies["shoe-box"]}).outlines["shoe-box"]
+    image = render_scene(CAMERA, bodies)
+    book = render_scene(CAMERA, {"book": bodies["book"]}).outlines["book"]
+    case = render_scene(CAMERA, {"shoe-box": bodies["shoe-box"]}).outlines["shoe-box"]
     assert (book & case).any()
     assert np.array_equal(image.outlines["shoe-box"], case)
     assert np.array_equal(image.outlines["book"], book & ~case)
@@ -94,8 +94,8 @@ def test_a_wholly_hidden_thing_has_no_outline() -> None:
         "shoe-box": Body(model("shoe-box"), Pose(0, 0)),
         "apple": Body(model("apple"), Pose(0, 0)),
     }
-    inside = assembled([Part(ellipsoid((0.02, 0.02, 0.02)), painted((0, 0, 0)))])
-    image = rendered(CAMERA, bodies | {"apple": Body(inside, Pose(0, 0))})
+    inside = assemble([Part(ellipsoid((0.02, 0.02, 0.02)), painted((0, 0, 0)))])
+    image = render_scene(CAMERA, bodies | {"apple": Body(inside, Pose(0, 0))})
     assert set(image.outlines) == {"shoe-box"}
 
 
@@ -105,13 +105,13 @@ def test_the_picture_on_a_thing_is_its_own() -> None:
         for side in box(1, 1, 1)
     }
     faces = box(0.2, 0.2, 0.1)
-    cube = assembled([Part(faces[side], sides[side]) for side in faces])
-    image = rendered(CAMERA, {"cube": Body(cube, Pose(0, 0))})
+    cube = assemble([Part(faces[side], sides[side]) for side in faces])
+    image = render_scene(CAMERA, {"cube": Body(cube, Pose(0, 0))})
     front = CAMERA.pixels(np.array([[0.0, -0.1, 0.05]]))[0].round().astype(int)
     top = CAMERA.pixels(np.array([[0.0, 0.0, 0.1]]))[0].round().astype(int)
     assert image.colour[front[1], front[0]].argmax() == 0
     assert image.colour[top[1], top[0]].argmax() == 1
-    behind = rendered(CAMERA, {"cube": Body(cube, Pose(0, 0, 180))})
+    behind = render_scene(CAMERA, {"cube": Body(cube, Pose(0, 0, 180))})
     assert behind.colour[front[1], front[0]].argmax() == 2
 
 
@@ -120,7 +120,9 @@ def test_letters_are_not_mirrored() -> None:
     left_half[:, 4:] = 255
     for side, turn in (("front", 0), ("back", 180), ("left", 90), ("right", -90)):
         sheet = Part(box(0.1, 0.1, 0.1)[side], left_half)
-        image = rendered(CAMERA, {"sheet": Body(assembled([sheet]), Pose(0, 0, turn))})
+        image = render_scene(
+            CAMERA, {"sheet": Body(assemble([sheet]), Pose(0, 0, turn))}
+        )
         _, columns = np.nonzero(image.outlines["sheet"])
         row = np.nonzero(image.outlines["sheet"])[0].mean().astype(int)
         assert image.colour[row, columns.min() + 4].max() < 60
@@ -138,8 +140,8 @@ def test_an_outline_stays_within_the_projected_vertices(
     name: str, right: float, away: float, turn: float
 ) -> None:
     body = Body(model(name), Pose(right, away, turn))
-    rows, columns = np.nonzero(rendered(CAMERA, {name: body}).outlines[name])
-    pixels = CAMERA.pixels(body.pose.applied(body.model.vertices))
+    rows, columns = np.nonzero(render_scene(CAMERA, {name: body}).outlines[name])
+    pixels = CAMERA.pixels(body.pose.move_points(body.model.vertices))
     low, high = pixels.min(axis=0), pixels.max(axis=0)
     assert low[0] - 1 <= columns.min()
     assert columns.max() <= high[0] + 1
@@ -164,8 +166,8 @@ def test_models_stand_on_the_table_and_are_life_sized(name: str) -> None:
 
 
 def test_a_ball_is_lit_from_above_and_the_left() -> None:
-    ball = assembled([Part(ellipsoid((0.08, 0.08, 0.08)), painted((150, 150, 150)))])
-    image = rendered(CAMERA, {"ball": Body(ball, Pose(0, 0))})
+    ball = assemble([Part(ellipsoid((0.08, 0.08, 0.08)), painted((150, 150, 150)))])
+    image = render_scene(CAMERA, {"ball": Body(ball, Pose(0, 0))})
     rows, columns = np.nonzero(image.outlines["ball"])
     grey = image.colour[..., 1].astype(float)
     middle_row, middle_column = int(rows.mean()), int(columns.mean())
@@ -179,7 +181,7 @@ def test_a_ball_is_lit_from_above_and_the_left() -> None:
 
 def test_a_thing_casts_a_shadow_on_the_table_only() -> None:
     empty = room(CAMERA)
-    image = rendered(CAMERA, {"cup": Body(model("cup"), Pose(0, 0))})
+    image = render_scene(CAMERA, {"cup": Body(model("cup"), Pose(0, 0))})
     around = ~image.outlines["cup"]
     darker = (empty.colour.astype(int) - image.colour).max(axis=2) > 25
     assert (darker & around & empty.table).sum() > 400
