@@ -14,12 +14,7 @@ from kille.body import Body
 from kille.dialogue.games.clarifying import asked_which
 from kille.dialogue.language import Sentence, understand
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import (
-    set_to,
-    sign,
-    theory,
-    word_of,
-)
+from kille.dialogue.meanings import DialogueTypes, set_to, types_of, word_of
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import heard, tutoring
 from kille.dialogue.wording import did_not_understand
@@ -33,7 +28,7 @@ from kille.recollection import sign_of
 from kille.sensors.sensor import Sensor, SensorError
 from kille.witness import Witnesses, thing
 from kille.words import Vocabulary
-from ttr import Model, Record, RecType, TTRError, record
+from ttr import Model, Record, RecType, Theory, TTRError, record
 from ttr.errors import UpdateError
 from ttr.judging import Judgement
 from ttr.probability import CERTAIN
@@ -72,16 +67,19 @@ class Agent:
         scans: int = SCANS,
         now: Callable[[], datetime] = lambda: datetime.now(UTC),
         learners: Learners | None = None,
-        theory: Callable[[Game], Game] | None = None,
+        theory: Theory | DialogueTypes | None = None,
+        change: Callable[[Game], Game] | None = None,
     ) -> None:
         """A robot that is awake; other `learners` may judge its words.
 
-        `theory` makes another game of the one that it would play.
+        Its games, its language and its meanings are made of the `theory`, by default
+        the packaged one. `change` makes another game of the one that it would play.
         """
+        self.types = types_of(theory)
         self.gaze = Gaze(sensor, scans)
         self.language, self._mode, self._wording = language, mode, wording
         self._now = now
-        self._learners, self._theory = learners, theory
+        self._learners, self._change = learners, change
         self._lexicon = lexicon(language)
         self.exchanges: list[Exchange] = []
         with ExitStack() as failing:
@@ -98,7 +96,9 @@ class Agent:
         colours = tuple(self._colour_words(knowledge.colours.labels))
         counts = memory.counts()
         taught = [
-            record(sign=sign_of(it), lessons=float(counts[it.kind, it.name]))
+            record(
+                sign=sign_of(it, self.types), lessons=float(counts[it.kind, it.name])
+            )
             for it in memory.words()
         ]
         signs = (*colours, *(it.sign for it in taught))
@@ -106,18 +106,21 @@ class Agent:
         self._looks = 0
         self.memory, self._knowledge, self._witnesses = memory, knowledge, witnesses
         self._journal = Journal(memory, self._now)
-        body = Body(knowledge, witnesses, self.gaze, self._journal, self._now)
+        body = Body(
+            knowledge, witnesses, self.gaze, self._journal, self._now, self.types
+        )
         game = tutoring(
             known,
             language=self.language,
             mode=self._mode,
             wording=self._wording,
-            model=witnesses.in_model(blank_model(), known),
+            model=witnesses.in_model(blank_model(self.types), known, types=self.types),
             act=body.act,
             colours=colours,
             taught=taught,
+            types=self.types,
         )
-        self.game: Game = game if self._theory is None else self._theory(game)
+        self.game: Game = game if self._change is None else self._change(game)
         self._now_at = self.game.begin()
 
     def _colour_words(self, known: Iterable[str]) -> Iterator[Record]:
@@ -126,7 +129,7 @@ class Agent:
         for name in known:
             form = by_meaning.get(name, "" if by_meaning else name)
             if form:
-                yield sign(form, "adjective", means=name)
+                yield self.types.sign(form, "adjective", means=name)
 
     @property
     def state(self) -> Record:
@@ -275,7 +278,10 @@ class Agent:
 
     def _overhearing(self, texts: Sequence[tuple[str, float]]) -> Played:
         """Take in a move that may have been said in one of several ways."""
-        sentences = [understand(_legible(text), self.language)[0] for text, _ in texts]
+        sentences = [
+            understand(_legible(text), self.language, types=self.types)[0]
+            for text, _ in texts
+        ]
         ways = tuple(reading for it in sentences for reading in it.readings)
         text = " | ".join(f"{text} {p:g}" for text, p in texts)
         text = text if ways else max(texts, key=lambda it: it[1])[0]
@@ -289,7 +295,9 @@ class Agent:
         """Take in one move of the tutor's, and answer it."""
         self._journal.heard(sentence.text)
         if not sentence.readings:
-            sorry = Said(did_not_understand(self._lexicon, sentence.text), None)
+            sorry = Said(
+                did_not_understand(self._lexicon, sentence.text, types=self.types), None
+            )
             self._journal.said(sorry.text)
             return so_far.then(None, (), (sorry,)), now
         if any("look" in reading.content for reading in sentence.readings):
@@ -316,11 +324,13 @@ class Agent:
 
     def _sentences(self, words: str, numbered: str) -> tuple[Sentence, ...]:
         """The sentences of a text; its number, if need be, as "this": "What is #2?"."""
-        sentences = understand(words, self.language)
+        sentences = understand(words, self.language, types=self.types)
         if not numbered or all(it.readings for it in sentences):
             return sentences
         this = self._lexicon.referring["shown"]
-        named = understand(_POINTING.sub(f" {this} ", numbered), self.language)
+        named = understand(
+            _POINTING.sub(f" {this} ", numbered), self.language, types=self.types
+        )
         return named if all(it.readings for it in named) else sentences
 
     def _in_full(self, sentence: Sentence, s: Record) -> Sentence:
@@ -328,7 +338,7 @@ class Agent:
         if sentence.readings or not asked_which(s):
             return sentence
         text = self._lexicon.answering.replace("{text}", sentence.text)
-        first, *more = understand(text, self.language)
+        first, *more = understand(text, self.language, types=self.types)
         return sentence if more else Sentence(sentence.text, first.readings)
 
     # --- seeing ----------------------------------------------------------------------
@@ -347,9 +357,9 @@ class Agent:
             placed=[x for x, place in zip(things, places, strict=True) if place],
             focus=[] if view.focus is None else [thing(view.focus)],
         )
-        model = now.model.given(handle, theory()["Look"])
+        model = now.model.given(handle, self.types["Look"])
         for x in things:
-            model = model.given(x, theory()["Ind"])
+            model = model.given(x, self.types["Ind"])
         kept = [thing(number) for number in view.kept]
         event = record(view=seen, kept=kept, floor=floor)
         return self._played(now._replace(model=model), event)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from datetime import datetime
 
-from kille.dialogue.meanings import claims, is_denial, value_at, word_of
+from kille.dialogue.meanings import DialogueTypes, claims, is_denial, value_at, word_of
 from kille.dialogue.reference import PARTS, phrase_at
 from kille.gaze import Gaze
 from kille.journal import Journal
@@ -32,22 +32,26 @@ class Body:
         gaze: Gaze,
         journal: Journal,
         now: Callable[[], datetime],
+        types: DialogueTypes,
     ) -> None:
         self._knowledge, self._witnesses = knowledge, witnesses
-        self._gaze, self._journal, self._now = gaze, journal, now
+        self._gaze, self._journal = gaze, journal
+        self._now, self._types = now, types
 
     def act(self, planned: TypeNode, model: Model) -> tuple[Record, Model]:
         """Make a planned move: the event, and the model in which it has been made."""
         move, model = model.create(planned)
         keys = tuple(str(self._learn(it, move.signs)) for it in move.teaches)
-        recollection = Recollection(self._knowledge, self._witnesses, self._now())
+        recollection = Recollection(
+            self._knowledge, self._witnesses, self._now(), self._types
+        )
         dropped = recollection.dropped(move.drops)
         undone = recollection.latest(len(move.undoes))
         undone_keys = [it.key for it in undone]
         lost = self._unlearned((*move.forgets, *dropped, *undone_keys))
         if keys or move.forgets or dropped or undone:
             self._witnesses.reconsider()
-            model = self._witnesses.in_model(model, move.signs)
+            model = self._witnesses.in_model(model, move.signs, types=self._types)
         for x in move.points:
             self._gaze.point(str(number_of(x)))
         done = {
@@ -124,8 +128,10 @@ class Body:
         before = self._knowledge.memory.words()
         for key in keys:
             self._knowledge.forget(int(key))
-        left = {word_of(sign_of(it)) for it in self._knowledge.memory.words()}
-        gone = [sign_of(it) for it in before if not self._is_known(it)]
+        left = {
+            word_of(sign_of(it, self._types)) for it in self._knowledge.memory.words()
+        }
+        gone = [sign_of(it, self._types) for it in before if not self._is_known(it)]
         return tuple(it for it in gone if word_of(it) not in left)
 
     def _is_known(self, word: Word) -> bool:

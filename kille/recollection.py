@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterable
 from datetime import datetime
 
-from kille.dialogue.meanings import claims, sign, value_at, word_of
+from kille.dialogue.meanings import DialogueTypes, claims, value_at, word_of
 from kille.dialogue.reference import thing_at
 from kille.knowledge import Knowledge
 from kille.memory import Kind, Lesson, Word
@@ -28,20 +28,26 @@ KINDS: dict[str, Kind] = {
 _TALKED_OF = {kind: said for said, kind in KINDS.items()}
 
 
-def sign_of(word: Word) -> Record:
+def sign_of(word: Word, types: DialogueTypes) -> Record:
     """A word of the memory in talk; an adjective may mean one of another language."""
     means = word.name.removeprefix("is_").replace("_", " ")
     kind = _TALKED_OF[word.kind]
-    return sign(word.surface, kind, word.article, means if kind == "adjective" else "")
+    means = means if kind == "adjective" else ""
+    return types.sign(word.surface, kind, word.article, means)
 
 
 class Recollection:
     """Answers from what a robot knows and has in view, as of some time."""
 
     def __init__(
-        self, knowledge: Knowledge, witnesses: Witnesses, now: datetime
+        self,
+        knowledge: Knowledge,
+        witnesses: Witnesses,
+        now: datetime,
+        types: DialogueTypes,
     ) -> None:
-        self._knowledge, self._witnesses, self._now = knowledge, witnesses, now
+        self._knowledge, self._witnesses = knowledge, witnesses
+        self._now, self._types = now, types
 
     def reason(self, claim: RecordType, signs: Iterable[Record]) -> Record:
         """Why it thinks that a claim is true: a `Reason`.
@@ -96,7 +102,7 @@ class Recollection:
         keys = set(self._keys(word))
         taught = {_turn(it) for it in lessons if it.holds and it.key in keys}
         denied = Counter(
-            sign_of(it.word)
+            sign_of(it.word, self._types)
             for it in lessons
             if not it.holds and it.word.kind == KINDS[word.kind] and _turn(it) in taught
         )
@@ -125,7 +131,7 @@ class Recollection:
         at = then.astimezone()
         return record(
             key=str(lesson.key),
-            sign=sign_of(lesson.word),
+            sign=sign_of(lesson.word, self._types),
             examples=float(lesson.holds),
             text=lesson.turn.text,
             dialogue=str(lesson.turn.dialogue),

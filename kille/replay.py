@@ -9,10 +9,9 @@ from pathlib import Path
 
 from kille.agent import Agent
 from kille.dialogue.language import LANGUAGES
-from kille.dialogue.meanings import theory
 from kille.memory import Memory
 from kille.sensors.sensor import SensorError
-from ttr import TTRError
+from ttr import Theory, TTRError
 from ttr.dialogues.stories import (
     SILENCE,
     Line,
@@ -32,9 +31,14 @@ _DEFAULT_SCENE = "synthetic:empty"
 
 
 def play(
-    story: Story, memory: Memory | None = None, echo: Echo = lambda line: None
+    story: Story,
+    memory: Memory | None = None,
+    echo: Echo = lambda line: None,
+    theory: Theory | None = None,
 ) -> Mismatch | None:
     """Plays a story to a robot with this memory, an empty one if there is none.
+
+    The robot has this theory, by default the packaged one.
 
     The first difference, or None if there is none. `echo` is given each line as it is
     played. Raises StoryError for a line that cannot be played.
@@ -42,7 +46,9 @@ def play(
     if story.game is not None:
         raise story.game.wrong("a story that names its game is played by `ttr play`")
     try:
-        robot = Agent(_first_scene(story), memory, language=_language(story))
+        robot = Agent(
+            _first_scene(story), memory, language=_language(story), theory=theory
+        )
     except SensorError as error:
         raise story.lines[0].wrong(str(error)) from error
     with robot:
@@ -145,7 +151,7 @@ class _Playing:
         return self._differing(line, expected, self._said[0])
 
     def _judge(self, line: Line) -> Mismatch | None:
-        T = _type_of_state(line)
+        T = _type_of_state(line, self._robot.types.theory)
         judgement = self._robot.model.judge(self._robot.state, T)
         if judgement.p == CERTAIN:
             return None
@@ -157,7 +163,7 @@ class _Playing:
         return Mismatch(line, expected, found, trace)
 
 
-def _type_of_state(line: Line) -> TypeNode:
+def _type_of_state(line: Line, theory: Theory) -> TypeNode:
     """The type in `s : T`."""
     name, colon, text = line.text.partition(":")
     if not colon or name.strip() != "s":
@@ -166,7 +172,7 @@ def _type_of_state(line: Line) -> TypeNode:
             "`= s : [shared : [latest : Learned]]`"
         )
     try:
-        T = theory().parse(text.strip())
+        T = theory.parse(text.strip())
     except TTRError as error:
         raise line.wrong(str(error)) from None
     if not isinstance(T, TypeNode):

@@ -15,7 +15,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from functools import partial
 from typing import Self
 
-from kille.dialogue.meanings import theory, word_of
+from kille.dialogue.meanings import DialogueTypes, packaged_types, word_of
 from kille.knowledge import Knowledge, colour_named
 from kille.perception.attributes import AttributeMemory
 from kille.perception.colours import ColourMemory, xkcd
@@ -201,14 +201,21 @@ class Witnesses:
         box = percept.region.box
         return float((box.left + box.right) / 2 / look.frame.colour.shape[1])
 
-    def in_model(self, model: Model, signs: Iterable[Record]) -> Model:
+    def in_model(
+        self,
+        model: Model,
+        signs: Iterable[Record],
+        *,
+        types: DialogueTypes | None = None,
+    ) -> Model:
         """The model in which these words, and `across`, are judged by what is seen."""
         judges: Mapping[str, Callable[..., Degree]] = {
             "noun": self.noun,
             "adjective": self.attribute,
             "relation": self.relation,
         }
-        model = model.witnessed(theory()["across"], by=self.across)
+        types = types or packaged_types()
+        model = model.witnessed(types["across"], by=self.across)
         for sign in signs:
             word = word_of(sign)
             model = model.witnessed(word, by=partial(judges[sign.kind], word.name))

@@ -407,7 +407,7 @@ def seeing() -> dict[str, set[str]]:
 
 def talking() -> dict[str, set[str]]:
     """The public names of what a game of one's own is made of, and played with."""
-    dialogue = ("tutoring", "moves", "meanings", "reference", "describing")
+    dialogue = ("tutoring", "moves", "rules", "meanings", "reference", "describing")
     more = ("language", "strategies")
     simulation = ("worlds", "perceiving", "playing", "schooling")
     named = [f"kille.dialogue.{module}" for module in (*dialogue, *more)]

@@ -137,7 +137,6 @@ def test_a_pickle_is_found(text: str) -> None:
 
 BETWEEN_PROCESSES = {
     "kille/sensors/kinect/channel.py",
-    "kille/studies/apart.py",
     *(f"kille/studies/running/{it}.py" for it in ("clusters", "local", "workers")),
 }
 """What is sent between processes that one has started, or that one trusts to play."""

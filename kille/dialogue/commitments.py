@@ -12,10 +12,10 @@ from collections.abc import Collection, Iterable, Sequence
 from kille.dialogue.beliefs import Beliefs
 from kille.dialogue.meanings import (
     CLAIMS,
+    DialogueTypes,
     claims,
     denied,
     is_denial,
-    theory,
     word_of,
 )
 from kille.dialogue.moves import plan
@@ -77,7 +77,7 @@ def remaining(here: Iterable[RecordType], kept: Collection[str]) -> list[RecordT
     return [it for it in here if set(things_in(it)) <= set(kept)]
 
 
-def said_here(s: Record, said: Record) -> list[RecordType]:
+def said_here(s: Record, said: Record, *, types: DialogueTypes) -> list[RecordType]:
     """What is said of the things in view, after the robot has made a move.
 
     These are the lessons about them, and what the robot claims. What it no longer
@@ -86,13 +86,13 @@ def said_here(s: Record, said: Record) -> list[RecordType]:
     fresh = (*s.shared.pending, *said.teaches)
     kept = {*fresh, *(it.content for it in s.private.lessons)}
     known = [it for it in s.shared.here if it in kept]
-    new = (it for it in fresh if it not in known and is_here(s, it))
+    new = (it for it in fresh if it not in known and is_here(s, it, types=types))
     return [*known, *new]
 
 
-def lessons_in(s: Record, claim: RecordType) -> list[Record]:
+def lessons_in(s: Record, claim: RecordType, *, types: DialogueTypes) -> list[Record]:
     """The lessons that say what a claim says, about the very things it is about."""
-    here = s.shared.here if is_here(s, claim) else ()
+    here = s.shared.here if is_here(s, claim, types=types) else ()
     return [
         it
         for it in s.private.lessons
@@ -117,22 +117,22 @@ def as_told(s: Record, beliefs: Beliefs) -> Beliefs:
     return sorted(certain, key=lambda it: (-it.p, it.sign.form))
 
 
-def is_here(s: Record, claim: RecordType) -> bool:
+def is_here(s: Record, claim: RecordType, *, types: DialogueTypes) -> bool:
     """Whether what a claim is about is still in view, or was when it was denied."""
-    now = theory()["Look"] @ s.view.look
+    now = types["Look"] @ s.view.look
     return claim["look"] == now or bool({claim, denied(claim)} & {*s.shared.here})
 
 
 # --- what is to be learned and unlearned ---------------------------------------------
 
 
-def undone(s: Record, content: RecordType) -> list[str]:
+def undone(s: Record, content: RecordType, *, types: DialogueTypes) -> list[str]:
     """The keys of the lessons that say the opposite of a content."""
-    return [it.key for it in lessons_in(s, denied(content))]
+    return [it.key for it in lessons_in(s, denied(content), types=types)]
 
 
 def weakened(
-    s: Record, wrong: Iterable[RecordType]
+    s: Record, wrong: Iterable[RecordType], *, types: DialogueTypes
 ) -> tuple[list[RecordType], list[str]]:
     """What is learned and which lessons are unlearned when these claims are wrong.
 
@@ -142,7 +142,7 @@ def weakened(
     teaches: list[RecordType] = []
     forgets: list[str] = []
     for claim in wrong:
-        taught = lessons_in(s, claim)
+        taught = lessons_in(s, claim, types=types)
         forgets += (it.key for it in taught)
         if not taught or any(same(claim, it) for it in s.shared.pending):
             teaches.append(denied(claim))
@@ -159,7 +159,7 @@ def signs_for(s: Record, *contents: RecordType) -> Sequence[Record]:
     return tuple(found.values())
 
 
-def learning(s: Record, content: RecordType) -> Record:
+def learning(s: Record, content: RecordType, *, types: DialogueTypes) -> Record:
     """The plan to learn a content, and to unlearn the lessons that it contradicts."""
     return plan(
         s,
@@ -167,5 +167,6 @@ def learning(s: Record, content: RecordType) -> Record:
         content,
         signs=signs_for(s, content),
         teaches=[content],
-        forgets=undone(s, content),
+        forgets=undone(s, content, types=types),
+        types=types,
     )

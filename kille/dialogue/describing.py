@@ -15,7 +15,7 @@ from functools import cached_property
 from itertools import combinations, product
 from typing import NamedTuple
 
-from kille.dialogue.meanings import word_of
+from kille.dialogue.meanings import DialogueTypes, packaged_types, word_of
 from kille.dialogue.reference import Judging, fits_well, front_of, meant_by, said_by
 from ttr import Model, Record, RecordType
 
@@ -41,6 +41,7 @@ def describe(
     *,
     among: Sequence[str] = (),
     nouns: Sequence[Record] = (),
+    types: DialogueTypes | None = None,
 ) -> Description | None:
     """The shortest description of x that the resolver finds x by, if there is one.
 
@@ -49,16 +50,23 @@ def describe(
     it is the one whose context score is the highest. A description that only just holds
     is given if no longer one is clear.
     """
-    describing = _Describing(s, model, x, tuple(among) or tuple(s.view.things))
+    types = types or packaged_types()
+    describing = _Describing(
+        s, model, x, tuple(among) or tuple(s.view.things), types=types
+    )
     shortest: Signs | None = None
     for tried in describing.by_length(nouns):
         scored = [(describing.context_score(words), words) for words in tried]
         score, best = max(scored, key=lambda it: it[0], default=(0.0, ()))
         if score > 0.0 and describing.is_clear(best):
-            return Description(meant_by(best), best)
+            return Description(meant_by(best, types=types), best)
         if score > 0.0 and shortest is None:
             shortest = best
-    return None if shortest is None else Description(meant_by(shortest), shortest)
+    return (
+        None
+        if shortest is None
+        else Description(meant_by(shortest, types=types), shortest)
+    )
 
 
 @dataclass(frozen=True)
@@ -69,18 +77,19 @@ class _Describing:
     model: Model
     x: str
     among: tuple[str, ...]
+    types: DialogueTypes
 
     @cached_property
     def judging(self) -> Judging:
         """The judgements that are made for it, each once."""
-        return Judging(self.s, self.model)
+        return Judging(self.s, self.model, types=self.types)
 
     def context_score(self, words: Signs) -> float:
         """How much more probably they are true of x than of any other thing.
 
         It is not positive where the resolver would not take x, or not x alone.
         """
-        fits = self.judging.fits_part(said_by(words), self.among)
+        fits = self.judging.fits_part(said_by(words, types=self.types), self.among)
         if fits_well(self.s, fits) != [self.x]:
             return 0.0
         rivals = (fit.p for x, fit in fits.items() if x != self.x)
@@ -93,7 +102,7 @@ class _Describing:
         would have to be to be thought of.
         """
         bands = self.s.private.strategy.bands
-        fits = self.judging.fits_part(said_by(words), self.among)
+        fits = self.judging.fits_part(said_by(words, types=self.types), self.among)
         fit = fits.pop(self.x)
         near = any(it.p > bands.sure / 2 * fit.p for it in fits.values())
         return bool(fit.weakest >= (bands.likely + bands.sure) / 2) and not near

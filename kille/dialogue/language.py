@@ -20,14 +20,10 @@ from itertools import islice, product, zip_longest
 from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.meanings import (
     CLAIMS,
-    kind_in,
+    DialogueTypes,
     merge_of,
-    named,
-    placed,
+    packaged_types,
     set_to,
-    sign,
-    spoken,
-    theory,
     value_at,
 )
 from kille.dialogue.parsing import Grammar, Tree, Word, parts, words
@@ -96,7 +92,9 @@ class Sentence:
     readings: tuple[Utterance, ...]
 
 
-def understand(text: str, language: str = "en") -> tuple[Sentence, ...]:
+def understand(
+    text: str, language: str = "en", *, types: DialogueTypes | None = None
+) -> tuple[Sentence, ...]:
     """What a tutor's text says, move by move.
 
     >>> [said] = understand("This is a cup.")
@@ -106,14 +104,17 @@ def understand(text: str, language: str = "en") -> tuple[Sentence, ...]:
     >>> understand("Colourless green ideas.")
     (Sentence(text='Colourless green ideas.', readings=()),)
     """
+    reader = (types or packaged_types()).derive(_reader, language)
     found: list[Sentence] = []
     for part in _SENTENCE.findall(text):
         if re.search(r"\w", part):
-            found += _sentences(part.strip(), language)
+            found += reader.sentences(part.strip())
     return tuple(found) or (Sentence(text, ()),)
 
 
-def overhear(text: str, language: str = "en") -> tuple[Utterance, ...]:
+def overhear(
+    text: str, language: str = "en", *, types: DialogueTypes | None = None
+) -> tuple[Utterance, ...]:
     """What a text of the robot's says: how it can be read, the simplest way first.
 
     Its grammar is made of the wordings of the lexicon. Which things are meant is not
@@ -123,28 +124,11 @@ def overhear(text: str, language: str = "en") -> tuple[Utterance, ...]:
     >>> print(learned.content)  # doctest: +NORMALIZE_WHITESPACE
     [look : Look, target : [look = ^.look : Look, x : Ind], c : cup(target.x, look)]
     """
-    reader = _reader(language)
+    reader = (types or packaged_types()).derive(_reader, language)
     grammar = _robots_grammar(language)
     trees = grammar.parse(text.strip(), CLOSELY) or grammar.parse(text.strip(), LOOSELY)
-    types = (T for tree in trees for move in parts(tree) for T in reader.said(move))
-    return tuple(Utterance(text, T) for T in dict.fromkeys(types))
-
-
-@lru_cache(_REMEMBERED)
-def _sentences(text: str, language: str) -> tuple[Sentence, ...]:
-    """The moves of one sentence, each with its readings. Pure, and so remembered."""
-    plain = " ".join(text.split())
-    trees = _grammar(language).parse(plain) if len(plain) <= _LONGEST else []
-    if not trees:
-        return (Sentence(text, ()),)
-    trees = sorted(trees, key=lambda tree: len(parts(tree)))
-    fewest = len(parts(trees[0]))
-    alike = [parts(tree) for tree in trees if len(parts(tree)) == fewest]
-    reader = _reader(language)
-    return tuple(
-        Sentence(text, reader.readings(text, dict.fromkeys(moves)))
-        for moves in zip(*alike, strict=True)
-    )
+    found = (T for tree in trees for move in parts(tree) for T in reader.said(move))
+    return tuple(Utterance(text, T) for T in dict.fromkeys(found))
 
 
 @cache
@@ -163,9 +147,8 @@ def grammar_text(language: str) -> str:
     return source("tutor.{}.lark", language)
 
 
-@cache
-def _reader(language: str) -> _Reader:
-    return _Reader(lexicon(language))
+def _reader(types: DialogueTypes, language: str) -> _Reader:
+    return _Reader(types, lexicon(language), _grammar(language))
 
 
 Meant = tuple[tuple[Record, ...], RecordType]
@@ -175,9 +158,26 @@ Meant = tuple[tuple[Record, ...], RecordType]
 class _Reader:
     """From trees to types, with the words of one language."""
 
-    def __init__(self, lexicon_: Lexicon) -> None:
-        self._lexicon = lexicon_
+    def __init__(
+        self, types: DialogueTypes, lexicon_: Lexicon, grammar: Grammar
+    ) -> None:
+        self._types, self._lexicon, self._grammar = types, lexicon_, grammar
         self._meanings = lru_cache(4 * _REMEMBERED)(self._meanings_anew)
+        self.sentences = lru_cache(_REMEMBERED)(self._sentences_anew)
+
+    def _sentences_anew(self, text: str) -> tuple[Sentence, ...]:
+        """The moves of one sentence, each with its readings."""
+        plain = " ".join(text.split())
+        trees = self._grammar.parse(plain) if len(plain) <= _LONGEST else []
+        if not trees:
+            return (Sentence(text, ()),)
+        trees = sorted(trees, key=lambda tree: len(parts(tree)))
+        fewest = len(parts(trees[0]))
+        alike = [parts(tree) for tree in trees if len(parts(tree)) == fewest]
+        return tuple(
+            Sentence(text, self.readings(text, dict.fromkeys(moves)))
+            for moves in zip(*alike, strict=True)
+        )
 
     def readings(self, text: str, moves: Iterable[Tree]) -> tuple[Utterance, ...]:
         """The different readings of a move."""
@@ -191,19 +191,20 @@ class _Reader:
         """The types of the event: who speaks to whom, its move, words and content."""
         for signs, content in self._together(move):
             yield set_to(
-                spoken("Heard", _type_name(move.rule)),
-                text=theory()["Text"] @ text,
-                signs=named("Heard")["signs"] @ signs,
+                self._types.move_type("Heard", _type_name(move.rule)),
+                text=self._types["Text"] @ text,
+                signs=self._types.record_type("Heard")["signs"] @ signs,
                 content=RecType @ content,
             )
 
     def said(self, move: Tree) -> Iterator[RecordType]:
         """The types of the event of the robot's saying this."""
+        phrase = self._types.record_type("Phrase")
         for signs, all_of_it in self._together(move):
-            content, rival = _apart(all_of_it)
+            content, rival = _apart(all_of_it, phrase)
             yield set_to(
-                spoken("Said", _type_name(move.rule)),
-                signs=named("Said")["signs"] @ signs,
+                self._types.move_type("Said", _type_name(move.rule)),
+                signs=self._types.record_type("Said")["signs"] @ signs,
                 content=RecType @ content,
                 rival=RecType @ rival,
             )
@@ -221,19 +222,25 @@ class _Reader:
     def _meanings_anew(self, tree: Tree) -> list[Meant]:
         """What a part of an utterance means, from what its own parts mean."""
         name = _type_name(tree.rule)
-        if name in theory().names and not isinstance(theory()[name], RecordType):
+        if name in self._types and not isinstance(self._types[name], RecordType):
             text = " ".join(word.text for word in words(tree))
-            return [((), rectype({tree.rule: theory()["Text"] @ text}))]
-        if kind_in(name) is not None:
-            return [((it,), placed(it, name)) for it in self._signs(tree, name)]
+            return [((), rectype({tree.rule: self._types["Text"] @ text}))]
+        if self._types.kind_in(name) is not None:
+            return [
+                ((it,), self._types.meaning_at(it, name))
+                for it in self._signs(tree, name)
+            ]
         together = self._together(tree)
-        if name in theory().names:
-            return [(signs, merge_of(named(name), T)) for signs, T in together]
+        if name in self._types:
+            return [
+                (signs, merge_of(self._types.record_type(name), T))
+                for signs, T in together
+            ]
         return [(signs, rectype({tree.rule: T})) for signs, T in together]
 
     def _signs(self, tree: Tree, name: str) -> Iterator[Record]:
         """The words that a rule may have found, as signs."""
-        kind = kind_in(name)
+        kind = self._types.kind_in(name)
         assert kind is not None
         found = words(tree)
         said = "".join(it.text.lower() for it in found if it.terminal == "A")
@@ -241,7 +248,7 @@ class _Reader:
         for form, article in self._forms(rest):
             main = self._lexicon.main_form(form)
             means = self._lexicon.means.get(main, "") if kind == "adjective" else ""
-            yield sign(main, kind, said or article, means)
+            yield self._types.sign(main, kind, said or article, means)
 
     def _forms(self, found: list[Word]) -> Iterator[tuple[str, str]]:
         """The word that was found, with the article that its form shows."""
@@ -267,7 +274,7 @@ def _by_rank(several: Sequence[Sequence[Meant]]) -> Iterator[tuple[Meant, ...]]:
         yield tuple(meant for _, meant in chosen)
 
 
-def _apart(all_of_it: RecordType) -> tuple[RecordType, RecordType]:
+def _apart(all_of_it: RecordType, phrase: RecordType) -> tuple[RecordType, RecordType]:
     """The content, and its rival: what is not said of that is as in the content."""
     rival = all_of_it.get("rival")
     content = rectype({k: T for k, T in all_of_it.fields if k != "rival"})
@@ -277,15 +284,15 @@ def _apart(all_of_it: RecordType) -> tuple[RecordType, RecordType]:
         {
             k: T
             for k, T in content.fields
-            if k not in CLAIMS and not _is_described(rival.get(k))
+            if k not in CLAIMS and not _is_described(rival.get(k), phrase)
         }
     )
     return content, merge_of(same, rival)
 
 
-def _is_described(part: TypeNode | None) -> bool:
+def _is_described(part: TypeNode | None, phrase: RecordType) -> bool:
     """Whether it is the phrase for a thing, and says something of it."""
-    return isinstance(part, RecordType) and part.labels > named("Phrase").labels
+    return isinstance(part, RecordType) and part.labels > phrase.labels
 
 
 @cache

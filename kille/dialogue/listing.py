@@ -25,12 +25,12 @@ def listed(
 
     >>> from kille.dialogue.games.surveying import in_view
     >>> from kille.dialogue.lexicon import lexicon
-    >>> from kille.dialogue.meanings import noun, word_of
+    >>> from kille.dialogue.meanings import noun, packaged_types, word_of
     >>> from kille.dialogue.state import initial
     >>> from ttr import record
     >>> cup = noun("cup")
     >>> seen = [record(sit=record(x=x), sign=cup) for x in ("o1", "o2")]
-    >>> content = in_view(initial(), seen, [], ["o3"])
+    >>> content = in_view(initial(), seen, [], ["o3"], types=packaged_types())
     >>> dict(listed(lexicon(), content, {word_of(cup): cup}))["things"]
     'two cups and one thing that I do not know'
     """

@@ -3,18 +3,23 @@
 A word is a sign: a form, and a meaning that is the type `Noun`, `Adjective` or
 `Relation` of the theory with the word's own predicate in place of the one that stands
 for it there. In other places the word means other types, made in the same way.
+
+Which types these are is said by `DialogueTypes`, a value that whoever needs a type is
+given. The functions `theory`, `named`, `spoken`, `sign`, `noun`, `adjective`,
+`relation`, `kind_in`, `meaning_in` and `placed` are about the packaged theory.
 """
 
 from __future__ import annotations
 
-import os
 import re
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from functools import cache, lru_cache
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
-from kille.dialogue.redefining import ALLOWED, VARIABLE, types_of
-from ttr import Pred, Record, RecordType, Theory, meet, merge, record, rectype
+from kille.dialogue.theory_files import packaged_theory
+from ttr import Pred, Record, RecordType, Theory, join, meet, merge, record, rectype
 from ttr.types import Meet, Negation, PType, Singleton, TypeNode
 from ttr.types.objects import Object
 from ttr.types.paths import free_paths
@@ -22,6 +27,7 @@ from ttr.types.paths import free_paths
 __all__ = [
     "CLAIMS",
     "KINDS",
+    "DialogueTypes",
     "adjective",
     "claims",
     "denied",
@@ -32,6 +38,7 @@ __all__ = [
     "merge_of",
     "named",
     "noun",
+    "packaged_types",
     "placed",
     "predicate_at",
     "predicate_name",
@@ -51,33 +58,233 @@ KINDS = ("noun", "adjective", "relation")
 """The kinds of words, by the names of the predicates that stand for them."""
 
 
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
+
+
+@dataclass(frozen=True, eq=False)
+class DialogueTypes:
+    """The types of a dialogue, by the names that a theory gives them.
+
+    Languages, rules and games are made of it, and it keeps what was derived of it. As
+    an item it gives whatever has a name in the theory.
+
+    >>> types = packaged_types()
+    >>> print(types["Phrase"])
+    [look : Look, x : Ind]
+    """
+
+    theory: Theory
+    _derived: dict[object, Any] = field(default_factory=dict, init=False, repr=False)
+
+    def __getitem__(self, name: str) -> Any:
+        return self.theory[name]
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.theory
+
+    def derive(
+        self,
+        make: Callable[Concatenate[DialogueTypes, _P], _R],
+        *given: _P.args,
+        **named: _P.kwargs,
+    ) -> _R:
+        """What a pure function makes of these types, made once and kept.
+
+        >>> types = packaged_types()
+        >>> make = lambda types, name: [types[name]]
+        >>> types.derive(make, "Phrase") is types.derive(make, "Phrase")
+        True
+        """
+        key = (make, given, tuple(named.items()))
+        if key not in self._derived:
+            self._derived.setdefault(key, make(self, *given, **named))
+        derived: _R = self._derived[key]
+        return derived
+
+    def record_type(self, name: str) -> RecordType:
+        """The record type that the theory gives this name; `TypeError` for another."""
+        found = self.theory[name]
+        if not isinstance(found, RecordType):
+            raise TypeError(
+                f"{name} of {self.theory.source} should be a record type, but is "
+                f"{found}"
+            )
+        return found
+
+    def move_type(self, speaking: str, move: str) -> RecordType:
+        """The type of a move of the theory, as something that is `Heard` or `Said`."""
+        return self.derive(_move_type, speaking, move)
+
+    def sign(self, form: str, kind: str, article: str = "", means: str = "") -> Record:
+        """A word: a form of a kind, as it is said with this article, and its meaning.
+
+        It means what the word `means` does, which may be of another language, or else
+        has a meaning of its own.
+        """
+        meaning = self.meaning((means or form).lower(), kind.capitalize())
+        return _sign(form.lower(), kind, article.lower(), meaning)
+
+    def kind_in(self, template: str) -> str | None:
+        """The kind of word that has its place in a type of the theory, if one has."""
+        return self.derive(_kind_in, template)
+
+    def meaning(self, form: str, template: str) -> RecordType:
+        """What a word means in a place: the type with the word's own predicate in it.
+
+        `TypeError` for a type that has no place for a word.
+        """
+        kind = self._kind_at(template)
+        name = predicate_name(form)
+        pattern: Pred = self[kind]
+        own = Pred(f"is_{name}" if kind == "adjective" else name, *pattern.arities)
+        return _in_place(own, self.record_type(template), pattern)
+
+    def meaning_at(self, sign: Record, template: str) -> RecordType:
+        """What a sign means in another place: a noun as said of a target, say."""
+        pattern = self[self._kind_at(template)]
+        return _in_place(word_of(sign), self.record_type(template), pattern)
+
+    def _kind_at(self, template: str) -> str:
+        kind = self.kind_in(template)
+        if kind is None:
+            source = self.theory.source
+            raise TypeError(f"{template} of {source} has no place for a word")
+        return kind
+
+
+def any_of(types: DialogueTypes, names: tuple[str, ...]) -> TypeNode:
+    """The join of the types of these names."""
+    several: TypeNode = join(*(types[name] for name in names))
+    return several
+
+
+def _move_type(types: DialogueTypes, speaking: str, move: str) -> RecordType:
+    return merge_of(types.record_type(speaking), types.record_type(move))
+
+
+def _kind_in(types: DialogueTypes, template: str) -> str | None:
+    if template not in types:
+        return None
+    mentioned = set(_predicates(types.record_type(template)))
+    return next((kind for kind in KINDS if types[kind] in mentioned), None)
+
+
+@lru_cache(4096)
+def _sign(form: str, kind: str, article: str, meaning: RecordType) -> Record:
+    return record(form=form, kind=kind, article=article, meaning=meaning)
+
+
+@lru_cache(4096)
+def _in_place(own: Pred, template: RecordType, pattern: Pred) -> RecordType:
+    """The type with a word's own predicate where one stands for it."""
+    placed = _with(template, pattern, own)
+    assert isinstance(placed, RecordType)
+    return placed
+
+
+# --- of the packaged theory -----------------------------------------------------------
+
+
 @cache
+def packaged_types() -> DialogueTypes:
+    """The types of the packaged `tutor.ttr`."""
+    return DialogueTypes(packaged_theory())
+
+
+def types_of(theory: Theory | DialogueTypes | None) -> DialogueTypes:
+    """The types of a theory, by default of the packaged one."""
+    match theory:
+        case None:
+            return packaged_types()
+        case DialogueTypes():
+            return theory
+    return DialogueTypes(theory)
+
+
 def theory() -> Theory:
-    """The theory of the dialogue, from the packaged `tutor.ttr` or what replaces it."""
-    return types_of(os.environ.get(VARIABLE, ""), os.environ.get(ALLOWED, ""))
+    """The packaged theory of the dialogue."""
+    return packaged_types().theory
 
 
 def named(name: str) -> RecordType:
-    """The record type that the theory gives this name.
+    """The record type that the packaged theory gives this name.
 
     >>> print(named("Phrase"))
     [look : Look, x : Ind]
     """
-    found = theory()[name]
-    if not isinstance(found, RecordType):
-        raise TypeError(f"{name} of tutor.ttr should be a record type, but is {found}")
-    return found
+    return packaged_types().record_type(name)
 
 
-@cache
 def spoken(speaking: str, move: str) -> RecordType:
-    """The type of a move of the theory, as something that is heard or said.
+    """The type of a move of the packaged theory, as something that is heard or said.
 
     >>> greeted = spoken("Heard", "Greet")
     >>> greeted <= named("Heard"), greeted <= named("Greet")
     (True, True)
     """
-    return merge_of(named(speaking), named(move))
+    return packaged_types().move_type(speaking, move)
+
+
+def sign(form: str, kind: str, article: str = "", means: str = "") -> Record:
+    """A word: a form of a kind, as it is said with this article, and what it means.
+
+    It means what the word `means` does, which may be of another language, or else has a
+    meaning of its own.
+
+    >>> print(sign("teddy bear", "noun", "a"))  # doctest: +NORMALIZE_WHITESPACE
+    {article = a, form = "teddy bear", kind = noun,
+     meaning = [look : Look, x : Ind, c : teddy_bear(x, look)]}
+    >>> word_of(sign("röd", "adjective", means="red")).name
+    'is_red'
+    """
+    return packaged_types().sign(form, kind, article, means)
+
+
+def noun(form: str, article: str = "") -> Record:
+    """The sign of a noun."""
+    return sign(form, "noun", article)
+
+
+def adjective(form: str) -> Record:
+    """The sign of an adjective.
+
+    >>> print(adjective("red").meaning)
+    [look : Look, x : Ind, a : is_red(x, look)]
+    """
+    return sign(form, "adjective")
+
+
+def relation(form: str) -> Record:
+    """The sign of a relation, such as "to the left of"."""
+    return sign(form, "relation")
+
+
+def kind_in(template: str) -> str | None:
+    """The kind of word that has its place in a type of the theory, if one has.
+
+    >>> kind_in("Naming"), kind_in("Nearby"), kind_in("Phrase")
+    ('noun', 'relation', None)
+    """
+    return packaged_types().kind_in(template)
+
+
+def meaning_in(form: str, template: str) -> RecordType:
+    """What a word means in a place: the type with the word's own predicate in it.
+
+    >>> print(meaning_in("red", "Having"))  # doctest: +NORMALIZE_WHITESPACE
+    [look : Look, target : [look = ^.look : Look, x : Ind],
+     a : is_red(target.x, look)]
+    """
+    return packaged_types().meaning(form, template)
+
+
+def placed(sign: Record, template: str) -> RecordType:
+    """What a sign means in another place: a noun as said of a target, for example."""
+    return packaged_types().meaning_at(sign, template)
+
+
+# --- of any theory --------------------------------------------------------------------
 
 
 @lru_cache(16384)
@@ -117,6 +324,7 @@ def _unset(T: TypeNode) -> TypeNode:
     return _unset(T.base) if isinstance(T, Singleton) else T
 
 
+@lru_cache(4096)
 def predicate_name(form: str) -> str:
     """What the predicate of a word is called: its form as one identifier.
 
@@ -127,91 +335,6 @@ def predicate_name(form: str) -> str:
     name = re.sub(r"\W+", "_", plain).strip("_")
     name = "".join(c if f"n{c}".isidentifier() else f"u{ord(c):x}" for c in name)
     return name if name.isidentifier() else f"n{name}"
-
-
-def sign(form: str, kind: str, article: str = "", means: str = "") -> Record:
-    """A word: a form of a kind, as it is said with this article, and what it means.
-
-    It means what the word `means` does, which may be of another language, or else has a
-    meaning of its own.
-
-    >>> print(sign("teddy bear", "noun", "a"))  # doctest: +NORMALIZE_WHITESPACE
-    {article = a, form = "teddy bear", kind = noun,
-     meaning = [look : Look, x : Ind, c : teddy_bear(x, look)]}
-    >>> word_of(sign("röd", "adjective", means="red")).name
-    'is_red'
-    """
-    return _sign(form.lower(), kind, article.lower(), (means or form).lower())
-
-
-@lru_cache(4096)
-def _sign(form: str, kind: str, article: str, means: str) -> Record:
-    meaning = meaning_in(means, kind.capitalize())
-    return record(form=form, kind=kind, article=article, meaning=meaning)
-
-
-def noun(form: str, article: str = "") -> Record:
-    """The sign of a noun."""
-    return sign(form, "noun", article)
-
-
-def adjective(form: str) -> Record:
-    """The sign of an adjective.
-
-    >>> print(adjective("red").meaning)
-    [look : Look, x : Ind, a : is_red(x, look)]
-    """
-    return sign(form, "adjective")
-
-
-def relation(form: str) -> Record:
-    """The sign of a relation, such as "to the left of"."""
-    return sign(form, "relation")
-
-
-@cache
-def kind_in(template: str) -> str | None:
-    """The kind of word that has its place in a type of the theory, if one has.
-
-    >>> kind_in("Naming"), kind_in("Nearby"), kind_in("Phrase")
-    ('noun', 'relation', None)
-    """
-    if template not in theory().names:
-        return None
-    mentioned = set(_predicates(named(template)))
-    return next((kind for kind in KINDS if theory()[kind] in mentioned), None)
-
-
-def meaning_in(form: str, template: str) -> RecordType:
-    """What a word means in a place: the type with the word's own predicate in it.
-
-    >>> print(meaning_in("red", "Having"))  # doctest: +NORMALIZE_WHITESPACE
-    [look : Look, target : [look = ^.look : Look, x : Ind],
-     a : is_red(target.x, look)]
-    """
-    kind = kind_in(template)
-    if kind is None:
-        raise TypeError(f"{template} of tutor.ttr has no place for a word")
-    name = predicate_name(form)
-    pattern = theory()[kind]
-    own = Pred(f"is_{name}" if kind == "adjective" else name, *pattern.arities)
-    return _in_place(own, template, pattern)
-
-
-@lru_cache(4096)
-def _in_place(own: Pred, template: str, pattern: Pred) -> RecordType:
-    """The type with a word's own predicate where one stands for it."""
-    placed = _with(named(template), pattern, own)
-    assert isinstance(placed, RecordType)
-    return placed
-
-
-def placed(sign: Record, template: str) -> RecordType:
-    """What a sign means in another place: a noun as said of a target, for example."""
-    kind = kind_in(template)
-    if kind is None:
-        raise TypeError(f"{template} of tutor.ttr has no place for a word")
-    return _in_place(word_of(sign), template, theory()[kind])
 
 
 def _predicates(T: TypeNode) -> Iterator[Pred]:

@@ -6,6 +6,7 @@ import re
 
 from kille.dialogue.language import understand
 from kille.dialogue.lexicon import Lexicon
+from kille.dialogue.meanings import DialogueTypes
 from kille.dialogue.typos import nearest_sentence, slip
 
 _WORD = re.compile(r"[^\W\d_]+")
@@ -14,22 +15,27 @@ _LONGEST = 200
 """Characters; of a longer text nobody mistyped a word only."""
 
 
-def suggested(lexicon: Lexicon, text: str) -> str | None:
+def suggested(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> str | None:
     """What could be said instead of a text that is not understood, if anything is near.
 
     It is the text with its slips mended if that is understood, else the example that is
     most like it, if one is much like it.
 
     >>> from kille.dialogue.lexicon import lexicon
-    >>> suggested(lexicon(), "Waht is teh blicket?")
+    >>> from kille.dialogue.meanings import packaged_types
+    >>> types = packaged_types()
+    >>> suggested(lexicon(), "Waht is teh blicket?", types=types)
     'What is the blicket?'
-    >>> suggested(lexicon("sv"), "Vda är det här?"), suggested(lexicon(), "Xyzzy!")
-    ('Vad är det här?', None)
+    >>> suggested(lexicon("sv"), "Vda är det här?", types=types)
+    'Vad är det här?'
+    >>> suggested(lexicon(), "Xyzzy!", types=types)
     """
-    return _mended(lexicon, text) or nearest_sentence(text, lexicon.examples)
+    return _mended(lexicon, text, types=types) or nearest_sentence(
+        text, lexicon.examples
+    )
 
 
-def _mended(lexicon: Lexicon, text: str) -> str | None:
+def _mended(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> str | None:
     """The text with words of the examples in place of slips of them."""
     if len(text) > _LONGEST:
         return None
@@ -44,5 +50,7 @@ def _mended(lexicon: Lexicon, text: str) -> str | None:
         return near[0].capitalize() if form != found[0] else near[0]
 
     mended: str = _WORD.sub(mend, text)
-    understood = all(it.readings for it in understand(mended, lexicon.language))
+    understood = all(
+        it.readings for it in understand(mended, lexicon.language, types=types)
+    )
     return mended if understood else None

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import cache
 
 from kille.dialogue.meanings import (
+    DialogueTypes,
     claims,
     mentions,
-    named,
-    placed,
+    packaged_types,
     set_at,
     set_to,
-    spoken,
-    theory,
 )
 from kille.dialogue.reference.perspectives import front_of
 from ttr import Rec, Record, RecordType, RecType, record, rectype, replace
@@ -34,8 +31,6 @@ __all__ = [
     "used",
 ]
 
-NOTHING_PLANNED = theory()["Agenda"] @ ()
-
 DOES = ("drops", "degrees", "explains", "recalls", "points", "undoes")
 """What a move of the robot's may do besides, by the labels of Said."""
 
@@ -47,11 +42,16 @@ CLAIMED = {
 """Where each kind of word stands in what is said: the label, and the type with it."""
 
 
-@cache
-def answering(move: str) -> RecordType:
+def answering(move: str, *, types: DialogueTypes | None = None) -> RecordType:
     """The states in which this is the latest move and no answer is planned yet."""
+    types = types or packaged_types()
+    return types.derive(unanswered, types.record_type(move))
+
+
+def unanswered(types: DialogueTypes, latest: TypeNode) -> RecordType:
+    """The states in which the latest move is of a type and not answered yet."""
     return rectype(
-        private=rectype(agenda=NOTHING_PLANNED), shared=rectype(latest=named(move))
+        private=rectype(agenda=types["Agenda"] @ ()), shared=rectype(latest=latest)
     )
 
 
@@ -66,6 +66,7 @@ def plan(
     teaches: Iterable[TypeNode] = (),
     forgets: Iterable[str] = (),
     asks: Iterable[Record] = (),
+    types: DialogueTypes | None = None,
     **does: Iterable[Object],
 ) -> Record:
     """The state in which the robot is about to say this, and what it does thereby.
@@ -75,11 +76,12 @@ def plan(
     discussion. `teaches` and `forgets` are what it learns and unlearns before it says
     so, and `does` what else it does, under the labels that the type Said has for it.
     """
-    said = named("Said")
+    types = types or packaged_types()
+    said = types.record_type("Said")
     done = {"signs": signs, "teaches": teaches, "forgets": forgets, **does}
     some = {label: found for label, it in done.items() if (found := tuple(it))}
     move = set_to(
-        _saying(act),
+        types.derive(_saying, act),
         content=RecType @ content,
         rival=RecType @ rival,
         **{label: said[label] @ them for label, them in some.items()},
@@ -94,12 +96,13 @@ def plan(
     )
 
 
-@cache
-def _saying(act: str) -> RecordType:
+def _saying(types: DialogueTypes, act: str) -> RecordType:
     """The type of saying something, and doing nothing else."""
-    said = named("Said")
+    said = types.record_type("Said")
     does = ("signs", "teaches", "forgets", *DOES)
-    return set_to(spoken("Said", act), **{label: said[label] @ () for label in does})
+    return set_to(
+        types.move_type("Said", act), **{label: said[label] @ () for label in does}
+    )
 
 
 def issue(ask: str, options: Iterable[Record]) -> Record:
@@ -125,7 +128,14 @@ def nouns_said(said: Record, phrase: RecordType) -> list[Record]:
     return [it for it in said.signs if it.kind == "noun" and claims(phrase, it)]
 
 
-def said_of(s: Record, sign: Record, x: str, template: str = "Naming") -> RecordType:
+def said_of(
+    s: Record,
+    sign: Record,
+    x: str,
+    template: str = "Naming",
+    *,
+    types: DialogueTypes | None = None,
+) -> RecordType:
     """That a word is true of an individual in the latest look.
 
     >>> from kille.dialogue.meanings import noun
@@ -134,39 +144,56 @@ def said_of(s: Record, sign: Record, x: str, template: str = "Naming") -> Record
     [look = look0 : Look, target : [look = ^.look : Look, x = o1 : Ind],
      c : cup(target.x, look)]
     """
-    content = set_at(placed(sign, template), "look", s.view.look)
+    types = types or packaged_types()
+    content = set_at(types.meaning_at(sign, template), "look", s.view.look)
     return set_at(content, "target.x", x)
 
 
-def instead(content: RecordType, sign: Record) -> RecordType:
+def instead(
+    content: RecordType, sign: Record, *, types: DialogueTypes | None = None
+) -> RecordType:
     """A content that claims another word of the same things.
 
     >>> from kille.dialogue.meanings import meaning_in, noun
     >>> print(instead(meaning_in("cup", "Naming"), noun("mug")))
     [look : Look, target : [look = ^.look : Look, x : Ind], c : mug(target.x, look)]
     """
+    types = types or packaged_types()
     label, template = CLAIMED[sign.kind]
-    return set_to(content, **{label: placed(sign, template)[label]})
+    return set_to(content, **{label: types.meaning_at(sign, template)[label]})
 
 
-def numbered(s: Record, x: str) -> dict[str, TypeNode]:
+def numbered(
+    s: Record, x: str, *, types: DialogueTypes | None = None
+) -> dict[str, TypeNode]:
     """The field of a content that says which number a thing in view has."""
-    return {"number": theory()["Text"] @ str(1 + s.view.things.index(x))}
+    types = types or packaged_types()
+    return {"number": types["Text"] @ str(1 + s.view.things.index(x))}
 
 
-def changed_act(planned: RecordType, act: str) -> RecordType:
+def changed_act(
+    planned: RecordType, act: str, *, types: DialogueTypes | None = None
+) -> RecordType:
     """A planned move that is made in other words: the same, by another act."""
-    return set_to(planned, e=named(act)["e"])
+    types = types or packaged_types()
+    return set_to(planned, e=types.record_type(act)["e"])
 
 
 def standing(
-    s: Record, x: str, target: Record, y: str, landmark: Record, *relation: Record
+    s: Record,
+    x: str,
+    target: Record,
+    y: str,
+    landmark: Record,
+    *relation: Record,
+    types: DialogueTypes | None = None,
 ) -> RecordType:
     """That x, a target, and y, a landmark, stand so, by these signs in the latest look.
 
     Without a relation it says only that both are there.
     """
-    content = named("Relating")
+    types = types or packaged_types()
+    content = types.record_type("Relating")
     for sign in relation:
         content = set_at(sign.meaning, "frame", front_of(s, y))
     content = set_at(content, "look", s.view.look)

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from kille.dialogue.meanings import KINDS, named, theory
+from kille.dialogue.meanings import KINDS, DialogueTypes, packaged_types
 from kille.dialogue.reference.perspectives import OPEN
 from kille.dialogue.strategies import strategy as default
-from ttr import Model, Record, RecordType, record
-
-STATE: RecordType = named("State")
-"""The type of every information state."""
+from ttr import Model, Record, record
 
 NO_LOOK = "look0"
 """The look before the first look, in which nothing is in view."""
@@ -28,9 +25,9 @@ def initial(
     adjectives that answer what colour something is; `taught` says how many lessons
     there were in a word before, as `Taught`.
 
-    >>> from kille.dialogue.meanings import noun
+    >>> from kille.dialogue.meanings import named, noun
     >>> s = initial([noun("cup")])
-    >>> blank_model().judge(s, STATE).holds
+    >>> blank_model().judge(s, named("State")).holds
     True
     """
     words = list(signs)
@@ -70,11 +67,11 @@ def words(s: Record) -> Iterator[Record]:
         yield from s.private[f"{kind}s"]
 
 
-def blank_model() -> Model:
+def blank_model(types: DialogueTypes | None = None) -> Model:
     """The model in which a dialogue begins: texts are strings, numbers are floats."""
-    types = theory()
+    types = types or packaged_types()
     return (
-        Model(types)
+        Model(types.theory)
         .witnessed(types["Text"], by=lambda a: isinstance(a, str))
         .witnessed(types["Number"], by=lambda a: isinstance(a, float))
         .given(NO_LOOK, types["Look"])

@@ -13,8 +13,13 @@ from functools import partial
 from kille.dialogue.games import TUTORING
 from kille.dialogue.language import Sentence, understand
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import named, predicate_at, theory
-from kille.dialogue.state import STATE, blank_model, initial
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    packaged_types,
+    predicate_at,
+)
+from kille.dialogue.rules import bind
+from kille.dialogue.state import blank_model, initial
 from kille.dialogue.strategies import strategy
 from kille.dialogue.wording import say as worded
 from ttr import Model, Record, RecordType
@@ -36,6 +41,7 @@ def tutoring(
     wording: str = "",
     colours: Iterable[Record] = (),
     taught: Iterable[Record] = (),
+    types: DialogueTypes | None = None,
 ) -> Game:
     """The games of tutoring as one, by a robot that knows these words.
 
@@ -43,35 +49,39 @@ def tutoring(
     `act` makes a planned move, where more is to be done for it than to create it.
     `mode` and `wording` name its strategy in `strategies.toml`; `colours` are those of
     its adjectives that are colours; `taught` says of words in how many lessons they
-    were taught before.
+    were taught before. `types` are those of its theory, by default the packaged
+    one; rules that name types are bound to them.
 
     >>> game = tutoring()
     >>> turn = game.take(game.begin(), game.hear("What is this?"))
     >>> [game.say(move) for move in turn.said]
     ['I see nothing on the table.']
     """
+    types = types or packaged_types()
     deciding = strategy(mode, wording)
     return Game(
         "tutoring",
-        STATE,
+        types.record_type("State"),
         initial(signs, deciding, colours, taught),
-        rules,
-        blank_model() if model is None else model,
+        bind(rules, types),
+        blank_model(types) if model is None else model,
         agenda="private.agenda",
-        hears=(named("Heard"), named("Seen"), named("Glance")),
+        hears=(types["Heard"], types["Seen"], types["Glance"]),
         act=act,
-        hear=partial(hear, language=language),
+        hear=partial(hear, language=language, types=types),
         say=partial(say, language=language, wording=deciding.wording),
-        theory=theory(),
+        theory=types.theory,
     )
 
 
-def hear(text: str, language: str = "en") -> RecordType | NBest | None:
+def hear(
+    text: str, language: str = "en", *, types: DialogueTypes | None = None
+) -> RecordType | NBest | None:
     """The event of saying this, or None if it is not understood.
 
     Of several sentences it is the first.
     """
-    return heard(understand(text, language)[0])
+    return heard(understand(text, language, types=types)[0])
 
 
 def heard(

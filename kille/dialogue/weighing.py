@@ -14,7 +14,14 @@ from itertools import groupby
 from typing import NamedTuple
 
 from kille.dialogue.beliefs import degree, knows
-from kille.dialogue.meanings import CLAIMS, claims, is_denial, theory, value_at, word_of
+from kille.dialogue.meanings import (
+    CLAIMS,
+    DialogueTypes,
+    claims,
+    is_denial,
+    value_at,
+    word_of,
+)
 from kille.dialogue.reference import PARTS, contents, phrases, thing_at
 from kille.dialogue.state import words
 from ttr import Model, Pred, Record, RecordType
@@ -41,7 +48,9 @@ class Weighed(NamedTuple):
     p: float
 
 
-def weighed(s: Record, model: Model, heard: NBest) -> Sequence[Weighed]:
+def weighed(
+    s: Record, model: Model, heard: NBest, *, types: DialogueTypes
+) -> Sequence[Weighed]:
     """The likeliest reading of each text, the most probable first.
 
     What is missing to 1 is that it was something else, which fits as `strange` says.
@@ -52,7 +61,7 @@ def weighed(s: Record, model: Model, heard: NBest) -> Sequence[Weighed]:
     if len(texts) == 1 and other < _ROUNDING:
         said, _ = max(texts[0], key=lambda it: it[1] * _wording(known, it[0]))
         return [Weighed(said, 1.0)]
-    fits = [_best(s, model, known, them) for them in texts]
+    fits = [_best(s, model, known, them, types=types) for them in texts]
     strange = s.private.strategy.hearing.strange
     whole = sum(it.p for it in fits) + other * strange
     shares = [Weighed(it.said, it.p / whole if whole else 0.0) for it in fits]
@@ -72,10 +81,12 @@ def _best(
     model: Model,
     known: Set[Pred],
     readings: Sequence[tuple[Record, float]],
+    *,
+    types: DialogueTypes,
 ) -> Weighed:
     """The likeliest reading of a text, and the weight of the text."""
     fits = [
-        Weighed(said, _wording(known, said) * _seen(s, model, said))
+        Weighed(said, _wording(known, said) * _seen(s, model, said, types=types))
         for said, _ in readings
     ]
     best = max(fits, key=lambda it: it.p)
@@ -89,13 +100,13 @@ def _wording(known: Set[Pred], said: Record) -> float:
     return float(LONGER ** len(said.signs) * UNKNOWN**parts)
 
 
-def _seen(s: Record, model: Model, said: Record) -> float:
+def _seen(s: Record, model: Model, said: Record, *, types: DialogueTypes) -> float:
     """How likely it is that this is said, by what is seen."""
     content, strange = said.content, s.private.strategy.hearing.strange
     if not phrases(content):
         return 1.0
-    ways = contents(s, model, content)
-    teaches = model.judge(said, theory()["Teaching"]).holds
+    ways = contents(s, model, content, types=types)
+    teaches = model.judge(said, types["Teaching"]).holds
     true = [
         way.p * (_truth(s, model, said, way.content) if teaches else 1.0)
         for way in ways

@@ -16,7 +16,7 @@ from string import Formatter
 from kille.dialogue.details import details
 from kille.dialogue.lexicon import Lexicon, Wordings
 from kille.dialogue.listing import either, listed
-from kille.dialogue.meanings import word_of
+from kille.dialogue.meanings import DialogueTypes, word_of
 from kille.dialogue.mending import suggested
 from kille.dialogue.phrases import Words, claimed, noun_phrase, phrase
 from ttr import Rec, Record, RecordType
@@ -54,19 +54,21 @@ def tell(lexicon: Lexicon, act: str, move: Record) -> str:
     return _worded(lexicon, lexicon.tells, act, move)
 
 
-def did_not_understand(lexicon: Lexicon, text: str) -> str:
+def did_not_understand(lexicon: Lexicon, text: str, *, types: DialogueTypes) -> str:
     """One sentence: that it was not understood, and what could be said instead.
 
     That is the text with its slips mended, or an example that is much like it.
 
     >>> from kille.dialogue.lexicon import lexicon
-    >>> print(did_not_understand(lexicon("en"), "Where is teh book?"))
+    >>> from kille.dialogue.meanings import packaged_types
+    >>> types, asked = packaged_types(), "Where is teh book?"
+    >>> print(did_not_understand(lexicon("en"), asked, types=types))
     Sorry, I did not understand "Where is teh book?". You could say
     "Where is the book?"; ...
     """
     shown = terminal_text(re.sub(r"\s+", " ", text).strip())
     shown = shown if len(shown) <= _SHOWN else shown[: _SHOWN - 3] + "…"
-    nearest = suggested(lexicon, shown)
+    nearest = suggested(lexicon, shown, types=types)
     slots = {"text": shown} | ({} if nearest is None else {"nearest": nearest})
     return _fitting(lexicon.not_understood, slots).format_map(slots)
 

@@ -122,9 +122,12 @@ def answered(robot: Agent, heard: Sequence[Perhaps], language: str = "en") -> st
     may have been goes into the dialogue, which weighs it with what is seen.
     """
     understood = [
-        (it, len(understand(it.text, language)))
+        (it, len(understand(it.text, language, types=robot.types)))
         for it in heard
-        if all(sentence.readings for sentence in understand(it.text, language))
+        if all(
+            sentence.readings
+            for sentence in understand(it.text, language, types=robot.types)
+        )
     ]
     if not understood:
         return speech(language).sorry

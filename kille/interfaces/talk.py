@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from kille.agent import Agent
-from kille.dialogue.meanings import named
 from kille.interfaces.ears import Ears, Heard, answered
 from kille.interfaces.showing import Account, explained, things_in_view
 from kille.interfaces.terminal import FINE, complain, console, memory_path
@@ -237,8 +236,9 @@ class _Conversation:
 
     def _has_said(self, act: str) -> bool:
         """Whether the robot's latest turn was such an act."""
+        T = self._robot.types.record_type(act)
         return any(
-            said.judgement is not None and said.judgement.type <= named(act)
+            said.judgement is not None and said.judgement.type <= T
             for turn in self._robot.exchanges[-1:]
             for said in turn.said
         )

@@ -9,7 +9,7 @@ from typing import Any
 from kille.agent import Agent
 from kille.bus import Bus, BusError, Facts, Subscription, Text, serve
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import named, predicate_at
+from kille.dialogue.meanings import predicate_at
 from kille.exchange import Exchange
 from kille.memory import MemoryFileError
 from kille.nodes.program_calls import text_of
@@ -74,7 +74,7 @@ class Talking:
 
     def _called(self, call: Mapping[str, Any]) -> Facts:
         """What a program asks for is said to the robot; its answer, move by move."""
-        text = text_of(call, lexicon(self._robot.language))
+        text = text_of(call, lexicon(self._robot.language), self._robot.types)
         done = self._taken(lambda: self._hear(text))
         answer = "\n".join(exchange.answer for exchange in done if exchange.answer)
         said = [it.judgement for exchange in done for it in exchange.said]
@@ -102,7 +102,8 @@ class Talking:
         for exchange in done:
             if exchange.answer:
                 self._output.publish(Text(exchange.answer))
-        if any(map(_is_farewell, done)):
+        farewell = self._robot.types.record_type("Part")
+        if any(_is(it, farewell) for it in done):
             self._robot.do("restart")
         self._tell_state(done)
         return done
@@ -153,10 +154,10 @@ def _act(move: TypeNode) -> str:
     return predicate_at(move, "e").name
 
 
-def _is_farewell(exchange: Exchange) -> bool:
-    """Whether the robot has said goodbye in it."""
+def _is(exchange: Exchange, act: RecordType) -> bool:
+    """Whether the robot has made a move of this type in it."""
     judged = (said.judgement for said in exchange.said)
-    return any(it is not None and it.type <= named("Part") for it in judged)
+    return any(it is not None and it.type <= act for it in judged)
 
 
 def _texts(facts: Mapping[str, Any]) -> list[tuple[str, float]]:

@@ -18,35 +18,38 @@ from typing import Any
 
 from kille.bus import BusError
 from kille.dialogue.lexicon import Lexicon
-from kille.dialogue.meanings import named, noun, placed
+from kille.dialogue.meanings import DialogueTypes, packaged_types
 from kille.dialogue.wording import tell
 from ttr import Record, RecordType, merge, record, rectype
 
 _KNOWN = ("say", "teach", "ask", "forget")
 
 
-def text_of(call: Mapping[str, Any], lexicon: Lexicon) -> str:
+def text_of(
+    call: Mapping[str, Any], lexicon: Lexicon, types: DialogueTypes | None = None
+) -> str:
     """What a tutor would say; BusError for what is no call.
 
     >>> from kille.dialogue.lexicon import lexicon
     >>> text_of({"do": "teach", "word": "cup", "thing": 2}, lexicon("en"))
     '#2 This is a cup.'
     """
-    return f"{_pointing(call)}{_sentence(call, lexicon)}"
+    return f"{_pointing(call)}{_sentence(call, lexicon, types or packaged_types())}"
 
 
-def _sentence(call: Mapping[str, Any], lexicon: Lexicon) -> str:
+def _sentence(call: Mapping[str, Any], lexicon: Lexicon, types: DialogueTypes) -> str:
     match call:
         case {"do": "say", "text": str(text)}:
             return text
         case {"do": "teach", "word": str(word)} if word.strip():
-            sign = noun(word.strip())
-            content = _about_this(placed(sign, "Naming"))
+            sign = types.sign(word.strip(), "noun")
+            content = _about_this(types.meaning_at(sign, "Naming"), types)
             return tell(lexicon, "instruct", record(content=content, signs=[sign]))
         case {"do": "ask"}:
-            return _plainly(lexicon, "ask_name", _about_this(named("Asked")))
+            content = _about_this(types.record_type("Asked"), types)
+            return _plainly(lexicon, "ask_name", content)
         case {"do": "forget", "word": str(word)} if word.strip():
-            sign = noun(word.strip())
+            sign = types.sign(word.strip(), "noun")
             content = rectype(word=sign.meaning)
             return tell(lexicon, "forget_word", record(content=content, signs=[sign]))
     raise BusError(
@@ -66,8 +69,8 @@ def _pointing(call: Mapping[str, Any]) -> str:
     raise BusError(f"{_shown(call)}: `thing` is the number of a thing, from 1")
 
 
-def _about_this(content: RecordType) -> RecordType:
-    whole = merge(content, rectype(target=named("This")))
+def _about_this(content: RecordType, types: DialogueTypes) -> RecordType:
+    whole = merge(content, rectype(target=types["This"]))
     assert isinstance(whole, RecordType)
     return whole
 

@@ -11,7 +11,14 @@ import dataclasses
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from kille.dialogue.meanings import claims, is_denial, theory, value_at, word_of
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    claims,
+    is_denial,
+    packaged_types,
+    value_at,
+    word_of,
+)
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
 from kille.simulation.learning import Taught, Word, observed
@@ -30,6 +37,7 @@ def simulated(
     signs: Iterable[Record] = (),
     *,
     colours: Iterable[Record] | None = None,
+    types: DialogueTypes | None = None,
     **settings: Any,
 ) -> Game:
     """The games of tutoring, played in front of this world by a robot of these words.
@@ -43,21 +51,29 @@ def simulated(
     >>> [game.say(move) for turn in turns for move in turn.said]
     ['OK, I learned a cup.', 'This is a cup.']
     """
+    types = types or packaged_types()
     if colours is None:
-        colours = vocabulary(settings.get("language", "en")).colours
+        colours = vocabulary(settings.get("language", "en"), types).colours
     colours = tuple(colours)
     signs = [*signs, *colours]
     game = tutoring(
-        signs, model=model_of(world, signs), act=act, colours=colours, **settings
+        signs,
+        model=model_of(world, signs, types),
+        act=act,
+        colours=colours,
+        types=types,
+        **settings,
     )
     start = replace(game.start, {"view": view(world)})
     return dataclasses.replace(game, name="simulated", start=start)
 
 
-def model_of(world: World, signs: Iterable[Record] = ()) -> Model:
+def model_of(
+    world: World, signs: Iterable[Record] = (), types: DialogueTypes | None = None
+) -> Model:
     """The model of what can be seen in such a world, by what the words are true of."""
-    types = theory()
-    model = blank_model().witnessed(types["Look"], by=_is_look)
+    types = types or packaged_types()
+    model = blank_model(types).witnessed(types["Look"], by=_is_look)
     for number in range(1, len(world.things) + 1):
         model = model.given(thing(number), types["Ind"])
     return known(model.witnessed(types["across"], by=_across), signs)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import sign
+from kille.dialogue.meanings import DialogueTypes, packaged_types
 from kille.simulation.perceiving import direction
 from kille.simulation.worlds import COLOURS, KINDS, World
 from ttr import Record
@@ -99,13 +98,16 @@ class Vocabulary:
         return self.relations[side]
 
 
-@cache
-def vocabulary(language: str = "en") -> Vocabulary:
-    """The words of a language.
+def vocabulary(language: str = "en", types: DialogueTypes | None = None) -> Vocabulary:
+    """The words of a language, by default as the packaged theory has their meanings.
 
     >>> vocabulary("sv").nouns["cup"].form
     'kopp'
     """
+    return (types or packaged_types()).derive(_vocabulary, language)
+
+
+def _vocabulary(types: DialogueTypes, language: str) -> Vocabulary:
     forms = {"en": _ENGLISH, "sv": _SWEDISH}[language]
     means = lexicon(language).means
 
@@ -114,7 +116,7 @@ def vocabulary(language: str = "en") -> Vocabulary:
         for name in names:
             form = forms.get(name, name)
             meant = means.get(form, "") if kind == "adjective" else ""
-            found[name] = sign(form, kind, means=meant)
+            found[name] = types.sign(form, kind, means=meant)
         return found
 
     return Vocabulary(

@@ -24,7 +24,6 @@ from hypothesis import strategies as st
 
 from kille import Agent, Memory
 from kille.dialogue.meanings import named, predicate_name, word_of
-from kille.dialogue.state import STATE
 from kille.memory import MemoryFileError, ObjectLesson
 from kille.scene import Frame
 from kille.sensors.sensor import SensorError
@@ -233,7 +232,7 @@ def test_any_text_gets_an_answer_and_a_state_of_its_type(text: str) -> None:
             pointless = "#" in text and "nothing is in view" in told
             if not pointless:
                 raise
-        assert robot.model.judge(robot.state, STATE).holds
+        assert robot.model.judge(robot.state, named("State")).holds
 
 
 WORD = st.text(st.characters(categories=["L", "N"]), min_size=1, max_size=12)
@@ -257,7 +256,7 @@ def before_a_cup() -> Iterator[Agent]:
 def test_any_word_that_is_parsed_can_be_learned(before_a_cup: Agent, word: str) -> None:
     robot = before_a_cup
     answer = robot.hear(f"This is a {word}.")
-    assert robot.model.judge(robot.state, STATE).holds
+    assert robot.model.judge(robot.state, named("State")).holds
     if robot.exchanges[-1].heard is not None:
         assert answer.startswith("OK, I learned a")
         known = {word_of(sign).name for sign in robot.state.private.nouns}

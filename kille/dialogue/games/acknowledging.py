@@ -9,40 +9,41 @@ from __future__ import annotations
 from kille.dialogue.beliefs import degree
 from kille.dialogue.meanings import (
     CLAIMS,
+    DialogueTypes,
     is_denial,
     predicate_at,
     value_at,
     word_of,
 )
-from kille.dialogue.moves import answering, changed_act, plan
+from kille.dialogue.moves import changed_act, plan
 from kille.dialogue.reference import PARTS, thing_at
-from kille.dialogue.state import STATE
+from kille.dialogue.rules import rule
 from ttr import Model, Record, RecordType, replace
 from ttr.types import Negation, PType
-from ttr.updates import first, rule
+from ttr.updates import first
 
 
-@rule(when=answering("Affirm"))
-def acknowledge(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Affirm")
+def acknowledge(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor confirms what it was so sure of that there is nothing to learn."""
     if len(s.shared.pending) != 1:
         return None
     if _degree(model, s.shared.pending[0]) < s.private.strategy.yes_below:
         return None
-    return plan(s, "Acknowledge")
+    return plan(s, "Acknowledge", types=types)
 
 
-@rule(when=answering("Deny"))
-def only_ask(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Deny")
+def only_ask(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor rejects what it takes nothing from: it asks what is so."""
     pending = s.shared.pending
     if not pending or _degree(model, pending[0]) < s.private.strategy.no_below:
         return None
-    return plan(s, "AskAgain")
+    return plan(s, "AskAgain", types=types)
 
 
-@rule(when=STATE)
-def count_examples(s: Record) -> Record | None:
+@rule(when="State")
+def count_examples(s: Record, *, types: DialogueTypes) -> Record | None:
     """It learns a word: it says if it needs more examples of it."""
     enough = s.private.strategy.examples
     if not enough or not s.private.agenda:
@@ -53,7 +54,7 @@ def count_examples(s: Record) -> Record | None:
     count = _examples(s, value_at(planned, "teaches")[-1])
     few = "LearnedFew" if count < enough else "LearnedMore"
     act = "LearnedEnough" if count == enough else few
-    return replace(s, {"private.agenda": (changed_act(planned, act),)})
+    return replace(s, {"private.agenda": (changed_act(planned, act, types=types),)})
 
 
 LEARNING = ("learned", "learned_quality", "learned_relation")

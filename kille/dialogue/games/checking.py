@@ -7,32 +7,35 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import Beliefs, believed, is_sure, knows
 from kille.dialogue.commitments import as_told
-from kille.dialogue.meanings import claims, denied
-from kille.dialogue.moves import answering, content_of, instead, plan
+from kille.dialogue.meanings import DialogueTypes, claims, denied
+from kille.dialogue.moves import content_of, instead, plan
 from kille.dialogue.reference import thing_at
+from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, replace
-from ttr.updates import first, rule, seq
+from ttr.updates import first, seq
 
 
-@rule(when=answering("AskWhether"))
-def miss_claimed(s: Record) -> Record | None:
+@rule(answers="AskWhether")
+def miss_claimed(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks by a word that was never learned."""
     sign = _asked(s)
     if knows(words(s), sign):
         return None
-    return plan(s, f"Unknown{sign.kind.capitalize()}", sign.meaning, signs=[sign])
+    return plan(
+        s, f"Unknown{sign.kind.capitalize()}", sign.meaning, signs=[sign], types=types
+    )
 
 
-@rule(when=answering("AskWhether"))
-def miss_place(s: Record) -> Record | None:
+@rule(answers="AskWhether")
+def miss_place(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks how things stand of which it does not know where they are."""
     if _asked(s).kind != "relation" or set(_things(s)) <= set(s.view.placed):
         return None
-    return plan(s, "NeedDepth")
+    return plan(s, "NeedDepth", types=types)
 
 
-@rule(when=answering("AskWhether"))
+@rule(answers="AskWhether")
 def weigh(s: Record, *, model: Model) -> Record | None:
     """It judges the word that is asked about, and those it might be instead."""
     things = _things(s)
@@ -42,42 +45,48 @@ def weigh(s: Record, *, model: Model) -> Record | None:
     return replace(s, {"private.beliefs": beliefs})
 
 
-@rule(when=answering("AskWhether"))
-def say_yes(s: Record) -> Record | None:
+@rule(answers="AskWhether")
+def say_yes(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is sure that it is so."""
-    return _claimed(s, "SayYes", content_of(s)) if _is_so(s) else None
+    return _claimed(s, "SayYes", content_of(s), types=types) if _is_so(s) else None
 
 
-@rule(when=answering("AskWhether"))
-def say_rather(s: Record) -> Record | None:
+@rule(answers="AskWhether")
+def say_rather(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is sure of another word, and this one is not likely: it says which."""
     best = s.private.beliefs[0]
     if _p(s) >= s.private.strategy.bands.likely or not _sure_of_first(s):
         return None
-    content = instead(content_of(s), best.sign)
+    content = instead(content_of(s), best.sign, types=types)
     signs = [*s.shared.latest.signs, best.sign]
     rival = denied(content_of(s))
-    return plan(s, "SayRather", content, rival, signs=signs, pending=[content])
+    return plan(
+        s, "SayRather", content, rival, signs=signs, pending=[content], types=types
+    )
 
 
-@rule(when=answering("AskWhether"))
-def say_no(s: Record) -> Record | None:
+@rule(answers="AskWhether")
+def say_no(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is hardly possible that it is so."""
     unlikely = _p(s) <= s.private.strategy.bands.unlikely
-    return _claimed(s, "SayNo", denied(content_of(s))) if unlikely else None
+    return (
+        _claimed(s, "SayNo", denied(content_of(s)), types=types) if unlikely else None
+    )
 
 
-@rule(when=answering("AskWhether"))
-def say_probably(s: Record) -> Record | None:
+@rule(answers="AskWhether")
+def say_probably(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is more likely so than not."""
     probable = _p(s) >= s.private.strategy.bands.probable
-    return _claimed(s, "SayProbably", content_of(s)) if probable else None
+    return _claimed(s, "SayProbably", content_of(s), types=types) if probable else None
 
 
-@rule(when=answering("AskWhether"))
-def admit_whether(s: Record) -> Record:
+@rule(answers="AskWhether")
+def admit_whether(s: Record, *, types: DialogueTypes) -> Record:
     """It does not know."""
-    return plan(s, "AdmitWhether", content_of(s), signs=s.shared.latest.signs)
+    return plan(
+        s, "AdmitWhether", content_of(s), signs=s.shared.latest.signs, types=types
+    )
 
 
 def _asked(s: Record) -> Record:
@@ -125,8 +134,12 @@ def _sure_of_first(s: Record) -> bool:
     return is_sure(s, s.private.beliefs)
 
 
-def _claimed(s: Record, act: str, content: RecordType) -> Record:
-    return plan(s, act, content, signs=s.shared.latest.signs, pending=[content])
+def _claimed(
+    s: Record, act: str, content: RecordType, *, types: DialogueTypes
+) -> Record:
+    return plan(
+        s, act, content, signs=s.shared.latest.signs, pending=[content], types=types
+    )
 
 
 CHECKING = first(

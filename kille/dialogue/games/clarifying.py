@@ -11,11 +11,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from kille.dialogue.games.courtesy import reply
-from kille.dialogue.games.referring import UNANSWERED, about, asking, differing
-from kille.dialogue.moves import answering, content_of, plan
+from kille.dialogue.games.referring import about, asking, differing
+from kille.dialogue.meanings import DialogueTypes
+from kille.dialogue.moves import content_of, plan
 from kille.dialogue.reference import Judging, fits_well, phrase_at
+from kille.dialogue.rules import rule
 from ttr import Model, Record, replace
-from ttr.updates import first, maybe, rule, seq
+from ttr.updates import first, maybe, seq
 
 AGAIN = {"AskReferent": "AskReferentAgain"}
 """How a question is put on record when it is asked once more."""
@@ -24,48 +26,48 @@ REFERENTS = ("AskReferent", "AskReferentAgain")
 """The questions which thing was meant."""
 
 
-@rule(when=answering("Mention"))
-def take_described(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Mention")
+def take_described(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor says which one: "the red one", "the second", "this one"."""
-    options = _described(s, model)
-    return taken(s, options[0]) if len(options) == 1 else None
+    options = _described(s, model, types=types)
+    return taken(s, options[0], types=types) if len(options) == 1 else None
 
 
-@rule(when=answering("Affirm"))
-def take_only(s: Record) -> Record | None:
+@rule(answers="Affirm")
+def take_only(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says yes to the only option there is."""
     options = _options(s)
-    return taken(s, options[0]) if len(options) == 1 else None
+    return taken(s, options[0], types=types) if len(options) == 1 else None
 
 
-@rule(when=answering("Deny"))
-def take_none(s: Record) -> Record | None:
+@rule(answers="Deny")
+def take_none(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor means none of these things: the question is dropped."""
-    return plan(_dropped(s), "Resign") if asked_which(s) else None
+    return plan(_dropped(s), "Resign", types=types) if asked_which(s) else None
 
 
-@rule(when=answering("Mention"))
-def ask_fewer(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Mention")
+def ask_fewer(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The answer leaves some of the things open: it asks about those."""
-    options = _described(s, model)
+    options = _described(s, model, types=types)
     if not 1 < len(options) < len(_options(s)):
         return None
-    return asking(_dropped(s), model, options, s.shared.qud[0].ask)
+    return asking(_dropped(s), model, options, s.shared.qud[0].ask, types=types)
 
 
-@rule(when=answering("Mention"))
-def ask_once_more(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Mention")
+def ask_once_more(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The answer does not say which one: it asks the same once more."""
-    return _asked_again(s, model)
+    return _asked_again(s, model, types=types)
 
 
-@rule(when=answering("Affirm"))
-def ask_yes_to_which(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Affirm")
+def ask_yes_to_which(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor says yes, but there are several things: it asks the same once more."""
-    return _asked_again(s, model)
+    return _asked_again(s, model, types=types)
 
 
-@rule(when=UNANSWERED)
+@rule(answers="Heard")
 def drop_question(s: Record) -> Record | None:
     """Something else is said: the question is dropped, and what was claimed before."""
     return replace(_dropped(s), {"shared.pending": ()}) if s.shared.qud else None
@@ -76,10 +78,10 @@ wonder_at_mention = reply(
 )
 
 
-def taken(s: Record, option: Record) -> Record:
+def taken(s: Record, option: Record, *, types: DialogueTypes) -> Record:
     """The state in which the tutor's move is this option of the question."""
     answered = replace(s, {"shared.qud": s.shared.qud[1:], "shared.latest": option})
-    return about(answered, option.content)
+    return about(answered, option.content, types=types)
 
 
 def _options(s: Record) -> Sequence[Record]:
@@ -93,22 +95,24 @@ def asked_which(s: Record) -> bool:
     return bool(s.shared.qud) and s.shared.qud[0].ask in REFERENTS
 
 
-def _described(s: Record, model: Model) -> Sequence[Record]:
+def _described(s: Record, model: Model, *, types: DialogueTypes) -> Sequence[Record]:
     """The options about a thing that the tutor's phrase is true of."""
     if not asked_which(s):
         return ()
     options = _options(s)
     _, things = differing(options)
     phrase = phrase_at(content_of(s), "target")
-    meant = fits_well(s, Judging(s, model).fits(phrase, things))
+    meant = fits_well(s, Judging(s, model, types=types).fits(phrase, things))
     return [it for x, it in zip(things, options, strict=True) if x in meant]
 
 
-def _asked_again(s: Record, model: Model) -> Record | None:
+def _asked_again(s: Record, model: Model, *, types: DialogueTypes) -> Record | None:
     """The plan to ask the same question again, if it was asked only once."""
     if not s.shared.qud or s.shared.qud[0].ask not in AGAIN:
         return None
-    return asking(_dropped(s), model, _options(s), AGAIN[s.shared.qud[0].ask])
+    return asking(
+        _dropped(s), model, _options(s), AGAIN[s.shared.qud[0].ask], types=types
+    )
 
 
 def _dropped(s: Record) -> Record:

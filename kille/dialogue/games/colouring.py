@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import believed, certainty
 from kille.dialogue.commitments import as_told
-from kille.dialogue.moves import answering, content_of, plan, said_of
+from kille.dialogue.meanings import DialogueTypes
+from kille.dialogue.moves import content_of, plan, said_of
 from kille.dialogue.reference import thing_at
+from kille.dialogue.rules import rule
 from ttr import Model, Record, replace
-from ttr.updates import first, rule, seq
+from ttr.updates import first, seq
 
 
-@rule(when=answering("AskQuality"))
+@rule(answers="AskQuality")
 def recognise_colour(s: Record, *, model: Model) -> Record | None:
     """The tutor asks what colour a thing is: judge every colour of it."""
     x = thing_at(content_of(s), "target")
@@ -20,16 +22,18 @@ def recognise_colour(s: Record, *, model: Model) -> Record | None:
     return replace(s, {"private.beliefs": beliefs})
 
 
-@rule(when=answering("AskQuality"))
-def say_colour(s: Record) -> Record:
+@rule(answers="AskQuality")
+def say_colour(s: Record, *, types: DialogueTypes) -> Record:
     """It says the colour as certainly as it knows it, or that it does not."""
     how, beliefs = certainty(s, s.private.beliefs), s.private.beliefs
     if how == "Admit":
-        return plan(s, "AdmitQuality", content_of(s), signs=s.shared.latest.signs)
+        return plan(
+            s, "AdmitQuality", content_of(s), signs=s.shared.latest.signs, types=types
+        )
     named = beliefs[: 2 if how == "Hedge" else 1]
-    claims = [said_of(s, it.sign, it.sit.x, "Having") for it in named]
+    claims = [said_of(s, it.sign, it.sit.x, "Having", types=types) for it in named]
     signs = [it.sign for it in named]
-    return plan(s, f"{how}Quality", *claims, signs=signs, pending=claims)
+    return plan(s, f"{how}Quality", *claims, signs=signs, pending=claims, types=types)
 
 
 COLOURING = first(seq(recognise_colour, say_colour))

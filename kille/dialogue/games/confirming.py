@@ -11,64 +11,69 @@ from kille.dialogue.commitments import (
     signs_for,
     weakened,
 )
-from kille.dialogue.meanings import is_denial
-from kille.dialogue.moves import answering, plan, used
+from kille.dialogue.meanings import DialogueTypes, is_denial
+from kille.dialogue.moves import plan, used
+from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Record
-from ttr.updates import first, rule
+from ttr.updates import first
 
 
-@rule(when=answering("Affirm"))
-def learn_confirmed(s: Record) -> Record | None:
+@rule(answers="Affirm")
+def learn_confirmed(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor confirms the robot's one claim: it is a lesson about that look."""
     if len(s.shared.pending) != 1:
         return None
-    return learning(s, s.shared.pending[0])
+    return learning(s, s.shared.pending[0], types=types)
 
 
 ASKED = {"c": "AskWhich", "a": "AskWhichQuality", "rel": "AskWhichPlace"}
 """What it asks when it has claimed two things, by their label."""
 
 
-@rule(when=answering("Affirm"))
-def ask_which(s: Record) -> Record | None:
+@rule(answers="Affirm")
+def ask_which(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor confirms, but the robot had named two: it asks which."""
     if len(s.shared.pending) != 2:
         return None
     content, rival = s.shared.pending
     act = next(ASKED[label] for label in ASKED if label in content)
     signs = used(words(s), content, rival)
-    return plan(s, act, content, rival, signs=signs, pending=s.shared.pending)
+    return plan(
+        s, act, content, rival, signs=signs, pending=s.shared.pending, types=types
+    )
 
 
-@rule(when=answering("Affirm"))
-def wonder_what(s: Record) -> Record:
+@rule(answers="Affirm")
+def wonder_what(s: Record, *, types: DialogueTypes) -> Record:
     """The robot has claimed nothing to confirm."""
-    return plan(s, "Wonder")
+    return plan(s, "Wonder", types=types)
 
 
-@rule(when=answering("Deny"))
-def learn_after_all(s: Record) -> Record | None:
+@rule(answers="Deny")
+def learn_after_all(s: Record, *, types: DialogueTypes) -> Record | None:
     """The robot said that something is not so, and the tutor rejects that: so it is."""
     if len(s.shared.pending) != 1 or not is_denial(s.shared.pending[0]):
         return None
-    return learning(s, affirmed(s.shared.pending[0]))
+    return learning(s, affirmed(s.shared.pending[0]), types=types)
 
 
-@rule(when=answering("Deny"))
-def ask_again(s: Record) -> Record | None:
+@rule(answers="Deny")
+def ask_again(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor rejects what the robot claimed: it learns that, and asks."""
     if not s.shared.pending:
         return None
-    teaches, forgets = weakened(s, s.shared.pending)
+    teaches, forgets = weakened(s, s.shared.pending, types=types)
     signs = signs_for(s, *teaches)
-    return plan(s, "AskAgain", signs=signs, teaches=teaches, forgets=forgets)
+    return plan(
+        s, "AskAgain", signs=signs, teaches=teaches, forgets=forgets, types=types
+    )
 
 
-@rule(when=answering("Deny"))
-def wonder_why(s: Record) -> Record:
+@rule(answers="Deny")
+def wonder_why(s: Record, *, types: DialogueTypes) -> Record:
     """The robot has claimed nothing to reject."""
-    return plan(s, "Wonder")
+    return plan(s, "Wonder", types=types)
 
 
 CONFIRMING = first(

@@ -24,11 +24,12 @@ from kille.dialogue.commitments import (
     undone,
     weakened,
 )
-from kille.dialogue.meanings import denied, is_denial, set_to
-from kille.dialogue.moves import answering, content_of, plan
+from kille.dialogue.meanings import DialogueTypes, denied, is_denial, set_to
+from kille.dialogue.moves import content_of, plan
 from kille.dialogue.reference import PARTS, thing_at
+from kille.dialogue.rules import rule
 from ttr import Record, RecordType, join, rectype
-from ttr.updates import first, rule
+from ttr.updates import first
 
 CORRECTED = {"c": "Corrected", "a": "CorrectedQuality", "rel": "CorrectedRelation"}
 """What the robot says when it has learned one claim in place of another."""
@@ -37,14 +38,14 @@ DENIED = "denied"
 """The label under which a correction says what it denies."""
 
 
-@rule(when=answering("Correct"))
-def correct(s: Record) -> Record | None:
+@rule(answers="Correct")
+def correct(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what is so instead: learn that, and unlearn what was said."""
     content = _right(s)
-    wrong = _wrong(s, content)
+    wrong = _wrong(s, content, types=types)
     if not wrong or not _places_known(s, content):
         return None
-    weaker, forgets = weakened(s, wrong)
+    weaker, forgets = weakened(s, wrong, types=types)
     teaches = [*weaker, content]
     return plan(
         s,
@@ -53,47 +54,51 @@ def correct(s: Record) -> Record | None:
         _either(wrong),
         signs=signs_for(s, *teaches, *wrong),
         teaches=teaches,
-        forgets=[*forgets, *undone(s, content)],
+        forgets=[*forgets, *undone(s, content, types=types)],
+        types=types,
     )
 
 
-@rule(when=answering("Correct"))
-def accept(s: Record) -> Record | None:
+@rule(answers="Correct")
+def accept(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor corrects what nobody has said: learn what is so."""
     content = _right(s)
-    return learning(s, content) if _places_known(s, content) else None
+    return learning(s, content, types=types) if _places_known(s, content) else None
 
 
-@rule(when=answering("Reject"))
-def reject(s: Record) -> Record | None:
+@rule(answers="Reject")
+def reject(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what is not so: unlearn that it is, or learn that it is not."""
     content = content_of(s)
     if not _places_known(s, content):
         return None
     wrong = affirmed(content)
-    was_taught = bool(lessons_in(s, wrong))
-    was_claimed = any(same(wrong, it) and is_here(s, it) for it in s.shared.pending)
+    was_taught = bool(lessons_in(s, wrong, types=types))
+    was_claimed = any(
+        same(wrong, it) and is_here(s, it, types=types) for it in s.shared.pending
+    )
     if was_claimed or not was_taught:
-        return learning(s, content)
+        return learning(s, content, types=types)
     return plan(
         s,
         act_of(content),
         content,
         signs=signs_for(s, content),
-        forgets=undone(s, content),
+        forgets=undone(s, content, types=types),
+        types=types,
     )
 
 
-@rule(when=answering("Correct"))
-def need_places_to_correct(s: Record) -> Record:
+@rule(answers="Correct")
+def need_places_to_correct(s: Record, *, types: DialogueTypes) -> Record:
     """The things are in view, but not where they are."""
-    return plan(s, "NeedDepth")
+    return plan(s, "NeedDepth", types=types)
 
 
-@rule(when=answering("Reject"))
-def need_places_to_reject(s: Record) -> Record:
+@rule(answers="Reject")
+def need_places_to_reject(s: Record, *, types: DialogueTypes) -> Record:
     """The things are in view, but not where they are."""
-    return plan(s, "NeedDepth")
+    return plan(s, "NeedDepth", types=types)
 
 
 def _places_known(s: Record, content: RecordType) -> bool:
@@ -108,13 +113,19 @@ def _right(s: Record) -> RecordType:
     return rectype({k: field for k, field in content.fields if k != DENIED})
 
 
-def _wrong(s: Record, content: RecordType) -> Sequence[RecordType]:
+def _wrong(
+    s: Record, content: RecordType, *, types: DialogueTypes
+) -> Sequence[RecordType]:
     """What is not so, by a correction: what it names, or was claimed, or was taught."""
     named = content_of(s).get(DENIED)
     if isinstance(named, RecordType):
         wrong = _in_place(content, denied(named))
         return [] if same(wrong, content) else [wrong]
-    claimed = [it for it in s.shared.pending if _alike(it, content) and is_here(s, it)]
+    claimed = [
+        it
+        for it in s.shared.pending
+        if _alike(it, content) and is_here(s, it, types=types)
+    ]
     if claimed:
         return [it for it in claimed if _rivals(it, content)]
     taught = [it.content for it in s.private.lessons if _rivals(it.content, content)]

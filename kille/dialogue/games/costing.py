@@ -5,17 +5,21 @@ Source: Skočaj et al. 2011; Yu, Eshghi and Lemon 2017 (tutoring cost).
 
 from __future__ import annotations
 
-from kille.dialogue.meanings import claims, is_denial, theory
-from kille.dialogue.state import STATE
-from ttr import Model, Record, rectype, replace
-from ttr.updates import rule
+from kille.dialogue.meanings import DialogueTypes, claims, is_denial
+from kille.dialogue.rules import rule
+from ttr import Model, Record, RecordType, rectype, replace
 
 
-@rule(when=rectype(shared=rectype(latest=theory()["Correcting"])))
-def count_correction(s: Record, *, model: Model) -> Record | None:
+def _corrected(types: DialogueTypes) -> RecordType:
+    """The states in which the latest move corrects the robot."""
+    return rectype(shared=rectype(latest=types["Correcting"]))
+
+
+@rule(when=_corrected)
+def count_correction(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor has corrected the robot, which has failed at the nouns of its claim."""
     said = s.shared.latest
-    if s.shared.qud and model.judge(said, theory()["Deny"]).holds:
+    if s.shared.qud and model.judge(said, types["Deny"]).holds:
         return None  # a no to its question
     failed = [
         sign
@@ -28,7 +32,7 @@ def count_correction(s: Record, *, model: Model) -> Record | None:
     )
 
 
-@rule(when=STATE, on=theory()["Questioning"])
+@rule(when="State", on="Questioning")
 def count_question(s: Record, said: Record) -> Record:
     """The robot has asked the tutor something."""
     return _more(s, "questions")

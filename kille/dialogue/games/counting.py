@@ -4,31 +4,32 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import knows
 from kille.dialogue.games.surveying import in_view
-from kille.dialogue.meanings import mentions
-from kille.dialogue.moves import answering, content_of, plan
+from kille.dialogue.meanings import DialogueTypes, mentions
+from kille.dialogue.moves import content_of, plan
 from kille.dialogue.reference import Judging, phrase_at
+from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Model, Record, record
-from ttr.updates import first, rule
+from ttr.updates import first
 
 
-@rule(when=answering("AskCount"))
-def miss_counted(s: Record) -> Record | None:
+@rule(answers="AskCount")
+def miss_counted(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks how many there are of what was never learned."""
     counted = phrase_at(content_of(s), "counted")
     for sign in s.shared.latest.signs:
         if mentions(counted, sign) and not knows(words(s), sign):
             act = f"Unknown{sign.kind.capitalize()}"
-            return plan(s, act, sign.meaning, signs=[sign])
+            return plan(s, act, sign.meaning, signs=[sign], types=types)
     return None
 
 
-@rule(when=answering("AskCount"))
-def count(s: Record, *, model: Model) -> Record:
+@rule(answers="AskCount")
+def count(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     """It counts what it is sure of, and what may be one besides."""
     counted = phrase_at(content_of(s), "counted")
     bands = s.private.strategy.bands
-    found = Judging(s, model).fits(counted)
+    found = Judging(s, model, types=types).fits(counted)
     sign = record(meaning=counted)
     fits = [
         record(sit=record(x=x), sign=sign, p=fit.weakest)
@@ -37,8 +38,8 @@ def count(s: Record, *, model: Model) -> Record:
     ]
     sure = [it for it in fits if it.p >= bands.sure]
     likely = [it for it in fits if it.p < bands.sure]
-    content = in_view(s, sure, likely, ())
-    return plan(s, "TellCount", content, signs=s.shared.latest.signs)
+    content = in_view(s, sure, likely, (), types=types)
+    return plan(s, "TellCount", content, signs=s.shared.latest.signs, types=types)
 
 
 COUNTING = first(miss_counted, count)

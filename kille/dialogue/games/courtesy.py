@@ -2,29 +2,30 @@
 
 from __future__ import annotations
 
-from kille.dialogue.meanings import named, set_to
-from kille.dialogue.moves import answering, plan
+from kille.dialogue.meanings import DialogueTypes, set_to
+from kille.dialogue.moves import plan
+from kille.dialogue.rules import NamedRule, rule
 from ttr import Record, replace
-from ttr.updates import Rule, first, rule
+from ttr.updates import first
 
 
-def reply(move: str, act: str, doc: str) -> Rule:
+def reply(move: str, act: str, doc: str) -> NamedRule:
     """The rule that answers every such move by this act."""
 
-    def answer(s: Record) -> Record:
-        return plan(s, act)
+    def answer(s: Record, *, types: DialogueTypes) -> Record:
+        return plan(s, act, types=types)
 
     answer.__name__ = f"{act} to {move}"
     answer.__doc__ = doc
-    return rule(when=answering(move))(answer)
+    return rule(answers=move)(answer)
 
 
-@rule(when=answering("AskRepeat"))
-def repeat(s: Record) -> Record | None:
+@rule(answers="AskRepeat")
+def repeat(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor did not hear it: it says the same again, and does nothing anew."""
     if not s.private.last:
         return None
-    said = named("Said")
+    said = types.record_type("Said")
     done = {label: said[label] @ () for label in ("teaches", "forgets", "drops")}
     again = tuple(set_to(move, **done) for move in s.private.last)
     return replace(s, {"private.agenda": again})

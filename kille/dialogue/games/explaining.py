@@ -11,15 +11,17 @@ from collections.abc import Sequence
 from kille.dialogue.beliefs import about, has_rival, knows, thinks
 from kille.dialogue.commitments import affirmed, as_told, kind_of, same, signs_for
 from kille.dialogue.meanings import (
+    DialogueTypes,
     claims,
     is_denial,
     value_at,
 )
-from kille.dialogue.moves import answering, content_of, instead, plan
+from kille.dialogue.moves import content_of, instead, plan
 from kille.dialogue.reference import thing_at
+from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Model, Rec, Record, RecordType, record
-from ttr.updates import first, rule
+from ttr.updates import first
 
 Update = tuple[Record, Model]
 
@@ -27,27 +29,27 @@ EXPLAINED = {"c": "ExplainName", "a": "ExplainQuality", "rel": "ExplainRelation"
 """What the robot says to explain a claim, by its label."""
 
 
-@rule(when=answering("AskCertainty"))
-def miss_certain(s: Record) -> Record | None:
+@rule(answers="AskCertainty")
+def miss_certain(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks how certain something is in a word that was never learned."""
-    return _missed(s)
+    return _missed(s, types=types)
 
 
-@rule(when=answering("AskCertainty"))
-def tell_certainty(s: Record, *, model: Model) -> Update | None:
+@rule(answers="AskCertainty")
+def tell_certainty(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """It says how certain the claim is, and what else it might be."""
     claim = _asked_about(s)
-    return None if claim is None else _told(s, model, claim)
+    return None if claim is None else _told(s, model, claim, types=types)
 
 
-@rule(when=answering("AskWhy"))
-def miss_explained(s: Record) -> Record | None:
+@rule(answers="AskWhy")
+def miss_explained(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks why something is so in a word that was never learned."""
-    return _missed(s)
+    return _missed(s, types=types)
 
 
-@rule(when=answering("AskWhy"))
-def explain(s: Record, *, model: Model) -> Update | None:
+@rule(answers="AskWhy")
+def explain(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """It thinks so: it says by which cues, and what it was reminded of."""
     claim = _asked_about(s)
     if claim is None or is_denial(claim):
@@ -55,7 +57,7 @@ def explain(s: Record, *, model: Model) -> Update | None:
     own, rival, model = _judged(s, model, claim)
     if own is None or not thinks(s, [own]):
         return None
-    p, other = _with_rival(s, claim, own, rival)
+    p, other = _with_rival(s, claim, own, rival, types=types)
     explained = plan(
         s,
         EXPLAINED[kind_of(claim) or ""],
@@ -65,36 +67,44 @@ def explain(s: Record, *, model: Model) -> Update | None:
         degrees=p,
         explains=[claim],
         pending=_still_claimed(s, claim),
+        types=types,
     )
     return explained, model
 
 
-@rule(when=answering("AskWhy"))
-def doubt(s: Record, *, model: Model) -> Update | None:
+@rule(answers="AskWhy")
+def doubt(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """It does not think so: it says how certain it is instead."""
     claim = _asked_about(s)
-    return None if claim is None else _told(s, model, claim)
+    return None if claim is None else _told(s, model, claim, types=types)
 
 
-@rule(when=answering("AskCertainty"))
-def be_sure_of_nothing(s: Record) -> Record:
+@rule(answers="AskCertainty")
+def be_sure_of_nothing(s: Record, *, types: DialogueTypes) -> Record:
     """It has claimed nothing that it could be sure of."""
-    return plan(s, "NoClaim")
+    return plan(s, "NoClaim", types=types)
 
 
-@rule(when=answering("AskWhy"))
-def explain_nothing(s: Record) -> Record:
+@rule(answers="AskWhy")
+def explain_nothing(s: Record, *, types: DialogueTypes) -> Record:
     """It has claimed nothing that it could explain."""
-    return plan(s, "NoClaim")
+    return plan(s, "NoClaim", types=types)
 
 
-def _missed(s: Record) -> Record | None:
+def _missed(s: Record, *, types: DialogueTypes) -> Record | None:
     """The plan to say that the word of the claim that is asked about is not known."""
     content = content_of(s)
     for sign in s.shared.latest.signs:
         if claims(content, sign) and not knows(words(s), sign):
             act = f"Unknown{sign.kind.capitalize()}"
-            return plan(s, act, sign.meaning, signs=[sign], pending=s.shared.pending)
+            return plan(
+                s,
+                act,
+                sign.meaning,
+                signs=[sign],
+                pending=s.shared.pending,
+                types=types,
+            )
     return None
 
 
@@ -113,12 +123,14 @@ def _still_claimed(s: Record, claim: RecordType) -> Sequence[RecordType]:
     return pending if any(same(asked, affirmed(it)) for it in pending) else ()
 
 
-def _told(s: Record, model: Model, claim: RecordType) -> Update:
+def _told(
+    s: Record, model: Model, claim: RecordType, *, types: DialogueTypes
+) -> Update:
     """The plan to say how certain a claim is."""
     own, rival, model = _judged(s, model, affirmed(claim))
     if own is None:
-        return plan(s, "NoClaim"), model
-    p, other = _with_rival(s, claim, own, rival)
+        return plan(s, "NoClaim", types=types), model
+    p, other = _with_rival(s, claim, own, rival, types=types)
     told = plan(
         s,
         "TellCertainty",
@@ -127,6 +139,7 @@ def _told(s: Record, model: Model, claim: RecordType) -> Update:
         signs=signs_for(s, claim, other),
         degrees=p,
         pending=_still_claimed(s, claim),
+        types=types,
     )
     return told, model
 
@@ -164,14 +177,19 @@ def _situation(claim: RecordType) -> Record:
 
 
 def _with_rival(
-    s: Record, claim: RecordType, own: Record, rival: Record | None
+    s: Record,
+    claim: RecordType,
+    own: Record,
+    rival: Record | None,
+    *,
+    types: DialogueTypes,
 ) -> tuple[list[float], RecordType]:
     """How certain a claim is, and a rival to it that is worth naming, if any."""
     if is_denial(claim):
         return [1.0 - own.p], Rec
     if rival is None or not has_rival(s, [own, rival]):
         return [own.p], Rec
-    return [own.p, rival.p], instead(claim, rival.sign)
+    return [own.p, rival.p], instead(claim, rival.sign, types=types)
 
 
 EXPLAINING = first(

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import believed, is_sure
 from kille.dialogue.games.placing import landmark_for
-from kille.dialogue.meanings import set_to
+from kille.dialogue.meanings import DialogueTypes, set_to
 from kille.dialogue.moves import (
-    answering,
     content_of,
     nouns_said,
     numbered,
@@ -15,31 +14,52 @@ from kille.dialogue.moves import (
     standing,
 )
 from kille.dialogue.reference import phrase_at, thing_at
+from kille.dialogue.rules import rule
 from ttr import Model, Record, RecordType, record, replace
-from ttr.updates import first, rule
+from ttr.updates import first
 
 
-@rule(when=answering("AskFind"))
-def point_out(s: Record, *, model: Model) -> Record | None:
+@rule(answers="AskFind")
+def point_out(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor asks which thing it is: it points there, and says where that is."""
     x = thing_at(content_of(s), "target")
-    return None if x is None else pointed_out(s, model, "PointOut", content_of(s), x)
+    return (
+        None
+        if x is None
+        else pointed_out(s, model, "PointOut", content_of(s), x, types=types)
+    )
 
 
-def pointed_out(s: Record, model: Model, act: str, asked: RecordType, x: str) -> Record:
+def pointed_out(
+    s: Record,
+    model: Model,
+    act: str,
+    asked: RecordType,
+    x: str,
+    *,
+    types: DialogueTypes,
+) -> Record:
     """The plan to point at the thing that is asked for, and to say where it is."""
     found = phrase_at(asked, "target")
     nouns = nouns_said(s.shared.latest, found)[:1]
-    content, beside = _where(s, model, asked, x, nouns)
-    content = set_to(content, target=found, **numbered(s, x))
+    content, beside = _where(s, model, asked, x, nouns, types=types)
+    content = set_to(content, target=found, **numbered(s, x, types=types))
     signs = tuple(dict.fromkeys((*s.shared.latest.signs, *beside)))
-    claims = [said_of(s, noun, x) for noun in nouns]
-    planned = plan(s, act, content, signs=signs, pending=claims, points=[x])
+    claims = [said_of(s, noun, x, types=types) for noun in nouns]
+    planned = plan(
+        s, act, content, signs=signs, pending=claims, points=[x], types=types
+    )
     return replace(planned, {"view.focus": (x,)})
 
 
 def _where(
-    s: Record, model: Model, content: RecordType, x: str, nouns: list[Record]
+    s: Record,
+    model: Model,
+    content: RecordType,
+    x: str,
+    nouns: list[Record],
+    *,
+    types: DialogueTypes,
 ) -> tuple[RecordType, list[Record]]:
     """How it stands to the other thing it knows best, if it is sure of that."""
     is_placed = "landmark" in phrase_at(content, "target")
@@ -54,7 +74,7 @@ def _where(
     if not is_sure(s, stands):
         return content, []
     where = stands[0].sign
-    return standing(s, x, nouns[0], y, at, where), [at, where]
+    return standing(s, x, nouns[0], y, at, where, types=types), [at, where]
 
 
 FINDING = first(point_out)

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from kille.dialogue.beliefs import knows
 from kille.dialogue.commitments import kind_of, lessons_in
-from kille.dialogue.meanings import is_denial, word_of
-from kille.dialogue.moves import answering, content_of, plan
+from kille.dialogue.meanings import DialogueTypes, is_denial, word_of
+from kille.dialogue.moves import content_of, plan
 from kille.dialogue.reference import things_in
+from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Record
-from ttr.updates import first, rule
+from ttr.updates import first
 
 FORGOT = {"c": "Forgot", "a": "ForgotQuality", "rel": "ForgotRelation"}
 """What the robot says when it has forgotten a lesson, by the label of its claim."""
@@ -29,18 +30,22 @@ FORGOT_WORD = {
 """What it says when it has forgotten a word of a kind."""
 
 
-@rule(when=answering("ForgetThat"))
-def forget_claim(s: Record) -> Record | None:
+@rule(answers="ForgetThat")
+def forget_claim(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says what is to be forgotten: all lessons that say so are unlearned."""
     content = content_of(s)
     if kind_of(content) is None:
         return None
-    lessons = lessons_in(s, content)
-    return _forgotten(s, *lessons) if lessons else plan(s, "ForgetNothing")
+    lessons = lessons_in(s, content, types=types)
+    return (
+        _forgotten(s, *lessons, types=types)
+        if lessons
+        else plan(s, "ForgetNothing", types=types)
+    )
 
 
-@rule(when=answering("ForgetThat"))
-def forget_that(s: Record) -> Record | None:
+@rule(answers="ForgetThat")
+def forget_that(s: Record, *, types: DialogueTypes) -> Record | None:
     """The latest lesson about the thing that is talked of is unlearned."""
     talked_of = set(s.shared.salient[:1] or s.view.focus)
     lessons = [
@@ -48,47 +53,49 @@ def forget_that(s: Record) -> Record | None:
         for it in s.private.lessons
         if it.content in s.shared.here and talked_of & set(things_in(it.content))
     ]
-    return _forgotten(s, lessons[-1]) if lessons else None
+    return _forgotten(s, lessons[-1], types=types) if lessons else None
 
 
-@rule(when=answering("ForgetLast"))
-def forget_last(s: Record) -> Record | None:
+@rule(answers="ForgetLast")
+def forget_last(s: Record, *, types: DialogueTypes) -> Record | None:
     """The latest lesson is unlearned."""
-    return _forgotten(s, s.private.lessons[-1]) if s.private.lessons else None
+    return (
+        _forgotten(s, s.private.lessons[-1], types=types) if s.private.lessons else None
+    )
 
 
-@rule(when=answering("ForgetWord"))
-def forget_word(s: Record) -> Record | None:
+@rule(answers="ForgetWord")
+def forget_word(s: Record, *, types: DialogueTypes) -> Record | None:
     """A word is forgotten with all lessons in it, those of other dialogues too."""
     known = list(words(s))
     for said in s.shared.latest.signs:
         if knows(known, said):
             sign = next(it for it in known if word_of(it) is word_of(said))
             act = FORGOT_WORD[sign.kind]
-            return plan(s, act, sign.meaning, signs=[sign], drops=[sign])
+            return plan(s, act, sign.meaning, signs=[sign], drops=[sign], types=types)
     return None
 
 
-@rule(when=answering("ForgetWord"))
-def miss_forgotten(s: Record) -> Record:
+@rule(answers="ForgetWord")
+def miss_forgotten(s: Record, *, types: DialogueTypes) -> Record:
     """The word is not known, so that there is nothing to forget."""
     sign = s.shared.latest.signs[0]
-    return plan(s, "UnknownWord", sign.meaning, signs=[sign])
+    return plan(s, "UnknownWord", sign.meaning, signs=[sign], types=types)
 
 
-@rule(when=answering("ForgetThat"))
-def forget_no_such(s: Record) -> Record:
+@rule(answers="ForgetThat")
+def forget_no_such(s: Record, *, types: DialogueTypes) -> Record:
     """Nothing was taught about the thing that is talked of."""
-    return plan(s, "ForgetNothing")
+    return plan(s, "ForgetNothing", types=types)
 
 
-@rule(when=answering("ForgetLast"))
-def forget_earlier(s: Record) -> Record:
+@rule(answers="ForgetLast")
+def forget_earlier(s: Record, *, types: DialogueTypes) -> Record:
     """Nothing is left of this dialogue: the latest of all lessons is unlearned."""
-    return plan(s, "ForgotLast", undoes=["latest"])
+    return plan(s, "ForgotLast", undoes=["latest"], types=types)
 
 
-def _forgotten(s: Record, *lessons: Record) -> Record:
+def _forgotten(s: Record, *lessons: Record, types: DialogueTypes) -> Record:
     """The plan to unlearn lessons that say the same."""
     lesson = lessons[-1]
     acts = FORGOT_NOT if is_denial(lesson.content) else FORGOT
@@ -98,6 +105,7 @@ def _forgotten(s: Record, *lessons: Record) -> Record:
         lesson.content,
         signs=[lesson.sign],
         forgets=[it.key for it in lessons],
+        types=types,
     )
 
 

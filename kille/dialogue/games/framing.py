@@ -15,17 +15,16 @@ from collections.abc import Iterator, Sequence
 from kille.dialogue.beliefs import relations_of
 from kille.dialogue.commitments import act_of, affirmed, signs_for
 from kille.dialogue.games.placing import asked_for, landmark_for
-from kille.dialogue.games.referring import UNANSWERED, about, unanswered
+from kille.dialogue.games.referring import about
 from kille.dialogue.meanings import (
-    named,
+    DialogueTypes,
+    any_of,
     predicate_at,
     set_at,
     set_to,
-    spoken,
-    theory,
     value_at,
 )
-from kille.dialogue.moves import answering, content_of, issue, plan, used
+from kille.dialogue.moves import content_of, issue, plan, used
 from kille.dialogue.reference import (
     LANDMARK,
     OPEN,
@@ -42,9 +41,10 @@ from kille.dialogue.reference import (
     thing_at,
     things_in,
 )
+from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, RecType, rectype, replace
-from ttr.updates import first, rule
+from ttr.updates import first
 
 Update = tuple[Record, Model]
 
@@ -54,64 +54,58 @@ ASKED = "AskFrame"
 FRAMES = (VIEWER, LANDMARK)
 """The perspectives that the robot asks to choose from."""
 
-LESSONS = named("Relate") | named("Correct") | named("Reject")
+LESSONS = ("Relate", "Correct", "Reject")
 """Moves by which a relation may be learned."""
 
-OTHER_GAMES = named("Instruct") | named("Describe") | named("AskName") | named("Leave")
+OTHER_GAMES = ("Instruct", "Describe", "AskName", "Leave")
 """Moves that begin another game, in which no place is talked about."""
 
-CHECKED = (
-    named("SayYes")
-    | named("SayNo")
-    | named("SayRather")
-    | named("SayProbably")
-    | named("AdmitWhether")
-)
+CHECKED = ("SayYes", "SayNo", "SayRather", "SayProbably", "AdmitWhether")
 """Answers to whether things stand so."""
 
 # --- settling on a perspective -------------------------------------------------------
 
 
-@rule(when=answering("TakeFrame"))
-def ask_front(s: Record, *, model: Model) -> Record | None:
+@rule(answers="TakeFrame")
+def ask_front(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor takes the perspective of a thing, and how it faces was never said."""
     content = content_of(s)
-    if _frame_in(content) != LANDMARK or _has_front(s, model, content):
+    if _frame_in(content) != LANDMARK or _has_front(s, model, content, types=types):
         return None
-    return plan(s, "AskFront", content, signs=s.shared.latest.signs)
+    return plan(s, "AskFront", content, signs=s.shared.latest.signs, types=types)
 
 
-@rule(when=answering("TakeFrame"))
-def settle_frame(s: Record) -> Record | None:
+@rule(answers="TakeFrame")
+def settle_frame(s: Record, *, types: DialogueTypes) -> Record | None:
     """Asked whose perspective is meant, the tutor says whose."""
     if not s.shared.qud or s.shared.qud[0].ask != ASKED:
         return None
     frame = _frame_in(content_of(s))
     option = s.shared.qud[0].options[FRAMES.index(frame)]
     changes = {"shared.qud": s.shared.qud[1:], "shared.latest": option}
-    return about(replace(_in(s, frame), changes), option.content)
+    return about(replace(_in(s, frame), changes), option.content, types=types)
 
 
-@rule(when=answering("TakeFrame"))
-def answer_anew(s: Record, *, model: Model) -> Update | None:
+@rule(answers="TakeFrame")
+def answer_anew(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """The tutor corrects the perspective of an answer: the question is asked again."""
     settled = _in(s, _frame_in(content_of(s)))
-    asked = _asked_last(settled)
+    asked = _asked_last(settled, types=types)
     if asked is None:
         return None
     act, content = asked
     question = set_to(
-        spoken("Heard", act),
-        text=theory()["Text"] @ s.shared.latest.text,
-        signs=named("Heard")["signs"] @ tuple(used(words(s), content)),
-        content=RecType @ in_view(settled, content),
+        types.move_type("Heard", act),
+        text=types["Text"] @ s.shared.latest.text,
+        signs=types.record_type("Heard")["signs"] @ tuple(used(words(s), content)),
+        content=RecType @ in_view(settled, content, types=types),
     )
     move, model = model.create(question)
     return replace(settled, {"shared.latest": move, "shared.pending": ()}), model
 
 
-@rule(when=answering("TakeFrame"))
-def learn_anew(s: Record) -> Record | None:
+@rule(answers="TakeFrame")
+def learn_anew(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor corrects the perspective of a lesson: it is learned in the other."""
     lesson = next(iter(s.private.lessons[-1:]), None)
     if lesson is None or "rel" not in lesson.content or not _just_learned(s, lesson):
@@ -130,16 +124,17 @@ def learn_anew(s: Record) -> Record | None:
         signs=signs,
         teaches=teaches,
         forgets=forgets,
+        types=types,
     )
 
 
-@rule(when=answering("TakeFrame"))
-def note_frame(s: Record) -> Record:
+@rule(answers="TakeFrame")
+def note_frame(s: Record, *, types: DialogueTypes) -> Record:
     """The tutor says in whose perspective places will be talked about."""
-    return plan(_in(s, _frame_in(content_of(s))), "Noted")
+    return plan(_in(s, _frame_in(content_of(s))), "Noted", types=types)
 
 
-@rule(when=unanswered(OTHER_GAMES))
+@rule(answers=OTHER_GAMES)
 def leave_places(s: Record) -> Record | None:
     """Another game begins: nothing is settled any more about perspectives."""
     if s.shared.frame == OPEN or next(_placing(content_of(s)), None) is not None:
@@ -147,25 +142,27 @@ def leave_places(s: Record) -> Record | None:
     return _in(s, OPEN)
 
 
-@rule(when=UNANSWERED)
-def ask_frame_of_phrase(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Heard")
+def ask_frame_of_phrase(
+    s: Record, *, model: Model, types: DialogueTypes
+) -> Record | None:
     """A phrase means one thing to the viewer, and another as the landmark has it."""
     label = next(_placing(content_of(s)), None)
     if s.shared.frame != OPEN or not s.shared.turned or label is None:
         return None
-    meant = [_meant(_in(s, frame), model) for frame in FRAMES]
+    meant = [_meant(_in(s, frame), model, types=types) for frame in FRAMES]
     if meant[0] == meant[1]:
         return None
     landmark = phrase_at(phrase_at(content_of(s), label), "landmark")
     options = [replace(s.shared.latest, content=content) for content in meant]
-    return _asking(s, landmark, options)
+    return _asking(s, landmark, options, types=types)
 
 
 # --- asking for it -------------------------------------------------------------------
 
 
-@rule(when=answering("Orient"))
-def learn_front(s: Record) -> Record | None:
+@rule(answers="Orient")
+def learn_front(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says which way a thing faces."""
     content = content_of(s)
     x = thing_at(content, "target")
@@ -173,28 +170,32 @@ def learn_front(s: Record) -> Record | None:
         return None
     others = (it for it in s.shared.turned if it.x != x)
     turned = (*others, {"x": x, "front": value_at(content, "front")})
-    return plan(replace(s, {"shared.turned": turned}), "Noted")
+    return plan(replace(s, {"shared.turned": turned}), "Noted", types=types)
 
 
-@rule(when=unanswered(LESSONS))
-def ask_frame_of_lesson(s: Record) -> Record | None:
+@rule(answers=LESSONS)
+def ask_frame_of_lesson(s: Record, *, types: DialogueTypes) -> Record | None:
     """What is said of a place can be learned in one perspective or in the other."""
     landmark = _open_landmark(s)
-    return _asking_of_claim(s, landmark) if landmark else None
+    return _asking_of_claim(s, landmark, types=types) if landmark else None
 
 
-@rule(when=answering("AskWhether"))
-def ask_frame_of_question(s: Record, *, model: Model) -> Record | None:
+@rule(answers="AskWhether")
+def ask_frame_of_question(
+    s: Record, *, model: Model, types: DialogueTypes
+) -> Record | None:
     """Things stand so in one perspective, and not in the other."""
     landmark = _open_landmark(s)
     if landmark is None:
         return None
-    seen = [_verdict(_in(s, frame), model, landmark) for frame in FRAMES]
-    return _asking_of_claim(s, landmark) if seen[0] != seen[1] else None
+    seen = [_verdict(_in(s, frame), model, landmark, types=types) for frame in FRAMES]
+    return _asking_of_claim(s, landmark, types=types) if seen[0] != seen[1] else None
 
 
-@rule(when=answering("AskPlace"))
-def ask_frame_of_place(s: Record, *, model: Model) -> Update | None:
+@rule(answers="AskPlace")
+def ask_frame_of_place(
+    s: Record, *, model: Model, types: DialogueTypes
+) -> Update | None:
     """Where a thing is would be said in other words as the landmark has it."""
     x = thing_at(content_of(s), "target")
     if s.shared.frame != OPEN or not s.shared.turned or x not in s.view.placed:
@@ -212,19 +213,21 @@ def ask_frame_of_place(s: Record, *, model: Model) -> Update | None:
     return _asking(
         s,
         landmark.sign.meaning,
-        [_seen_from(s, it) for it in _fronts(s, landmark.sit.x)],
+        [_seen_from(s, it, types=types) for it in _fronts(s, landmark.sit.x)],
+        types=types,
     ), model
 
 
-def _asked_last(s: Record) -> tuple[str, RecordType] | None:
+def _asked_last(s: Record, *, types: DialogueTypes) -> tuple[str, RecordType] | None:
     """The question of places that the robot has answered last, and what it is about.
 
     It was whether things stand so, or else where the thing is of which it has claimed
     that. There is none of what is no longer in view.
     """
-    checked = next((it for it in s.private.last[-1:] if it <= CHECKED), None)
+    answers = types.derive(any_of, CHECKED)
+    checked = next((it for it in s.private.last[-1:] if it <= answers), None)
     if checked is not None:
-        rather = checked <= named("SayRather")
+        rather = checked <= types.record_type("SayRather")
         about = value_at(checked, "rival" if rather else "content")
         assert isinstance(about, RecordType)
         act, content = "AskWhether", affirmed(about)
@@ -235,8 +238,10 @@ def _asked_last(s: Record) -> tuple[str, RecordType] | None:
     if "rel" not in content or not set(things_in(content)) <= set(s.view.things):
         return None
     if act == "AskWhether":
-        return act, set_to(content, frame=theory()["Front"])
-    return act, set_at(named("Asked"), "target.x", str(thing_at(content, "target")))
+        return act, set_to(content, frame=types["Front"])
+    return act, set_at(
+        types.record_type("Asked"), "target.x", str(thing_at(content, "target"))
+    )
 
 
 def _just_learned(s: Record, lesson: Record) -> bool:
@@ -254,12 +259,14 @@ def _frame_in(content: RecordType) -> str:
     return str(value_at(content, "by"))
 
 
-def _has_front(s: Record, model: Model, content: RecordType) -> bool:
+def _has_front(
+    s: Record, model: Model, content: RecordType, *, types: DialogueTypes
+) -> bool:
     """Whether a thing that the tutor may mean is known to face some way."""
     turned = [str(it.x) for it in s.shared.turned]
     if "landmark" not in content:
         return bool(turned)
-    fits = Judging(s, model).fits(phrase_at(content, "landmark"))
+    fits = Judging(s, model, types=types).fits(phrase_at(content, "landmark"))
     return any(x in turned for x in fits_well(s, fits))
 
 
@@ -270,10 +277,10 @@ def _placing(content: RecordType) -> Iterator[str]:
             yield label
 
 
-def _meant(s: Record, model: Model) -> RecordType:
+def _meant(s: Record, model: Model, *, types: DialogueTypes) -> RecordType:
     """What the latest move is about if its phrases are resolved, or else as it is."""
     content = content_of(s)
-    readings = denoted(s, contents(s, model, content))
+    readings = denoted(s, contents(s, model, content, types=types), types=types)
     return readings[0].content if len(readings) == 1 else content
 
 
@@ -286,20 +293,22 @@ def _open_landmark(s: Record) -> str | None:
     return landmark if facing(s, landmark) is not None else None
 
 
-def _verdict(s: Record, model: Model, landmark: str) -> tuple[bool, bool]:
+def _verdict(
+    s: Record, model: Model, landmark: str, *, types: DialogueTypes
+) -> tuple[bool, bool]:
     """Whether things surely stand as is asked, and whether they are likely to."""
     content, bands = content_of(s), s.private.strategy.bands
     target, look = thing_at(content, "target"), s.view.look
     word, front = predicate_at(content, "rel"), front_of(s, landmark)
-    p = Judging(s, model).degree(word, target, landmark, look, front)
+    p = Judging(s, model, types=types).degree(word, target, landmark, look, front)
     return bool(p >= bands.sure), bool(p >= bands.likely)
 
 
-def _asking_of_claim(s: Record, landmark: str) -> Record:
+def _asking_of_claim(s: Record, landmark: str, *, types: DialogueTypes) -> Record:
     """The plan to ask in whose perspective a claim of the tutor's is meant."""
     content = content_of(s)
-    options = [_seen_from(s, front) for front in _fronts(s, landmark)]
-    return _asking(s, phrase_at(content, "landmark"), options)
+    options = [_seen_from(s, front, types=types) for front in _fronts(s, landmark)]
+    return _asking(s, phrase_at(content, "landmark"), options, types=types)
 
 
 def _fronts(s: Record, landmark: str) -> list[str]:
@@ -307,18 +316,20 @@ def _fronts(s: Record, landmark: str) -> list[str]:
     return [front_of(_in(s, frame), landmark) for frame in FRAMES]
 
 
-def _seen_from(s: Record, front: str) -> Record:
+def _seen_from(s: Record, front: str, *, types: DialogueTypes) -> Record:
     """The latest move, made specific: this is forward."""
-    content = set_to(content_of(s), frame=theory()["Front"] @ front)
+    content = set_to(content_of(s), frame=types["Front"] @ front)
     return replace(s.shared.latest, content=content)
 
 
-def _asking(s: Record, landmark: RecordType, options: Sequence[Record]) -> Record:
+def _asking(
+    s: Record, landmark: RecordType, options: Sequence[Record], *, types: DialogueTypes
+) -> Record:
     """The plan to ask whose perspective is meant; what was claimed stays pending."""
-    asked = rectype(look=theory()["Look"], landmark=landmark)
+    asked = rectype(look=types["Look"], landmark=landmark)
     signs = used([*words(s), *s.shared.latest.signs], asked)
     asks, pending = [issue(ASKED, options)], s.shared.pending
-    return plan(s, ASKED, asked, signs=signs, asks=asks, pending=pending)
+    return plan(s, ASKED, asked, signs=signs, asks=asks, pending=pending, types=types)
 
 
 SETTLING = first(ask_front, settle_frame)

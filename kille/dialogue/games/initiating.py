@@ -13,13 +13,13 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from kille.dialogue.beliefs import believed, doubt, is_sure, knows, lead, thinks
-from kille.dialogue.meanings import claims, named, set_at, set_to
+from kille.dialogue.meanings import DialogueTypes, claims, set_at, set_to
 from kille.dialogue.moves import numbered, plan, said_of, standing
 from kille.dialogue.reference import thing_at
-from kille.dialogue.state import STATE
+from kille.dialogue.rules import rule
 from kille.dialogue.strategies import Option, Stake, best
 from ttr import Model, Record, record, replace
-from ttr.updates import first, rule
+from ttr.updates import first
 
 
 class Initiative(NamedTuple):
@@ -30,14 +30,16 @@ class Initiative(NamedTuple):
     planned: Record
 
 
-@rule(when=STATE, on=named("Seen"))
-def learn_alone(s: Record, seen: Record, *, model: Model) -> Record | None:
+@rule(when="State", on="Seen")
+def learn_alone(
+    s: Record, seen: Record, *, model: Model, types: DialogueTypes
+) -> Record | None:
     """It is so sure what a thing is that it learns this look of it by itself."""
     wants = s.private.strategy.wants.learning
-    return _chosen(s, _lessons(s, model, Stake(wants.right, wants.wrong)))
+    return _chosen(s, _lessons(s, model, Stake(wants.right, wants.wrong), types=types))
 
 
-@rule(when=STATE, on=named("Seen"))
+@rule(when="State", on="Seen")
 def stay(s: Record, seen: Record) -> Record | None:
     """All is as it was at the last look, and the tutor leaves the floor to it."""
     view = seen.view
@@ -45,16 +47,27 @@ def stay(s: Record, seen: Record) -> Record | None:
     return s if is_same and set(view.things) <= set(seen.kept) else None
 
 
-@rule(when=STATE, on=named("Seen"))
-def ask_relation(s: Record, seen: Record, *, model: Model) -> Record | None:
+@rule(when="State", on="Seen")
+def ask_relation(
+    s: Record, seen: Record, *, model: Model, types: DialogueTypes
+) -> Record | None:
     """Two things it knows are in view, and how they stand it cannot say: it asks."""
-    return _chosen(s, _relations(s, model))
+    return _chosen(s, _relations(s, model, types=types))
 
 
-@rule(when=STATE, on=named("Seen"))
-def ask(s: Record, seen: Record, *, model: Model) -> Record | None:
+@rule(when="State", on="Seen")
+def ask(
+    s: Record, seen: Record, *, model: Model, types: DialogueTypes
+) -> Record | None:
     """It asks for what it would like to know most."""
-    return _chosen(s, [*_relations(s, model), *_things(s, model), *_examples(s)])
+    return _chosen(
+        s,
+        [
+            *_relations(s, model, types=types),
+            *_things(s, model, types=types),
+            *_examples(s, types=types),
+        ],
+    )
 
 
 def _chosen(s: Record, initiatives: Iterable[Initiative]) -> Record | None:
@@ -79,7 +92,9 @@ def _question(act: str, *about: str, things: tuple[str, ...] = ()) -> Record:
     return record(act=act, about=about, things=things)
 
 
-def _relations(s: Record, model: Model) -> Iterator[Initiative]:
+def _relations(
+    s: Record, model: Model, *, types: DialogueTypes
+) -> Iterator[Initiative]:
     """How two things stand that it knows, if it cannot say it."""
     known = _known_pair(s, model)
     if known is None or not _is_worth(s, "relation"):
@@ -90,11 +105,11 @@ def _relations(s: Record, model: Model) -> Iterator[Initiative]:
     if is_sure(s, stand):
         return
     signs = [target.sign, landmark.sign]
-    content = standing(s, x, target.sign, y, landmark.sign)
+    content = standing(s, x, target.sign, y, landmark.sign, types=types)
     yield Initiative(
         _asking(s, "relation", doubt(stand)),
         _question("AskRelation", *sorted(it.form for it in signs)),
-        plan(s, "AskRelation", content, signs=signs),
+        plan(s, "AskRelation", content, signs=signs, types=types),
     )
 
 
@@ -111,7 +126,7 @@ def _known_pair(s: Record, model: Model) -> tuple[Record, Record] | None:
     return None
 
 
-def _things(s: Record, model: Model) -> Iterator[Initiative]:
+def _things(s: Record, model: Model, *, types: DialogueTypes) -> Iterator[Initiative]:
     """What a thing is that it does not know: the one in focus, and then the others."""
     if not _is_worth(s, "thing"):
         return
@@ -119,9 +134,13 @@ def _things(s: Record, model: Model) -> Iterator[Initiative]:
         beliefs = believed(s, model, s.private.nouns, x)
         if thinks(s, beliefs) or _is_told(s, x):
             continue
-        content = set_at(set_at(named("Asked"), "look", s.view.look), "target.x", x)
-        number = numbered(s, x) if len(s.view.things) > 1 else {}
-        planned = plan(s, "AskThing", set_to(content, **number), points=[x])
+        content = set_at(
+            set_at(types.record_type("Asked"), "look", s.view.look), "target.x", x
+        )
+        number = numbered(s, x, types=types) if len(s.view.things) > 1 else {}
+        planned = plan(
+            s, "AskThing", set_to(content, **number), points=[x], types=types
+        )
         salient = (x, *(it for it in s.shared.salient if it != x))
         yield Initiative(
             _asking(s, "thing", doubt(beliefs)),
@@ -131,7 +150,7 @@ def _things(s: Record, model: Model) -> Iterator[Initiative]:
         return
 
 
-def _examples(s: Record) -> Iterator[Initiative]:
+def _examples(s: Record, *, types: DialogueTypes) -> Iterator[Initiative]:
     """Another example of a word that it has failed at."""
     if not _is_worth(s, "example"):
         return
@@ -143,11 +162,13 @@ def _examples(s: Record) -> Iterator[Initiative]:
         yield Initiative(
             _asking(s, "example", failed / (taught + failed)),
             _question("AskExample", sign.form, str(failed)),
-            plan(s, "AskExample", sign.meaning, signs=[sign]),
+            plan(s, "AskExample", sign.meaning, signs=[sign], types=types),
         )
 
 
-def _lessons(s: Record, model: Model, stake: Stake) -> Iterator[Initiative]:
+def _lessons(
+    s: Record, model: Model, stake: Stake, *, types: DialogueTypes
+) -> Iterator[Initiative]:
     """What things are, which it is sure of and has not been told."""
     if stake.right <= 0.0:
         return
@@ -155,11 +176,13 @@ def _lessons(s: Record, model: Model, stake: Stake) -> Iterator[Initiative]:
         beliefs = believed(s, model, s.private.nouns, x)
         if not is_sure(s, beliefs) or _is_told(s, x):
             continue
-        content, sign = said_of(s, beliefs[0].sign, x), beliefs[0].sign
+        content, sign = said_of(s, beliefs[0].sign, x, types=types), beliefs[0].sign
         yield Initiative(
             Option(x, lead(beliefs), stake),
             _question("LearnedAlone", things=(x,)),
-            plan(s, "LearnedAlone", content, signs=[sign], teaches=[content]),
+            plan(
+                s, "LearnedAlone", content, signs=[sign], teaches=[content], types=types
+            ),
         )
 
 

@@ -6,43 +6,51 @@ Source: Dobnik and de Graaf 2017, section 3.
 from __future__ import annotations
 
 from kille.dialogue.commitments import undone
-from kille.dialogue.moves import answering, content_of, plan
+from kille.dialogue.meanings import DialogueTypes
+from kille.dialogue.moves import content_of, plan
 from kille.dialogue.reference import PARTS, thing_at
+from kille.dialogue.rules import rule
 from ttr import Record
-from ttr.updates import first, rule
+from ttr.updates import first
 
 
-@rule(when=answering("Instruct"))
-def learn_word(s: Record) -> Record:
+@rule(answers="Instruct")
+def learn_word(s: Record, *, types: DialogueTypes) -> Record:
     """The tutor names a thing in view: learn the word from this very look."""
-    return _taught(s, "Learned")
+    return _taught(s, "Learned", types=types)
 
 
-@rule(when=answering("Describe"))
-def learn_quality(s: Record) -> Record:
+@rule(answers="Describe")
+def learn_quality(s: Record, *, types: DialogueTypes) -> Record:
     """The tutor says how a thing in view is: learn the word from this very look."""
-    return _taught(s, "LearnedQuality")
+    return _taught(s, "LearnedQuality", types=types)
 
 
-@rule(when=answering("Relate"))
-def learn_relation(s: Record) -> Record | None:
+@rule(answers="Relate")
+def learn_relation(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor says how two things in view stand: learn the relation from them."""
     content = content_of(s)
     things = [thing_at(content, label) for label in PARTS]
-    return _taught(s, "LearnedRelation") if set(things) <= set(s.view.placed) else None
+    return (
+        _taught(s, "LearnedRelation", types=types)
+        if set(things) <= set(s.view.placed)
+        else None
+    )
 
 
-@rule(when=answering("Relate"))
-def need_places(s: Record) -> Record:
+@rule(answers="Relate")
+def need_places(s: Record, *, types: DialogueTypes) -> Record:
     """The things are in view, but not where they are."""
-    return plan(s, "NeedDepth")
+    return plan(s, "NeedDepth", types=types)
 
 
-def _taught(s: Record, act: str) -> Record:
+def _taught(s: Record, act: str, *, types: DialogueTypes) -> Record:
     content = content_of(s)
     signs = s.shared.latest.signs
-    forgets = undone(s, content)
-    return plan(s, act, content, signs=signs, teaches=[content], forgets=forgets)
+    forgets = undone(s, content, types=types)
+    return plan(
+        s, act, content, signs=signs, teaches=[content], forgets=forgets, types=types
+    )
 
 
 INSTRUCTING = first(learn_word, learn_quality, learn_relation, need_places)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from kille.dialogue.meanings import word_of
-from kille.dialogue.moves import answering, plan
+from kille.dialogue.meanings import DialogueTypes, word_of
+from kille.dialogue.moves import plan
+from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Record
-from ttr.updates import first, rule
+from ttr.updates import first
 
 TOLD = {
     "nouns": "TellNouns",
@@ -19,26 +20,28 @@ MEANT = {"noun": "MeanNoun", "adjective": "MeanAdjective", "relation": "MeanRela
 """What it says of what one word means, by the word's kind."""
 
 
-@rule(when=answering("AskKnowledge"))
-def tell_words(s: Record) -> Record | None:
+@rule(answers="AskKnowledge")
+def tell_words(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks what it knows: it lists its words, kind by kind."""
     state = s
     for kind, act in TOLD.items():
         known = s.private[kind]
         if known:
             claims = s.shared.pending
-            state = plan(state, act, signs=known, recalls=known, pending=claims)
+            state = plan(
+                state, act, signs=known, recalls=known, pending=claims, types=types
+            )
     return None if state is s else state
 
 
-@rule(when=answering("AskKnowledge"))
-def know_nothing(s: Record) -> Record:
+@rule(answers="AskKnowledge")
+def know_nothing(s: Record, *, types: DialogueTypes) -> Record:
     """It has learned no word yet."""
-    return plan(s, "KnowNothing")
+    return plan(s, "KnowNothing", types=types)
 
 
-@rule(when=answering("AskMeaning"))
-def tell_meaning(s: Record) -> Record | None:
+@rule(answers="AskMeaning")
+def tell_meaning(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks what a word means: it says the type, and how it learned it."""
     known = {word_of(sign): sign for sign in words(s)}
     for said in s.shared.latest.signs:
@@ -46,16 +49,26 @@ def tell_meaning(s: Record) -> Record | None:
         if sign is not None:
             act, claims = MEANT[sign.kind], s.shared.pending
             meaning = sign.meaning
-            return plan(s, act, meaning, signs=[sign], recalls=[sign], pending=claims)
+            return plan(
+                s,
+                act,
+                meaning,
+                signs=[sign],
+                recalls=[sign],
+                pending=claims,
+                types=types,
+            )
     return None
 
 
-@rule(when=answering("AskMeaning"))
-def miss_meaning(s: Record) -> Record:
+@rule(answers="AskMeaning")
+def miss_meaning(s: Record, *, types: DialogueTypes) -> Record:
     """The word was never learned."""
     sign = s.shared.latest.signs[0]
     act = f"Unknown{sign.kind.capitalize()}"
-    return plan(s, act, sign.meaning, signs=[sign], pending=s.shared.pending)
+    return plan(
+        s, act, sign.meaning, signs=[sign], pending=s.shared.pending, types=types
+    )
 
 
 KNOWING = first(tell_words, know_nothing, tell_meaning, miss_meaning)

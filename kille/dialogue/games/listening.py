@@ -14,23 +14,30 @@ from kille.dialogue.beliefs import knows
 from kille.dialogue.commitments import remaining, said_here
 from kille.dialogue.games.costing import ASKED, CORRECTED
 from kille.dialogue.games.mishearing import MISHEARING
-from kille.dialogue.meanings import claims, is_denial, named, set_to, word_of
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    claims,
+    is_denial,
+    set_to,
+    word_of,
+)
 from kille.dialogue.reference import things_in
-from kille.dialogue.state import STATE, words
+from kille.dialogue.rules import rule
+from kille.dialogue.state import words
 from kille.dialogue.weighing import FAINTLY, weighed
 from ttr import Model, Pred, Record, RecordType, replace
-from ttr.updates import NBest, first, maybe, rule, seq
+from ttr.updates import NBest, first, maybe, seq
 
 # --- seeing --------------------------------------------------------------------------
 
 
-@rule(when=STATE, on=named("Seen"))
+@rule(when="State", on="Seen")
 def see(s: Record, seen: Record) -> Record:
     """What is in view is what the latest look shows, and the robot has the floor."""
     return _looked(s, seen)
 
 
-@rule(when=STATE, on=named("Glance"))
+@rule(when="State", on="Glance")
 def glance(s: Record, seen: Record) -> Record:
     """What is in view is what the latest look shows, while the tutor has the floor."""
     return _looked(s, seen)
@@ -72,11 +79,13 @@ def _first(ahead: Iterable[str], rest: Iterable[str]) -> tuple[str, ...]:
 # --- hearing -------------------------------------------------------------------------
 
 
-@rule(when=STATE, on=named("Heard"), p=FAINTLY)
-def hear(s: Record, said: Record, *, nbest: object, model: Model) -> Record:
+@rule(when="State", on="Heard", p=FAINTLY)
+def hear(
+    s: Record, said: Record, *, nbest: object, model: Model, types: DialogueTypes
+) -> Record:
     """What the tutor says is the latest move: the likeliest of what it may be."""
     if isinstance(nbest, NBest):
-        said = weighed(s, model, nbest)[0].said
+        said = weighed(s, model, nbest, types=types)[0].said
     cost = s.private.cost
     changes = {
         "private.agenda": (),
@@ -91,30 +100,35 @@ def hear(s: Record, said: Record, *, nbest: object, model: Model) -> Record:
 # --- saying --------------------------------------------------------------------------
 
 
-@rule(when=STATE, on=named("Said"))
-def say(s: Record, said: Record) -> Record:
+@rule(when="State", on="Said")
+def say(s: Record, said: Record, *, types: DialogueTypes) -> Record:
     """What the robot has said is the latest move, and off its agenda."""
     agenda, last = s.private.agenda, s.private.last
     changes = {
         "private.agenda": agenda[1:],
-        "private.last": last if agenda[0] in last else _made(agenda, said),
+        "private.last": last if agenda[0] in last else _made(agenda, said, types=types),
         "shared.latest": said,
-        "shared.here": said_here(s, said),
+        "shared.here": said_here(s, said, types=types),
         "shared.topic": things_in(said.content) or s.shared.topic,
     }
     return replace(s, changes)
 
 
-def _made(agenda: Sequence[RecordType], said: Record) -> Sequence[RecordType]:
+def _made(
+    agenda: Sequence[RecordType], said: Record, *, types: DialogueTypes
+) -> Sequence[RecordType]:
     """The planned moves, as they can be said again: what was undone stays the same."""
     planned, *others = agenda
     if not said.undoes:
         return agenda
-    none, undone = named("Said")["undoes"] @ (), named("Said")["undone"] @ said.undone
+    none, undone = (
+        types.record_type("Said")["undoes"] @ (),
+        types.record_type("Said")["undone"] @ said.undone,
+    )
     return (set_to(planned, undoes=none, undone=undone), *others)
 
 
-@rule(when=STATE, on=named("Said"))
+@rule(when="State", on="Said")
 def keep(s: Record, said: Record) -> Record | None:
     """What was learned is known and agreed on; what was unlearned is neither."""
     undone = said.undone if said.undoes else ()

@@ -8,45 +8,51 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from kille.dialogue.meanings import named
-from kille.dialogue.moves import answering, issue, plan
-from kille.dialogue.state import STATE
+from kille.dialogue.meanings import DialogueTypes
+from kille.dialogue.moves import issue, plan
+from kille.dialogue.rules import rule
 from kille.dialogue.weighing import FAINTLY, Weighed, weighed
 from ttr import Model, Record, replace
-from ttr.updates import NBest, first, rule
+from ttr.updates import NBest, first
 
 
-@rule(when=STATE, on=named("Heard"), p=FAINTLY)
-def ask_heard(s: Record, said: Record, *, nbest: object, model: Model) -> Record | None:
+@rule(when="State", on="Heard", p=FAINTLY)
+def ask_heard(
+    s: Record, said: Record, *, nbest: object, model: Model, types: DialogueTypes
+) -> Record | None:
     """Two things may have been said, or it hardly was the one: it asks which."""
     if not isinstance(nbest, NBest):
         return None
-    hearing, heard = s.private.strategy.hearing, weighed(s, model, nbest)
+    hearing, heard = s.private.strategy.hearing, weighed(s, model, nbest, types=types)
     if _is_clear(s, heard) or heard[0].p < hearing.floor:
         return None
     near = [it.said for it in heard[:2] if heard[0].p - it.p < hearing.ahead]
     act = "AskHeard" if len(near) == 2 else "AskHeardOne"
     signs = tuple(dict.fromkeys(sign for it in near for sign in it.signs))
     contents = [it.content for it in near]
-    return plan(s, act, *contents, signs=signs, asks=[issue("AskHeard", near)])
+    return plan(
+        s, act, *contents, signs=signs, asks=[issue("AskHeard", near)], types=types
+    )
 
 
-@rule(when=STATE, on=named("Heard"), p=FAINTLY)
+@rule(when="State", on="Heard", p=FAINTLY)
 def beg_pardon(
-    s: Record, said: Record, *, nbest: object, model: Model
+    s: Record, said: Record, *, nbest: object, model: Model, types: DialogueTypes
 ) -> Record | None:
     """Nothing that may have been said is likely enough: it asks to hear it again."""
-    if not isinstance(nbest, NBest) or _is_clear(s, weighed(s, model, nbest)):
+    if not isinstance(nbest, NBest) or _is_clear(
+        s, weighed(s, model, nbest, types=types)
+    ):
         return None
-    return plan(s, "Pardon")
+    return plan(s, "Pardon", types=types)
 
 
-@rule(when=answering("Deny"))
-def take_back_heard(s: Record) -> Record | None:
+@rule(answers="Deny")
+def take_back_heard(s: Record, *, types: DialogueTypes) -> Record | None:
     """It was none of these: the question is dropped, and it asks to hear it again."""
     if not s.shared.qud or s.shared.qud[0].ask != "AskHeard":
         return None
-    return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "Pardon")
+    return plan(replace(s, {"shared.qud": s.shared.qud[1:]}), "Pardon", types=types)
 
 
 def _is_clear(s: Record, heard: Sequence[Weighed]) -> bool:

@@ -6,13 +6,15 @@ Source: Dobnik and de Graaf 2017, section 3.
 from __future__ import annotations
 
 from kille.dialogue.beliefs import believed, certainty
-from kille.dialogue.moves import answering, content_of, plan, said_of
+from kille.dialogue.meanings import DialogueTypes
+from kille.dialogue.moves import content_of, plan, said_of
 from kille.dialogue.reference import thing_at
+from kille.dialogue.rules import rule
 from ttr import Model, Record, RecordType, replace
-from ttr.updates import first, maybe, rule, seq
+from ttr.updates import first, maybe, seq
 
 
-@rule(when=answering("AskName"))
+@rule(answers="AskName")
 def recognise(s: Record, *, model: Model) -> Record | None:
     """The tutor asks what a thing is: judge every noun of it."""
     x = thing_at(content_of(s), "target")
@@ -22,52 +24,57 @@ def recognise(s: Record, *, model: Model) -> Record | None:
     return replace(s, {"private.beliefs": beliefs})
 
 
-@rule(when=answering("AskName"))
-def assert_name(s: Record) -> Record | None:
+@rule(answers="AskName")
+def assert_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """It is sure, and no rival is near: it says what this is."""
-    return _said(s, "Assert")
+    return _said(s, "Assert", types=types)
 
 
-@rule(when=answering("AskName"))
-def hedge_name(s: Record) -> Record | None:
+@rule(answers="AskName")
+def hedge_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """It has an opinion, but also a rival to it: it names both."""
     if certainty(s, s.private.beliefs) != "Hedge":
         return None
-    (content, sign), (rival, other) = _named(s, 0), _named(s, 1)
+    (content, sign), (rival, other) = (
+        _named(s, 0, types=types),
+        _named(s, 1, types=types),
+    )
     claims = [content, rival]
-    return plan(s, "HedgeName", content, rival, signs=[sign, other], pending=claims)
+    return plan(
+        s, "HedgeName", content, rival, signs=[sign, other], pending=claims, types=types
+    )
 
 
-@rule(when=answering("AskName"))
-def guess_name(s: Record) -> Record | None:
+@rule(answers="AskName")
+def guess_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """It thinks so, is not sure of it, and has no rival to it."""
-    return _said(s, "Guess")
+    return _said(s, "Guess", types=types)
 
 
-@rule(when=answering("AskName"))
-def doubt_name(s: Record) -> Record | None:
+@rule(answers="AskName")
+def doubt_name(s: Record, *, types: DialogueTypes) -> Record | None:
     """It has an opinion, and hardly more than that."""
-    return _said(s, "Doubt")
+    return _said(s, "Doubt", types=types)
 
 
-@rule(when=answering("AskName"))
-def admit_name(s: Record) -> Record:
+@rule(answers="AskName")
+def admit_name(s: Record, *, types: DialogueTypes) -> Record:
     """It does not know what this is, and asks."""
-    return plan(s, "AdmitName")
+    return plan(s, "AdmitName", types=types)
 
 
-def _said(s: Record, how: str) -> Record | None:
+def _said(s: Record, how: str, *, types: DialogueTypes) -> Record | None:
     """The plan to say its first belief in this way, if it is that certain."""
     if certainty(s, s.private.beliefs) != how:
         return None
-    content, sign = _named(s, 0)
-    return plan(s, f"{how}Name", content, signs=[sign], pending=[content])
+    content, sign = _named(s, 0, types=types)
+    return plan(s, f"{how}Name", content, signs=[sign], pending=[content], types=types)
 
 
-def _named(s: Record, rank: int) -> tuple[RecordType, Record]:
+def _named(s: Record, rank: int, *, types: DialogueTypes) -> tuple[RecordType, Record]:
     """What it says of the thing by its belief of this rank, and the sign it uses."""
     belief = s.private.beliefs[rank]
-    return said_of(s, belief.sign, belief.sit.x), belief.sign
+    return said_of(s, belief.sign, belief.sit.x, types=types), belief.sign
 
 
 NAMING = seq(

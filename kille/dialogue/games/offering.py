@@ -8,46 +8,48 @@ said, and so a new word is learned. Anything else drops the question.
 from __future__ import annotations
 
 from kille.dialogue.beliefs import knows
-from kille.dialogue.games.referring import UNANSWERED
-from kille.dialogue.meanings import claims, reworded, theory, word_of
-from kille.dialogue.moves import answering, issue, plan
+from kille.dialogue.meanings import DialogueTypes, claims, reworded, word_of
+from kille.dialogue.moves import issue, plan
 from kille.dialogue.reference import in_view
+from kille.dialogue.rules import rule
 from kille.dialogue.typos import is_slip, slip
 from ttr import Model, Record, replace
-from ttr.updates import first, rule
+from ttr.updates import first
 
 OFFER = "OfferWord"
 """The question whether a known word was meant; its options are yes and no, in order."""
 
 
-@rule(when=UNANSWERED)
-def offer_word(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Heard")
+def offer_word(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """A word is not known, but nearly is one that is: was that meant?"""
     said = s.shared.latest
     for sign in said.signs:
-        known = _meant(s, model, sign)
+        known = _meant(s, model, sign, types=types)
         if known is None:
             continue
-        seen = replace(said, content=in_view(s, said.content))
+        seen = replace(said, content=in_view(s, said.content, types=types))
         options = [_with(seen, sign, known), seen]
         asks = [issue(OFFER, options)]
-        return plan(s, OFFER, known.meaning, signs=[known], asks=asks)
+        return plan(s, OFFER, known.meaning, signs=[known], asks=asks, types=types)
     return None
 
 
-@rule(when=answering("Affirm"))
+@rule(answers="Affirm")
 def take_offered(s: Record) -> Record | None:
     """The tutor meant the known word: that is what was said."""
     return _settled(s, 0) if _is_offered(s) else None
 
 
-@rule(when=answering("Deny"))
+@rule(answers="Deny")
 def take_as_said(s: Record) -> Record | None:
     """The tutor meant the new word: it was said as it was."""
     return _settled(s, 1) if _is_offered(s) else None
 
 
-def _meant(s: Record, model: Model, sign: Record) -> Record | None:
+def _meant(
+    s: Record, model: Model, sign: Record, *, types: DialogueTypes
+) -> Record | None:
     """The one known word that a word may be a slip of, if it is not known itself.
 
     What is taught is likelier a new word, so that there only the surest slips count.
@@ -56,9 +58,7 @@ def _meant(s: Record, model: Model, sign: Record) -> Record | None:
     if knows(known, sign) or word_of(sign) in model.facts.functions:
         return None
     said = s.shared.latest
-    taught = (
-        claims(said.content, sign) and model.judge(said, theory()["Teaching"]).holds
-    )
+    taught = claims(said.content, sign) and model.judge(said, types["Teaching"]).holds
     near = is_slip if taught else slip
     found = [it for it in known if near(sign.form, it.form)]
     return found[0] if len(found) == 1 else None

@@ -10,35 +10,39 @@ from kille.dialogue.beliefs import (
     relations_of,
     thinks,
 )
-from kille.dialogue.moves import answering, content_of, nouns_said, plan, standing
+from kille.dialogue.meanings import DialogueTypes
+from kille.dialogue.moves import content_of, nouns_said, plan, standing
 from kille.dialogue.reference import phrase_at, thing_at
+from kille.dialogue.rules import rule
 from ttr import Model, Record, RecordType, record, replace
-from ttr.updates import first, rule
+from ttr.updates import first
 
 Update = tuple[Record, Model]
 
 
-@rule(when=answering("AskPlace"))
-def say_place(s: Record, *, model: Model) -> Update | None:
+@rule(answers="AskPlace")
+def say_place(s: Record, *, model: Model, types: DialogueTypes) -> Update | None:
     """The tutor asks where a thing is: say how it stands to the best-known other."""
     x = thing_at(content_of(s), "target")
     if x is None or x not in s.view.placed:
         return None
     thing, model = asked_for(s, model, x)
     if thing is None:
-        return plan(s, "AdmitName"), model
+        return plan(s, "AdmitName", types=types), model
     landmark, model = landmark_for(s, model, thing)
     if landmark is None:
-        return plan(s, "NeedLandmark", thing.sign.meaning, signs=[thing.sign]), model
+        return plan(
+            s, "NeedLandmark", thing.sign.meaning, signs=[thing.sign], types=types
+        ), model
     relations, model = relations_of(s, model, x, landmark.sit.x)
     believing = replace(s, {"private.beliefs": relations})
-    return _place_said(believing, thing, landmark, relations), model
+    return _place_said(believing, thing, landmark, relations, types=types), model
 
 
-@rule(when=answering("AskPlace"))
-def need_place(s: Record) -> Record:
+@rule(answers="AskPlace")
+def need_place(s: Record, *, types: DialogueTypes) -> Record:
     """The thing is in view, but not where it is."""
-    return plan(s, "NeedDepth")
+    return plan(s, "NeedDepth", types=types)
 
 
 def asked_for(s: Record, model: Model, x: str) -> tuple[Record | None, Model]:
@@ -71,26 +75,47 @@ def landmark_for(s: Record, model: Model, thing: Record) -> tuple[Record | None,
 
 
 def _place_said(
-    s: Record, thing: Record, landmark: Record, relations: Beliefs
+    s: Record,
+    thing: Record,
+    landmark: Record,
+    relations: Beliefs,
+    *,
+    types: DialogueTypes,
 ) -> Record:
     """The plan to say how the thing stands, as certain as the robot is of it."""
 
     def stands(*relation: Record) -> RecordType:
         return standing(
-            s, thing.sit.x, thing.sign, landmark.sit.x, landmark.sign, *relation
+            s,
+            thing.sit.x,
+            thing.sign,
+            landmark.sit.x,
+            landmark.sign,
+            *relation,
+            types=types,
         )
 
     nouns = [thing.sign, landmark.sign]
     how = certainty(s, relations)
     if how == "Admit":
-        return plan(s, "AdmitPlace", stands(), signs=nouns)
+        return plan(s, "AdmitPlace", stands(), signs=nouns, types=types)
     best = relations[0].sign
     content, signs = stands(best), [*nouns, best]
     if how != "Hedge":
-        return plan(s, f"{how}Place", content, signs=signs, pending=[content])
+        return plan(
+            s, f"{how}Place", content, signs=signs, pending=[content], types=types
+        )
     other = relations[1].sign
     rival, both = stands(other), [*signs, other]
-    return plan(s, "HedgePlace", content, rival, signs=both, pending=[content, rival])
+    return plan(
+        s,
+        "HedgePlace",
+        content,
+        rival,
+        signs=both,
+        pending=[content, rival],
+        types=types,
+    )
 
 
 PLACING = first(say_place, need_place)

@@ -11,7 +11,12 @@ from functools import partial
 
 from kille.dialogue.beliefs import knows
 from kille.dialogue.describing import Description, describe
-from kille.dialogue.meanings import mentions, named, set_to, theory, word_of
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    mentions,
+    set_to,
+    word_of,
+)
 from kille.dialogue.moves import content_of, issue, nouns_said, plan
 from kille.dialogue.reference import (
     PARTS,
@@ -27,38 +32,28 @@ from kille.dialogue.reference import (
     thing_at,
     things_in,
 )
+from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, rectype, replace
-from ttr.types import TypeNode
-from ttr.updates import first, rule
-
-
-def unanswered(move: TypeNode) -> RecordType:
-    """The states in which the latest move is of a type and not answered yet."""
-    planned = theory()["Agenda"] @ ()
-    return rectype(private=rectype(agenda=planned), shared=rectype(latest=move))
-
+from ttr.updates import first
 
 OFFERED = 4
 """How many things are offered to choose from, at most."""
 
-UNANSWERED = unanswered(named("Heard"))
-"""The states in which the tutor has said something that is not answered yet."""
 
-
-@rule(when=UNANSWERED)
-def refer(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Heard")
+def refer(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor talks of things in view: the one way to take it that fits is meant."""
-    match _readings(s, model):
+    match _readings(s, model, types=types):
         case [meant]:
-            return about(s, meant.content)
+            return about(s, meant.content, types=types)
     return None
 
 
-@rule(when=UNANSWERED)
-def ask_referent(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Heard")
+def ask_referent(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """What is said fits several things: it asks which of them is meant."""
-    readings = _readings(s, model)
+    readings = _readings(s, model, types=types)
     label = _left_open(readings)
     if label is None:
         return None
@@ -66,44 +61,49 @@ def ask_referent(s: Record, *, model: Model) -> Record | None:
     meant = {it.things[label]: phrase_at(it.content, label) for it in readings[::-1]}
     options = [
         replace(said, content=set_to(said.content, **{label: meant[x]}))
-        for x in across(s, model, meant)
+        for x in across(s, model, meant, types=types)
     ]
-    return asking(s, model, options, "AskReferent")
+    return asking(s, model, options, "AskReferent", types=types)
 
 
-@rule(when=UNANSWERED)
-def miss_word(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Heard")
+def miss_word(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor talks of things by a word that was never learned."""
     said = s.shared.latest
     for label in phrases(said.content):
         for sign in said.signs:
             if mentions(said.content[label], sign) and not _judges(s, model, sign):
                 act = f"Unknown{sign.kind.capitalize()}"
-                return plan(s, act, sign.meaning, signs=[sign])
+                return plan(s, act, sign.meaning, signs=[sign], types=types)
     return None
 
 
-@rule(when=UNANSWERED)
-def miss_second(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Heard")
+def miss_second(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor talks of two things, and only one and the same is in view for both."""
     content = content_of(s)
-    both = len(phrases(content)) > 1 and not any(_missing(s, model, content))
-    return plan(s, "SameThing") if both else None
+    both = len(phrases(content)) > 1 and not any(
+        _missing(s, model, content, types=types)
+    )
+    return plan(s, "SameThing", types=types) if both else None
 
 
-@rule(when=UNANSWERED)
-def miss_thing(s: Record, *, model: Model) -> Record | None:
+@rule(answers="Heard")
+def miss_thing(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor talks of something that is not in view."""
     content = content_of(s)
     if not phrases(content):
         return None
-    missing, signs = next(_missing(s, model, content), content), s.shared.latest.signs
+    missing, signs = (
+        next(_missing(s, model, content, types=types), content),
+        s.shared.latest.signs,
+    )
     if not s.view.things and not any(mentions(missing, it) for it in signs):
-        return plan(s, "SeeNothing")
-    return plan(s, "SeeNoSuch", missing, signs=signs)
+        return plan(s, "SeeNothing", types=types)
+    return plan(s, "SeeNoSuch", missing, signs=signs, types=types)
 
 
-def about(s: Record, content: RecordType) -> Record:
+def about(s: Record, content: RecordType, *, types: DialogueTypes) -> Record:
     """The state in which this is what the latest move is about, as it is seen now.
 
     The things it is about are the topic, and the ones that were talked about last.
@@ -111,14 +111,21 @@ def about(s: Record, content: RecordType) -> Record:
     topic = things_in(content)
     salient = dict.fromkeys((*topic, *s.shared.salient))
     changes = {
-        "shared.latest.content": in_view(s, content),
+        "shared.latest.content": in_view(s, content, types=types),
         "shared.salient": tuple(salient),
         "shared.topic": topic or s.shared.topic,
     }
     return replace(s, changes)
 
 
-def asking(s: Record, model: Model, options: Sequence[Record], ask: str) -> Record:
+def asking(
+    s: Record,
+    model: Model,
+    options: Sequence[Record],
+    ask: str,
+    *,
+    types: DialogueTypes,
+) -> Record:
     """The plan to ask which of these moves was meant, where they differ in one thing.
 
     Things that can be told apart in words are offered, if they are not too many. What
@@ -128,26 +135,41 @@ def asking(s: Record, model: Model, options: Sequence[Record], ask: str) -> Reco
     said = options[0]
     phrase = phrase_at(said.content, label)
     nouns = nouns_said(said, phrase)
-    told = _told_apart(s, model, things, nouns)
+    told = _told_apart(s, model, things, nouns, types=types)
     signs = tuple(dict.fromkeys(sign for it in told for sign in it.signs))
     match [it.phrase for it in told]:
         case []:
-            move = partial(plan, s, "AskReferent", _asked(meant_by(nouns)), signs=nouns)
+            move = partial(
+                plan,
+                s,
+                "AskReferent",
+                _asked(meant_by(nouns, types=types), types=types),
+                signs=nouns,
+            )
         case [one, other]:
-            both = _asked(one), _asked(other)
+            both = _asked(one, types=types), _asked(other, types=types)
             move = partial(plan, s, "OfferReferents", *both, signs=signs)
         case several:
-            move = partial(plan, s, "OfferReferents", _among(several), signs=signs)
-    return move(asks=[issue(ask, options)], pending=s.shared.pending)
+            move = partial(
+                plan, s, "OfferReferents", _among(several, types=types), signs=signs
+            )
+    return move(asks=[issue(ask, options)], pending=s.shared.pending, types=types)
 
 
 def _told_apart(
-    s: Record, model: Model, things: Sequence[str], nouns: Sequence[Record]
+    s: Record,
+    model: Model,
+    things: Sequence[str],
+    nouns: Sequence[Record],
+    *,
+    types: DialogueTypes,
 ) -> list[Description]:
     """How to say which of these things is meant; nothing if that takes too much."""
     if len(things) > OFFERED:
         return []
-    told = [describe(s, model, x, among=things, nouns=nouns) for x in things]
+    told = [
+        describe(s, model, x, among=things, nouns=nouns, types=types) for x in things
+    ]
     found = [it for it in told if it is not None]
     return found if len(found) == len(things) else []
 
@@ -161,21 +183,25 @@ def differing(options: Sequence[Record]) -> tuple[str, Sequence[str]]:
     return "", ()
 
 
-def _readings(s: Record, model: Model) -> Sequence[Reading]:
+def _readings(s: Record, model: Model, *, types: DialogueTypes) -> Sequence[Reading]:
     """The ways to take the phrases of the latest move that are meant."""
     content = content_of(s)
-    return denoted(s, contents(s, model, content)) if phrases(content) else ()
+    return (
+        denoted(s, contents(s, model, content, types=types), types=types)
+        if phrases(content)
+        else ()
+    )
 
 
-def _asked(phrase: RecordType) -> RecordType:
+def _asked(phrase: RecordType, *, types: DialogueTypes) -> RecordType:
     """What a question is about that asks for the thing of a phrase."""
-    return rectype(look=theory()["Look"], target=phrase)
+    return rectype(look=types["Look"], target=phrase)
 
 
-def _among(phrases: Iterable[RecordType]) -> RecordType:
+def _among(phrases: Iterable[RecordType], *, types: DialogueTypes) -> RecordType:
     """What a question is about that asks for one of the things of several phrases."""
     choices = {f"choice{n:02}": it for n, it in enumerate(phrases, start=1)}
-    return set_to(named("Scene"), **choices)
+    return set_to(types.record_type("Scene"), **choices)
 
 
 def _left_open(readings: Sequence[Reading]) -> str | None:
@@ -189,11 +215,13 @@ def _judges(s: Record, model: Model, sign: Record) -> bool:
     return knows(words(s), sign) or word_of(sign) in model.facts.functions
 
 
-def _missing(s: Record, model: Model, content: RecordType) -> Iterator[RecordType]:
+def _missing(
+    s: Record, model: Model, content: RecordType, *, types: DialogueTypes
+) -> Iterator[RecordType]:
     """What is asked for by the phrases that fit nothing in view by themselves."""
     for label in phrases(content):
         alone = rectype(look=content["look"], target=content[label])
-        if not fitting(s, contents(s, model, alone)):
+        if not fitting(s, contents(s, model, alone, types=types)):
             yield alone
 
 

@@ -13,80 +13,96 @@ from kille.dialogue.beliefs import believed, is_sure, knows
 from kille.dialogue.commitments import kind_of, undone
 from kille.dialogue.games.finding import pointed_out
 from kille.dialogue.games.surveying import in_view
-from kille.dialogue.meanings import claims, is_denial, named, set_at, set_to
-from kille.dialogue.moves import answering, content_of, plan, said_of
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    claims,
+    is_denial,
+    set_at,
+    set_to,
+)
+from kille.dialogue.moves import content_of, plan, said_of
 from kille.dialogue.reference import Judging, fits_well, phrase_at, thing_at
+from kille.dialogue.rules import rule
 from kille.dialogue.state import words
 from ttr import Model, Record, RecordType, record, rectype, replace
-from ttr.updates import first, rule
+from ttr.updates import first
 
 
-@rule(when=answering("InstructSeveral"))
-def learn_several(s: Record, *, model: Model) -> Record | None:
+@rule(answers="InstructSeveral")
+def learn_several(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """The tutor says what the things in view are: it is a lesson about each of them."""
     sign = _noun(s)
-    things = [x for x in _described(s, model) if not _is_other(s, model, x, sign)]
+    things = [
+        x for x in _described(s, model, types=types) if not _is_other(s, model, x, sign)
+    ]
     if len(things) < 2:
         return None
-    teaches = [said_of(s, sign, x) for x in things]
+    teaches = [said_of(s, sign, x, types=types) for x in things]
     seen = [record(sit=record(x=x), sign=sign) for x in things]
     return plan(
         s,
         "LearnedSeveral",
-        in_view(s, seen, (), ()),
+        in_view(s, seen, (), (), types=types),
         signs=[sign],
         teaches=teaches,
-        forgets=[key for it in teaches for key in undone(s, it)],
+        forgets=[key for it in teaches for key in undone(s, it, types=types)],
+        types=types,
     )
 
 
-@rule(when=answering("InstructSeveral"))
-def see_none(s: Record) -> Record | None:
+@rule(answers="InstructSeveral")
+def see_none(s: Record, *, types: DialogueTypes) -> Record | None:
     """Nothing is in view that could be meant."""
-    return None if s.view.things else plan(s, "SeeNothing")
+    return None if s.view.things else plan(s, "SeeNothing", types=types)
 
 
-@rule(when=answering("InstructSeveral"))
-def need_single(s: Record) -> Record:
+@rule(answers="InstructSeveral")
+def need_single(s: Record, *, types: DialogueTypes) -> Record:
     """It is not plain which things are meant: it asks to be shown one at a time."""
-    return plan(s, "NeedSingle")
+    return plan(s, "NeedSingle", types=types)
 
 
-@rule(when=answering("AskPlaces"))
-def miss_several(s: Record) -> Record | None:
+@rule(answers="AskPlaces")
+def miss_several(s: Record, *, types: DialogueTypes) -> Record | None:
     """The tutor asks where things are, by a word that was never learned."""
     for sign in s.shared.latest.signs:
         if not knows(words(s), sign):
             act = f"Unknown{sign.kind.capitalize()}"
-            return plan(s, act, sign.meaning, signs=[sign])
+            return plan(s, act, sign.meaning, signs=[sign], types=types)
     return None
 
 
-@rule(when=answering("AskPlaces"))
-def tell_places(s: Record, *, model: Model) -> Record | None:
+@rule(answers="AskPlaces")
+def tell_places(s: Record, *, model: Model, types: DialogueTypes) -> Record | None:
     """It points at each of these things, by their numbers, and says where it is."""
     asked = phrase_at(content_of(s), "counted")
-    things = fits_well(s, Judging(s, model).fits(asked))
+    things = fits_well(s, Judging(s, model, types=types).fits(asked))
     if not things:
         return None
     act = "PointOut" if len(things) == 1 else "TellPlace"
     told = s
     for x in sorted(things, key=s.view.things.index):
-        told = pointed_out(told, model, act, _one_of(s, asked, x), x)
+        told = pointed_out(
+            told, model, act, _one_of(s, asked, x, types=types), x, types=types
+        )
     return told if len(things) == 1 else replace(told, {"shared.pending": ()})
 
 
-@rule(when=answering("AskPlaces"))
-def miss_them(s: Record) -> Record:
+@rule(answers="AskPlaces")
+def miss_them(s: Record, *, types: DialogueTypes) -> Record:
     """Nothing of the sort is in view."""
     content = content_of(s)
     asked = rectype(look=content["look"], target=phrase_at(content, "counted"))
-    return plan(s, "SeeNoSuch", asked, signs=s.shared.latest.signs)
+    return plan(s, "SeeNoSuch", asked, signs=s.shared.latest.signs, types=types)
 
 
-def _one_of(s: Record, phrase: RecordType, x: str) -> RecordType:
+def _one_of(
+    s: Record, phrase: RecordType, x: str, *, types: DialogueTypes
+) -> RecordType:
     """What a question is about that asks for this one of the things of a phrase."""
-    asked = set_at(set_at(named("Asked"), "look", s.view.look), "target.x", x)
+    asked = set_at(
+        set_at(types.record_type("Asked"), "look", s.view.look), "target.x", x
+    )
     return set_to(
         asked, target=set_to(phrase, **dict(phrase_at(asked, "target").fields))
     )
@@ -98,11 +114,11 @@ def _noun(s: Record) -> Record:
     return noun
 
 
-def _described(s: Record, model: Model) -> list[str]:
+def _described(s: Record, model: Model, *, types: DialogueTypes) -> list[str]:
     """The things in view of which the adjectives are true: "These are red cups."."""
     said = phrase_at(content_of(s), "counted")
     rest = rectype({label: T for label, T in said.fields if label != "c"})
-    fits = fits_well(s, Judging(s, model).fits(rest))
+    fits = fits_well(s, Judging(s, model, types=types).fits(rest))
     return [x for x in s.view.things if x in fits]
 
 

@@ -5,51 +5,69 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from kille.dialogue.beliefs import Beliefs, believed, is_sure, thinks
-from kille.dialogue.meanings import named, set_at, set_to
-from kille.dialogue.moves import answering, plan
+from kille.dialogue.meanings import DialogueTypes, set_at, set_to
+from kille.dialogue.moves import plan
+from kille.dialogue.rules import rule
 from ttr import Model, Record, RecordType
-from ttr.updates import first, rule
+from ttr.updates import first
 
 SURE, LIKELY, UNKNOWN = "thing", "maybe", "unknown"
 """How the parts of what is seen are labelled, with a number after it."""
 
 
-@rule(when=answering("AskView"))
-def see_nothing(s: Record) -> Record | None:
+@rule(answers="AskView")
+def see_nothing(s: Record, *, types: DialogueTypes) -> Record | None:
     """Nothing is in view."""
-    return None if s.view.things else plan(s, "SeeNothing")
+    return None if s.view.things else plan(s, "SeeNothing", types=types)
 
 
-@rule(when=answering("AskView"))
-def list_view(s: Record, *, model: Model) -> Record:
+@rule(answers="AskView")
+def list_view(s: Record, *, model: Model, types: DialogueTypes) -> Record:
     """It says what it is sure of, what it thinks, and how much it does not know."""
     beliefs = {x: believed(s, model, s.private.nouns, x) for x in s.view.things}
     sure = [it[0] for it in beliefs.values() if is_sure(s, it)]
     likely = [it[0] for it in beliefs.values() if thinks(s, it) and not is_sure(s, it)]
     unknown = [x for x, it in beliefs.items() if not thinks(s, it)]
-    content = in_view(s, _ranked(sure), _ranked(likely), unknown)
+    content = in_view(s, _ranked(sure), _ranked(likely), unknown, types=types)
     signs = tuple(dict.fromkeys(it.sign for it in _ranked([*sure, *likely])))
-    return plan(s, "ListView", content, signs=signs)
+    return plan(s, "ListView", content, signs=signs, types=types)
 
 
 def in_view(
-    s: Record, sure: Iterable[Record], likely: Iterable[Record], unknown: Iterable[str]
+    s: Record,
+    sure: Iterable[Record],
+    likely: Iterable[Record],
+    unknown: Iterable[str],
+    *,
+    types: DialogueTypes,
 ) -> RecordType:
     """The type of the situation in view: a part for each thing, and what it is.
 
     The labels of the parts say how certain it is: thing01, maybe01, unknown01.
     """
     parts = {
-        **_labelled(SURE, [set_at(it.sign.meaning, "x", it.sit.x) for it in sure]),
-        **_labelled(LIKELY, [set_at(it.sign.meaning, "x", it.sit.x) for it in likely]),
-        **_labelled(UNKNOWN, [set_at(named("Phrase"), "x", x) for x in unknown]),
+        **_labelled(
+            SURE, [set_at(it.sign.meaning, "x", it.sit.x) for it in sure], types=types
+        ),
+        **_labelled(
+            LIKELY,
+            [set_at(it.sign.meaning, "x", it.sit.x) for it in likely],
+            types=types,
+        ),
+        **_labelled(
+            UNKNOWN,
+            [set_at(types.record_type("Phrase"), "x", x) for x in unknown],
+            types=types,
+        ),
     }
-    look = set_at(named("Scene"), "look", s.view.look)
+    look = set_at(types.record_type("Scene"), "look", s.view.look)
     return set_to(look, **parts)
 
 
-def _labelled(label: str, parts: Iterable[RecordType]) -> dict[str, RecordType]:
-    inner = named("Asked")["target"]
+def _labelled(
+    label: str, parts: Iterable[RecordType], *, types: DialogueTypes
+) -> dict[str, RecordType]:
+    inner = types.record_type("Asked")["target"]
     assert isinstance(inner, RecordType)
     return {
         f"{label}{n:02}": set_to(part, look=inner["look"])

@@ -9,43 +9,57 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import reduce
 
-from kille.dialogue.meanings import merge_of, named, placed
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    merge_of,
+    packaged_types,
+)
 from kille.dialogue.reference.parts import Part, put_together, taken_apart
 from kille.dialogue.reference.resolving import Judging
 from ttr import Model, Record, RecordType, rectype
 
 
 def ranking(
-    s: Record, model: Model, words: Iterable[Record]
+    s: Record,
+    model: Model,
+    words: Iterable[Record],
+    *,
+    types: DialogueTypes | None = None,
 ) -> tuple[Mapping[str, float], ...]:
     """How the things in view share the probability to be meant, after each word.
 
     The words are signs, in the order of the phrase: "red", "cup", "to the left of",
     "book". Where nothing fits, no thing has a share.
     """
+    types = types or packaged_types()
     said: list[Record] = []
-    judging = Judging(s, model)
+    judging = Judging(s, model, types=types)
     shares = []
     for sign in words:
         said.append(sign)
-        fits = judging.fits_part(said_by(said))
+        fits = judging.fits_part(said_by(said, types=types))
         whole = sum(fit.p for fit in fits.values())
         shares.append({x: fit.p / whole for x, fit in fits.items() if whole > 0.0})
     return tuple(shares)
 
 
-def said_by(words: Sequence[Record]) -> Part:
+def said_by(words: Sequence[Record], *, types: DialogueTypes | None = None) -> Part:
     """The parts of a phrase of these words, without putting its type together first."""
+    types = types or packaged_types()
     at = next((i for i, it in enumerate(words) if it.kind == "relation"), None)
     before = [taken_apart(sign.meaning) for sign in words[:at]]
-    phrase = put_together(taken_apart(named("Phrase")), *before)
+    phrase = put_together(taken_apart(types.record_type("Phrase")), *before)
     if at is None:
         return phrase
-    nearby = taken_apart(placed(words[at], "Nearby"))
-    return put_together(phrase, replace(nearby, landmark=said_by(words[at + 1 :])))
+    nearby = taken_apart(types.meaning_at(words[at], "Nearby"))
+    return put_together(
+        phrase, replace(nearby, landmark=said_by(words[at + 1 :], types=types))
+    )
 
 
-def meant_by(words: Sequence[Record]) -> RecordType:
+def meant_by(
+    words: Sequence[Record], *, types: DialogueTypes | None = None
+) -> RecordType:
     """The type of a phrase of these words: the merge of what they mean.
 
     What follows a relation is said of what the thing stands beside.
@@ -54,11 +68,14 @@ def meant_by(words: Sequence[Record]) -> RecordType:
     >>> print(meant_by([adjective("red"), noun("cup")]))
     [look : Look, x : Ind, a : is_red(x, look), c : cup(x, look)]
     """
-    phrase = named("Phrase")
+    types = types or packaged_types()
+    phrase = types.record_type("Phrase")
     for i, sign in enumerate(words):
         if sign.kind == "relation":
-            beside = placed(sign, "Nearby")
-            landmark = rectype(landmark=meant_by(words[i + 1 :]))
-            return reduce(merge_of, [named("Beside"), beside, landmark], phrase)
+            beside = types.meaning_at(sign, "Nearby")
+            landmark = rectype(landmark=meant_by(words[i + 1 :], types=types))
+            return reduce(
+                merge_of, [types.record_type("Beside"), beside, landmark], phrase
+            )
         phrase = merge_of(phrase, sign.meaning)
     return phrase

@@ -9,7 +9,12 @@ from itertools import product
 from math import prod
 from typing import NamedTuple, TypeVar
 
-from kille.dialogue.meanings import named, set_at, set_to, theory
+from kille.dialogue.meanings import (
+    DialogueTypes,
+    packaged_types,
+    set_at,
+    set_to,
+)
 from kille.dialogue.reference.parts import Claim, Part, taken_apart
 from kille.dialogue.reference.perspectives import front_of
 from kille.dialogue.reference.salience import (
@@ -46,6 +51,7 @@ class Reading:
     s: Record
     open: RecordType
     fits: tuple[tuple[str, Fit], ...]
+    types: DialogueTypes | None = None
 
     @cached_property
     def p(self) -> float:
@@ -70,11 +76,11 @@ class Reading:
     @cached_property
     def content(self) -> RecordType:
         """The content with its phrases set to these things, and its perspectives."""
-        s, content = self.s, self.open
+        s, content, types = self.s, self.open, self.types or packaged_types()
         for label, fit in self.fits:
-            phrase = _set(s, phrase_at(content, label), fit.things)
+            phrase = _set(s, phrase_at(content, label), fit.things, types=types)
             content = set_to(content, **{label: phrase})
-        return in_view(s, content)
+        return in_view(s, content, types=types)
 
 
 _Found = TypeVar("_Found", Fit, Reading)
@@ -105,14 +111,17 @@ def phrase_at(content: RecordType, label: str) -> RecordType:
     return phrase
 
 
-def in_view(s: Record, content: RecordType) -> RecordType:
+def in_view(
+    s: Record, content: RecordType, *, types: DialogueTypes | None = None
+) -> RecordType:
     """The content as it is seen now: in the latest look, and in its perspective.
 
     The perspective is that of the talk, where the content does not have one of its own.
     """
+    types = types or packaged_types()
     if "look" not in content:
         return content
-    now = theory()["Look"] @ s.view.look
+    now = types["Look"] @ s.view.look
     content = content if content["look"] is now else set_to(content, look=now)
     landmark = thing_at(content, "landmark")
     if landmark is None or "frame" not in content:
@@ -134,36 +143,43 @@ def things_in(content: RecordType) -> list[str]:
     return list(dict.fromkeys(x for x in (*things, *inside) if x is not None))
 
 
-def contents(s: Record, model: Model, content: RecordType) -> Sequence[Reading]:
+def contents(
+    s: Record, model: Model, content: RecordType, *, types: DialogueTypes | None = None
+) -> Sequence[Reading]:
     """The ways in which the phrases of a content can be set to things in view.
 
     Two phrases are set to two things. Ways of no probability are left out.
     """
-    judging = Judging(s, model)
+    types = types or packaged_types()
+    judging = Judging(s, model, types=types)
     open_ = phrases(content)
     taken = {thing_at(content, label) for label in PARTS if label not in open_}
     choices = [
         [
             (label, fit)
-            for x, fit in judging.fits(phrase, _spoken_of(s, phrase)).items()
+            for x, fit in judging.fits(
+                phrase, _spoken_of(s, phrase, types=types)
+            ).items()
             if x not in taken
         ]
         for label in open_
         for phrase in (phrase_at(content, label),)
     ]
     return [
-        Reading(s, content, fits)
+        Reading(s, content, fits, types=types)
         for fits in product(*choices)
         if len({fit.things[0] for _, fit in fits}) == len(fits)
     ]
 
 
-def _spoken_of(s: Record, phrase: RecordType) -> Sequence[str] | None:
+def _spoken_of(
+    s: Record, phrase: RecordType, *, types: DialogueTypes
+) -> Sequence[str] | None:
     """What a phrase without words may be about: "No, a mug." None for other phrases.
 
     It is what the robot has claimed something of, or else what is shown.
     """
-    if phrase.labels != named("Phrase").labels:
+    if phrase.labels != types.record_type("Phrase").labels:
         return None
     claimed = {thing_at(claim, "target") for claim in s.shared.pending[:1]}
     return [x for x in s.view.things if x in claimed] or list(s.view.focus)
@@ -203,11 +219,14 @@ def _near(share: float, found: Sequence[_Found]) -> list[_Found]:
     return sorted((it for it in found if it.p >= share * best), key=lambda it: -it.p)
 
 
-def denoted(s: Record, readings: Iterable[Reading]) -> list[Reading]:
+def denoted(
+    s: Record, readings: Iterable[Reading], *, types: DialogueTypes | None = None
+) -> list[Reading]:
     """The readings that are meant: one, unless the talk leaves open which.
 
     Of several things that a phrase fits it is the one that was just talked about.
     """
+    types = types or packaged_types()
     meant = fitting(s, readings)
     for label in PARTS:
         things = {it.things[label] for it in meant if label in it.things}
@@ -216,28 +235,32 @@ def denoted(s: Record, readings: Iterable[Reading]) -> list[Reading]:
             meant = [
                 it
                 for it in meant
-                if it.things[label] == latest or _chooses(phrase_at(it.open, label))
+                if it.things[label] == latest
+                or _chooses(phrase_at(it.open, label), types=types)
             ]
     return meant
 
 
-def _chooses(phrase: RecordType) -> bool:
+def _chooses(phrase: RecordType, *, types: DialogueTypes) -> bool:
     """Whether a phrase says by itself which of several things it speaks of."""
-    return bool(taken_apart(phrase, choosing()).choices)
+    return bool(taken_apart(phrase, types.derive(choosing)).choices)
 
 
 class Judging:
     """Judges phrases of the things in view, in one state: each claim once."""
 
-    def __init__(self, s: Record, model: Model) -> None:
-        self._s, self._model = s, in_talk(s, model)
+    def __init__(
+        self, s: Record, model: Model, *, types: DialogueTypes | None = None
+    ) -> None:
+        self._types = types or packaged_types()
+        self._s, self._model = s, in_talk(s, model, types=self._types)
         self._degrees: dict[Claim, float] = {}
 
     def fits(
         self, phrase: RecordType, among: Sequence[str] | None = None
     ) -> dict[str, Fit]:
         """How well each thing in view, or each of these, fits a phrase."""
-        return self.fits_part(taken_apart(phrase, choosing()), among)
+        return self.fits_part(taken_apart(phrase, self._types.derive(choosing)), among)
 
     def fits_part(
         self, part: Part, among: Sequence[str] | None = None
@@ -251,7 +274,8 @@ class Judging:
         if part.landmark is not None:
             found = dict(self._beside(part, part.landmark, found))
         for pred in part.choices:
-            left = chosen(self._s, self._model, pred, fits_well(self._s, found))
+            fitting = fits_well(self._s, found)
+            left = chosen(self._s, self._model, pred, fitting, types=self._types)
             found = {x: found[x] for x in left}
         return found
 
@@ -305,16 +329,18 @@ class Judging:
         return known
 
 
-def _set(s: Record, phrase: RecordType, things: tuple[str, ...]) -> RecordType:
+def _set(
+    s: Record, phrase: RecordType, things: tuple[str, ...], *, types: DialogueTypes
+) -> RecordType:
     """The phrase set to a thing, and to what that stands beside, as seen from there.
 
     What was true of it only at that point of the talk is no part of it any more.
     """
     x, *beside = things
     fields = {label: T for label, T in phrase.fields if label != "d"}
-    fields["x"] = theory()["Ind"] @ x
+    fields["x"] = types["Ind"] @ x
     if beside:
         landmark = phrase_at(phrase, "landmark")
-        fields["landmark"] = _set(s, landmark, tuple(beside))
-        fields["frame"] = theory()["Front"] @ front_of(s, beside[0])
+        fields["landmark"] = _set(s, landmark, tuple(beside), types=types)
+        fields["frame"] = types["Front"] @ front_of(s, beside[0])
     return rectype(fields)

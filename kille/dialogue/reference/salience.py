@@ -8,21 +8,20 @@ not the one that was talked about last, and "the second cup" is counted among th
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from functools import cache
 
-from kille.dialogue.meanings import theory
+from kille.dialogue.meanings import DialogueTypes, packaged_types
 from ttr import Model, Pred, Record
 
-Choice = Callable[[Record, Model, Sequence[str]], Sequence[str]]
+Choice = Callable[[Record, Model, Sequence[str], DialogueTypes], Sequence[str]]
 """What a word chooses, in a state, of the things that the rest of its phrase fits."""
 
 
-def in_talk(s: Record, model: Model) -> Model:
+def in_talk(s: Record, model: Model, *, types: DialogueTypes) -> Model:
     """The model in which the talk says what is shown and what was mentioned."""
     latest = s.shared.salient[:1] or s.view.focus
     return model.witnessed(
-        theory()["shown"], by=lambda x, look: x in s.view.focus
-    ).witnessed(theory()["mentioned"], by=lambda x, look: x in latest)
+        types["shown"], by=lambda x, look: x in s.view.focus
+    ).witnessed(types["mentioned"], by=lambda x, look: x in latest)
 
 
 def most_salient(s: Record, things: Iterable[str]) -> str | None:
@@ -37,13 +36,19 @@ def just_mentioned(s: Record, things: Collection[str]) -> str | None:
     return mentioned[0] if len(mentioned) == 1 else None
 
 
-def across(s: Record, model: Model, things: Iterable[str]) -> list[str]:
+def across(
+    s: Record,
+    model: Model,
+    things: Iterable[str],
+    *,
+    types: DialogueTypes | None = None,
+) -> list[str]:
     """The things from left to right as they are seen.
 
     How far to the right a thing is says the witness function of `across`; without one
     the order is that of the view.
     """
-    place = theory()["across"]
+    place = (types or packaged_types())["across"]
     order = {str(x): i for i, x in enumerate(s.view.things)}
 
     def rightness(x: str) -> tuple[float, int]:
@@ -53,14 +58,18 @@ def across(s: Record, model: Model, things: Iterable[str]) -> list[str]:
     return sorted(things, key=rightness)
 
 
-def _other(s: Record, model: Model, things: Sequence[str]) -> Sequence[str]:
+def _other(
+    s: Record, model: Model, things: Sequence[str], types: DialogueTypes
+) -> Sequence[str]:
     latest = most_salient(s, things) or next(iter(s.view.focus), None)
     return [x for x in things if x != latest]
 
 
 def _nth(n: int) -> Choice:
-    def counted(s: Record, model: Model, things: Sequence[str]) -> Sequence[str]:
-        return across(s, model, things)[n:][:1]
+    def counted(
+        s: Record, model: Model, things: Sequence[str], types: DialogueTypes
+    ) -> Sequence[str]:
+        return across(s, model, things, types=types)[n:][:1]
 
     return counted
 
@@ -77,12 +86,13 @@ CHOICES: Mapping[str, Choice] = {
 """The words that choose, by the names of their predicates."""
 
 
-@cache
-def choosing() -> frozenset[Pred]:
+def choosing(types: DialogueTypes) -> frozenset[Pred]:
     """The predicates that choose among the things that fit the rest of a phrase."""
-    return frozenset(theory()[name] for name in CHOICES)
+    return frozenset(types[name] for name in CHOICES)
 
 
-def chosen(s: Record, model: Model, pred: Pred, things: Sequence[str]) -> Sequence[str]:
+def chosen(
+    s: Record, model: Model, pred: Pred, things: Sequence[str], *, types: DialogueTypes
+) -> Sequence[str]:
     """Those of the things of which the predicate is true, where only they fit."""
-    return CHOICES[pred.name](s, model, things)
+    return CHOICES[pred.name](s, model, things, types)

@@ -6,7 +6,6 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from kille.studies.apart import ask, is_apart
 from kille.studies.played import Played
 from kille.studies.playing import talking
 from kille.studies.study import Run, Study
@@ -15,11 +14,7 @@ __all__ = ["play"]
 
 
 def play(study: Study, run: Run) -> Played:
-    """Play one dialogue of a study; a theory with meanings of its own plays apart."""
-    theory = study.theories[run.theory]
-    if is_apart(theory):
-        played: Played = ask(theory, "kille.studies.playing:play", study, run)
-        return played
+    """Play one dialogue of a study."""
     with _seeded(run):
         return talking.play(study, run)
 

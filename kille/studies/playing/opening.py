@@ -17,6 +17,7 @@ from kille.studies.scenes import WHOLE, Scene
 from kille.studies.settings import filled
 from kille.studies.study import PERSON, Run, Study, Theory
 from kille.studies.theories import agent_of, game_of, language_of
+from kille.studies.theories.meanings import meanings_of
 from kille.studies.tutors import SETTINGS
 from kille.studies.tutors.holding import Manner
 from kille.studies.tutors.keyboard import Keyboard
@@ -42,7 +43,7 @@ def robot_of(study: Study, run: Run, scene: Scene) -> Robot:
         return Whole(agent_of(theory, theatre, scans=1, now=lambda: CLOCK), theatre)
     taught = study.scenes[run.scene].settings.get("colours") == "taught"
     game = game_of(theory, scene.start, colours=() if taught else None)
-    return Simulated(game, language_of(theory))
+    return Simulated(game, language_of(theory), meanings_of(theory))
 
 
 def tutor_of(study: Study, run: Run, name: str, scene: Scene) -> Tutor:

@@ -18,6 +18,7 @@ from kille.studies.reading.troubles import Trouble
 from kille.studies.settings import no_folder, unknown
 from kille.studies.study import Theory
 from kille.studies.theories.games import language_of
+from kille.studies.theories.meanings import meanings_of
 from ttr import TTRError
 from ttr.safety.files import why_unread
 from ttr.safety.inputs import read_text
@@ -68,7 +69,7 @@ def of_language(theory: Theory) -> Iterator[Trouble]:
     yield from wrong
     if grammar.is_file():
         texts = () if wrong else _TRIED[theory.language]
-        yield from _of_grammar(language_of(theory), grammar, texts)
+        yield from _of_grammar(theory, grammar, texts)
 
 
 def _others(theory: Theory) -> str:
@@ -80,7 +81,8 @@ def _others(theory: Theory) -> str:
     return ""
 
 
-def _of_grammar(language: str, file: Path, texts: Iterable[str]) -> Iterator[Trouble]:
+def _of_grammar(theory: Theory, file: Path, texts: Iterable[str]) -> Iterator[Trouble]:
+    language = language_of(theory)
     try:
         grammar = Grammar(grammar_text(language))
         grammar.check_terminals()
@@ -95,7 +97,7 @@ def _of_grammar(language: str, file: Path, texts: Iterable[str]) -> Iterator[Tro
         return
     for text in texts:
         try:
-            understand(text, language)
+            understand(text, language, types=meanings_of(theory))
         except GrammarError as error:
             told = f"this grammar cannot be used for “{text}”: {error}"
             yield Trouble(_KEY, told, f"{file}:1")

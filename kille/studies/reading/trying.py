@@ -12,12 +12,10 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from kille.dialogue.redefining import types_of
 from kille.dialogue.tutoring import hear, tutoring
 from kille.experiments.results import ExperimentError
 from kille.simulation.perceiving import glanced
 from kille.simulation.worlds import Thing, World
-from kille.studies.apart import allowed_for, ask, is_apart, own_types
 from kille.studies.errors import TheoryError
 from kille.studies.failing import line_in, why
 from kille.studies.reading.languages import of_language
@@ -32,12 +30,14 @@ from kille.studies.theories.games import (
     language_of,
     unsettable,
 )
-from kille.studies.theories.rules import PACKAGED, absent
+from kille.studies.theories.meanings import meanings_of
+from kille.studies.theories.rules import absent, packaged_rules
 from ttr import TTRError
 from ttr.errors import MistakesError, Span
 from ttr.safety.consent import OWN_FOLDER
 from ttr.theories.checking import check
 from ttr.theories.theory import load
+from ttr.updates import Rule
 from ttr.updates.checks import NEVER, Fault, faults_of
 
 _OWN = ("meanings", "rules", "without", "learners")
@@ -49,9 +49,14 @@ def troubles(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
     if theory.mode == PERSON:
         yield from _of_person(theory)
         return
-    if is_apart(theory):
-        yield from _apart(theory, eyes)
-        return
+    if theory.meanings:
+        yield from _of_meanings(theory, eyes)
+    else:
+        yield from _of_all_else(theory, eyes)
+
+
+def _of_all_else(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
+    """What is wrong with a theory whose meanings can be read."""
     found = [Trouble(("strategy", *key), it) for key, it in unsettable(theory)]
     found += of_learners(theory, eyes)
     found += of_language(theory)
@@ -72,7 +77,7 @@ def _of_person(theory: Theory) -> Iterator[Trouble]:
 # --- meanings -------------------------------------------------------------------------
 
 
-def _apart(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
+def _of_meanings(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
     """What is wrong with meanings of one's own, or else with what is made of them."""
     key: Key = ("meanings",)
     own = theory.meanings
@@ -83,8 +88,8 @@ def _apart(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
         if isinstance(own, str) and (failing := [*_failing(key, Path(own), theory)]):
             yield from failing
             return
-        types_of(own_types(theory), allowed_for(theory))
-        yield from ask(theory, f"{__name__}:all_troubles", theory, eyes)
+        tutoring(types=meanings_of(theory))
+        yield from list(_of_all_else(theory, eyes))
     except TTRError as error:
         found = _of_error(key, error)
         yield from found if isinstance(own, str) else _inline(own, error)
@@ -107,11 +112,6 @@ def _key_of(types: Mapping[str, str], told: str) -> Key:
     return ("meanings", *list(named)[:1])
 
 
-def all_troubles(theory: Theory, eyes: Collection[str]) -> list[Trouble]:
-    """All that is wrong with a theory, as one value."""
-    return list(troubles(theory, eyes))
-
-
 # --- rules ----------------------------------------------------------------------------
 
 
@@ -127,8 +127,10 @@ def _of_rules(theory: Theory) -> Iterator[Trouble]:
         if wanting := [Trouble(("without",), it) for it in absent(theory)]:
             yield from wanting
             return
-        game = changed(tutoring(), theory)
-        wrong = (it for it in faults_of(game) if _is_error(it) and not _is_moot(it))
+        types = meanings_of(theory)
+        game, packaged = changed(tutoring(types=types), theory), packaged_rules(types)
+        errors = (it for it in faults_of(game) if _is_error(it))
+        wrong = (it for it in errors if not _is_moot(it, packaged))
         yield from (_of_fault(key, it) for it in wrong)
     except TheoryError as error:
         yield Trouble(key, error.message, error.at)
@@ -157,9 +159,9 @@ def _is_error(fault: Fault) -> bool:
     return fault.severity == "error"
 
 
-def _is_moot(fault: Fault) -> bool:
+def _is_moot(fault: Fault, packaged: Collection[Rule]) -> bool:
     """Whether it is of a rule of the package's that the theory has no use for."""
-    return fault.sort in NEVER and fault.rule in PACKAGED
+    return fault.sort in NEVER and fault.rule in packaged
 
 
 def _of_fault(key: Key, fault: Fault) -> Trouble:
@@ -204,7 +206,7 @@ def _tried(theory: Theory) -> Iterator[Trouble]:
             event, world = glanced(world.pointed(number), world), world.pointed(number)
             now = game.take(now, event).run
             for text in texts:
-                heard = hear(text, language_of(theory))
+                heard = hear(text, language_of(theory), types=meanings_of(theory))
                 now = now if heard is None else game.take(now, heard).run
     except (Exception, SystemExit) as error:
         cause = _cause(error)

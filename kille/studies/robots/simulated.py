@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 
 from kille.dialogue.lexicon import lexicon
+from kille.dialogue.meanings import DialogueTypes, packaged_types
 from kille.dialogue.wording import did_not_understand
 from kille.simulation.perceiving import glanced, number_of, seen, thing
 from kille.simulation.playing import world_of
@@ -19,8 +20,11 @@ from ttr.updates import Game, Run, Turn
 class Simulated:
     """A robot that is its games alone: what it sees follows from the world's name."""
 
-    def __init__(self, game: Game, language: str = "en") -> None:
+    def __init__(
+        self, game: Game, language: str = "en", types: DialogueTypes | None = None
+    ) -> None:
         self._game, self._language = game, language
+        self._types = types or packaged_types()
         self._now: Run = game.begin()
 
     def see(self, occasion: Occasion) -> Reply:
@@ -36,7 +40,7 @@ class Simulated:
         assert self._game.hear is not None
         event = self._game.hear(text)
         if event is None:
-            sorry = did_not_understand(lexicon(self._language), text)
+            sorry = did_not_understand(lexicon(self._language), text, types=self._types)
             return Reply(sorry, (), *self._now[:2])
         return self._taken(event)
 

@@ -9,15 +9,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from kille.dialogue.meanings import KINDS
-from kille.dialogue.meanings import theory as theory_of_process
-from kille.dialogue.state import STATE
+from kille.dialogue.meanings import KINDS, DialogueTypes
 from kille.dialogue.strategies import strategy
 from kille.simulation.vocabulary import vocabulary
-from kille.studies.apart import ask, is_apart
 from kille.studies.study import PERSON, Theory
 from kille.studies.theories.games import strategy_of
-from kille.studies.theories.rules import algorithm_of, told
+from kille.studies.theories.meanings import meanings_of
+from kille.studies.theories.rules import algorithm_of, packaged_rules, told
 from ttr import Record, record
 from ttr.types import TypeNode
 from ttr.updates import rules_of
@@ -39,9 +37,7 @@ def described(theory: Theory) -> Mapping[str, Shown]:
     >>> print(described(Theory("proto"))["noun"])
     [look : Look, x : Ind, c : cup(x, look)]
     """
-    if is_apart(theory):
-        shown: Mapping[str, Shown] = ask(theory, f"{__name__}:described", theory)
-        return shown
+    types = meanings_of(theory)
     learners = {kind: _short(theory.learners.get(kind, "default")) for kind in KINDS}
     by_person = theory.mode == PERSON
     return {
@@ -49,9 +45,9 @@ def described(theory: Theory) -> Mapping[str, Shown]:
         "language": _language(theory),
         "strategy": strategy() if by_person else strategy_of(theory),
         "learners": record(learners),
-        **{kind: _meaning(theory.language, kind) for kind in KINDS},
-        "meanings": _meanings(),
-        "state": STATE,
+        **{kind: _meaning(theory.language, kind, types) for kind in KINDS},
+        "meanings": _meanings(types),
+        "state": types.record_type("State"),
         "rules": {} if by_person else _rules(theory),
     }
 
@@ -70,20 +66,21 @@ def rules_apart(one: Theory, other: Theory) -> Mapping[str, tuple[str, str]]:
 
 
 def _rules(theory: Theory) -> Mapping[str, str]:
-    return {rule.name: told(rule) for rule in rules_of(algorithm_of(theory))}
+    packaged = packaged_rules(meanings_of(theory))
+    return {rule.name: told(rule, packaged) for rule in rules_of(algorithm_of(theory))}
 
 
-def _meaning(language: str, kind: str) -> TypeNode:
+def _meaning(language: str, kind: str, types: DialogueTypes) -> TypeNode:
     words, name = _EXAMPLES.get(kind, _PLACE)
-    meaning = getattr(vocabulary(language), words)[name].meaning
+    meaning = getattr(vocabulary(language, types), words)[name].meaning
     assert isinstance(meaning, TypeNode)
     return meaning
 
 
-def _meanings() -> Mapping[str, TypeNode]:
+def _meanings(types: DialogueTypes) -> Mapping[str, TypeNode]:
     """All types by which words, phrases and moves have their meanings."""
-    named = theory_of_process().definitions
-    return {name: T for name, T in named.items() if T is not STATE}
+    state, named = types["State"], types.theory.definitions
+    return {name: T for name, T in named.items() if T is not state}
 
 
 def _language(theory: Theory) -> str:

@@ -22,6 +22,7 @@ from kille.studies.errors import TheoryError
 from kille.studies.settings import Setting, shown, unknown
 from kille.studies.study import Theory
 from kille.studies.theories.judging import learners_of, words_of
+from kille.studies.theories.meanings import meanings_of
 from kille.studies.theories.rules import algorithm_of
 from kille.studies.theories.words import acting, known_by
 from ttr import Record, replace
@@ -43,7 +44,8 @@ def game_of(
     >>> [game.say(move) for turn in turns for move in turn.said]
     ['Please, show me more examples of cup.', 'This is a cup. Am I right?']
     """
-    every = vocabulary(theory.language).colours
+    types = meanings_of(theory)
+    every = vocabulary(theory.language, types).colours
     signs = every if colours is None else tuple(colours)
     game = simulated(
         world,
@@ -51,6 +53,7 @@ def game_of(
         language=language_of(theory),
         mode=theory.mode,
         wording=theory.wording,
+        types=types,
     )
     start = replace(game.start, {"private.colours": list(every)})
     game = dataclasses.replace(game, start=start)
@@ -73,7 +76,8 @@ def agent_of(theory: Theory, sensor: str | Sensor, **settings: Any) -> Agent:
         mode=theory.mode,
         wording=theory.wording,
         learners=learners_of(theory),
-        theory=partial(changed, theory=theory),
+        theory=meanings_of(theory),
+        change=partial(changed, theory=theory),
         **settings,
     )
 

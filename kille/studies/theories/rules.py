@@ -10,10 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from kille.dialogue.games import TUTORING
+from kille.dialogue.meanings import DialogueTypes
+from kille.dialogue.rules import bind
 from kille.studies.errors import TheoryError
 from kille.studies.failing import line_in, why
 from kille.studies.settings import no_file, unknown
 from kille.studies.study import Theory
+from kille.studies.theories.meanings import meanings_of
 from ttr import TTRError
 from ttr.safety.consent import OWN_FOLDER, Consent, NotAllowedError
 from ttr.safety.python_files import run_named
@@ -66,8 +69,10 @@ def _absent(theory: Theory, whole: Algorithm) -> Iterator[str]:
 
 
 def _whole(theory: Theory) -> Algorithm:
-    """The games with the rules of one's own."""
-    return _with(TUTORING, theory) if theory.rules else TUTORING
+    """The games with the rules of one's own, on the types of the theory."""
+    types = meanings_of(theory)
+    usual = bind(TUTORING, types)
+    return bind(_with(usual, theory), types) if theory.rules else usual
 
 
 def lacking(algorithm: Algorithm, names: Collection[str]) -> Algorithm | None:
@@ -101,24 +106,25 @@ def lacking(algorithm: Algorithm, names: Collection[str]) -> Algorithm | None:
     return dataclasses.replace(algorithm, parts=parts) if parts else None
 
 
-def told(rule: Rule) -> str:
+def told(rule: Rule, packaged: Collection[Rule]) -> str:
     """What a rule is, to be read: in the notation, or what it is for and its Python.
 
-    Of the package's own rules it is what they are for.
+    Of the `packaged` rules it is what they are for.
     """
     if rule.text:
         return f"rule {rule.text}"
-    if rule in PACKAGED:
+    if rule in packaged:
         return rule.doc
     try:
-        code = inspect.getsource(rule.effect)
+        code = inspect.getsource(getattr(rule.effect, "func", rule.effect))
     except (OSError, TypeError):  # a file that has gone, or no function of a file
         return rule.doc
     return inspect.cleandoc(code)
 
 
-PACKAGED = frozenset(rules_of(TUTORING))
-"""The rules of the games of tutoring as they are."""
+def packaged_rules(types: DialogueTypes) -> frozenset[Rule]:
+    """The rules of the games of tutoring as they are, on some types."""
+    return frozenset(rules_of(bind(TUTORING, types)))
 
 
 # --- rules of one's own ---------------------------------------------------------------

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.dialogue.commitments import lessons_in, same
-from kille.dialogue.meanings import denied, is_denial, theory
+from kille.dialogue.meanings import denied, is_denial, packaged_types, theory
 from ttr import Record, replace
 
 KNOWN = {
@@ -309,4 +309,6 @@ def test_a_no_leaves_no_lesson_that_says_what_was_rejected(
     told(one, (*texts, "What is this?"))
     rejected = one.state.shared.pending
     one.hear("No.")
-    assert not any(lessons_in(one.state, claim) for claim in rejected)
+    assert not any(
+        lessons_in(one.state, claim, types=packaged_types()) for claim in rejected
+    )

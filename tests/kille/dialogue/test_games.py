@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from kille.dialogue.lexicon import lexicon
 from kille.dialogue.meanings import named, predicate_at
-from kille.dialogue.state import STATE
 
 Make = Callable[..., Any]
 
@@ -272,7 +271,7 @@ def test_every_utterance_is_answered_once(
     for text in texts:
         assert len(robot.acts(text)) == 1
         assert robot.state.private.agenda == ()
-        assert robot.now.model.judge(robot.state, STATE).holds
+        assert robot.now.model.judge(robot.state, named("State")).holds
 
 
 def test_every_move_of_the_robot_has_its_wording_and_its_type() -> None:

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.dialogue.lexicon import lexicon
-from kille.dialogue.meanings import noun, theory, word_of
+from kille.dialogue.meanings import noun, packaged_types, theory, word_of
 from kille.dialogue.state import blank_model
 from kille.dialogue.tutoring import tutoring
 from kille.dialogue.typos import is_slip, nearest, slip
@@ -80,7 +80,7 @@ def test_a_word_of_its_own_is_not_questioned() -> None:
 def test_what_is_not_understood_is_answered_by_what_is_like_it(
     text: str, like: str
 ) -> None:
-    assert like in did_not_understand(lexicon(), text)
+    assert like in did_not_understand(lexicon(), text, types=packaged_types())
 
 
 def test_what_is_asked_for_is_nearly_known() -> None:

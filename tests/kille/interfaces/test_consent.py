@@ -9,12 +9,13 @@ from typing import Any
 
 import pytest
 
-from kille.dialogue.redefining import types_of
+from kille.dialogue.meanings import named
+from kille.dialogue.theory_files import theory_of_file
 from kille.studies import log
-from kille.studies.apart import ask
 from kille.studies.reading import checked, read
 from kille.studies.reading.consenting import unallowed
 from kille.studies.study import Theory
+from kille.studies.theories.describing import described
 from kille.studies.theories.judging import learners_of
 from ttr.safety.consent import NotAllowedError
 
@@ -233,19 +234,18 @@ def test_meanings_import_from_the_folder_of_the_study(kille: Run, home: Path) ->
 
 
 def test_what_lies_in_the_working_directory_is_not_run(home: Path) -> None:
-    """A theory with meanings of its own is asked in a process of its own."""
     for module in ("random", "pickle", "kille", "ttr"):
         text = "from pathlib import Path\nPath(__file__).with_name('ran').touch()\n"
         (home / f"{module}.py").write_text(text)
     own = Theory("own", meanings={"It": "[x : Ind, look : Look]"})
-    assert ask(own, "os:getcwd") == str(home)
+    assert described(own)["meanings"]["It"] is not named("It")  # type: ignore[index]
     assert ran(home) == []
 
 
-def test_the_variable_of_meanings_names_a_theory(home: Path) -> None:
+def test_a_file_of_meanings_is_a_theory(home: Path) -> None:
     for own in ("/etc/passwd", "mine/secret", "mine/hidden.ttr"):
         with pytest.raises(NotAllowedError) as caught:
-            types_of(own)
+            theory_of_file(own)
         assert "root:x" not in str(caught.value)
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
-import pickle
-import signal
+import traceback
 from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 import pytest
@@ -15,8 +17,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kille.dialogue.games import TUTORING
-from kille.dialogue.meanings import noun, relation, theory
-from kille.dialogue.redefining import redefined
+from kille.dialogue.meanings import named, noun, packaged_types, relation, theory
+from kille.dialogue.rules import bind
+from kille.dialogue.theory_files import redefine
 from kille.knowledge import Knowledge
 from kille.memory import Memory
 from kille.perception.evidence import Evidence
@@ -27,15 +30,16 @@ from kille.simulation.learning import Word
 from kille.simulation.perceiving import glanced
 from kille.simulation.playing import words
 from kille.simulation.worlds import Thing, World, drawn
-from kille.studies.apart import ask
 from kille.studies.errors import TheoryError
 from kille.studies.playing import play
 from kille.studies.reading import parsed, read
+from kille.studies.robots.simulated import Simulated
 from kille.studies.study import Run, Study, Theory
 from kille.studies.theories import agent_of, game_of, strategy_of
 from kille.studies.theories.describing import described, rules_apart
 from kille.studies.theories.guests import GuestRelations, logits
 from kille.studies.theories.judging import learners_of
+from kille.studies.theories.meanings import meanings_of
 from kille.studies.theories.pupils import Heard, Pupil
 from kille.studies.theories.rules import algorithm_of, lacking
 from kille.studies.theories.words import Prototype
@@ -106,7 +110,8 @@ NAMING = (1, "This is a cup.", 2, "This is a car.", "What is this?")
 
 
 def test_a_theory_of_nothing_else_plays_the_games_as_they_are() -> None:
-    assert game_of(Theory("plain"), WORLD).algorithm is TUTORING
+    usual = bind(TUTORING, packaged_types())
+    assert game_of(Theory("plain"), WORLD).algorithm is usual
     said = dialogue(game_of(Theory("plain"), WORLD), NAMING)
     assert said[-1] == "This is a car."
 
@@ -597,6 +602,8 @@ U> The cup is big.
 U> What is it?
 """
 
+SHOWN = "It    := [x : Ind, look : Look, d : shown(x, look)]"
+
 STUDY = """\
 title = "What is it?"
 seeds = 1
@@ -650,7 +657,9 @@ def test_a_theory_may_have_meanings_of_its_own(deictic: Study) -> None:
     }
 
 
-def test_what_is_played_apart_is_the_same_each_time(deictic: Study) -> None:
+def test_what_has_meanings_of_its_own_is_played_the_same_each_time(
+    deictic: Study,
+) -> None:
     run = Run("shown", "script", "table", 1)
     assert play(deictic, run) == play(deictic, run)
 
@@ -667,50 +676,58 @@ def test_meanings_of_ones_own_are_shown(deictic: Study) -> None:
 @pytest.mark.parametrize("name", sorted(theory().definitions))
 def test_any_type_can_be_redefined_as_it_is(name: str) -> None:
     text = packaged("tutor.ttr")
-    again = redefined(text, {name: str(theory()[name])})
+    again = redefine(text, {name: str(theory()[name])})
     assert again.count("\n") == text.count("\n")
     [line] = [it for it in again.splitlines() if it.startswith(f"{name} := ")]
     assert line == f"{name} := {theory()[name]}"
 
 
-def test_what_fails_apart_is_raised_here_with_where_it_was(deictic: Study) -> None:
-    run = Run("fails", "script", "table", 1)
-    with pytest.raises(TTRError, match="no idea") as raised:
-        play(deictic, run)
-    assert "own.py" in "".join(raised.value.__notes__)
-    assert play(deictic, Run("shown", "script", "table", 1)).turns
-
-
-def test_a_process_that_has_ended_is_begun_anew(deictic: Study) -> None:
-    theory = deictic.theories["shown"]
-    with pytest.raises(TheoryError, match="has ended"):
-        ask(theory, "os:_exit", 3)
-    assert play(deictic, Run("shown", "script", "table", 1)).turns
-
-
-def test_who_was_interrupted_is_not_given_the_old_answer(deictic: Study) -> None:
-    theory = deictic.theories["shown"]
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            ask(theory, "os:kill", os.getpid(), signal.SIGINT)
-    finally:
-        signal.signal(signal.SIGINT, before)
-    assert ask(theory, "builtins:len", "abc") == 3
-
-
-def test_what_cannot_be_sent_to_a_process_leaves_it_as_it_was(deictic: Study) -> None:
-    theory = deictic.theories["shown"]
-    with pytest.raises((AttributeError, pickle.PicklingError)):
-        ask(theory, "builtins:len", "a" * 100_000, lambda: None)
-    assert ask(theory, "builtins:len", "abc") == 3
-
-
-def test_an_error_that_only_the_process_knows_is_raised_by_its_words(
+def test_what_fails_says_where_it_was_and_leaves_the_others_as_they_were(
     deictic: Study,
 ) -> None:
+    run, other = (Run(it, "script", "table", 1) for it in ("fails", "shown"))
+    before = play(deictic, other)
+    with pytest.raises(TTRError, match="no idea") as raised:
+        play(deictic, run)
+    assert "own.py" in "".join(traceback.format_exception(raised.value))
+    assert play(deictic, other) == before
+
+
+def test_who_interrupts_a_theory_leaves_the_others_as_they_were(
+    deictic: Study, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run, other = (Run(it, "script", "table", 1) for it in ("shown", "inline"))
+    before = play(deictic, other)
+    with monkeypatch.context() as patched:
+        patched.setattr(Simulated, "hear", _interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            play(deictic, run)
+    assert play(deictic, other) == before
+    assert play(deictic, run).turns
+
+
+def _interrupted(robot: Simulated, text: str) -> NoReturn:
+    raise KeyboardInterrupt
+
+
+def test_a_theory_that_has_changed_is_read_anew(deictic: Study) -> None:
     theory = deictic.theories["shown"]
-    code = "class Odd(Exception): ...\nraise Odd('no idea')"
-    with pytest.raises(RuntimeError, match="Odd: no idea"):
-        ask(theory, "builtins:exec", code, {"__name__": "kille"})
-    assert ask(theory, "builtins:len", "abc") == 3
+    assert isinstance(theory.meanings, str)
+    file, shown = Path(theory.meanings), meanings_of(theory)["It"]
+    text, at = file.read_text(encoding="utf-8"), file.stat().st_mtime_ns
+    try:
+        file.write_text(text.replace(SHOWN, "It := Phrase"), encoding="utf-8")
+        os.utime(file, ns=(at + 1, at + 1))
+        assert meanings_of(theory)["It"] is named("Phrase")
+    finally:
+        file.write_text(text, encoding="utf-8")
+        os.utime(file, ns=(at, at))
+    assert meanings_of(theory)["It"] is shown
+
+
+def test_theories_are_played_in_threads_as_alone(deictic: Study) -> None:
+    runs = [Run(it, "script", "table", 1) for it in ("mentioned", "shown", "inline")]
+    alone = [play(deictic, run).turns for run in runs]
+    with ThreadPoolExecutor(len(runs)) as pool:
+        together = [it.turns for it in pool.map(partial(play, deictic), runs * 2)]
+    assert together == alone * 2

@@ -1,27 +1,17 @@
-"""The types of the dialogue: those of `grammars/tutor.ttr`, or others in their place.
-
-All states, rules and words of a process are made of them when it begins, so which they
-are is said from outside, by a variable.
-"""
+"""Theories of the dialogue from files: `grammars/tutor.ttr`, or others in its place."""
 
 from __future__ import annotations
 
-import json
-import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from functools import cache
 from importlib.resources import files
+from pathlib import Path
 
 from ttr import Theory, TTRError
 from ttr.errors import suggestion
 from ttr.safety.consent import check_called
 from ttr.theories.theory import load
-
-VARIABLE = "KILLE_THEORY"
-"""The variable of a process that has other types."""
-
-ALLOWED = "KILLE_ALLOW"
-"""The variable that names folders from which these may import, with colons between."""
 
 SOURCE = "tutor.ttr"
 
@@ -29,25 +19,40 @@ _STATEMENT = r"\s*:=.*(\n[ \t\])]+.*)*"
 """What follows the name in a definition, which may go on over indented lines."""
 
 
-def types_of(own: str = "", allowed: str = "") -> Theory:
-    """The theory of the dialogue, by what the variables say.
+@cache
+def packaged_theory() -> Theory:
+    """The theory of the packaged `tutor.ttr`."""
+    return theory_with({})
 
-    Nothing: as packaged. An object of JSON: some types are defined so instead. Else it
-    is a file in place of the packaged one. Raises `TTRError` for what is no theory.
+
+def theory_with(types: Mapping[str, str]) -> Theory:
+    """The packaged theory in which some types are defined otherwise.
+
+    Raises `TTRError` for a name that it does not define, and for what is no type.
+
+    >>> print(theory_with({"Phrase": "[look : Look, x : Ind, y : Ind]"}).Phrase)
+    [look : Look, x : Ind, y : Ind]
     """
-    if own and not own.startswith("{"):
-        check_called(own, ".ttr")
-        return load(own, allow=filter(None, allowed.split(os.pathsep)))
     text = files("kille.grammars").joinpath(SOURCE).read_text(encoding="utf-8")
-    return Theory.parse(redefined(text, json.loads(own or "{}")), SOURCE)
+    return Theory.parse(redefine(text, types), SOURCE)
 
 
-def redefined(text: str, types: Mapping[str, str]) -> str:
+def theory_of_file(file: Path | str, allow: Iterable[Path | str] = ()) -> Theory:
+    """The theory of a file that takes the place of the packaged one.
+
+    It may import from its folder, and from those that `allow` names. Raises `TTRError`
+    for what is no theory.
+    """
+    check_called(str(file), ".ttr")
+    return load(file, allow=allow)
+
+
+def redefine(text: str, types: Mapping[str, str]) -> str:
     r"""A theory file in which some types are defined otherwise, each on one line.
 
     All else stays on its line. Raises `TTRError` for a name that it does not define.
 
-    >>> redefined("A := [x : Ind,\n      y : Ind]\nB := A", {"A": "[x : Ind]"})
+    >>> redefine("A := [x : Ind,\n      y : Ind]\nB := A", {"A": "[x : Ind]"})
     'A := [x : Ind]\n\nB := A'
     """
     for name, definition in types.items():

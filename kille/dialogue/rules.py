@@ -1,0 +1,162 @@
+"""Rules of the dialogue: on types that are known by their names, until a game is made.
+
+A rule says what it is about in the names that a theory gives its types, so that the
+same rules serve every theory that has these names. `bind` makes rules for one theory.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from types import FunctionType
+from typing import NoReturn, TypeAlias
+
+from kille.dialogue.meanings import DialogueTypes, any_of
+from kille.dialogue.moves import unanswered
+from ttr import Rec, RecordType
+from ttr.errors import UpdateError
+from ttr.probability import CERTAIN
+from ttr.updates import Algorithm, ByClass, Maybe, Repeat, Rule
+from ttr.updates import rule as rule_on
+from ttr.updates.rules import Effect
+
+__all__ = ["NamedRule", "bind", "rule"]
+
+When: TypeAlias = str | Callable[[DialogueTypes], RecordType]
+"""A condition: the name of a record type, or what makes one of the types."""
+
+TYPES = "types"
+"""The parameter by which an effect is given the types of its game."""
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class NamedRule(Rule):
+    """A rule on types that are known by their names: it is played when it is bound."""
+
+    of: Effect
+    condition: When
+    event: str
+    takes_types: bool
+
+    def bind(self, types: DialogueTypes) -> Rule:
+        """The rule on the types that a theory gives these names."""
+        condition = self.condition
+        return Rule(
+            self.name,
+            partial(self.of, types=types) if self.takes_types else self.of,
+            types.record_type(condition)
+            if isinstance(condition, str)
+            else condition(types),
+            on=types[self.event] if self.event else None,
+            p=self.p,
+            takes=self.takes,
+            names=self.names,
+            doc=self.doc,
+            span=self.span,
+        )
+
+
+def rule(
+    *,
+    when: When = "State",
+    on: str = "",
+    answers: str | tuple[str, ...] = (),
+    p: object = CERTAIN,
+) -> Callable[[Effect], NamedRule]:
+    """Make a rule of a function, as `ttr.updates.rule` does, on types by their names.
+
+    `when` names the type of the states, `on` that of the event; `answers` names a move,
+    or several, for the states in which one of them is the latest and no answer is
+    planned yet. A function
+    with a parameter `types` is given the `DialogueTypes` of the game.
+
+    >>> from kille.dialogue.meanings import packaged_types
+    >>> from kille.dialogue.moves import plan
+    >>> @rule(answers="Greet")
+    ... def be_curt(s, *, types):
+    ...     "A greeting is only noted."
+    ...     return plan(s, "Noted", types=types)
+    >>> bound = bind(be_curt, packaged_types())
+    >>> print(bound.when["shared"])
+    [latest : [addr : Ind, spkr : Ind, e : greet(spkr, addr)]]
+    """
+    moves = (answers,) if isinstance(answers, str) else answers
+    condition: When = partial(_answering, moves=moves) if moves else when
+
+    def make_rule(effect: Effect) -> NamedRule:
+        asked = inspect.signature(effect)
+        known = rule_on(when=Rec, on=Rec if on else None, p=p)(_without_types(effect))
+        return NamedRule(
+            known.name,
+            partial(_refuse, known.name),
+            Rec,
+            on=known.on,
+            p=known.p,
+            takes=known.takes,
+            names=known.names,
+            doc=known.doc,
+            span=known.span,
+            of=effect,
+            condition=condition,
+            event=on,
+            takes_types=TYPES in asked.parameters,
+        )
+
+    return make_rule
+
+
+def bind(algorithm: Algorithm, types: DialogueTypes) -> Algorithm:
+    """The strategy with its rules on the types of a theory; other rules stay."""
+    return types.derive(_bind, algorithm)
+
+
+def _bind(types: DialogueTypes, algorithm: Algorithm) -> Algorithm:
+    match algorithm:
+        case NamedRule():
+            return types.derive(_bind_rule, algorithm)
+        case Rule():
+            return algorithm
+        case Maybe(part) | Repeat(part):
+            return replace(algorithm, part=_bind(types, part))
+        case ByClass(classes):
+            new = [(kind, tuple(_bound(types, it) for it in r)) for kind, r in classes]
+            return ByClass(tuple(new))
+    parts = tuple(_bind(types, part) for part in algorithm.parts)
+    return replace(algorithm, parts=parts)
+
+
+def _bind_rule(types: DialogueTypes, rule: NamedRule) -> Rule:
+    return rule.bind(types)
+
+
+def _bound(types: DialogueTypes, rule: Rule) -> Rule:
+    return types.derive(_bind_rule, rule) if isinstance(rule, NamedRule) else rule
+
+
+def _answering(types: DialogueTypes, moves: tuple[str, ...]) -> RecordType:
+    return types.derive(unanswered, types.derive(any_of, moves))
+
+
+def _without_types(effect: Effect) -> Effect:
+    """A function of the same place and words, without the parameter for the types."""
+    asked = inspect.signature(effect)
+    if TYPES not in asked.parameters or not isinstance(effect, FunctionType):
+        return effect
+    same = FunctionType(
+        effect.__code__,
+        effect.__globals__,
+        effect.__name__,
+        closure=effect.__closure__,
+    )
+    same.__doc__ = effect.__doc__
+    rest = [it for name, it in asked.parameters.items() if name != TYPES]
+    same.__signature__ = asked.replace(parameters=rest)  # type: ignore[attr-defined]
+    return same
+
+
+def _refuse(name: str, *_: object, **__: object) -> NoReturn:
+    raise UpdateError(
+        f"the rule {name} is on types by their names: bind it to a theory's first"
+    )
