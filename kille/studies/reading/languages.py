@@ -7,6 +7,7 @@ import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from string import Formatter
+from typing import Any
 
 from kille.dialogue.grammars import GrammarError
 from kille.dialogue.language import LANGUAGES, grammar_text, understand
@@ -139,7 +140,7 @@ def _of_wordings(own: Lexicon, packaged: Lexicon) -> Iterator[tuple[Key, str]]:
         if not section.startswith("says") or not isinstance(acts, Mapping):
             continue
         for act, wordings in acts.items():
-            several = [wordings] if isinstance(wordings, str) else wordings
+            several = wordings if isinstance(wordings, list) else [wordings]
             yield from ((((section, act)), it) for it in _unfilled(several, known))
 
 
@@ -147,7 +148,12 @@ _FILED = {"says": "says", "tells": "tutor"}
 """What the tables of a lexicon are called in its file."""
 
 
-def _unfilled(wordings: list[str], known: list[str]) -> Iterator[str]:
+def _unfilled(wordings: list[Any], known: list[str]) -> Iterator[str]:
+    """What is wrong with the wordings of an act, which may be anything in TOML."""
+    odd = [it for it in wordings if not isinstance(it, str)]
+    if odd:
+        yield f"a wording is a text or a list of texts, found {_kind_of(odd[0])}"
+        return
     try:
         found = _slots(wordings)
     except ValueError as error:
@@ -156,6 +162,17 @@ def _unfilled(wordings: list[str], known: list[str]) -> Iterator[str]:
     for slot in found:
         if slot not in known:
             yield f"there is no slot {{{slot}}}: {unknown(slot, known)}"
+
+
+def _kind_of(value: object) -> str:
+    """What a value of TOML is, in words."""
+    match value:
+        case dict():
+            return "a table"
+        case list():
+            return "a list in a list"
+        case _:
+            return str(value).lower()
 
 
 def _slots(wordings: tuple[str, ...] | list[str]) -> list[str]:

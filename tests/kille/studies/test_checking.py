@@ -112,7 +112,7 @@ def test_a_study_without_mistakes_is_fine(tmp_path: Path) -> None:
         ("strategy.bands.sure = true", 4, "from 0 to 2, found true"),
         ("strategy.bands.sure = 95", 4, "expected a number from 0 to 2, found 95"),
         ("strategy.hearing.strange = -1", 4, "hearing.strange of a strategy: expecte"),
-        ("strategy.wants.asking = [1, 2]", 4, "found a list"),
+        ("strategy.wants.asking = [1, 2]", 4, "found a list in a list"),
         ("strategy.wants.learning = true", 4, "a table of right, wrong, found true"),
         ("strategy.bands.sure = nan", 4, "bands.sure of a strategy: expected a number"),
         (
@@ -351,6 +351,14 @@ def test_a_theory_file_that_does_not_read_is_told_with_its_line(tmp_path: Path) 
         ("lexicon.en.toml", "\nexamples = [", "\nexamples = 3\nx = [", "does not read"),
         ("tutor.en.lark", "greet", "greeet", "tutor.ttr has no type for"),
         ("lexicon.en.toml", "admit_name =", "admit_nam =", "no wording for admit_name"),
+        ("lexicon.en.toml", "[says_four]", "[says_four]\nmine = [{}]", "found a table"),
+        (
+            "lexicon.en.toml",
+            "[says_four]",
+            "[says_four]\nmine = [[]]",
+            "found a list in a list",
+        ),
+        ("lexicon.en.toml", "[says_four]", "[says_four]\nmine = true", "found true"),
     ],
 )
 def test_a_language_that_does_not_read_is_told_in_its_file(
