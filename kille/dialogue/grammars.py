@@ -238,6 +238,8 @@ def by_lark(text: str, starts: Sequence[str]) -> Source:
         found = Lark(text, parser=None, lexer="basic", start=list(starts))
     except LarkError as mistake:
         raise GrammarError(str(mistake)) from mistake
+    except TypeError as failure:  # of Lark, while it looks for words for a mistake
+        raise GrammarError(_first_mistake(failure)) from failure
     except RecursionError:
         raise GrammarError("its brackets nest too deep to be read") from None
     except (ValueError, OverflowError) as mistake:
@@ -257,6 +259,18 @@ def by_lark(text: str, starts: Sequence[str]) -> Source:
     ]
     ignored = [it for name in found.ignore_tokens for it in patterns[name]]
     return Source(productions, patterns, ignored)
+
+
+def _first_mistake(failure: BaseException) -> str:
+    """What Lark said at first, where an error led to others."""
+    from lark.exceptions import LarkError
+
+    first: BaseException | None = failure
+    while first is not None:
+        if isinstance(first, LarkError):
+            failure = first
+        first = first.__context__
+    return str(failure)
 
 
 def _production(

@@ -216,6 +216,11 @@ def test_repetitions_that_fill_the_memory_are_refused(counts: str) -> None:
             Grammar(f"start: A\n{text}").parse("a")
 
 
+def test_a_mistake_at_which_lark_itself_fails_is_told():
+    with pytest.raises(GrammarError, match=r"':'.* at line 2, column 5"):
+        by_lark("F://\nE:(E:", ["start"])
+
+
 def test_terminals_are_checked_before_a_dialogue_comes_to_them() -> None:
     grammar = Grammar("start: A B\nA: /a/\nB: /(b/\n")
     assert grammar.parse("x") == []
