@@ -29,6 +29,7 @@ from ttr.types.syntax import (
     TypeNode,
 )
 from ttr.updates.games import Game
+from ttr.updates.update_strategies import event_types
 
 SPEAKERS = frozenset(
     ("spkr", "speaker", "by", "actor", "agent", "sender", "from", "said_by", "author")
@@ -100,9 +101,8 @@ def format_objects(objects: Iterable[Object]) -> str:
 @lru_cache(maxsize=64)
 def agents_of(game: Game) -> frozenset[str]:
     """Who acts in some event of a game: by a label of speakers, or first in a ptype."""
-    taken = (rule.on for rule in game.rules if rule.on is not None)
     found: set[str] = set()
-    for T in dict.fromkeys((*taken, *heard_by(game))):
+    for T in dict.fromkeys((*event_types(game.rules), *heard_by(game))):
         if isinstance(T, RecordType):
             found.update(_agents_in(T))
     return frozenset(found)

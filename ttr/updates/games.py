@@ -24,7 +24,12 @@ from ttr.updates.nbest import NBest
 from ttr.updates.rules import Rule
 from ttr.updates.running import Run, Step, continue_run, endless
 from ttr.updates.states import check_state
-from ttr.updates.update_strategies import Algorithm, check_strategies, rules_of
+from ttr.updates.update_strategies import (
+    Algorithm,
+    check_strategies,
+    event_types,
+    rules_of,
+)
 from ttr.updates.user_functions import blame, excerpt
 
 if TYPE_CHECKING:
@@ -69,7 +74,7 @@ class Turn:
         return self.run.trace
 
     def __str__(self) -> str:
-        happened = "nothing" if self.heard is None else _format_event(self.heard)
+        happened = "nothing" if self.heard is None else format_event(self.heard)
         lines = [f"> {happened}", *map(str, self.trace)]
         return "\n".join(
             [*lines, *(f"< {notation(move.sit)} : {move.type}" for move in self.said)]
@@ -242,9 +247,7 @@ class Game:
         """Refuse an event that no rule could take."""
         if event is None:
             return
-        types = self.hears or tuple(
-            dict.fromkeys(rule.on for rule in self.rules if rule.on is not None)
-        )
+        types = self.hears or event_types(self.rules)
         if any(is_certain(model.facts, event, T) for T in types):
             return
         if any(model.judge(event, T).p != REFUTED for T in types):
@@ -326,5 +329,6 @@ def _repeating_names(names: Sequence[str]) -> Sequence[str]:
     return names[-3:]
 
 
-def _format_event(event: Object | NBest) -> str:
+def format_event(event: object) -> str:
+    """An event in the notation, or its alternatives."""
     return str(event) if isinstance(event, NBest) else notation(event)

@@ -6,7 +6,7 @@ that can be, each in turn, class by class, or the one that somebody chooses.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeAlias
@@ -14,7 +14,7 @@ from typing import TypeAlias
 from ttr.errors import UpdateError, suggestion
 from ttr.judging.rule_index import Demands, RuleIndex, demands_of, demands_of_any
 from ttr.types.objects import Record
-from ttr.types.syntax import kind_of
+from ttr.types.syntax import TypeNode, kind_of
 from ttr.updates.rules import Rule
 
 Choose: TypeAlias = Callable[[Sequence[str], Record], int | None]
@@ -207,6 +207,11 @@ def check_strategies(name: str, parts: tuple[object, ...]) -> tuple[Algorithm, .
 def rules_of(algorithm: Algorithm) -> tuple[Rule, ...]:
     """The rules in a strategy, each once, in the order in which they stand."""
     return tuple(dict.fromkeys(rule_occurrences(algorithm)))
+
+
+def event_types(rules: Iterable[Rule]) -> tuple[TypeNode, ...]:
+    """The types of the events that some rules take, each once."""
+    return tuple(dict.fromkeys(rule.on for rule in rules if rule.on is not None))
 
 
 def rule_occurrences(algorithm: Algorithm) -> Iterator[Rule]:

@@ -14,7 +14,7 @@ from ttr.types.paths import subterms
 from ttr.types.syntax import PType, RecordType, TypeNode
 from ttr.updates.games import Game
 from ttr.updates.rules import Body, Rule
-from ttr.updates.update_strategies import rules_of
+from ttr.updates.update_strategies import event_types, rules_of
 
 
 def _why_dropped(coverage: Coverage) -> str:
@@ -36,7 +36,7 @@ def untaken_events(game: Game) -> Iterator[str]:
     theory = game.theory
     if theory is None or game.name not in theory.openings:
         return
-    taken = [rule.on for rule in _rules_of_games(theory) if rule.on is not None]
+    taken = event_types(_rules_of_games(theory))
     labels = _common_proof_labels(taken)
     if not labels:
         return
@@ -54,7 +54,7 @@ def _rules_of_games(theory: Theory) -> Iterator[Rule]:
         yield from rules_of(opening.algorithm)
 
 
-def _common_proof_labels(taken: list[TypeNode]) -> frozenset[str]:
+def _common_proof_labels(taken: tuple[TypeNode, ...]) -> frozenset[str]:
     """The labels at which every event that some rule takes has a proof object."""
     sets = [_proof_labels(T) for T in taken if isinstance(T, RecordType)]
     return frozenset.intersection(*sets) if sets else frozenset()

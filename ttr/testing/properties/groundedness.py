@@ -33,6 +33,7 @@ from ttr.types.printing import notation
 from ttr.types.syntax import RecordType, TypeNode
 from ttr.updates.games import Game
 from ttr.updates.running import Step
+from ttr.updates.update_strategies import event_types
 
 # --- P21 -----------------------------------------------------------------------------
 
@@ -91,9 +92,7 @@ def _why_move_not_made(item: RecordType, step: Step) -> str:
 
 def _move_types(game: Game) -> frozenset[TypeNode]:
     """The types of moves that anybody makes in the game."""
-    return frozenset(heard_by(game)) | {
-        rule.on for rule in game.rules if rule.on is not None
-    }
+    return frozenset((*heard_by(game), *event_types(game.rules)))
 
 
 def _why_wrong_speaker(item: Object, step: Step, game: Game) -> str:

@@ -15,7 +15,7 @@ from ttr.types.objects import Object, Record, freeze
 from ttr.types.printing import notation
 from ttr.types.records import value_at
 from ttr.types.syntax import Rec, TypeNode
-from ttr.updates.games import Game, Turn
+from ttr.updates.games import Game, Turn, format_event
 from ttr.updates.nbest import NBest
 from ttr.updates.running import Run
 
@@ -51,7 +51,7 @@ def _why_unheeded(trial: Trial, turn: Turn, roles: Roles) -> str:
     """Why a move of the tutor's had no effect."""
     if turn.trace or _is_over(trial.before, roles):
         return ""
-    return f"no rule takes {_format_event(turn.heard)}"
+    return f"no rule takes {format_event(turn.heard)}"
 
 
 def _is_over(now: Run, roles: Roles) -> bool:
@@ -163,7 +163,7 @@ def _why_misread(game: Game, turn: Turn, roles: Roles) -> str:
     return (
         ""
         if _is_same_event(read, turn)
-        else f"{worded} is read as {_format_event(read)}"
+        else f"{worded} is read as {format_event(read)}"
     )
 
 
@@ -229,10 +229,6 @@ def _is_event_of(event: Object, happened: Object) -> bool:
 def _system_moves(trial: Trial) -> tuple[Object, ...]:
     """The moves that the system made in a turn."""
     return () if trial.turn is None else tuple(m.sit for m in trial.turn.said)
-
-
-def _format_event(event: object) -> str:
-    return str(event) if isinstance(event, NBest) else notation(event)
 
 
 FRESH_ANSWERS = Property(

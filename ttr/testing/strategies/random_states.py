@@ -29,6 +29,7 @@ from ttr.types.syntax import (
     kind_of,
 )
 from ttr.updates.games import Game
+from ttr.updates.update_strategies import event_types
 
 KNOWN = 6
 """How many of the known objects a field of an event may be set to."""
@@ -105,9 +106,7 @@ def heard_by(game: Game) -> tuple[TypeNode, ...]:
     the game's theory defines are among them, such as asking whether it rains if a rule
     takes any asking.
     """
-    taken = tuple(
-        T for rule in game.rules if rule.on is not None for T in _alternatives(rule.on)
-    )
+    taken = tuple(T for on in event_types(game.rules) for T in _alternatives(on))
     defined = game.theory.definitions.values() if game.theory else ()
     special = (
         T

@@ -42,7 +42,7 @@ from ttr.updates.checks.state_layout import (
     views_along,
 )
 from ttr.updates.rules import Body, Rule
-from ttr.updates.update_strategies import Algorithm, rules_of
+from ttr.updates.update_strategies import Algorithm, event_types, rules_of
 
 Demand: TypeAlias = tuple[Labels, TypeNode]
 """A path of the state, and the type of which a rule asks it to be."""
@@ -155,8 +155,7 @@ class RuleSet:
     @cached_property
     def _views_of_events(self) -> Views:
         """The types of the events that rules take, or that are heard."""
-        taken = (rule.on for rule in self.rules if rule.on is not None)
-        return tuple(dict.fromkeys((*taken, *self.hears)))
+        return tuple(dict.fromkeys((*event_types(self.rules), *self.hears)))
 
     def views_in_state(self, path: Labels) -> Views | Missing:
         """The views at a path of a state, or what is missing."""

@@ -21,6 +21,7 @@ from ttr.updates.checks.state_layout import (
     views_along,
 )
 from ttr.updates.rules import Rule
+from ttr.updates.update_strategies import event_types
 
 
 def find_untriggered_rules(rules: RuleSet) -> Iterator[Fault]:
@@ -138,7 +139,7 @@ def _may_bring(
 
 def find_untaken_events(rules: RuleSet) -> Iterator[Fault]:
     """The types of events that the game says it hears, but no rule takes."""
-    taken = [rule.on for rule in rules.rules if rule.on is not None]
+    taken = event_types(rules.rules)
     for heard in rules.hears:
         if not any(rules.may_coincide(heard, on) for on in taken):
             message = f"the game hears events of {heard}, which no rule takes"
