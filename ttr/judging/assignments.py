@@ -24,7 +24,13 @@ from ttr.probability import (
     degree,
 )
 from ttr.safety.budgets import spend
-from ttr.signature.axioms import find_exclusion, match_schema, subtypes, supertypes
+from ttr.signature.axioms import (
+    find_exclusion,
+    head,
+    match_schema,
+    subtypes,
+    supertypes,
+)
 from ttr.signature.signature import Signature
 from ttr.types.interning import identity
 from ttr.types.objects import Object
@@ -53,11 +59,6 @@ _NO_UPPER: Bound = (1.0, "")
 
 NO_LINKS = Links()
 """The links where nothing was said of how judgements depend."""
-
-
-def head(T: Atom) -> Head:
-    """The basic type itself, or the predicate of a ptype."""
-    return T if isinstance(T, Basic) else T.pred
 
 
 @dataclass(frozen=True, eq=False)

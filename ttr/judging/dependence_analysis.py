@@ -7,7 +7,7 @@ from itertools import combinations, permutations
 from typing import NamedTuple
 
 from ttr.errors import RefusedError
-from ttr.judging.assignments import Assignment, head
+from ttr.judging.assignments import Assignment
 from ttr.judging.stated_dependence import Atom, Claim, Conditioned, Key
 from ttr.probability import (
     CERTAIN,
@@ -24,7 +24,7 @@ from ttr.probability import (
     Not,
     feasible,
 )
-from ttr.signature.axioms import find_exclusion, supertype_set
+from ttr.signature.axioms import find_exclusion, head, supertype_set
 from ttr.signature.signature import Signature
 from ttr.types.interning import identity
 from ttr.types.objects import Object

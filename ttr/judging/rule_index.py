@@ -10,8 +10,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from operator import is_
 from typing import TypeAlias
 
-from ttr.judging.assignments import Assignment, head
+from ttr.judging.assignments import Assignment
 from ttr.safety.budgets import spend
+from ttr.signature.axioms import head
 from ttr.types.objects import Object, Record
 from ttr.types.syntax import Join, Meet, Pred, PType, RecordType, TypeNode
 

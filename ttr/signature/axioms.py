@@ -95,10 +95,10 @@ def _closure(
         return
     by_head: dict[Basic | Pred, list[tuple[Axiom, _Atom, _Atom]]] = {}
     for step in steps:
-        by_head.setdefault(_head(step[1]), []).append(step)
+        by_head.setdefault(head(step[1]), []).append(step)
     found, waiting = {T}, [T]
     for current in waiting:
-        for axiom, start, end in by_head.get(_head(current), ()):
+        for axiom, start, end in by_head.get(head(current), ()):
             bound = match_schema(start, current)
             if bound is None:
                 continue
@@ -109,7 +109,8 @@ def _closure(
                 yield axiom, reached
 
 
-def _head(T: _Atom) -> Basic | Pred:
+def head(T: _Atom) -> Basic | Pred:
+    """The basic type itself, or the predicate of a ptype."""
     return T if isinstance(T, Basic) else T.pred
 
 

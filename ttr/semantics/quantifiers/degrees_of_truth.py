@@ -6,7 +6,6 @@ from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from ttr.judging.assignments import head
 from ttr.judging.judgements import Why
 from ttr.judging.models import Model
 from ttr.probability import CERTAIN, REFUTED, Degree
@@ -16,6 +15,7 @@ from ttr.probability.degrees import (
     independent_conjunction,
     independent_disjunction,
 )
+from ttr.signature.axioms import head
 from ttr.types.interning import identity
 from ttr.types.objects import Missing, Object, Record
 from ttr.types.syntax import Basic, PType, RecordType, TypeNode
