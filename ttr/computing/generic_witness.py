@@ -17,7 +17,7 @@ from ttr.computing.universe_levels import why_outside
 from ttr.safety.budgets import spend
 from ttr.types.interning import identity
 from ttr.types.objects import EventString, FiniteSet, Object, Operation, Path, Record
-from ttr.types.paths import free_paths, replace_paths, subterms
+from ttr.types.paths import free_paths, mentions, replace_paths
 from ttr.types.substitution import field_type, follow_labels, substitute_variable
 from ttr.types.syntax import (
     Application,
@@ -435,9 +435,7 @@ def _computed_value(T: TypeNode) -> Object:
 
 def _is_open(value: Object) -> bool:
     """Does the value depend on a place, or on the value of a function?"""
-    return bool(free_paths(value)) or any(
-        isinstance(part, Application) for part in subterms([value])
-    )
+    return bool(free_paths(value)) or mentions(value, Application)
 
 
 def _same_form(left: Object, right: Object) -> bool:

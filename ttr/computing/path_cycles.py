@@ -8,7 +8,7 @@ from graphlib import CycleError, TopologicalSorter
 from ttr.safety.budgets import spend
 from ttr.types.derived_types import order_fields
 from ttr.types.objects import Object
-from ttr.types.paths import free_paths, map_parts, subterms
+from ttr.types.paths import free_paths, labels_mentioned, map_parts, subterms
 from ttr.types.syntax import RecordType, Singleton, TypeNode
 
 Address = tuple[str, ...]
@@ -98,7 +98,7 @@ def _break_cycles(value: Object) -> Object:
         return value
     fields: dict[str, TypeNode] = {}
     for label, field in value.fields:
-        needs = {path.labels[0] for path in free_paths(field) if path.up == 0}
+        needs = labels_mentioned(field)
         if isinstance(field, Singleton) and not needs <= fields.keys():
             field = field.base
         fields[label] = field

@@ -43,7 +43,7 @@ from ttr.types.objects import (
 )
 from ttr.types.paths import free_paths, map_parts, mentions
 from ttr.types.printing import notation
-from ttr.types.substitution import Around, resolve_paths
+from ttr.types.substitution import Around, instantiate_body, resolve_paths
 from ttr.types.syntax import (
     Application,
     Basic,
@@ -530,7 +530,7 @@ def _apply(facts: Assignment, function: Object, argument: Object) -> Object:
             f"{notation(argument)} is not{_where(inside)}: "
             f"{(inside.failure() or inside).rule}"
         )
-    return resolve_paths(function.body, ({BOUND: argument},))
+    return instantiate_body(function, argument)
 
 
 def _where(why: Why) -> str:

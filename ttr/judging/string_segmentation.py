@@ -24,7 +24,7 @@ from ttr.probability import CERTAIN, REFUTED, UNKNOWN, Degree
 from ttr.safety.budgets import spend
 from ttr.types.interning import identity
 from ttr.types.objects import EventString, Object, UnresolvedError
-from ttr.types.paths import subterms
+from ttr.types.paths import mentions
 from ttr.types.printing import notation
 from ttr.types.substitution import Around, resolve_paths
 from ttr.types.syntax import Application, Basic, Join, Meet, Negation, PType, TypeNode
@@ -170,8 +170,7 @@ class Segmentation:
     def _reduce_to_atom(self, T: TypeNode) -> Atom | None:
         with suppress(UnresolvedError):
             ground = resolve_paths(T, self._around) if isinstance(T, PType) else T
-            applies = any(isinstance(part, Application) for part in subterms([ground]))
-            if isinstance(ground, Basic | PType) and not applies:
+            if isinstance(ground, Basic | PType) and not mentions(ground, Application):
                 return ground
         return None
 

@@ -35,7 +35,7 @@ from ttr.types.objects import (
     UnresolvedError,
     outer,
 )
-from ttr.types.substitution import resolve_paths
+from ttr.types.substitution import instantiate_body, resolve_paths
 from ttr.types.syntax import (
     Basic,
     Function,
@@ -303,8 +303,7 @@ def _as_argument(answer: Object, domain: TypeNode) -> Record | None:
 
 
 def _apply(question: Function, argument: Record) -> TypeNode:
-    found: TypeNode = resolve_paths(question.body, ({BOUND: argument},))
-    return found
+    return as_type(instantiate_body(question, argument))
 
 
 def _is_instance(P: TypeNode, question: Function, model: Model) -> bool:

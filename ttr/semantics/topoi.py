@@ -21,10 +21,10 @@ from ttr.probability import REFUTED, Degree
 from ttr.safety.budgets import within_budget
 from ttr.semantics.modality.necessity import ModalAnswer
 from ttr.signature.signature import Signature
-from ttr.types.objects import BOUND, Record, UnresolvedError, freeze, record
+from ttr.types.objects import Record, UnresolvedError, freeze, record
 from ttr.types.paths import free_paths
 from ttr.types.printing import notation
-from ttr.types.substitution import resolve_paths
+from ttr.types.substitution import instantiate_body
 from ttr.types.syntax import Function, TypeNode, as_type, kind_of
 
 __all__ = [
@@ -136,7 +136,7 @@ def _apply_to_situation(
     if background.p == REFUTED:
         return ModalAnswer(REFUTED, outside)
     try:
-        body = resolve_paths(warrant.fg.body, ({BOUND: freeze(sit)},))
+        body = instantiate_body(warrant.fg, freeze(sit))
         return background, as_type(model.reduce(body))
     except (UnresolvedError, RefusedError) as wrong:
         raise RefusedError(

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from heapq import heapify, heappop, heappush
 
 from ttr.safety.budgets import spend
-from ttr.types.paths import free_paths, shift_paths
+from ttr.types.paths import labels_mentioned, shift_paths
 from ttr.types.syntax import FunType, Plus, Str, TypeNode, as_function_type, join
 
 
@@ -16,7 +16,7 @@ def order_fields(fields: Mapping[str, TypeNode]) -> tuple[tuple[str, TypeNode], 
     waits: dict[str, int] = {}
     needed_by: dict[str, list[str]] = {}
     for label, T in fields.items():
-        needs = {path.labels[0] for path in free_paths(T) if path.up == 0}
+        needs = labels_mentioned(T)
         needs &= fields.keys()
         waits[label] = len(needs)
         for need in needs:

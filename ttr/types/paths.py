@@ -215,6 +215,16 @@ _free_paths_of_type: Callable[[TypeNode], frozenset[Path]] = cache_on_node(
 _NO_PATHS: frozenset[Path] = frozenset()
 
 
+def labels_mentioned(field: Object) -> set[str]:
+    """The labels of the record in which a field stands that the field mentions.
+
+    >>> from ttr import Ind, this
+    >>> labels_mentioned(Pred("dog", Ind)(this.x))
+    {'x'}
+    """
+    return {path.labels[0] for path in free_paths(field) if path.up == 0}
+
+
 def replace_paths(
     value: Object, at: Callable[[Path], Object], depth: int = 0
 ) -> Object:

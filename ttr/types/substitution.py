@@ -13,7 +13,7 @@ from ttr.types.objects import (
     UnresolvedError,
 )
 from ttr.types.paths import replace_paths
-from ttr.types.syntax import TypeNode
+from ttr.types.syntax import Function, TypeNode
 
 Around = tuple[Mapping[str, Object], ...]
 """The values of labels and of bound variables, scope by scope, innermost first."""
@@ -55,6 +55,18 @@ def resolve_paths(value: Object, around: Around) -> Object:
         return follow_path(around[path.up][first], tuple(rest))
 
     return replace_paths(value, at)
+
+
+def instantiate_body(function: Function, argument: Object) -> Object:
+    """The body of a function with an object for its variable.
+
+    Raises `Unresolved` for a path in it that leads nowhere.
+
+    >>> from ttr import Ind, Pred, fun, this
+    >>> print(instantiate_body(fun(x=Ind)(Pred("run", Ind)(this.x)), "fido"))
+    run(fido)
+    """
+    return resolve_paths(function.body, ({BOUND: argument},))
 
 
 def field_type(field: TypeNode, whole: Path | Record) -> TypeNode:

@@ -11,7 +11,7 @@ from ttr.judging.evaluator import reduce_applications
 from ttr.judging.models import Model
 from ttr.safety.budgets import spend
 from ttr.types.objects import Object, UnresolvedError
-from ttr.types.paths import free_paths
+from ttr.types.paths import labels_mentioned
 from ttr.types.substitution import resolve_paths
 from ttr.types.syntax import PType, RecordType, Singleton, TypeNode
 
@@ -45,18 +45,13 @@ def _in_order_of_need(where: RecordType) -> tuple[tuple[str, TypeNode], ...]:
     """
     waiting, ordered = dict(where.fields), dict[str, TypeNode]()
     while waiting:
-        needs = {k: _bindings_mentioned(T) & waiting.keys() for k, T in waiting.items()}
+        needs = {k: labels_mentioned(T) & waiting.keys() for k, T in waiting.items()}
         claims = [k for k, T in waiting.items() if isinstance(T, Singleton | PType)]
         label = min(claims, key=lambda k: len(needs[k]), default=next(iter(waiting)))
         for _ in waiting:  # more steps than there are labels would be a cycle
             label = min(needs[label], default=label)
         ordered[label] = waiting.pop(label)
     return tuple(ordered.items())
-
-
-def _bindings_mentioned(T: TypeNode) -> set[str]:
-    """The labels of the bindings that a field mentions."""
-    return {path.labels[0] for path in free_paths(T) if path.up == 0}
 
 
 def _search(

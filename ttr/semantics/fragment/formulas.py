@@ -15,9 +15,9 @@ from ttr.semantics.fragment.content_types import abstract_over
 from ttr.semantics.quantifiers import Thresholds, absent, determiner_of, number
 from ttr.semantics.quantifiers.determiners import properties, threshold_of
 from ttr.semantics.quantifiers.thresholds import Threshold
-from ttr.types.objects import BOUND, Object
+from ttr.types.objects import Object
 from ttr.types.paths import free_paths
-from ttr.types.substitution import resolve_paths
+from ttr.types.substitution import instantiate_body
 from ttr.types.syntax import Function, Join, PType, RecordType, Singleton, TypeNode
 
 _VARIABLE = "·thing"
@@ -112,7 +112,7 @@ def property_formula(P: Function | TypeNode) -> Formula:
 
 def apply_property(P: Function, thing: str) -> TypeNode:
     """The type that a property gives of the thing with this name."""
-    body = resolve_paths(P.body, ({BOUND: thing},))
+    body = instantiate_body(P, thing)
     return body if isinstance(body, TypeNode) else Singleton(P.domain, thing)
 
 

@@ -9,7 +9,7 @@ from ttr.computing.subtyping import consistent, subtype
 from ttr.errors import IllFormedError, RefusedError
 from ttr.safety.budgets import within_budget
 from ttr.signature.signature import Signature
-from ttr.types.paths import free_paths
+from ttr.types.paths import free_paths, labels_mentioned
 from ttr.types.syntax import Meet, RecordType, TypeNode, as_type, kind_of
 
 Features = tuple[bool, ...]
@@ -48,7 +48,7 @@ def _labels_needed(T: RecordType, label: str) -> set[str]:
     needed, waiting = {label}, [label]
     while waiting:
         field = T[waiting.pop()]
-        found = {path.labels[0] for path in free_paths(field) if path.up == 0} - needed
+        found = labels_mentioned(field) - needed
         needed |= found
         waiting += found
     return needed

@@ -7,7 +7,7 @@ there are, and gives Fréchet's bounds where parts rest on the same judgements.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from ttr.errors import IllFormedError, RefusedError, UnsupportedError
 from ttr.hooks import hook
@@ -29,9 +29,9 @@ from ttr.semantics.quantifiers.degrees_of_truth import (
 from ttr.semantics.quantifiers.determiners import determiner_of
 from ttr.semantics.quantifiers.thresholds import Thresholds, thresholds_of
 from ttr.types.objects import BOUND, Missing, Object, Record, UnresolvedError
-from ttr.types.paths import free_paths, subterms
+from ttr.types.paths import free_paths, mentions, subterms
 from ttr.types.printing import notation
-from ttr.types.substitution import resolve_paths
+from ttr.types.substitution import instantiate_body, resolve_paths
 from ttr.types.syntax import (
     Application,
     Basic,
@@ -274,19 +274,13 @@ def truth_of_instance(
     M: Model, f: Function, sit: Object, thresholds: Thresholds
 ) -> Truth:
     """How certain it is that the type a function gives for an object is true."""
-    body = _reduce_to_type(M, resolve_paths(f.body, ({BOUND: sit},)))
+    body = _reduce_to_type(M, instantiate_body(f, sit))
     return _Truths(M, thresholds).of(body)
 
 
 def _reduce_to_type(M: Model, value: Object) -> TypeNode:
-    if any(isinstance(part, Application) for part in _parts_to_search(value)):
+    if mentions(value, Application):
         value = M.reduce(value)
     if isinstance(value, TypeNode):
         return value
     raise RefusedError(f"{notation(value)} is no type, so it is neither true nor false")
-
-
-def _parts_to_search(value: Object) -> Iterable[Object]:
-    if isinstance(value, PType) and all(isinstance(arg, str) for arg in value.args):
-        return ()
-    return subterms([value])
