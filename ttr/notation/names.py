@@ -116,6 +116,17 @@ def vocabulary_of(*values: object) -> Vocabulary:
     return Vocabulary(basics, predicates, objects)
 
 
+def format_predicate(pred: Pred) -> str:
+    """The statement that declares a predicate.
+
+    >>> from ttr import Ind
+    >>> format_predicate(Pred("dog", Ind))
+    'pred dog(Ind)'
+    """
+    arities = [", ".join(map(str, arity)) for arity in pred.arities]
+    return f"pred {', '.join(f'{pred.name}({arity})' for arity in arities)}"
+
+
 def _check_same(known: Pred, found: Pred) -> None:
     if known is not found:
         raise IllFormedError(

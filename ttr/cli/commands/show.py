@@ -100,12 +100,12 @@ def _rule_text(theory: Theory, options: argparse.Namespace) -> str:
 
 def _declaration(theory: Theory, name: str, value: Object) -> str:
     """The name as a statement that declares it."""
+    from ttr.notation.names import format_predicate
     from ttr.types.printing import notation
     from ttr.types.syntax import Pred
 
     if name in theory.definitions:
         return f"{name} := {notation(value)}"
     if isinstance(value, Pred):
-        arities = [", ".join(map(str, arity)) for arity in value.arities]
-        return f"pred {', '.join(f'{name}({arity})' for arity in arities)}"
+        return format_predicate(value)
     return f"basic {name}"

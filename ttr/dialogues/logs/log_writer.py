@@ -212,7 +212,7 @@ def _make_entry(trial: Trial, turn: Turn, now: _Progress) -> tuple[Entry, Declar
             (notation(move.type), words)
             for move, words in zip(turn.said, trial.said, strict=True)
         ),
-        tuple(map(_rule_field, turn.trace)),
+        tuple(map(rule_field, turn.trace)),
         notation(turn.state),
         tuple(map(_fact_field, facts)),
         turn.model.facts.created,
@@ -259,7 +259,8 @@ def _event_field(event: Any) -> str | list[list[Any]] | None:
     return notation(event)
 
 
-def _rule_field(step: Step) -> dict[str, Any]:
+def rule_field(step: Step) -> dict[str, Any]:
+    """What a log says of a rule that was applied."""
     return {
         "rule": step.rule.name,
         "event": "" if step.event is None else notation(step.event),

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 from ttr.errors import TTRError
+from ttr.notation.names import format_predicate
 from ttr.notation.reader import read_term
 from ttr.safety.consent import Consent
 from ttr.theories.theory import Theory, theory_of_text
@@ -46,7 +47,7 @@ class Declarations:
             if known.predicates.get(name) is not one
         ]
         statements = [f"basic {name}" for name in basics]
-        statements += map(_declaration, _in_order(predicates))
+        statements += map(format_predicate, _in_order(predicates))
         return statements, sorted(needed.objects - self.objects)
 
     def read_value(self, text: str, source: str) -> Object:
@@ -76,8 +77,3 @@ def _in_order(predicates: list[Pred]) -> Iterator[Pred]:
             if not any(part in waiting for part in mentioned if isinstance(part, Pred)):
                 yield one
                 del waiting[one]
-
-
-def _declaration(predicate: Pred) -> str:
-    arities = [", ".join(map(str, arity)) for arity in predicate.arities]
-    return f"pred {', '.join(f'{predicate.name}({arity})' for arity in arities)}"

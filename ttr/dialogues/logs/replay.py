@@ -12,7 +12,7 @@ from ttr.dialogues.dialogue import Dialogue, Trial
 from ttr.dialogues.logs.entries import Entry, LogError
 from ttr.dialogues.logs.learned_facts import Fact, new_facts, restore_facts
 from ttr.dialogues.logs.log_reader import Log
-from ttr.dialogues.logs.log_writer import LogFile
+from ttr.dialogues.logs.log_writer import LogFile, rule_field
 from ttr.dialogues.settings import Setting
 from ttr.dialogues.stories.story_writer import format_story, turn_lines
 from ttr.errors import TTRError
@@ -185,15 +185,14 @@ def _step_differences(
     one: Mapping[str, Any], step: Step
 ) -> Iterator[tuple[str, str, str]]:
     """The differences in what a rule did."""
-    name = step.rule.name
-    event = "" if step.event is None else notation(step.event)
-    if one["event"] != event:
-        yield f"what {name} took", str(one["event"]), event
-    bound = {label: notation(value) for label, value in step.bindings.items()}
-    if one["with"] != bound:
-        yield f"what {name} bound", _list_bindings(one["with"]), _list_bindings(bound)
-    if one["changes"] != list(step.changes):
-        logged, found = ("; ".join(some) for some in (one["changes"], step.changes))
+    name, other = step.rule.name, rule_field(step)
+    if one["event"] != other["event"]:
+        yield f"what {name} took", str(one["event"]), other["event"]
+    if one["with"] != other["with"]:
+        logged, found = (_list_bindings(some["with"]) for some in (one, other))
+        yield f"what {name} bound", logged, found
+    if one["changes"] != other["changes"]:
+        logged, found = ("; ".join(some["changes"]) for some in (one, other))
         yield f"what {name} changed", logged, found
 
 
