@@ -198,5 +198,15 @@ def suggestion(name: str, known: Iterable[str]) -> str:
     return f"did you mean {near[0]}?" if near else ""
 
 
+def describe_error(error: BaseException) -> str:
+    """The class of an error and its message, on one line.
+
+    >>> describe_error(ValueError("of two\\nlines")), describe_error(KeyError())
+    ('ValueError: of two lines', 'KeyError')
+    """
+    said = " ".join(str(error).split())
+    return f"{type(error).__name__}: {said}" if said else type(error).__name__
+
+
 if not TYPE_CHECKING:
     __getattr__ = former_names(__name__)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ttr.dialogues.settings import Setting
 from ttr.display.abbreviations import abbreviator
-from ttr.errors import UpdateError
+from ttr.errors import UpdateError, describe_error
 from ttr.judging.judgements import Judgement
 from ttr.types.objects import Object
 from ttr.types.printing import notation
@@ -23,7 +23,7 @@ def wording(move: Judgement, setting: Setting) -> str:
     try:
         return " ".join(say(move).split())
     except Exception as error:
-        fault = f"{type(error).__name__}: {error}"
+        fault = describe_error(error)
         raise UpdateError(
             f"the game {setting.game.name} found no words for {move}: {fault}"
         ) from error

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from operator import itemgetter
 from typing import Any, TypeAlias
 
-from ttr.errors import RefusedError, TTRError
+from ttr.errors import RefusedError, TTRError, describe_error
 from ttr.judging.stated_dependence import Atom, Claim, Conditioned, Expectation, Links
 from ttr.persistent_maps import Map
 from ttr.probability import (
@@ -140,7 +140,7 @@ class Assignment:
         except TTRError as error:
             raise TTRError(f"{_call(T, args)}: {error.message}") from error
         except Exception as error:
-            fault = f"{type(error).__name__}: {error}"
+            fault = describe_error(error)
             raise TTRError(f"{_call(T, args)} failed: {fault}") from error
 
     def told_degree(self, sit: Object, T: Atom) -> Degree | None:

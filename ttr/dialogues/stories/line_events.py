@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from ttr.dialogues.settings import Setting, StoryError
 from ttr.dialogues.stories.story_reader import Line
-from ttr.errors import NotationError, TTRError, UpdateError, suggestion
+from ttr.errors import NotationError, TTRError, UpdateError, describe_error, suggestion
 from ttr.types.objects import Object
 from ttr.types.syntax import TypeNode
 from ttr.updates import NBest, Run, nbest
@@ -92,7 +92,7 @@ def _understand(
     except TTRError as error:
         raise line.wrong(error.message) from error
     except Exception as error:
-        fault = f"{type(error).__name__}: {error}"
+        fault = describe_error(error)
         raise line.wrong(f"what the game hears by failed: {fault}") from error
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
-from ttr.errors import TTRError
+from ttr.errors import TTRError, describe_error
 from ttr.semantics.argument_checks import in_notation, missing_methods
 from ttr.types.objects import Object, Record, UnresolvedError
 from ttr.types.printing import notation
@@ -89,8 +89,7 @@ class Classifier:
         except Exception as error:
             shown = ", ".join(map(notation, found))
             raise TTRError(
-                f"the percept of {shown} could not be computed: "
-                f"{type(error).__name__}: {error}"
+                f"the percept of {shown} could not be computed: {describe_error(error)}"
             ) from error
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from ttr.errors import TTRError
+from ttr.errors import TTRError, describe_error
 from ttr.semantics.argument_checks import as_tuple, in_notation
 from ttr.semantics.perceptual.vectors import Vector, vector
 from ttr.types.printing import notation
@@ -62,10 +62,7 @@ class _Learner:
         except TTRError:
             raise
         except Exception as error:
-            fault = " ".join(str(error).split())
-            raise TTRError(
-                f"{self.name} failed: {type(error).__name__}: {fault}"
-            ) from error
+            raise TTRError(f"{self.name} failed: {describe_error(error)}") from error
 
 
 class Incremental(_Learner):

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from ttr.errors import TTRError, UnsupportedError
+from ttr.errors import TTRError, UnsupportedError, describe_error
 from ttr.semantics.argument_checks import (
     as_tuple,
     in_notation,
@@ -113,7 +113,7 @@ class Handle:
             pupil = self.copied(self.learner)
         except Exception as error:
             raise TTRError(
-                f"{self._name} cannot be copied: {type(error).__name__}: {error}",
+                f"{self._name} cannot be copied: {describe_error(error)}",
                 hint="say how it can: learner_params(learner, copied=function)",
             ) from error
         if pupil is self.learner:

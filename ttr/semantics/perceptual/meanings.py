@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import Any, cast
 
 from ttr.building.function_domains import fix
-from ttr.errors import TTRError, UndecidedError, UnsupportedError
+from ttr.errors import TTRError, UndecidedError, UnsupportedError, describe_error
 from ttr.judging.judgements import Judgement
 from ttr.judging.models import Model, as_model
 from ttr.probability import UNKNOWN, Degree, degree
@@ -260,7 +260,7 @@ class Meaning:
         except Exception as error:
             raise TTRError(
                 f"{self._word}: {self.clf.method} failed on {notation(x)}: "
-                f"{type(error).__name__}: {error}"
+                f"{describe_error(error)}"
             ) from error
 
     def _with_word(self, error: TTRError) -> TTRError:

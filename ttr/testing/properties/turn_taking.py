@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ttr.dialogues.dialogue import Dialogue, Trial, give
+from ttr.errors import describe_error
 from ttr.judging.judgements import Judgement
 from ttr.testing.event_subjects import format_objects
 from ttr.testing.properties.property import Breaches, Property
@@ -159,7 +160,7 @@ def _why_misread(game: Game, turn: Turn, roles: Roles) -> str:
     try:
         read = game.hear(text)
     except Exception as error:
-        return f"{worded} cannot be read: {type(error).__name__}: {error}"
+        return f"{worded} cannot be read: {describe_error(error)}"
     return (
         ""
         if _is_same_event(read, turn)
