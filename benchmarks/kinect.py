@@ -34,7 +34,7 @@ from kille.sensors.kinect.calibration import Calibration  # noqa: E402
 from kille.sensors.kinect.capture import Capture, frame_of  # noqa: E402
 from kille.sensors.kinect.packets import Assembler  # noqa: E402
 from kille.sensors.kinect.pump import IsoStream  # noqa: E402
-from kille.sensors.kinect.registration import registered  # noqa: E402
+from kille.sensors.kinect.registration import register_depth  # noqa: E402
 from kille.sensors.kinect.sensor import KinectSensor  # noqa: E402
 from kille.sensors.kinect.streams import COLOUR, DEPTH_11, HEADER, Mode  # noqa: E402
 from kille.sensors.kinect.transport import Batch  # noqa: E402
@@ -74,7 +74,7 @@ def unpack(_: int) -> Task:
 
 def register(_: int) -> Task:
     raw, calibration = scene(), Calibration.typical()
-    return lambda: registered(raw, calibration)
+    return lambda: register_depth(raw, calibration)
 
 
 def make_frame(_: int) -> Task:

@@ -19,7 +19,7 @@ from kille.perception.look import look
 from kille.scene import Frame, Percept
 from kille.sensors.captures import description_of
 from kille.sensors.pictures import fitted, is_picture, read_colour
-from kille.sensors.recordings.names import counting
+from kille.sensors.recordings.names import natural_order
 from kille.sensors.sensor import SensorError
 
 LOOKING = 0.3
@@ -130,7 +130,7 @@ def open_gallery(folder: Path, name: str) -> Gallery:
 
 def _pictures(folder: Path) -> list[Path]:
     found = (it for it in folder.iterdir() if is_picture(it))
-    return sorted(found, key=lambda path: counting(path.name))
+    return sorted(found, key=lambda path: natural_order(path.name))
 
 
 def _opens(path: Path) -> bool:

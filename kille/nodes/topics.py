@@ -24,7 +24,7 @@ __all__ = [
     "USER_INPUT",
 ]
 
-FRAMES = Feed.named(COLOUR, CAMERA, DEPTH)
+FRAMES = Feed.of_topics(COLOUR, CAMERA, DEPTH)
 """What the sensor sees."""
 
 LOOKS = Service(

@@ -162,7 +162,7 @@ def _depth(crop: Crop) -> Depth | None:
 
 def _read(picture: bytes, flags: int) -> NDArray[Any]:
     try:
-        pixels = pictures.decoded(np.frombuffer(picture, np.uint8), flags)
+        pixels = pictures.decode_picture(np.frombuffer(picture, np.uint8), flags)
     except OSError as error:
         raise ValueError(f"a picture that was kept is odd: {error.strerror}") from error
     if pixels is None:

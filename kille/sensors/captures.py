@@ -139,7 +139,7 @@ def _shot(
     folder = description.parent
     labels = folder / f"{name}_label.png"
     try:
-        things = {int(it["label"]): _spoken(it) for it in objects}
+        things = {int(it["label"]): _spoken_name(it) for it in objects}
     except (KeyError, TypeError, ValueError, OverflowError) as error:
         raise SensorError(
             f"{description}: each object of {name} needs a whole number as `label`"
@@ -150,17 +150,17 @@ def _shot(
         depth=folder / f"{name}_depth.png",
         labels=labels if labels.is_file() else None,
         geometry=geometry,
-        things=_distinct(things),
+        things=_distinct_names(things),
     )
 
 
-def _spoken(thing: Mapping[str, Any]) -> str:
+def _spoken_name(thing: Mapping[str, Any]) -> str:
     """`006_mustard_bottle` as people say it; a thing without a name by its number."""
     words = str(thing.get("name", f"object_{thing['label']}")).split("_")
     return " ".join(words[1:] if words[0].isdigit() and len(words) > 1 else words)
 
 
-def _distinct(things: Mapping[int, str]) -> dict[int, str]:
+def _distinct_names(things: Mapping[int, str]) -> dict[int, str]:
     """The same names, the second thing of a name numbered, so that none is lost."""
     taken = set(things.values())
     first: set[str] = set()

@@ -33,7 +33,7 @@ def is_picture(path: Path) -> bool:
 
 def read_colour(path: Path) -> Colour:
     """The picture as (H, W, 3) RGB, read-only; SensorError if it does not open."""
-    return _fixed(_decode(path, cv2.IMREAD_COLOR_RGB))
+    return _freeze(_decode(path, cv2.IMREAD_COLOR_RGB))
 
 
 def fitted(colour: Colour, largest: tuple[int, int]) -> Colour:
@@ -48,7 +48,7 @@ def fitted(colour: Colour, largest: tuple[int, int]) -> Colour:
         return colour
     size = (max(1, round(width * factor)), max(1, round(height * factor)))
     smaller = cv2.resize(colour, size, interpolation=cv2.INTER_AREA)
-    return _fixed(smaller.astype(np.uint8, copy=False))
+    return _freeze(smaller.astype(np.uint8, copy=False))
 
 
 def read_depth(path: Path, units_per_metre: float) -> Depth:
@@ -62,17 +62,17 @@ def read_depth(path: Path, units_per_metre: float) -> Depth:
             f"{path}: a depth picture has one channel of 16 bits, "
             f"this one has {_channels(raw)} of {raw.itemsize * 8}"
         )
-    return measured(raw.astype(np.float32) / np.float32(units_per_metre))
+    return clean_depth(raw.astype(np.float32) / np.float32(units_per_metre))
 
 
-def measured(metres: Depth) -> Depth:
+def clean_depth(metres: Depth) -> Depth:
     """The depth with NaN for what is no distance: 0, less, and infinite; read-only.
 
-    >>> measured(np.array([0.5, 0.0, -1.0, np.inf], np.float32))
+    >>> clean_depth(np.array([0.5, 0.0, -1.0, np.inf], np.float32))
     array([0.5, nan, nan, nan], dtype=float32)
     """
     there = (metres > 0) & (metres < np.inf)
-    return _fixed(np.where(there, metres, np.float32(np.nan)))
+    return _freeze(np.where(there, metres, np.float32(np.nan)))
 
 
 def read_labels(path: Path) -> NDArray[Any]:
@@ -82,13 +82,13 @@ def read_labels(path: Path) -> NDArray[Any]:
         raise SensorError(
             f"{path}: a label picture has one channel, this one has {_channels(labels)}"
         )
-    return _fixed(labels)
+    return _freeze(labels)
 
 
 def _decode(path: Path, flags: int) -> NDArray[Any]:
     try:
         content = np.frombuffer(read_bytes(path, PICTURE_FILE), np.uint8)
-        picture = decoded(content, flags)
+        picture = decode_picture(content, flags)
     except OSError as error:
         raise SensorError(f"{path}: cannot be read ({error.strerror})") from error
     if not content.size:
@@ -98,7 +98,7 @@ def _decode(path: Path, flags: int) -> NDArray[Any]:
     return picture
 
 
-def decoded(content: NDArray[np.uint8], flags: int) -> NDArray[Any] | None:
+def decode_picture(content: NDArray[np.uint8], flags: int) -> NDArray[Any] | None:
     """The picture in the bytes of a file, read as OpenCV's flags say; None if none is.
 
     What is larger than is read raises `OSError`, before any of it is decoded. OpenCV
@@ -176,7 +176,7 @@ def _channels(picture: NDArray[Any]) -> str:
     return "1 channel" if count == 1 else f"{count} channels"
 
 
-def _fixed(array: NDArray[Any]) -> NDArray[Any]:
+def _freeze(array: NDArray[Any]) -> NDArray[Any]:
     array.setflags(write=False)
     return array
 

@@ -54,7 +54,9 @@ def open_ros_sensor(name: str) -> Stream:
         colour = bus.resolved(source.partition(":")[2] or COLOUR)
         sent = [topic for topic, kind in bus.topics() if kind == "sensor_msgs/Image"]
         if colour not in sent:
-            raise SensorError(f"{name}: nobody sends {colour}; {_offered(sent)}")
+            raise SensorError(
+                f"{name}: nobody sends {colour}; {_offered_pictures(sent)}"
+            )
         feed = feed_of(colour, sent, options.get("depth", ""), options.get("info", ""))
         return _RosSensor(bus, feed, name, patience)
     except BusError as error:
@@ -78,12 +80,12 @@ def feed_of(colour: str, sent: Collection[str], depth: str, info: str) -> Feed:
         for picture in _DEPTH_PICTURES
     )
     found = depth or next((topic for topic in usual if topic in sent), "")
-    return Feed.named(
+    return Feed.of_topics(
         colour, info or f"{folder}/camera_info", "" if found == "none" else found
     )
 
 
-def _offered(sent: Collection[str]) -> str:
+def _offered_pictures(sent: Collection[str]) -> str:
     return (
         f"pictures are on {', '.join(sorted(sent))}" if sent else "no camera is there"
     )

@@ -12,7 +12,7 @@ import numpy as np
 
 from kille.bus import Bus, Camera, Image, Subscription, Topic
 from kille.scene import Colour, Depth, Frame, Intrinsics
-from kille.sensors.pictures import measured
+from kille.sensors.pictures import clean_depth
 from kille.sensors.sensor import SensorError
 
 COLOUR = "camera/rgb/image_color"
@@ -44,10 +44,10 @@ class Feed:
     depth: Topic[Image] | None = None
 
     @classmethod
-    def named(cls, colour: str, camera: str, depth: str = "") -> Feed:
+    def of_topics(cls, colour: str, camera: str, depth: str = "") -> Feed:
         """The feed of these topics.
 
-        >>> Feed.named("a/image", "a/camera_info").depth is None
+        >>> Feed.of_topics("a/image", "a/camera_info").depth is None
         True
         """
         return cls(
@@ -80,11 +80,11 @@ class Stream:
         self._came = 0
         self._latest: _Pair | None = None
         self._open: list[Subscription] = [
-            bus.subscribe(feed.camera, self._calibrated),
-            bus.subscribe(feed.colour, self._coloured),
+            bus.subscribe(feed.camera, self._take_calibration),
+            bus.subscribe(feed.colour, self._take_colour),
         ]
         if feed.depth is not None:
-            self._open.append(bus.subscribe(feed.depth, self._measured))
+            self._open.append(bus.subscribe(feed.depth, self._take_depth))
 
     @property
     def name(self) -> str:
@@ -111,7 +111,7 @@ class Stream:
                 self._changed.wait_for(
                     lambda: self._camera is not None, timeout=end - time.monotonic()
                 )
-            return self._made(pair, self._camera)
+            return self._make_frame(pair, self._camera)
 
     def close(self) -> None:
         """Listen no more; a second call does nothing."""
@@ -120,17 +120,17 @@ class Stream:
 
     # --- what comes ------------------------------------------------------------------
 
-    def _calibrated(self, camera: Camera) -> None:
+    def _take_calibration(self, camera: Camera) -> None:
         with self._changed:
             self._camera = camera
             self._changed.notify_all()
 
-    def _coloured(self, image: Image) -> None:
+    def _take_colour(self, image: Image) -> None:
         with self._changed:
             self._colours.append(image)
             self._pair()
 
-    def _measured(self, image: Image) -> None:
+    def _take_depth(self, image: Image) -> None:
         with self._changed:
             self._depths.append(image)
             self._pair()
@@ -138,7 +138,7 @@ class Stream:
     def _pair(self) -> None:
         """Find the latest picture in colour that has its depth."""
         for colour in reversed(self._colours):
-            pair = self._paired(colour)
+            pair = self._pair_of(colour)
             if pair is not None:
                 break
         else:
@@ -151,7 +151,7 @@ class Stream:
         self._came += 1
         self._changed.notify_all()
 
-    def _paired(self, colour: Image) -> _Pair | None:
+    def _pair_of(self, colour: Image) -> _Pair | None:
         if self._feed.depth is None:
             return _Pair(colour, None)
         near = min(
@@ -184,7 +184,7 @@ class Stream:
         )
         return f"{self._name}: {missing}"
 
-    def _made(self, pair: _Pair, camera: Camera | None) -> Frame:
+    def _make_frame(self, pair: _Pair, camera: Camera | None) -> Frame:
         colour = self._in_colour(pair.colour)
         seconds = pair.colour.stamp / 1e9
         if pair.depth is None:
@@ -215,7 +215,7 @@ class Stream:
 def _metres(image: Image) -> Depth:
     """Depth in metres, NaN for no reading; as integers it is in millimetres."""
     depth = image.pixels.astype(np.float32, copy=False)
-    return measured(
+    return clean_depth(
         depth / np.float32(1000) if image.pixels.dtype == np.uint16 else depth
     )
 

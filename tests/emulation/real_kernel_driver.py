@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from kille.sensors.kinect.registration import registered
+from kille.sensors.kinect.registration import register_depth
 from kille.sensors.kinect.sensor import KinectSensor
 from kille.sensors.sources import open_sensor
 from kinect_emulator import netpbm
@@ -49,7 +49,7 @@ def same_as_regtest(sensor: KinectSensor) -> str:
         for name in ("registered", "raw")
     }
     views = [view.depth for view in patterns().views]
-    ours = [registered(view, sensor.calibration) for view in views]
+    ours = [register_depth(view, sensor.calibration) for view in views]
     raw = any(np.array_equal(theirs["raw"], view) for view in views)
     equal = any(np.array_equal(theirs["registered"], it) for it in ours)
     return f"raw equal: {raw}, registered equal: {equal}"

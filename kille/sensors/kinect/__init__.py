@@ -20,13 +20,13 @@ def open_kinect(name: str) -> KinectSensor:
     # USB, and what serves it, are only for those who ask for them.
     from kille.sensors.kinect.sensor import KinectSensor
     from kille.sensors.kinect.transport import TransportError
-    from kille.sensors.kinect.troubles import told
+    from kille.sensors.kinect.troubles import explain_error
     from kille.sensors.sensor import SensorError
 
     try:
         return KinectSensor(name, usb_driver())
     except TransportError as error:
-        raise SensorError(told(name, error)) from error
+        raise SensorError(explain_error(name, error)) from error
 
 
 def usb_driver() -> Driver:

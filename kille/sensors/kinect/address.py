@@ -29,10 +29,10 @@ class Address:
     picture: str = "colour"
 
 
-def parsed(name: str) -> Address:
+def parse_address(name: str) -> Address:
     """The address that a name gives; SensorError for what is not known.
 
-    >>> parsed("kinect:A0033?tilt=-10").tilt
+    >>> parse_address("kinect:A0033?tilt=-10").tilt
     -10.0
     """
     source, _, query = name.strip().partition("?")
@@ -46,20 +46,22 @@ def parsed(name: str) -> Address:
     return Address(
         serial or None,
         None if tilt is None else _degrees(tilt),
-        None if light is None else _LIGHTS[_known("light", light, tuple(_LIGHTS))],
-        _known("picture", options.get("picture", PICTURES[0]), PICTURES),
+        None
+        if light is None
+        else _LIGHTS[_check_known("light", light, tuple(_LIGHTS))],
+        _check_known("picture", options.get("picture", PICTURES[0]), PICTURES),
     )
 
 
 def _option(text: str) -> tuple[str, str]:
     option, equals, value = text.partition("=")
-    _known("option", option, _OPTIONS)
+    _check_known("option", option, _OPTIONS)
     if not equals or not value:
         raise SensorError(f"option '{option}' has no value: write {option}=...")
     return option, value
 
 
-def _known(what: str, word: str, known: tuple[str, ...]) -> str:
+def _check_known(what: str, word: str, known: tuple[str, ...]) -> str:
     if word not in known:
         raise SensorError(
             f"a Kinect has no {what} '{word}'; there are {', '.join(known)}"

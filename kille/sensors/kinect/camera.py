@@ -159,7 +159,7 @@ class Feed:
         """Take packets. Whatever fails in taking frames is counted and kept."""
         frames = self._assembler.feed(batch)
         self._misses.read(len(batch.lengths))
-        self._misses.reached(self._assembler.began)
+        self._misses.reach(self._assembler.began)
         for frame in frames:
             taken = self._clock.at(frame.ticks, frame.time)
             try:

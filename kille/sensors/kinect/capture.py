@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from kille.scene import Colour, Frame, Intrinsics
 from kille.sensors.kinect.calibration import Calibration
-from kille.sensors.kinect.metric import beyond, looked_up
+from kille.sensors.kinect.metric import beyond, look_up
 from kille.sensors.kinect.motor import Tilt
-from kille.sensors.kinect.registration import registered
+from kille.sensors.kinect.registration import register_depth
 
 COLOUR_CAMERA = Intrinsics(fx=525.0, fy=525.0, cx=319.5, cy=239.5)
 """The lens that is taken for every Kinect's colour camera, as is usual."""
@@ -53,8 +53,8 @@ class RawSource(Protocol):
 def frame_of(capture: Capture, calibration: Calibration) -> Frame:
     """The frame of a capture: its depth on the colour picture, in metres."""
     # What is too far has no depth, though some of it would wrap around to one.
-    seen = registered(capture.depth, calibration, beyond(calibration))
-    depth = looked_up(_metres(), seen)
+    seen = register_depth(capture.depth, calibration, beyond(calibration))
+    depth = look_up(_metres(), seen)
     return Frame(capture.colour, depth, COLOUR_CAMERA, capture.time, {})
 
 

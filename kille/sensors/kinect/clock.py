@@ -55,7 +55,7 @@ class Misses:
     >>> misses = Misses()
     >>> for second in range(4):
     ...     misses.read(8_000 if second < 3 else 4_000)
-    ...     misses.reached(second * TICKS_A_SECOND)
+    ...     misses.reach(second * TICKS_A_SECOND)
     >>> misses.count
     3488
     """
@@ -70,7 +70,7 @@ class Misses:
         """So many were read, with packets in them or not."""
         self._read += microframes
 
-    def reached(self, ticks: int | None) -> None:
+    def reach(self, ticks: int | None) -> None:
         """The device's clock at the latest frame that was read, if there is any."""
         last, self._reached = self._reached, ticks
         if ticks is None or ticks == last:

@@ -90,17 +90,18 @@ def again(devices: Sequence[Plugged], before: Kinect) -> Kinect:
         unknown = not (kinect.serial and before.serial)
         if unknown and kinect.camera.place == before.camera.place:
             return kinect
-    others = " and ".join(named(kinect) for kinect in found)
+    others = " and ".join(kinect_name(kinect) for kinect in found)
     raise SensorError(
-        f"the {named(before)} that was looked through is gone, and another is plugged "
-        f"in: {others}; plug it in again where it was, or start again to use another"
+        f"the {kinect_name(before)} that was looked through is gone, and another is "
+        f"plugged in: {others}; plug it in again where it was, or start again to use "
+        "another"
     )
 
 
-def named(kinect: Kinect) -> str:
+def kinect_name(kinect: Kinect) -> str:
     """A Kinect by its serial number, or by its place on the bus if it tells none.
 
-    >>> named(Kinect(Model.XBOX_1414, "", Plugged(0, 0, 0, "", (1, 2, 3)), None))
+    >>> kinect_name(Kinect(Model.XBOX_1414, "", Plugged(0, 0, 0, "", (1, 2, 3)), None))
     'Kinect without a serial number at USB 1-2.3'
     """
     if kinect.serial:
@@ -138,21 +139,23 @@ def _same_hub(part: Plugged, camera: Plugged) -> bool:
 
 def _nearest(device: Plugged, others: Sequence[Plugged]) -> Plugged | None:
     """The one with which the way from the computer is shared the longest."""
-    return max(others, key=lambda it: _shared(it.place, device.place), default=None)
+    return max(
+        others, key=lambda it: _shared_length(it.place, device.place), default=None
+    )
 
 
 def _only_nearest(device: Plugged, others: Sequence[Plugged]) -> Plugged | None:
     """The nearest one, unless another is as near."""
     if device in others:
         return device
-    ways = sorted(_shared(it.place, device.place) for it in others)
+    ways = sorted(_shared_length(it.place, device.place) for it in others)
     return None if ways[-1:] == ways[-2:-1] else _nearest(device, others)
 
 
-def _shared(one: tuple[int, ...], other: tuple[int, ...]) -> int:
+def _shared_length(one: tuple[int, ...], other: tuple[int, ...]) -> int:
     """How many places from the beginning are the same.
 
-    >>> _shared((1, 2, 3), (1, 2, 4, 1))
+    >>> _shared_length((1, 2, 3), (1, 2, 4, 1))
     2
     """
     steps = zip(one, other, strict=False)

@@ -91,7 +91,7 @@ class Head:
 
     def _use_once(self, do: Callable[[Connection], Result]) -> Result:
         if self._motor is None:
-            self._device = self._device or self._found()
+            self._device = self._device or self._find_motor()
             self._motor = self._bus.open(self._device, 0)
             self._undone |= self._asked.keys()
         for request in sorted(self._undone):
@@ -99,7 +99,7 @@ class Head:
             self._undone.discard(request)
         return do(self._motor)
 
-    def _found(self) -> Plugged:
+    def _find_motor(self) -> Plugged:
         """The motor of this Kinect as it is plugged in now; SensorError without one."""
         if self._kinect.model is Model.XBOX_1414:
             for kinect in kinects(self._bus.devices()):

@@ -94,7 +94,7 @@ def handle_events(loaded: Any, seconds: float) -> int:
     return int(loaded.lib.libusb_handle_events_timeout(loaded.ctx, ctypes.byref(wait)))
 
 
-def allocated(
+def allocate_transfer(
     loaded: Any,
     handle: Any,
     endpoint: int,
@@ -132,7 +132,7 @@ def _library() -> str | None:
     named = names.get(sys.platform)
     if named and _loads(named):
         return named
-    return ctypes.util.find_library("usb-1.0") or _packaged()
+    return ctypes.util.find_library("usb-1.0") or _packaged_library()
 
 
 def _loads(name: str) -> bool:
@@ -143,7 +143,7 @@ def _loads(name: str) -> bool:
     return True
 
 
-def _packaged() -> str | None:
+def _packaged_library() -> str | None:
     if importlib.util.find_spec("libusb_package") is None:
         return None
     import libusb_package

@@ -43,7 +43,7 @@ def millimetres(
     >>> millimetres(np.array([[450, 700, 2047]], np.uint16), Calibration.typical())
     array([[540, 887,   0]], dtype=uint16)
     """
-    return looked_up(np.minimum(depths(calibration), FARTHEST), raw)
+    return look_up(np.minimum(depths(calibration), FARTHEST), raw)
 
 
 def raw_of(
@@ -78,7 +78,7 @@ def depths(calibration: Calibration) -> NDArray[np.uint16]:
             / (plane.dcmos_emitter_distance - on_plane)
         )
     table = np.zeros(1 << 16, np.uint16)
-    table[:_RAW_NUMBERS] = wrapped(10 * (far + plane.reference_distance), 16)
+    table[:_RAW_NUMBERS] = wrap_to_bits(10 * (far + plane.reference_distance), 16)
     table[NO_READING] = 0
     table.flags.writeable = False
     return table
@@ -94,7 +94,7 @@ def beyond(calibration: Calibration) -> int:
     return int(np.argmax(depths(calibration) >= FARTHEST))
 
 
-def looked_up(table: NDArray[_Entry], numbers: NDArray[np.uint16]) -> NDArray[_Entry]:
+def look_up(table: NDArray[_Entry], numbers: NDArray[np.uint16]) -> NDArray[_Entry]:
     """The entries of a table of 65536 at each of the numbers.
 
     OpenCV would look up a whole picture on all cores, which takes no less time but, as
@@ -108,10 +108,10 @@ def looked_up(table: NDArray[_Entry], numbers: NDArray[np.uint16]) -> NDArray[_E
     return entries
 
 
-def wrapped(values: NDArray[np.floating], bits: int) -> NDArray[np.int64]:
+def wrap_to_bits(values: NDArray[np.floating], bits: int) -> NDArray[np.int64]:
     """Whole numbers towards zero, of which so many bits are kept.
 
-    >>> wrapped(np.array([1.9, -1.9, 65537.0]), 16).tolist()
+    >>> wrap_to_bits(np.array([1.9, -1.9, 65537.0]), 16).tolist()
     [1, 65535, 1]
     """
     whole = np.nan_to_num(np.trunc(values), posinf=0.0, neginf=0.0)

@@ -168,7 +168,7 @@ class ProcessDriver:
         """Begin the process and wait until it is ready."""
         self._end()
         try:
-            self._process = self._begun()
+            self._process = self._begin_process()
         except OSError as error:
             self._end()
             raise TransportError(f"no process can be begun for it: {error}") from error
@@ -180,7 +180,7 @@ class ProcessDriver:
             self._end()
             raise
 
-    def _begun(self) -> subprocess.Popen[bytes]:
+    def _begin_process(self) -> subprocess.Popen[bytes]:
         ours, theirs = socket.socketpair()
         memory = _shared_memory(ROOM)
         try:
@@ -245,14 +245,14 @@ class ProcessDriver:
         if self._process is None:
             return
         # In a copy of this process, that other process is none of its own.
-        if self._owner == os.getpid() and not _ended(
+        if self._owner == os.getpid() and not _ends_within(
             self._process, 0.0 if at_once else _FAREWELL
         ):
             self._process.kill()
             _log.warning(
                 "kinect: the process that reads it did not stop in time and was killed"
             )
-            _ended(self._process, _DEATH)
+            _ends_within(self._process, _DEATH)
         self._process = None
 
 
@@ -322,7 +322,7 @@ class RemoteStreams:
         return self._driver.ask_of(self._start, what, *given)
 
 
-def _ended(process: subprocess.Popen[bytes], seconds: float) -> bool:
+def _ends_within(process: subprocess.Popen[bytes], seconds: float) -> bool:
     """Whether the process ends in that time."""
     try:
         process.wait(seconds)

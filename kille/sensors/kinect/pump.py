@@ -96,7 +96,7 @@ class Slot:
         self, backend: Any, handle: Any, endpoint: int, size: int, completed: Any
     ) -> None:
         self.buffer = (ctypes.c_ubyte * (PACKETS * size))()
-        self.transfer = libusb.allocated(
+        self.transfer = libusb.allocate_transfer(
             backend, handle, endpoint, self.buffer, PACKETS, completed
         )
         self.address = ctypes.addressof(self.transfer.contents)
@@ -114,7 +114,7 @@ class Slot:
             lengths = lengths * (statuses == libusb.COMPLETED)
         return Batch(self.packets, lengths, time.monotonic())
 
-    def nothing(self) -> Batch:
+    def empty_batch(self) -> Batch:
         """What came with a transfer that failed: as many packets without any length."""
         return Batch(self.packets, np.zeros(PACKETS, np.int32), time.monotonic())
 
@@ -197,7 +197,7 @@ class IsoStream:
             # Said before it is so: libusb may call back at once.
             slot.under_way = True
             _UNDER_WAY[slot.address] = (self, slot)
-            if not self._submitted(slot):
+            if not self._submit(slot):
                 self._give_back(slot)
         if self.ended is not None:
             raise self.ended
@@ -212,7 +212,7 @@ class IsoStream:
         with self._idle:
             self._idle.notify_all()
 
-    def _submitted(self, slot: Slot) -> bool:
+    def _submit(self, slot: Slot) -> bool:
         """Let libusb fill the slot; if it does not want to, the stream has ended."""
         code = self._backend.lib.libusb_submit_transfer(slot.transfer)
         if code < 0:
@@ -236,7 +236,7 @@ class IsoStream:
             )
             self.ended = kind(f"the stream's receiver failed: {error!r}")
         # Until here it counts as under way, so that nobody frees it.
-        if not (again and self._submitted(slot)):
+        if not (again and self._submit(slot)):
             self._give_back(slot)
 
     def _take(self, slot: Slot, status: int) -> bool:
@@ -255,7 +255,7 @@ class IsoStream:
         if self._failures > _FAILURES:
             self.ended = TransportError(f"USB transfers end with status {status}")
             return False
-        self._receive(slot.nothing())
+        self._receive(slot.empty_batch())
         return True
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.sensors.kinect.calibration import Calibration, Registration
-from kille.sensors.kinect.metric import FARTHEST, NO_READING, depths, looked_up
+from kille.sensors.kinect.metric import FARTHEST, NO_READING, depths, look_up
 
 WIDTH, HEIGHT = 640, 480
 
@@ -26,7 +26,7 @@ _PIXEL = 256
 _UNSEEN = 0xFFFF
 
 
-def registered(
+def register_depth(
     raw: NDArray[np.uint16], calibration: Calibration, nothing_from: int = NO_READING
 ) -> NDArray[np.uint16]:
     """The depth (480, 640) in millimetres on the colour picture; 0 where none is seen.
@@ -35,20 +35,20 @@ def registered(
     nothing from `nothing_from` on.
     """
     tables = _tables(calibration, nothing_from)
-    moved = looked_up(tables.shifts, raw)
+    moved = look_up(tables.shifts, raw)
     moved += tables.places
     moved >>= 8
     canvas = np.full((HEIGHT + 1, WIDTH + 2 * tables.margin), _UNSEEN, np.uint16)
-    depth = looked_up(tables.depths, raw)
+    depth = look_up(tables.depths, raw)
     np.minimum.at(canvas.reshape(-1), moved.astype(np.intp).ravel(), depth.ravel())
     seen = canvas[:HEIGHT, tables.margin : tables.margin + WIDTH]
     # Less than a pixel outside the left edge is cut to the edge, by integer division.
     np.minimum(seen[:, 0], canvas[:HEIGHT, tables.margin - 1], out=seen[:, 0])
     # In sixteen bits, one more than what is unseen is 0.
-    return _lifted(seen + np.uint16(1), calibration.padding.start_lines)
+    return _drop_top_lines(seen + np.uint16(1), calibration.padding.start_lines)
 
 
-def _lifted(picture: NDArray[np.uint16], lines: int) -> NDArray[np.uint16]:
+def _drop_top_lines(picture: NDArray[np.uint16], lines: int) -> NDArray[np.uint16]:
     """The picture without the lines that the sensor leaves out at its top.
 
     libfreenect counts 480, not 640, pixels for each of them.
@@ -133,12 +133,12 @@ class _Differences(NamedTuple):
 
 def _along_x(it: Registration) -> _Differences:
     return _Differences(
-        _fixed(it.dx_start, 19, 9),
-        _fixed(it.dxdx_start, 21, 8),
-        _fixed(it.dydx_start, 21, 8),
-        _fixed(it.dxdxdx_start, 24, 8),
-        _fixed(it.dydxdx_start, 24, 8),
-        _fixed(it.dydydx_start, 24, 8),
+        _signed_number(it.dx_start, 19, 9),
+        _signed_number(it.dxdx_start, 21, 8),
+        _signed_number(it.dydx_start, 21, 8),
+        _signed_number(it.dxdxdx_start, 24, 8),
+        _signed_number(it.dydxdx_start, 24, 8),
+        _signed_number(it.dydydx_start, 24, 8),
         it.ax,
         it.bx,
         it.cx,
@@ -148,12 +148,12 @@ def _along_x(it: Registration) -> _Differences:
 
 def _along_y(it: Registration) -> _Differences:
     return _Differences(
-        _fixed(it.dy_start, 19, 9),
-        _fixed(it.dxdy_start, 21, 8),
-        _fixed(it.dydy_start, 21, 8),
-        _fixed(it.dxdxdy_start, 24, 8),
-        _fixed(it.dydxdy_start, 24, 8),
-        _fixed(it.dydydy_start, 24, 8),
+        _signed_number(it.dy_start, 19, 9),
+        _signed_number(it.dxdy_start, 21, 8),
+        _signed_number(it.dydy_start, 21, 8),
+        _signed_number(it.dxdxdy_start, 24, 8),
+        _signed_number(it.dydxdy_start, 24, 8),
+        _signed_number(it.dydydy_start, 24, 8),
         it.ay,
         it.by,
         it.cy,
@@ -161,10 +161,10 @@ def _along_y(it: Registration) -> _Differences:
     )
 
 
-def _fixed(number: int, bits: int, shift: int) -> int:
+def _signed_number(number: int, bits: int, shift: int) -> int:
     """A signed number of so many bits, shifted to the left.
 
-    >>> _fixed(134217727, 24, 8)
+    >>> _signed_number(134217727, 24, 8)
     -256
     """
     low = number & ((1 << bits) - 1)
@@ -175,13 +175,13 @@ def _bend(it: _Differences) -> NDArray[np.float64]:
     """The cubic (480, 640) in pixels; the first row is one step down already."""
     down = slice(1, HEIGHT + 1)
     twice = _line(it.by_row_twice, it.along_rows)
-    start = _summed(it.start, _summed(it.by_row, twice >> 8) >> 6)[down]
-    once = _summed(it.by_column, _line(it.by_both, it.twisting) >> 8)[down]
+    start = _running_sum(it.start, _running_sum(it.by_row, twice >> 8) >> 6)[down]
+    once = _running_sum(it.by_column, _line(it.by_both, it.twisting) >> 8)[down]
     twice = _line(it.by_column_twice, it.turning)[down]
     growth = np.arange(WIDTH, dtype=np.int64) * it.along_columns
     second = twice[:, None] + growth
-    first = _running(once, second >> 8)
-    return _running(start, first >> 6) / (1 << 17)
+    first = _running_sums(once, second >> 8)
+    return _running_sums(start, first >> 6) / (1 << 17)
 
 
 def _line(start: int, step: int) -> NDArray[np.int64]:
@@ -189,12 +189,14 @@ def _line(start: int, step: int) -> NDArray[np.int64]:
     return start + step * np.arange(HEIGHT + 1, dtype=np.int64)
 
 
-def _summed(start: int, steps: NDArray[np.int64]) -> NDArray[np.int64]:
+def _running_sum(start: int, steps: NDArray[np.int64]) -> NDArray[np.int64]:
     """start, and the sums of it and all steps but the last, in their order."""
     return start + np.concatenate([[0], np.cumsum(steps[:-1])])
 
 
-def _running(starts: NDArray[np.int64], steps: NDArray[np.int64]) -> NDArray[np.int64]:
+def _running_sums(
+    starts: NDArray[np.int64], steps: NDArray[np.int64]
+) -> NDArray[np.int64]:
     """The same for every row of steps, from a start of its own."""
     sums = np.cumsum(steps, axis=1)
     return starts[:, None] + np.pad(sums[:, :-1], ((0, 0), (1, 0)))

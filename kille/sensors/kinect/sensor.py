@@ -10,12 +10,12 @@ from dataclasses import replace
 from typing import TypeVar
 
 from kille.scene import Frame
-from kille.sensors.kinect.address import parsed
+from kille.sensors.kinect.address import parse_address
 from kille.sensors.kinect.calibration import Calibration
 from kille.sensors.kinect.capture import Capture
 from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.developing import calibration_for
-from kille.sensors.kinect.devices import Kinect, again, chosen, named
+from kille.sensors.kinect.devices import Kinect, again, chosen, kinect_name
 from kille.sensors.kinect.driver import Driver, Streams, driver_of
 from kille.sensors.kinect.motor import (
     SET_LIGHT,
@@ -33,7 +33,7 @@ from kille.sensors.kinect.transport import (
     InterruptedTransferError,
     TransportError,
 )
-from kille.sensors.kinect.troubles import told
+from kille.sensors.kinect.troubles import explain_error
 from kille.sensors.sensor import SensorError
 
 Seen = TypeVar("Seen")
@@ -68,8 +68,8 @@ class KinectSensor:
         self._streams: Streams | None = None
         self._asked: dict[int, int] = {}
         try:
-            with self._telling():
-                self._address = parsed(name)
+            with self._explain_errors():
+                self._address = parse_address(name)
                 infrared = self._address.picture == "infrared"
                 self._colour = INFRARED if infrared else COLOUR
                 if self._address.tilt is not None:
@@ -105,12 +105,12 @@ class KinectSensor:
         A Kinect that is gone is waited for, and the frames go on when it is plugged in
         again; SensorError if that takes longer than `PATIENCE`.
         """
-        frame = self._looked(lambda streams: streams.frame(_SILENCE))
+        frame = self._look(lambda streams: streams.frame(_SILENCE))
         return replace(frame, time=frame.time - self._began)
 
     def capture(self) -> Capture:
         """As `frame`, but the depth as it came; and how the Kinect stands."""
-        capture = self._looked(lambda streams: streams.capture(_SILENCE))
+        capture = self._look(lambda streams: streams.capture(_SILENCE))
         return replace(capture, time=capture.time - self._began)
 
     def tilt(self, degrees: float) -> None:
@@ -119,18 +119,18 @@ class KinectSensor:
         SensorError if it cannot be. A motor that has left the bus is told when it is
         back; what was asked last counts.
         """
-        with self._telling():
+        with self._explain_errors():
             self._ask_motor(SET_TILT, tilt_value(degrees))
 
     def light(self, light: Light) -> None:
         """Set the light at the front. SensorError as for `tilt`."""
-        with self._telling():
+        with self._explain_errors():
             self._ask_motor(SET_LIGHT, light_value(light))
 
     def posture(self) -> Tilt:
         """How the Kinect stands now. SensorError if it has no motor to ask."""
-        with self._telling():
-            return Tilt.from_reply(self._streaming().motor_state())
+        with self._explain_errors():
+            return Tilt.from_reply(self._open_streams().motor_state())
 
     def close(self) -> None:
         """Stop the streams and let go of the device; a second call does nothing.
@@ -145,17 +145,17 @@ class KinectSensor:
             self._driver.close()
 
     def _ask_motor(self, request: int, value: int) -> None:
-        streams = self._streaming()
+        streams = self._open_streams()
         self._asked[request] = value
         streams.set_motor(request, value)
 
-    def _looked(self, look: Callable[[Streams], Seen]) -> Seen:
+    def _look(self, look: Callable[[Streams], Seen]) -> Seen:
         """What is seen by a Kinect that is opened again if need be."""
         deadline = None
         while True:
             try:
-                with self._telling():
-                    return look(self._streaming())
+                with self._explain_errors():
+                    return look(self._open_streams())
             except SensorError:
                 self._end_streams()
                 now = time.monotonic()
@@ -168,12 +168,12 @@ class KinectSensor:
         """The streams of a Kinect that may leave the bus and return as it is opened."""
         for _ in range(_RETURNS):
             try:
-                return self._streaming()
+                return self._open_streams()
             except DeviceGoneError:
                 continue
-        return self._streaming()
+        return self._open_streams()
 
-    def _streaming(self) -> Streams:
+    def _open_streams(self) -> Streams:
         """The streams, started if there are none."""
         if self._streams is None:
             devices, before = self._driver.devices(), self._kinect
@@ -209,8 +209,8 @@ class KinectSensor:
             return
         if streams.calibration != self._calibration:
             raise SensorError(
-                f"another Kinect was plugged in where the {named(before)} was; plug in "
-                "that one again, or start again to use the other"
+                f"another Kinect was plugged in where the {kinect_name(before)} was; "
+                "plug in that one again, or start again to use the other"
             )
 
     def _ask_again(self, streams: Streams, first: bool) -> None:
@@ -232,7 +232,7 @@ class KinectSensor:
             streams.close()
 
     @contextmanager
-    def _telling(self) -> Iterator[None]:
+    def _explain_errors(self) -> Iterator[None]:
         """Whatever goes wrong is a line that begins with the sensor's name."""
         try:
             yield
@@ -241,4 +241,4 @@ class KinectSensor:
             self.close()
             raise KeyboardInterrupt from error
         except (TransportError, BadReplyError, SensorError) as error:
-            raise SensorError(told(self._name, error)) from error
+            raise SensorError(explain_error(self._name, error)) from error

@@ -57,7 +57,7 @@ def _serve(channel: Channel, memory: mmap.mmap) -> None:
     parent = os.getppid()
     kinects: _Kinects | None = None
     try:
-        kinects, error = _begun(memory)
+        kinects, error = _start_kinects(memory)
         channel.send(Answer(None, error, ()))
         while kinects is not None:
             try:
@@ -67,13 +67,13 @@ def _serve(channel: Channel, memory: mmap.mmap) -> None:
                     return
                 continue
             value, error = _attempt(getattr(kinects, what), given)
-            channel.send(Answer(value, error, remarks.taken()))
+            channel.send(Answer(value, error, remarks.take_all()))
     except (EOFError, OSError):
         return
     finally:
         if kinects is not None:
             kinects.stop()
-        left = remarks.taken()
+        left = remarks.take_all()
         if left:
             # Imported here, as nothing else that this process does needs `ttr`.
             from ttr.escapes import terminal_line
@@ -81,7 +81,7 @@ def _serve(channel: Channel, memory: mmap.mmap) -> None:
             sys.stderr.writelines(f"{terminal_line(it)}\n" for it in left)
 
 
-def _begun(memory: mmap.mmap) -> tuple[_Kinects | None, Exception | None]:
+def _start_kinects(memory: mmap.mmap) -> tuple[_Kinects | None, Exception | None]:
     try:
         from kille.sensors.kinect.usb import UsbBus
 
@@ -145,39 +145,39 @@ class _Kinects:
 
     def counts(self) -> Mapping[str, Counts]:
         """What came through each stream."""
-        return self._streaming().counts
+        return self._open_session().counts
 
     def frame(self, seconds: float) -> InMemory | None:
         """Put the next frame into the memory, if one comes in that time."""
-        streams = self._streaming()
+        streams = self._open_session()
         pair = streams.wait_for_pair(seconds)
         if pair is None:
             return None
         capture = capture_of(pair, streams.colour)
         calibration = calibration_for(streams.calibration, streams.colour)
-        return self._put(capture, frame_of(capture, calibration).depth)
+        return self._share(capture, frame_of(capture, calibration).depth)
 
     def capture(self, seconds: float) -> InMemory | None:
         """Put the next capture into the memory, if one comes in that time."""
-        streams = self._streaming()
+        streams = self._open_session()
         pair = streams.wait_for_pair(seconds)
         if pair is None:
             return None
         capture = capture_of(pair, streams.colour)
-        seen = self._put(capture, capture.depth)
+        seen = self._share(capture, capture.depth)
         return seen._replace(tilt=streams.tilt_if_known())
 
     def why_no_pair(self) -> TransportError:
         """Why no pair came."""
-        return self._streaming().why_no_pair()
+        return self._open_session().why_no_pair()
 
     def set_motor(self, request: int, value: int) -> None:
         """Ask the motor for a tilt or a light."""
-        self._streaming().set_motor(request, value)
+        self._open_session().set_motor(request, value)
 
     def motor_state(self) -> bytes:
         """The bytes of the motor's state."""
-        return self._streaming().motor_state()
+        return self._open_session().motor_state()
 
     def stop(self) -> None:
         """Stop the streams, if there are any."""
@@ -185,7 +185,7 @@ class _Kinects:
         if session is not None:
             session.close()
 
-    def _put(self, capture: Capture, depth: NDArray[Any] | None) -> InMemory:
+    def _share(self, capture: Capture, depth: NDArray[Any] | None) -> InMemory:
         assert depth is not None
         data = depth.reshape(-1).view(np.uint8)
         self._memory[:PICTURE] = capture.colour.reshape(-1)
@@ -194,7 +194,7 @@ class _Kinects:
             capture.time, capture.ticks_colour, capture.ticks_depth, capture.tilt
         )
 
-    def _streaming(self) -> Session:
+    def _open_session(self) -> Session:
         if self._session is None:
             raise DeviceGoneError("its streams have ended")
         return self._session
@@ -211,7 +211,7 @@ class _Remarks(logging.Handler):
         """Keep it."""
         self._kept.append(record.getMessage())
 
-    def taken(self) -> tuple[str, ...]:
+    def take_all(self) -> tuple[str, ...]:
         """All that was kept since this was called last."""
         kept, self._kept = tuple(self._kept), []
         return kept

@@ -47,10 +47,10 @@ class Trouble(NamedTuple):
     remedy: str = ""
 
 
-def told(name: str, error: Exception) -> str:
+def explain_error(name: str, error: Exception) -> str:
     """The line for an error of opening, asking or streaming.
 
-    >>> told("kinect", DeviceGoneError("No such device"))
+    >>> explain_error("kinect", DeviceGoneError("No such device"))
     'kinect: it was unplugged; plug it in again'
     """
     return f"{name}: {'; '.join(filter(None, trouble(error)))}"

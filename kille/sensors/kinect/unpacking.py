@@ -22,7 +22,7 @@ def unpack_11(packed: Bytes) -> Pixels:
     >>> unpack_11(np.full(422400, 0xFF, np.uint8)).min()
     np.uint16(2047)
     """
-    return _unpacked(packed, 11).reshape(480, 640)
+    return _unpack(packed, 11).reshape(480, 640)
 
 
 def unpack_10(packed: Bytes) -> Pixels:
@@ -31,10 +31,10 @@ def unpack_10(packed: Bytes) -> Pixels:
     >>> unpack_10(np.full(384000, 0xFF, np.uint8)).shape
     (480, 640)
     """
-    return _unpacked(packed, 10).reshape(-1, 640)
+    return _unpack(packed, 10).reshape(-1, 640)
 
 
-def _unpacked(packed: Bytes, bits: int) -> Pixels:
+def _unpack(packed: Bytes, bits: int) -> Pixels:
     groups = packed.size // bits
     data = np.ascontiguousarray(packed).data
     early = np.ndarray((groups,), ">u8", data, 0, (bits,)).astype(np.uint64)

@@ -44,14 +44,14 @@ class UsbBus:
 
     def devices(self) -> tuple[Plugged, ...]:
         """All of Microsoft's devices that are plugged in, by place."""
-        with _translated():
-            found = [self._described(it) for it in self._backend.enumerate_devices()]
+        with _translate_errors():
+            found = [self._describe(it) for it in self._backend.enumerate_devices()]
         microsofts = (it for it in found if it.vendor == MICROSOFT)
         return tuple(sorted(microsofts, key=lambda it: it.place))
 
     def open(self, device: Plugged, alternate: int) -> UsbConnection:
         """The device with its interface claimed, in that alternate setting."""
-        with _translated():
+        with _translate_errors():
             handle = self._backend.open_device(device.key)
         connection = UsbConnection(self._backend, self._events, device.key, handle)
         try:
@@ -61,7 +61,7 @@ class UsbBus:
             raise
         return connection
 
-    def _described(self, device: Any) -> Plugged:
+    def _describe(self, device: Any) -> Plugged:
         told = self._backend.get_device_descriptor(device)
         microsofts = told.idVendor == MICROSOFT
         return Plugged(
@@ -110,7 +110,7 @@ class UsbConnection:
     def claim(self, alternate: int) -> None:
         """Have the interface for oneself, in that alternate setting."""
         self._move_driver_aside()
-        with _translated():
+        with _translate_errors():
             self._backend.claim_interface(self._handle, _INTERFACE)
             if alternate:
                 self._backend.set_interface_altsetting(
@@ -184,7 +184,7 @@ class UsbConnection:
     ) -> int:
         if self._closed:
             raise DeviceGoneError("the device was closed")
-        with _translated():
+        with _translate_errors():
             came: int = self._backend.ctrl_transfer(
                 self._handle, kind, request, value, index, data, _TIMEOUT
             )
@@ -192,7 +192,7 @@ class UsbConnection:
 
 
 @contextmanager
-def _translated() -> Iterator[None]:
+def _translate_errors() -> Iterator[None]:
     """pyusb's failures in the words of the driver's transports."""
     try:
         yield

@@ -80,23 +80,23 @@ class Bag:
     def message(self, topic: str, stamp: Stamp) -> Any:
         """The message of that stamp; SensorError if it cannot be read."""
         found = self.raw(topic, start=stamp.kept, stop=stamp.kept + 1)
-        with told(self.name):
+        with explain_errors(self.name):
             for number, (_, data) in enumerate(found):
                 if number == stamp.nth:
-                    return self.decoded(topic, data)
+                    return self.decode(topic, data)
         raise SensorError(f"{self.name}: a message of {topic} is lost")
 
     def first(self, topic: str) -> Any:
         """The topic's first message, or None."""
-        with told(self.name):
-            return next((self.decoded(topic, it) for _, it in self.raw(topic)), None)
+        with explain_errors(self.name):
+            return next((self.decode(topic, it) for _, it in self.raw(topic)), None)
 
     def raw(self, topic: str, **between: int) -> Iterator[tuple[int, bytes]]:
         """The topic's messages as they are kept, with the bag's nanoseconds."""
         for _, kept, data in self.reader.messages(self.topics[topic], **between):
             yield kept, bytes(data)
 
-    def decoded(self, topic: str, data: bytes) -> Any:
+    def decode(self, topic: str, data: bytes) -> Any:
         """A message with its fields, as ROS defines them, whatever the bag says."""
         if self.reader.is2:
             return self.store.deserialize_cdr(data, self.kind(topic))
@@ -112,10 +112,10 @@ class Bag:
         Where their heads do not say, it is when they were recorded.
         """
         row: list[tuple[int, int]] = []
-        with told(self.name):
+        with explain_errors(self.name):
             for kept, data in self.raw(topic):
                 FRAMES.check(len(row))
-                row.append((kept, self._made(data)))
+                row.append((kept, self._time_made(data)))
         said = any(made for _, made in row)
         counts: dict[int, int] = {}
         stamps = []
@@ -124,7 +124,7 @@ class Bag:
             stamps.append(Stamp((made if said else kept) / 1e9, kept, nth))
         return sorted(stamps)
 
-    def _made(self, data: bytes) -> int:
+    def _time_made(self, data: bytes) -> int:
         """The nanoseconds in a message's head, which is the first of its fields."""
         # ROS 1 has a number of the message before them, ROS 2 what says the byte order.
         big = self.reader.is2 and not data[1] & 1
@@ -132,7 +132,7 @@ class Bag:
         return int(seconds * 1_000_000_000 + rest)
 
 
-def opened(name: str, path: Path) -> Bag:
+def open_bag_file(name: str, path: Path) -> Bag:
     """The bag at this path; SensorError if it cannot be read, or rosbags is missing."""
     remark = ""
     try:
@@ -141,14 +141,14 @@ def opened(name: str, path: Path) -> Bag:
 
         from kille.sensors.recordings.bag_limits import (
             BagPath,
-            bounded,
             check_unpacked,
+            limit_databases,
         )
     except ImportError as error:
         raise SensorError(f"{name}: {NOT_INSTALLED}") from error
     usual = get_typestore(Stores.ROS2_HUMBLE)
     held = _file(path)
-    with told(name), _suffixed(held) as linked, bounded():
+    with explain_errors(name), _path_with_suffix(held) as linked, limit_databases():
         suited = BagPath(linked)
         if suited.is_dir():
             check_unpacked(suited)
@@ -158,7 +158,7 @@ def opened(name: str, path: Path) -> Bag:
         except AnyReaderError as error:
             if not any(words in str(error) for words in _CUT_SHORT):
                 raise
-            reader = _salvaged(suited, usual)
+            reader = _open_cut_bag(suited, usual)
             remark = "cut short: its end is missing; what is whole of it is played"
     topics: dict[str, list[Connection]] = {}
     for it in sorted(reader.connections, key=lambda it: (it.topic, it.id)):
@@ -178,7 +178,7 @@ _CUT_SHORT = (
 """What rosbags says of bags whose end is missing."""
 
 
-def _salvaged(path: Path, usual: Typestore) -> AnyReader:
+def _open_cut_bag(path: Path, usual: Typestore) -> AnyReader:
     """A reader of a bag that was cut short."""
     from rosbags.highlevel import AnyReader
     from rosbags.rosbag2 import Reader
@@ -214,7 +214,7 @@ def _file(path: Path) -> Path:
 
 
 @contextmanager
-def _suffixed(path: Path) -> Iterator[Path]:
+def _path_with_suffix(path: Path) -> Iterator[Path]:
     """The path, or another to the same that ends as rosbags wants its files to end."""
     suffix = None if path.is_dir() else ros_suffix(path)
     if suffix is None or path.suffix == suffix:
@@ -227,8 +227,8 @@ def _suffixed(path: Path) -> Iterator[Path]:
 
 
 @contextmanager
-def told(name: str) -> Iterator[None]:
-    """Whatever is wrong inside with the bag, in one line."""
+def explain_errors(name: str) -> Iterator[None]:
+    """Raise whatever goes wrong inside as a SensorError, one line about the bag."""
     try:
         yield
     except SensorError:

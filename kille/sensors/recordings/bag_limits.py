@@ -54,7 +54,7 @@ class _Decompressor(Protocol):
     def decompress(self, data: bytes, /, *, max_length: int) -> bytes: ...
 
 
-def _unpacked(kind: Callable[[], _Decompressor], data: bytes) -> bytes:
+def _decompress(kind: Callable[[], _Decompressor], data: bytes) -> bytes:
     """What is compressed in these bytes; `OSError` if it is too much."""
     most = MESSAGE.maximum
     found = kind().decompress(data, max_length=most + 1)
@@ -64,12 +64,14 @@ def _unpacked(kind: Callable[[], _Decompressor], data: bytes) -> bytes:
 
 
 @contextmanager
-def bounded() -> Iterator[None]:
-    """While a bag is opened or read, apsw's databases have limits, too."""
-    rosbag1.decompressors["bz2"] = lambda data: _unpacked(bz2.BZ2Decompressor, data)
-    rosbag1.decompressors["lz4"] = lambda data: _unpacked(LZ4FrameDecompressor, data)
-    mcap.DECOMPRESSORS["lz4"] = lambda data, _: _unpacked(LZ4FrameDecompressor, data)
-    mcap.DECOMPRESSORS["zstd"] = lambda data, _: _unpacked(zstd.ZstdDecompressor, data)
+def limit_databases() -> Iterator[None]:
+    """Limit apsw's databases, too, while a bag is opened or read."""
+    rosbag1.decompressors["bz2"] = lambda data: _decompress(bz2.BZ2Decompressor, data)
+    rosbag1.decompressors["lz4"] = lambda data: _decompress(LZ4FrameDecompressor, data)
+    mcap.DECOMPRESSORS["lz4"] = lambda data, _: _decompress(LZ4FrameDecompressor, data)
+    mcap.DECOMPRESSORS["zstd"] = lambda data, _: _decompress(
+        zstd.ZstdDecompressor, data
+    )
     apsw.connection_hooks.append(_limit)
     try:
         yield

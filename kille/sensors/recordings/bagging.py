@@ -43,7 +43,7 @@ def write_bag(path: Path, frames: Iterable[Frame]) -> None:
 
     types = get_typestore(stores.ROS1_NOETIC)
     with Writer(path) as writer:
-        _put_all(types, _putting(writer, types, types.serialize_ros1), frames)
+        _put_all(types, _message_writer(writer, types, types.serialize_ros1), frames)
 
 
 def write_ros2(folder: Path, frames: Iterable[Frame]) -> None:
@@ -53,7 +53,7 @@ def write_ros2(folder: Path, frames: Iterable[Frame]) -> None:
 
     types = get_typestore(stores.ROS2_HUMBLE)
     with Writer(folder, version=8, storage_plugin=StoragePlugin.MCAP) as writer:
-        _put_all(types, _putting(writer, types, types.serialize_cdr), frames)
+        _put_all(types, _message_writer(writer, types, types.serialize_cdr), frames)
 
 
 def write_mcap(path: Path, frames: Iterable[Frame]) -> None:
@@ -75,7 +75,9 @@ def _types() -> tuple[Any, Any]:
     return Stores, get_typestore
 
 
-def _putting(writer: Any, types: Any, serialise: Callable[[Any, str], Any]) -> Put:
+def _message_writer(
+    writer: Any, types: Any, serialise: Callable[[Any, str], Any]
+) -> Put:
     """How messages get into a bag: each topic is announced with its first."""
     connections: dict[str, Any] = {}
 

@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 
 from kille.scene import Frame, Intrinsics
-from kille.sensors.recordings.bag_files import Bag, Stamp, opened, told
+from kille.sensors.recordings.bag_files import Bag, Stamp, explain_errors, open_bag_file
 from kille.sensors.recordings.images import (
     OtherFormatError,
     colour_of,
@@ -22,7 +22,7 @@ from kille.sensors.recordings.images import (
 )
 from kille.sensors.recordings.names import meant, some
 from kille.sensors.recordings.options import Options
-from kille.sensors.recordings.pairing import paired
+from kille.sensors.recordings.pairing import pair_times
 from kille.sensors.recordings.reels import Moment, Reel
 from kille.sensors.sensor import SensorError
 
@@ -36,9 +36,9 @@ def open_bag(name: str, path: Path, options: Options) -> Reel:
     Colour is paired with the depth that is nearest in time, at most 20 ms away; without
     depth there is only colour.
     """
-    bag = opened(name, path)
+    bag = open_bag_file(name, path)
     try:
-        with told(name):
+        with explain_errors(name):
             moments = _moments(bag, options)
     except BaseException:
         bag.reader.close()
@@ -65,7 +65,7 @@ def _moments(bag: Bag, options: Options) -> list[Moment]:
         return [Moment(it.time, partial(_colour_only, bag, colour, it)) for it in seen]
     lens = options.intrinsics or _lens(bag, colour, depth)
     deep = bag.stamps(depth)
-    pairs = paired([it.time for it in seen], [it.time for it in deep])
+    pairs = pair_times([it.time for it in seen], [it.time for it in deep])
     moments = [
         Moment(seen[i].time, partial(_both, bag, colour, seen[i], depth, deep[j], lens))
         for i, j in pairs
@@ -78,7 +78,7 @@ def _moments(bag: Bag, options: Options) -> list[Moment]:
 
 
 def _colour_only(bag: Bag, topic: str, stamp: Stamp) -> Frame:
-    with told(f"{bag.name}, {topic}"):
+    with explain_errors(f"{bag.name}, {topic}"):
         colour = colour_of(bag.message(topic, stamp))
     return Frame(colour, None, None, stamp.time, {})
 
@@ -87,7 +87,7 @@ def _both(
     bag: Bag, topic: str, stamp: Stamp, behind: str, deep: Stamp, lens: Intrinsics
 ) -> Frame:
     seen = _colour_only(bag, topic, stamp)
-    with told(f"{bag.name}, {behind}"):
+    with explain_errors(f"{bag.name}, {behind}"):
         depth = depth_of(bag.message(behind, deep))
     if depth.shape != seen.colour.shape[:2]:
         sizes = [f"{it.shape[1]}x{it.shape[0]}" for it in (depth, seen.colour)]

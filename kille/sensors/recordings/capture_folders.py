@@ -38,7 +38,7 @@ def write_captures(folder: Path, frames: Iterable[Frame]) -> None:
         units = depth_picture(frame.depth, UNITS_PER_METRE)
         write_picture(folder / f"{name}_depth.png", units)
         times[name] = frame.time
-        things[name] = _labelled(folder / f"{name}_label.png", frame.outlines)
+        things[name] = _write_labels(folder / f"{name}_label.png", frame.outlines)
     assert lens is not None, "a recording has frames"
     described = {
         "intrinsics": {"fx": lens.fx, "fy": lens.fy, "cx": lens.cx, "cy": lens.cy},
@@ -49,7 +49,7 @@ def write_captures(folder: Path, frames: Iterable[Frame]) -> None:
     (folder / "scene.json").write_text(json.dumps(described, indent=1) + "\n")
 
 
-def _labelled(path: Path, outlines: Mapping[str, Mask]) -> list[Mapping[str, Any]]:
+def _write_labels(path: Path, outlines: Mapping[str, Mask]) -> list[Mapping[str, Any]]:
     """Write the outlines as whole numbers, if there are any; what each number names."""
     if not outlines:
         return []

@@ -12,7 +12,7 @@ from kille.sensors.kinect.calibration import IDENTITY
 from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture
 from kille.sensors.recordings.bagging import write_bag, write_mcap, write_ros2
 from kille.sensors.recordings.capture_folders import write_captures
-from kille.sensors.recordings.developing import developed
+from kille.sensors.recordings.developing import develop_frame
 from kille.sensors.recordings.npz import write_npz
 from kille.sensors.recordings.playing import Recording
 from kille.sensors.recordings.reels import Moment, after
@@ -59,7 +59,7 @@ def _capture(name: str, moment: Moment) -> Capture:
     """The readings that were kept, or those that a Kinect would have had."""
     if moment.capture is not None:
         return replace(moment.capture(), time=moment.time)
-    return developed(name, replace(moment.read(), time=moment.time))
+    return develop_frame(name, replace(moment.read(), time=moment.time))
 
 
 FORMATS = {
@@ -112,10 +112,10 @@ def convert(
     OSError if it cannot be written, SensorError if it cannot be read or the format has
     no room for it.
     """
-    into.write(draft, recording, _told(_rising(recording.rest), tell))
+    into.write(draft, recording, _tell_each(_make_times_rise(recording.rest), tell))
 
 
-def _rising(moments: Iterable[Moment]) -> Iterator[Moment]:
+def _make_times_rise(moments: Iterable[Moment]) -> Iterator[Moment]:
     """The same, no two of the same time."""
     last = -inf
     for moment in moments:
@@ -123,7 +123,7 @@ def _rising(moments: Iterable[Moment]) -> Iterator[Moment]:
         yield replace(moment, time=last)
 
 
-def _told(moments: Iterable[Moment], tell: Callable[[], None]) -> Iterator[Moment]:
+def _tell_each(moments: Iterable[Moment], tell: Callable[[], None]) -> Iterator[Moment]:
     for moment in moments:
         yield moment
         tell()

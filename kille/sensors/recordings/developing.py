@@ -29,7 +29,7 @@ class Raw:
         self._sensor = sensor
         self._first: Frame | None = sensor.frame()
         self._lens = self._first.intrinsics or COLOUR_CAMERA
-        developed(sensor.name, self._first)
+        develop_frame(sensor.name, self._first)
 
     @property
     def name(self) -> str:
@@ -56,7 +56,7 @@ class Raw:
 
         SensorError if it has no depth, or another size than a Kinect's.
         """
-        return developed(self.name, self.frame())
+        return develop_frame(self.name, self.frame())
 
     def close(self) -> None:
         """Let go of the source; a second call does nothing."""
@@ -76,7 +76,7 @@ def lens_of(source: RawSource) -> Intrinsics:
     return source.lens if isinstance(source, Raw) else COLOUR_CAMERA
 
 
-def developed(name: str, frame: Frame) -> Capture:
+def develop_frame(name: str, frame: Frame) -> Capture:
     """The frame of that source as `IDENTITY` would have read it.
 
     SensorError if it has no depth, or another size than a Kinect's.

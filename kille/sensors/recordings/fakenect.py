@@ -28,7 +28,7 @@ from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture, frame_of
 from kille.sensors.kinect.motor import Tilt
 from kille.sensors.recordings.lenses import lens_from
 from kille.sensors.recordings.options import Options
-from kille.sensors.recordings.pairing import paired
+from kille.sensors.recordings.pairing import pair_times
 from kille.sensors.recordings.reels import Moment, Reel, remark_on
 from kille.sensors.sensor import SensorError
 from ttr.safety.inputs import open_file, parse_json, read_bytes, read_text
@@ -104,7 +104,7 @@ def open_fakenect(name: str, folder: Path, options: Options) -> Reel:
     if not depth:
         shown = [Moment(it.time, partial(_colour_only, folder, it)) for it in colour]
         return Reel("fakenect", shown, remark)
-    pairs = paired([it.time for it in colour], [it.time for it in depth])
+    pairs = pair_times([it.time for it in colour], [it.time for it in depth])
     tilts = _tilts(kept)
     moments = [
         _Readings(folder, colour[i], depth[j], tilts.get(depth[j]), device).moment()

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from kille.scene import Frame
 from kille.sensors.captures import RATE, Shot
-from kille.sensors.recordings.names import meant, some, spoken
+from kille.sensors.recordings.names import comparable_name, meant, some
 from kille.sensors.sensor import At, Beside, SensorError
 
 _KEPT_FRAMES = 16
@@ -67,10 +67,10 @@ class Gallery:
         )
 
     def _thing(self, name: str) -> str:
-        known = {spoken(thing): thing for thing in self._shots}
-        if spoken(name) in known:
-            return known[spoken(name)]
+        known = {comparable_name(thing): thing for thing in self._shots}
+        if comparable_name(name) in known:
+            return known[comparable_name(name)]
         raise SensorError(
-            f"{self._name} has no {name}{meant(spoken(name), list(known))}; "
+            f"{self._name} has no {name}{meant(comparable_name(name), list(known))}; "
             f"it has {some(list(self._shots))}"
         )

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.scene import Colour, Depth, Intrinsics
-from kille.sensors.pictures import decoded, measured
+from kille.sensors.pictures import clean_depth, decode_picture
 from kille.sensors.recordings.lenses import lens_from
 
 
@@ -65,7 +65,7 @@ def colour_of(message: Any) -> Colour:
     """
     if is_compressed(message):
         content = np.asarray(message.data, np.uint8)
-        return _fixed(_decoded(content, cv2.IMREAD_COLOR_RGB))
+        return _freeze(_decode(content, cv2.IMREAD_COLOR_RGB))
     channels = _CHANNELS.get(message.encoding)
     if channels is None:
         raise OtherFormatError(
@@ -75,7 +75,7 @@ def colour_of(message: Any) -> Colour:
     rows = _rows(message, np.dtype(np.uint8), channels)
     picture = rows[..., 0] if channels == 1 else rows
     code = _TO_RGB.get(message.encoding)
-    return _fixed(np.array(picture) if code is None else cv2.cvtColor(picture, code))
+    return _freeze(np.array(picture) if code is None else cv2.cvtColor(picture, code))
 
 
 def depth_of(message: Any) -> Depth:
@@ -89,7 +89,7 @@ def depth_of(message: Any) -> Depth:
         if "16UC1" not in message.format:
             raise OtherFormatError(f"compressed depth of the kind `{message.format}`")
         content = np.asarray(message.data, np.uint8)[_HEAD_OF_DEPTH:]
-        return _metres(_decoded(content, cv2.IMREAD_UNCHANGED))
+        return _metres(_decode(content, cv2.IMREAD_UNCHANGED))
     kind = _DEPTHS.get(message.encoding)
     if kind is None:
         raise OtherFormatError(
@@ -130,16 +130,16 @@ def _metres(depth: NDArray[Any]) -> Depth:
     if depth.ndim != 2 or depth.dtype.kind not in "uf":
         raise OtherFormatError("a depth picture has one channel of numbers")
     metres = depth.astype(np.float32)
-    return measured(metres / np.float32(1000) if depth.dtype.kind == "u" else metres)
+    return clean_depth(metres / np.float32(1000) if depth.dtype.kind == "u" else metres)
 
 
-def _decoded(content: NDArray[np.uint8], flags: int) -> NDArray[Any]:
-    picture = decoded(np.ascontiguousarray(content), flags)
+def _decode(content: NDArray[np.uint8], flags: int) -> NDArray[Any]:
+    picture = decode_picture(np.ascontiguousarray(content), flags)
     if picture is None:
         raise OtherFormatError("a compressed picture does not open; it may be damaged")
     return picture
 
 
-def _fixed(array: NDArray[Any]) -> NDArray[Any]:
+def _freeze(array: NDArray[Any]) -> NDArray[Any]:
     array.setflags(write=False)
     return array

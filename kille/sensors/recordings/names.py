@@ -7,12 +7,12 @@ import re
 from collections.abc import Sequence
 
 
-def counting(name: str) -> list[tuple[int, str]]:
+def natural_order(name: str) -> list[tuple[int, str]]:
     """A key for the order of names in which numbers count as numbers.
 
-    >>> sorted(["cup10", "cup2", "cap"], key=counting)
+    >>> sorted(["cup10", "cup2", "cap"], key=natural_order)
     ['cap', 'cup2', 'cup10']
-    >>> counting("2²3")
+    >>> natural_order("2²3")
     [(2, ''), (-1, '²'), (3, '')]
     """
     parts = re.findall(r"\d+|\D+", name)
@@ -35,6 +35,6 @@ def some(names: Sequence[str]) -> str:
     return few if len(names) <= 12 else f"{few} and {len(names) - 12} more"
 
 
-def spoken(name: str) -> str:
+def comparable_name(name: str) -> str:
     """The name as it is compared: `Rubber_duck` is `rubber duck`."""
     return name.replace("_", " ").casefold()

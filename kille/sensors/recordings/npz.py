@@ -30,7 +30,7 @@ from kille.archives import (
 )
 from kille.scene import Frame, Intrinsics
 from kille.sensors.captures import RATE
-from kille.sensors.pictures import measured
+from kille.sensors.pictures import clean_depth
 from kille.sensors.recordings.lenses import lens_from
 from kille.sensors.recordings.options import Options
 from kille.sensors.recordings.reels import Moment, Reel
@@ -71,7 +71,7 @@ def open_npz(name: str, path: Path, options: Options) -> Reel:
 
 
 def _colour_only(colour: NDArray[Any], number: int, seconds: float) -> Frame:
-    return Frame(_fixed(colour[number]), None, None, seconds, {})
+    return Frame(_freeze(colour[number]), None, None, seconds, {})
 
 
 def _with_depth(
@@ -82,11 +82,11 @@ def _with_depth(
     number: int,
     seconds: float,
 ) -> Frame:
-    metres = measured(np.asarray(depth[number], np.float32) / np.float32(unit))
-    return Frame(_fixed(colour[number]), metres, lens, seconds, {})
+    metres = clean_depth(np.asarray(depth[number], np.float32) / np.float32(unit))
+    return Frame(_freeze(colour[number]), metres, lens, seconds, {})
 
 
-def _fixed(array: NDArray[Any]) -> NDArray[Any]:
+def _freeze(array: NDArray[Any]) -> NDArray[Any]:
     copy = np.array(array)
     copy.setflags(write=False)
     return copy
@@ -98,7 +98,7 @@ def _colour(name: str, arrays: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
         raise SensorError(f"{name}: has no array `colour`; it has {', '.join(arrays)}")
     if colour.ndim != 4 or colour.shape[3] != 3 or colour.dtype != np.uint8:
         raise SensorError(
-            f"{name}: `colour` is {_told(colour)}, expected (n, H, W, 3) of uint8"
+            f"{name}: `colour` is {_shape_text(colour)}, expected (n, H, W, 3) of uint8"
         )
     if not colour.size:
         raise SensorError(f"{name}: `colour` holds no frame")
@@ -115,8 +115,8 @@ def _depth(
     depth = arrays["depth"]
     if depth.shape != colour.shape[:3] or depth.dtype.kind not in "uif":
         raise SensorError(
-            f"{name}: `depth` is {_told(depth)}, expected numbers for each pixel of "
-            f"`colour`, {colour.shape[:3]}"
+            f"{name}: `depth` is {_shape_text(depth)}, expected numbers for each pixel "
+            f"of `colour`, {colour.shape[:3]}"
         )
     return depth
 
@@ -155,11 +155,11 @@ def _times(name: str, arrays: Mapping[str, NDArray[Any]], count: int) -> list[fl
         if all(map(isfinite, row)) and all(a < b for a, b in pairwise(row)):
             return row
     raise SensorError(
-        f"{name}: `times` is {_told(times)}, expected {count} seconds that rise"
+        f"{name}: `times` is {_shape_text(times)}, expected {count} seconds that rise"
     )
 
 
-def _told(array: NDArray[Any]) -> str:
+def _shape_text(array: NDArray[Any]) -> str:
     return f"{array.shape} of {array.dtype}"
 
 
@@ -175,7 +175,7 @@ def _arrays(path: Path) -> dict[str, NDArray[Any]]:
             way_out = "np.savez, which does not compress, leaves them on disk"
             raise SensorError(f"{path}: {error.strerror}; {way_out}") from error
         return {
-            name: _mapped(path, archive, entry)
+            name: _map(path, archive, entry)
             if _stays(entry)
             else read_array(archive, entry)
             for name, entry in named.items()
@@ -192,9 +192,7 @@ def _stays(entry: zipfile.ZipInfo) -> bool:
     return entry.compress_type == zipfile.ZIP_STORED and entry.file_size >= 65536
 
 
-def _mapped(
-    path: Path, archive: zipfile.ZipFile, entry: zipfile.ZipInfo
-) -> NDArray[Any]:
+def _map(path: Path, archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> NDArray[Any]:
     with damage_told():
         with archive.open(entry) as file:
             head = read_head(file)

@@ -19,9 +19,9 @@ from kille.sensors.recordings.bag_files import is_bag
 from kille.sensors.recordings.bags import open_bag
 from kille.sensors.recordings.fakenect import is_fakenect, open_fakenect
 from kille.sensors.recordings.galleries import Gallery
-from kille.sensors.recordings.names import counting, meant, some
+from kille.sensors.recordings.names import meant, natural_order, some
 from kille.sensors.recordings.npz import is_npz, open_npz
-from kille.sensors.recordings.options import Options, parted
+from kille.sensors.recordings.options import Options, split_options
 from kille.sensors.recordings.playing import RawRecording, Recording
 from kille.sensors.recordings.reels import Moment, Reel
 from kille.sensors.recordings.tum import is_tum, open_tum
@@ -47,7 +47,7 @@ def open_recording(name: str) -> Sensor:
     What of a recording is lost is told once, by a warning in the log.
     """
     try:
-        path, options = parted(name)
+        path, options = split_options(name)
         return _open(name, path, options)
     except OSError as error:
         raise SensorError(f"{name}: cannot be read ({error.strerror})") from error
@@ -63,12 +63,12 @@ def is_recording(path: Path) -> bool:
 def _open(name: str, path: Path, options: Options) -> Sensor:
     opener = _opener(path)
     if opener is not None:
-        return _played(name, opener(name, path, options), options)
+        return _play(name, opener(name, path, options), options)
     if path.is_dir():
         return _timeless(name, options, _open_folder(name, path, options))
     if path.is_file() and (is_picture(path) or shows_picture(path)):
         still = Reel("picture", [_moment(Shot(path.stem, path))])
-        return _played(name, still, options)
+        return _play(name, still, options)
     if path.exists():
         _refuse_empty(name, path)
         raise SensorError(f"{name}: unknown format; known are {KNOWN}")
@@ -92,7 +92,7 @@ def _opener(path: Path) -> Opener | None:
     return next((opener for is_one, opener in kinds if is_one(path)), None)
 
 
-def _played(name: str, reel: Reel, options: Options) -> Recording:
+def _play(name: str, reel: Reel, options: Options) -> Recording:
     """The reel as a sensor; what is lost of it is told."""
     if reel.remark:
         logging.getLogger(__name__).warning("%s: %s", name, reel.remark)
@@ -126,14 +126,14 @@ def _open_scene(name: str, path: Path, options: Options) -> Sensor:
     shots = {shot.name: shot for shot in _captures(description)}
     if path.name not in shots:
         raise _not_there(name, path, list(shots))
-    return _played(name, Reel("capture", [_moment(shots[path.name])]), options)
+    return _play(name, Reel("capture", [_moment(shots[path.name])]), options)
 
 
 def _open_folder(name: str, folder: Path, options: Options) -> Sensor:
     description = description_of(folder)
     if description is not None and is_sequence(description):
         moments = [_moment(shot) for shot in read_sequence(description)]
-        return _played(name, Reel("captures", moments), options)
+        return _play(name, Reel("captures", moments), options)
     if description is not None:
         return Gallery(name, {it.name: [it] for it in read_scenes(description)})
     if any(folder.glob("*_color.png")) and any(folder.glob("*_depth.png")):
@@ -187,7 +187,7 @@ def _entries(folder: Path) -> list[Path]:
     """What is in the folder in the order people count: cup2 before cup10."""
     if not folder.is_dir():
         return []
-    return sorted(folder.iterdir(), key=lambda path: counting(path.name))
+    return sorted(folder.iterdir(), key=lambda path: natural_order(path.name))
 
 
 def _not_there(name: str, path: Path, near: Sequence[str]) -> SensorError:

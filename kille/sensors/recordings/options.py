@@ -33,17 +33,17 @@ class Options:
 KNOWN = tuple(field.name for field in fields(Options))
 
 
-def parted(name: str) -> tuple[Path, Options]:
+def split_options(name: str) -> tuple[Path, Options]:
     """The path in a source's name, and the options after its question mark.
 
     A path that exists is taken as it is, even with a question mark. SensorError for an
     option or value that is not understood.
 
-    >>> path, options = parted("tests/desk?speed=2&loop=no")
+    >>> path, options = split_options("tests/desk?speed=2&loop=no")
     >>> path.name, options.speed, options.loop, options.start
     ('desk', 2.0, False, 0.0)
     """
-    whole = _expanded(name)
+    whole = _expand_user(name)
     path, mark, query = name.rpartition("?")
     if not mark or whole.exists():
         return whole, Options()
@@ -56,10 +56,10 @@ def parted(name: str) -> tuple[Path, Options]:
         colour=given.get("colour"),
         depth=given.get("depth"),
     )
-    return _expanded(path), options
+    return _expand_user(path), options
 
 
-def _expanded(name: str) -> Path:
+def _expand_user(name: str) -> Path:
     """The path, where `~` is the user's own folder, and `~nobody` is only a name."""
     return Path(os.path.expanduser(name))
 

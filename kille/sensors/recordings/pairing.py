@@ -11,7 +11,7 @@ That of the tool that comes with the TUM recordings; less than a frame's time.
 """
 
 
-def paired(
+def pair_times(
     first: Sequence[float], second: Sequence[float], within: float = WITHIN
 ) -> Iterator[tuple[int, int]]:
     """The places of those that belong together, of two ascending rows of times.
@@ -19,7 +19,7 @@ def paired(
     In order of time, each at most once, and never further apart than `within`. Of two
     that could have the same partner, the nearer has it.
 
-    >>> list(paired([0.0, 0.033, 0.066], [0.001, 0.065, 0.5]))
+    >>> list(pair_times([0.0, 0.033, 0.066], [0.001, 0.065, 0.5]))
     [(0, 0), (2, 1)]
     """
     i = j = 0

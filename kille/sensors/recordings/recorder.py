@@ -55,7 +55,7 @@ class Limits:
     frames: int | None = None
     seconds: float | None = None
 
-    def reached(self, so_far: Progress) -> bool:
+    def are_reached(self, so_far: Progress) -> bool:
         """Whether it is enough."""
         enough = self.frames is not None and so_far.frames >= self.frames
         # A thirtieth of a second, thirty times, may be a hair less than a second.
@@ -145,7 +145,7 @@ def record(
     behind = _Behind(partial(FakenectWriter, folder, *known))
     progress = Progress()
     try:
-        for progress in _captured(source, behind, limits, disk, folder):
+        for progress in _capture_all(source, behind, limits, disk, folder):
             tell(progress)
     except RecordingOverError:
         progress = replace(progress, end=End.OVER)
@@ -169,7 +169,7 @@ def _take_back(folder: Path, was_there: bool) -> None:
         folder.rmdir()
 
 
-def _captured(
+def _capture_all(
     source: RawSource, behind: _Behind, limits: Limits, disk: Disk, folder: Path
 ) -> Iterator[Progress]:
     """Hands captures on to be written, and says how far it is after each."""
@@ -181,7 +181,7 @@ def _captured(
             first = capture.time
         frames, free = progress.frames + 1, disk.free(home(folder))
         progress = Progress(frames, capture.time - first, free)
-        if limits.reached(progress):
+        if limits.are_reached(progress):
             progress = replace(progress, end=End.ASKED)
         elif free < disk.reserve:
             progress = replace(progress, end=End.FULL)

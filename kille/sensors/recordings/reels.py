@@ -28,7 +28,7 @@ class Moment:
     capture: Callable[[], Capture] | None = None
 
 
-def _nothing() -> None:
+def _close_nothing() -> None:
     """Close what is not open."""
 
 
@@ -45,7 +45,7 @@ class Reel:
     moments: Sequence[Moment]
     remark: str = ""
     calibration: Calibration | None = None
-    close: Callable[[], None] = _nothing
+    close: Callable[[], None] = _close_nothing
 
     @cached_property
     def times(self) -> tuple[float, ...]:

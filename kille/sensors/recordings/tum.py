@@ -24,7 +24,7 @@ from kille.sensors.pictures import (
 )
 from kille.sensors.recordings.lenses import lens_from
 from kille.sensors.recordings.options import Options
-from kille.sensors.recordings.pairing import paired
+from kille.sensors.recordings.pairing import pair_times
 from kille.sensors.recordings.reels import Moment, Reel, remark_on
 from kille.sensors.sensor import SensorError
 from ttr.safety.inputs import open_file, read_text
@@ -59,8 +59,10 @@ def open_tum(name: str, folder: Path, options: Options) -> Reel:
     Colour is paired with the depth that is nearest in time, at most 20 ms away; without
     `depth.txt` there is only colour. SensorError if nothing of it can be played.
     """
-    colour = _listed(folder / "rgb.txt")
-    depth = _listed(folder / "depth.txt") if (folder / "depth.txt").is_file() else None
+    colour = _read_list(folder / "rgb.txt")
+    depth = (
+        _read_list(folder / "depth.txt") if (folder / "depth.txt").is_file() else None
+    )
     if not colour:
         raise SensorError(f"{name}: the recording is empty: rgb.txt names no picture")
     entries = [*colour, *(depth or ())]
@@ -87,7 +89,7 @@ def _with_depth(
     depth: Sequence[Entry],
     options: Options,
 ) -> list[Shot]:
-    pairs = list(paired([it.time for it in colour], [it.time for it in depth]))
+    pairs = list(pair_times([it.time for it in colour], [it.time for it in depth]))
     if not pairs:
         raise SensorError(
             f"{name}: no colour picture has depth of the same time (within 20 ms)"
@@ -106,7 +108,7 @@ def _with_depth(
     ]
 
 
-def _listed(path: Path) -> list[Entry]:
+def _read_list(path: Path) -> list[Entry]:
     """The entries of a list in order of time; SensorError for a line that is none."""
     entries = []
     text = read_text(path, TABLE, "replace")

@@ -45,7 +45,7 @@ class FakenectWriter:
         self._tilt: Tilt | None = None
         self._unsynced: list[Path] = []
         folder.mkdir(exist_ok=True)
-        self._write(folder / DEVICE, _described(calibration, lens).encode())
+        self._write(folder / DEVICE, _device_text(calibration, lens).encode())
         self._index = (folder / INDEX).open("xb", buffering=0)
 
     def __enter__(self) -> Self:
@@ -129,7 +129,7 @@ def _sync(path: Path) -> None:
         os.close(file)
 
 
-def _described(calibration: Calibration, lens: Intrinsics) -> str:
+def _device_text(calibration: Calibration, lens: Intrinsics) -> str:
     """The text of `device.json`; the lens is named where it is not the usual one."""
     text = calibration.to_json()
     if lens == COLOUR_CAMERA:

@@ -29,7 +29,7 @@ from kille.sensors.sensor import SensorError
 from kille.sensors.sources import open_sensor
 from kille.sensors.stream import Feed, Stream
 
-FEED = Feed.named("a/image", "a/camera_info", "a/depth")
+FEED = Feed.of_topics("a/image", "a/camera_info", "a/depth")
 MOMENT = 33_000_000
 LENS = Camera(525.0, 525.0, 1.5, 1.0, 4, 3)
 
@@ -175,7 +175,7 @@ def test_no_reading_in_metres_is_none_too(driver: Driver, none: float) -> None:
 
 
 def test_without_a_depth_topic_frames_are_of_colour_alone() -> None:
-    driver = Driver(Feed.named("a/image", "a/camera_info"))
+    driver = Driver(Feed.of_topics("a/image", "a/camera_info"))
     frame = driver.frame((driver.colour, MOMENT))
     assert frame.depth is None
     assert frame.intrinsics is None
@@ -212,7 +212,7 @@ def test_depth_of_another_size_than_colour_is_one_line(driver: Driver) -> None:
 
 
 def test_a_grey_picture_has_no_colour() -> None:
-    driver = Driver(Feed.named("a/image", "a/camera_info"))
+    driver = Driver(Feed.of_topics("a/image", "a/camera_info"))
     grey = Image(np.zeros((3, 4), np.uint8), MOMENT)
     with pytest.raises(SensorError, match="has no colour"):
         driver.frame((driver.picture, grey))

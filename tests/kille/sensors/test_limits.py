@@ -189,13 +189,13 @@ def test_a_chunk_is_unpacked_no_further_than_a_message_may_be(
 
     import lz4.frame
 
-    from kille.sensors.recordings.bag_limits import bounded
+    from kille.sensors.recordings.bag_limits import limit_databases
     from ttr.safety.limits import MESSAGE, InputLimitError
 
     # So that not so much has to be made for it.
     monkeypatch.setattr(type(MESSAGE), "maximum", 1000)
     ways = {"bz2": bz2.compress, "lz4": lz4.frame.compress, "zstd": mcap.zstd.compress}
-    with bounded():
+    with limit_databases():
         unpack = {
             ("bz2", rosbag1.decompressors["bz2"]),
             ("lz4", rosbag1.decompressors["lz4"]),

@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.scene import Frame, Intrinsics
-from kille.sensors.recordings.options import Options, parted
-from kille.sensors.recordings.pairing import paired
+from kille.sensors.recordings.options import Options, split_options
+from kille.sensors.recordings.pairing import pair_times
 from kille.sensors.recordings.playing import (
     Clock,
     Recording,
@@ -174,19 +174,23 @@ def test_real_time_is_kept() -> None:
 
 
 def test_options_follow_a_question_mark() -> None:
-    path, options = parted("~/walk?speed=0.5&loop=no&start=3.5&intrinsics=525,524,3,2")
+    path, options = split_options(
+        "~/walk?speed=0.5&loop=no&start=3.5&intrinsics=525,524,3,2"
+    )
     assert path == Path.home() / "walk"
     lens = Intrinsics(525, 524, 3, 2)
     assert options == Options(0.5, False, 3.5, lens)
-    assert parted("walk?colour=/a/b&depth=/c")[1] == Options(colour="/a/b", depth="/c")
-    assert parted("walk?")[1] == Options()
+    assert split_options("walk?colour=/a/b&depth=/c")[1] == Options(
+        colour="/a/b", depth="/c"
+    )
+    assert split_options("walk?")[1] == Options()
 
 
 def test_a_path_with_a_question_mark_is_a_path(tmp_path: Path) -> None:
     odd = tmp_path / "why?speed=2"
     odd.mkdir()
-    assert parted(str(odd)) == (odd, Options())
-    path, options = parted(f"{odd}?speed=3")
+    assert split_options(str(odd)) == (odd, Options())
+    path, options = split_options(f"{odd}?speed=3")
     assert (path, options.speed) == (odd, 3)
 
 
@@ -207,7 +211,7 @@ def test_a_path_with_a_question_mark_is_a_path(tmp_path: Path) -> None:
 )
 def test_an_option_that_is_not_understood(query: str, told: str) -> None:
     with pytest.raises(SensorError, match=rf"walk\?{query}.*{told}"):
-        parted(f"walk?{query}")
+        split_options(f"walk?{query}")
 
 
 # --- pairs ---------------------------------------------------------------------------
@@ -221,7 +225,7 @@ ROWS = st.lists(st.integers(0, 2000), max_size=30).map(
 def test_pairs_are_in_order_near_and_each_taken_once(
     first: list[float], second: list[float]
 ) -> None:
-    pairs = list(paired(first, second))
+    pairs = list(pair_times(first, second))
     assert all(abs(first[i] - second[j]) <= 0.02 for i, j in pairs)
     for (i, j), (k, m) in pairwise(pairs):
         assert i < k
@@ -230,7 +234,7 @@ def test_pairs_are_in_order_near_and_each_taken_once(
 
 @given(ROWS.map(lambda row: sorted(set(row))))
 def test_what_has_the_same_times_is_paired_whole(row: list[float]) -> None:
-    assert list(paired(row, row)) == [(i, i) for i in range(len(row))]
+    assert list(pair_times(row, row)) == [(i, i) for i in range(len(row))]
 
 
 @given(st.lists(st.booleans(), max_size=40), st.floats(-0.016, 0.016))
@@ -239,7 +243,7 @@ def test_streams_at_30_a_second_lose_only_what_is_missing(
 ) -> None:
     first = [number / 30 for number in range(len(there))]
     second = [time + late for time, it in zip(first, there, strict=True) if it]
-    pairs = list(paired(first, second))
+    pairs = list(pair_times(first, second))
     assert [i for i, _ in pairs] == [i for i, it in enumerate(there) if it]
 
 

@@ -20,7 +20,7 @@ from kille.sensors.kinect.calibration import (
 from kille.sensors.kinect.capture import COLOUR_CAMERA, Capture, frame_of
 from kille.sensors.kinect.commands import BadReplyError
 from kille.sensors.kinect.metric import beyond, depths, millimetres, raw_of
-from kille.sensors.kinect.registration import registered
+from kille.sensors.kinect.registration import register_depth
 from kinect_emulator.calibration import LIKELY
 
 TYPICAL = Calibration.typical()
@@ -191,13 +191,15 @@ def plainly_registered(raw: NDArray[np.uint16], it: Calibration) -> NDArray[np.u
 def test_depth_lands_where_the_definition_says(calibration: Calibration) -> None:
     raw = scene()
     assert np.array_equal(
-        registered(raw, calibration), plainly_registered(raw, calibration)
+        register_depth(raw, calibration), plainly_registered(raw, calibration)
     )
 
 
 def test_identity_moves_nothing() -> None:
     mm = millimetres(scene(), IDENTITY)
-    assert np.array_equal(registered(scene(), IDENTITY), np.where(mm < 10_000, mm, 0))
+    assert np.array_equal(
+        register_depth(scene(), IDENTITY), np.where(mm < 10_000, mm, 0)
+    )
 
 
 def test_a_frame_has_metres_where_depth_is_known() -> None:

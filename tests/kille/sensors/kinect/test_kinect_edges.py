@@ -20,7 +20,7 @@ from kille.interfaces.doctor.kinect import plugged_in
 from kille.sensors.kinect import camera as cameras
 from kille.sensors.kinect import head as heads
 from kille.sensors.kinect import sensor as sensors
-from kille.sensors.kinect.address import parsed
+from kille.sensors.kinect.address import parse_address
 from kille.sensors.kinect.devices import Kinect as Found
 from kille.sensors.kinect.devices import again, kinects
 from kille.sensors.kinect.motor import Light, tilt_value
@@ -197,7 +197,7 @@ def test_a_tilt_is_from_31_down_to_31_up_or_an_error(degrees) -> None:
 )
 def test_what_is_no_tilt_in_an_address_is_refused(degrees: str) -> None:
     with pytest.raises(SensorError, match="tilt"):
-        parsed(f"kinect?tilt={degrees}")
+        parse_address(f"kinect?tilt={degrees}")
 
 
 @pytest.mark.parametrize("light", ["red", 99, -1, None, True, 1.0])

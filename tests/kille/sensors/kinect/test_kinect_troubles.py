@@ -13,13 +13,13 @@ def test_a_kernel_driver_is_blamed_only_for_what_it_has(
 ) -> None:
     """It is loaded on most computers, but moved aside by whoever opens the Kinect."""
     monkeypatch.setattr(troubles, "driver_loaded", lambda: True)
-    assert troubles.told("kinect", Driven("busy")).endswith(troubles.UNLOAD)
+    assert troubles.explain_error("kinect", Driven("busy")).endswith(troubles.UNLOAD)
     assert troubles.trouble(DeviceBusyError("busy")).state == "another program has it"
 
 
 def test_what_libusb_cannot_do_here_is_told() -> None:
     with (
         pytest.raises(TransportError, match="libusb says: Operation not supported"),
-        usb._translated(),
+        usb._translate_errors(),
     ):
         raise NotImplementedError("Operation not supported")

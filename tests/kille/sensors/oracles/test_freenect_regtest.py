@@ -16,7 +16,7 @@ import pytest
 from kille.sensors.kinect.bayer import colour_of
 from kille.sensors.kinect.calibration import Calibration
 from kille.sensors.kinect.metric import millimetres
-from kille.sensors.kinect.registration import registered
+from kille.sensors.kinect.registration import register_depth
 from kinect_emulator import netpbm
 from kinect_emulator.calibration import LIKELY, Making
 from kinect_emulator.encoding import mosaic
@@ -80,7 +80,7 @@ def test_all_depth_is_the_same_bit_for_bit(
     }
     assert np.array_equal(theirs["raw"], raw)
     assert np.array_equal(theirs["mm"], millimetres(raw, ours))
-    assert np.array_equal(theirs["registered"], registered(raw, ours))
+    assert np.array_equal(theirs["registered"], register_depth(raw, ours))
     assert np.mean(theirs["registered"] > 0) > 0.3
 
 
