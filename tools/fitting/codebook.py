@@ -65,7 +65,9 @@ def windows(data: Path, chance: np.random.Generator) -> Iterator[Window]:
             yield from _of_things(sensor.frame())
 
 
-def fitted(found: Descriptors, components: int, gaussians: int) -> fisher.Codebook:
+def fit_codebook(
+    found: Descriptors, components: int, gaussians: int
+) -> fisher.Codebook:
     """The codebook of some descriptors, of so many components and Gaussians."""
     from sklearn.mixture import GaussianMixture
 
@@ -103,18 +105,20 @@ def _book(
     some = [_some(each, chance) for each in found if len(each.values) > _EACH]
     values, places = zip(*some, strict=True)
     together = Descriptors(np.concatenate(values), np.concatenate(places))
-    return fitted(together, components, gaussians)
+    return fit_codebook(together, components, gaussians)
 
 
 def _frames(data: Path) -> Iterator[Frame]:
     for scene in _SCENES:
         # The frames of a scene are nearly the same: every third one is enough.
-        found = _described(data / "ycbv_scenes" / scene)
+        found = _description_in(data / "ycbv_scenes" / scene)
         yield from (shot.read() for shot in read_sequence(found)[::3])
-    yield from (shot.read() for shot in read_scenes(_described(data / "mosd_scenes")))
+    yield from (
+        shot.read() for shot in read_scenes(_description_in(data / "mosd_scenes"))
+    )
 
 
-def _described(folder: Path) -> Path:
+def _description_in(folder: Path) -> Path:
     description = description_of(folder)
     if description is None:
         raise SystemExit(f"{folder}: no captures are described: give the data folder")

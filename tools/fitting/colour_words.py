@@ -31,7 +31,7 @@ from kille.perception.colours import borders
 from kille.perception.colours.borders import AXES, along
 from kille.perception.colours.space import even
 from kille.perception.colours.words import ColourWords, read
-from tools.fitting.edges import agreement, choice, minimised
+from tools.fitting.edges import agreement, choice, minimise
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import TABLE
 from ttr.safety.unforeseen_errors import run_guarded
@@ -111,31 +111,31 @@ def read_survey(data: Path) -> Survey:
     )
 
 
-def fitted(survey: Survey) -> dict[str, Any]:
+def fit_words(survey: Survey) -> dict[str, Any]:
     """The words as they are written to the file, fitted to what is not held out."""
     kept = ~survey.held_out
     lab, shares = survey.lab[kept], survey.shares[kept]
     best = _best(lab, shares)
     hues = _hues(lab, shares)
     places = along(lab, hues)
-    start = _starting(places, shares)
+    start = _first_borders(places, shares)
     truth = agreement(np.minimum(1.0, shares / (_FULLY * best)))
-    holding, _ = minimised(places, start, np.log(best), truth)
-    apt, weights = minimised(places, start, np.log(best), choice(shares))
+    holding, _ = minimise(places, start, np.log(best), truth)
+    apt, weights = minimise(places, start, np.log(best), choice(shares))
     available = np.exp(weights - weights.max())
     words = {
         name: {
             "hue": round(float(hues[w]), 1),
             "availability": float(f"{available[w] / available.sum():.3g}"),
-            "holds": _named(holding[w]),
-            "apt": _named(apt[w]),
+            "holds": _axes_by_name(holding[w]),
+            "apt": _axes_by_name(apt[w]),
         }
         for w, name in enumerate(survey.names)
     }
     return {**ABOUT, "words": words}
 
 
-def measured(survey: Survey, words: ColourWords) -> Table:
+def prediction_table(survey: Survey, words: ColourWords) -> Table:
     """How well the names of held-out colours are foretold, by several ways."""
     out = survey.held_out
     shares, totals = survey.shares[out], survey.counts[out].sum(axis=1)
@@ -160,7 +160,7 @@ def measured(survey: Survey, words: ColourWords) -> Table:
     return Table(f"{int(out.sum())} colours held out", columns, tuple(rows))
 
 
-def by_word(survey: Survey, words: ColourWords) -> Table:
+def word_table(survey: Survey, words: ColourWords) -> Table:
     """For each word, how its degree agrees with use on held-out colours."""
     out = survey.held_out
     kept = ~out
@@ -197,7 +197,7 @@ def _hues(lab: Numbers, shares: Numbers) -> Numbers:
     return np.asarray(np.degrees(np.arctan2(means[:, 2], means[:, 1])))
 
 
-def _starting(places: Numbers, shares: Numbers) -> Numbers:
+def _first_borders(places: Numbers, shares: Numbers) -> Numbers:
     """Borders (w, 3, 4) around most of each word's names on every axis."""
     edges = np.full((shares.shape[1], len(AXES), 4), _START_VAGUE)
     for w, axis in np.ndindex(edges.shape[:2]):
@@ -224,11 +224,11 @@ def _histogram(survey: Survey, size: int) -> Numbers:
     return np.array([row / row.sum() for row in found])
 
 
-def _named(edges: Numbers) -> dict[str, list[float]]:
+def _axes_by_name(edges: Numbers) -> dict[str, list[float]]:
     return dict(zip(AXES, edges.round(1).tolist(), strict=True))
 
 
-def written(words: dict[str, Any]) -> str:
+def file_text(words: dict[str, Any]) -> str:
     """The file's text: one line a word, so that changes are easily seen."""
     head = {name: value for name, value in words.items() if name != "words"}
     lines = [f'  "{name}": {json.dumps(word)}' for name, word in words["words"].items()]
@@ -239,10 +239,10 @@ def written(words: dict[str, Any]) -> str:
 def main(data: Path, out: Path) -> None:
     """Fit, write, and print the measures."""
     survey = read_survey(data)
-    found = fitted(survey)
-    out.write_text(written(found), encoding="utf-8")
+    found = fit_words(survey)
+    out.write_text(file_text(found), encoding="utf-8")
     words = read(found)
-    for table in (measured(survey, words), by_word(survey, words)):
+    for table in (prediction_table(survey, words), word_table(survey, words)):
         sys.stdout.write(f"\n{table.title}\n{' | '.join(table.columns)}\n")
         for name, *numbers in table.rows:
             row = " ".join(f"{number:8.3f}" for number in numbers)

@@ -49,7 +49,7 @@ def choice(shares: Numbers) -> Loss:
     return loss
 
 
-def minimised(
+def minimise(
     places: Numbers, start: Numbers, weights: Numbers, loss: Loss
 ) -> tuple[Numbers, Numbers]:
     """The edges (w, 3, 4) and weights (w,) at which the loss is least.

@@ -91,7 +91,7 @@ class Asked:
     column: int
 
 
-def rendered(
+def render_views(
     meshes: Path, chance: np.random.Generator, cues: Mapping[str, Cue]
 ) -> Iterator[View]:
     """Views of every thing that the simulated sensor can show, and of the meshes."""
@@ -210,7 +210,7 @@ def answers(
         yield Asked(numbers, index.labels.index(it.label) if known else -1)
 
 
-def fitted(
+def fit_weighing(
     episodes: Sequence[Sequence[Asked]],
     kernels: Mapping[str, Kernel],
     heard: Collection[str] = NUMBERS,
@@ -275,7 +275,7 @@ def right(asked: Iterable[Asked], weighed: Weighing) -> tuple[float, float]:
     return float(np.mean(named)), auroc(best[True], best[False])
 
 
-def drawn(
+def draw_episodes(
     groups: Sequence[Sequence[View]],
     kernels: Mapping[str, Kernel],
     words: Sequence[Sequence[str]],
@@ -290,17 +290,19 @@ def drawn(
     ]
 
 
-def held_out(
+def cross_validate(
     groups: Sequence[Sequence[View]], kernels: Mapping[str, Kernel]
 ) -> Iterator[str]:
     """What is reached with words that nothing was fitted to, and with the others."""
     chance = np.random.default_rng(1)
     halves = [_halves(views, chance) for views in groups]
     for one, other in ((0, 1), (1, 0)):
-        weighed = fitted(drawn(groups, kernels, [it[one] for it in halves], 2), kernels)
+        weighed = fit_weighing(
+            draw_episodes(groups, kernels, [it[one] for it in halves], 2), kernels
+        )
         for which, name in ((one, "fitted to"), (other, "held out")):
             for views, half in zip(groups, halves, strict=True):
-                episodes = drawn([views], kernels, [half[which]], 3)
+                episodes = draw_episodes([views], kernels, [half[which]], 3)
                 share, area = right([it for some in episodes for it in some], weighed)
                 count = len(half[which])
                 yield f"{name}: {count} words, named {share:.3f}, AUROC {area:.3f}\n"
@@ -320,7 +322,7 @@ def kernels_of(groups: Sequence[Sequence[View]]) -> dict[str, Kernel]:
     return {cue: Kernel(weights[cue], round(found[cue], 4)) for cue in found}
 
 
-def stored(weighed: Weighing) -> dict[str, object]:
+def weighing_as_json(weighed: Weighing) -> dict[str, object]:
     """The weighing as it is written in weighing.json."""
     cues = {
         cue: {"weight": it.weight, "width": it.width}
@@ -346,17 +348,20 @@ def main() -> None:
     cues = with_embedding() if options.embedding else CUES
     chance = np.random.default_rng(0)
     groups = [
-        list(rendered(options.data / "ycb_meshes", chance, cues)),
+        list(render_views(options.data / "ycb_meshes", chance, cues)),
         list(pictures(options.data / "sota_kinect", cues)),
     ]
     kernels = kernels_of(groups)
     if options.held_out:
-        sys.stdout.writelines(held_out(groups, kernels))
+        sys.stdout.writelines(cross_validate(groups, kernels))
         return
     words = [sorted({it.label for it in views}) for views in groups]
-    episodes = drawn(groups, kernels, words, 0)
+    episodes = draw_episodes(groups, kernels, words, 0)
     parts = {"embedding": NUMBERS} if options.embedding else PARTS
-    found = {name: stored(fitted(episodes, kernels, it)) for name, it in parts.items()}
+    found = {
+        name: weighing_as_json(fit_weighing(episodes, kernels, it))
+        for name, it in parts.items()
+    }
     known = json.loads(WEIGHINGS.read_text("utf-8")) if WEIGHINGS.exists() else {}
     text = json.dumps({**known, **found}, indent=1)
     WEIGHINGS.write_text(text + "\n", "utf-8")

@@ -133,12 +133,12 @@ def fit_second(examples: Sequence[Examples]) -> Merger:
 
 def _together(one: Committee, other: Committee) -> Committee:
     """Both committees as one, whose networks look at the features as they are."""
-    parts = zip(_unscaled(one), _unscaled(other), strict=True)
+    parts = zip(_unscale(one), _unscale(other), strict=True)
     same = np.zeros(len(one.mean)), np.ones(len(one.mean))
     return Committee(*same, *(np.concatenate(both) for both in parts))
 
 
-def _unscaled(them: Committee) -> tuple[Vectors, Vectors, Vectors, Vectors]:
+def _unscale(them: Committee) -> tuple[Vectors, Vectors, Vectors, Vectors]:
     hidden = them.hidden / them.scale[None, :, None]
     bias = them.hidden_bias - np.einsum("n,mnh->mh", them.mean, hidden)
     return hidden, bias, them.output, them.output_bias
@@ -224,7 +224,7 @@ def add_second(data: Path, first: Merger) -> None:
     for folder in (data / name for name in _REAL if (data / name).is_dir()):
         shown = (it.shot.read() for it in captures(folder))
         found = sum((score(way(it).regions, it) for it in shown), Score())
-        print(f"{folder.name}: {_told(found)}")
+        print(f"{folder.name}: {_score_text(found)}")
 
 
 def _meshes(data: Path) -> list[Path]:
@@ -236,7 +236,7 @@ def _examples(frames: Iterable[Frame], rounds: Rounds = ()) -> list[Examples]:
     return [it for it in found if it is not None]
 
 
-def _told(them: Score) -> str:
+def _score_text(them: Score) -> str:
     centimetres = 100 * np.array(them.errors)
     return (
         f"P {them.precision:.2f} R {them.recall:.2f} F {them.f:.3f} "

@@ -88,7 +88,7 @@ def tidy(seed: int, meshes: Sequence[Path] = ()) -> Frame:
 def _capture_heap(camera: Camera, heap: _Heap) -> Frame:
     image = render_scene(camera, {str(i): body for i, body in enumerate(heap.bodies)})
     outlines = {k: mask for k, mask in image.outlines.items() if mask.sum() > _SEEN}
-    depth = _as_measured(image.depth, camera, heap.chance)
+    depth = _measure(image.depth, camera, heap.chance)
     return Frame(image.colour, depth, camera.intrinsics, 0.0, outlines)
 
 
@@ -298,7 +298,7 @@ def _of(*sheets: Grid) -> Model:
     return assemble([Part(sheet, _PLAIN) for sheet in sheets])
 
 
-def _as_measured(depth: Depth, camera: Camera, chance: Chance) -> Depth:
+def _measure(depth: Depth, camera: Camera, chance: Chance) -> Depth:
     """The depth as matching windows of dots gives it.
 
     Its noise is mostly alike in neighbouring pixels, its steps are of the inverse

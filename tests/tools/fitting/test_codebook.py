@@ -7,7 +7,7 @@ import pytest
 
 from kille.perception.cues.dense import Descriptors
 from kille.perception.cues.fisher import numbers
-from tools.fitting.codebook import fitted
+from tools.fitting.codebook import fit_codebook
 
 
 def found(seed: int, kinds: int = 4, count: int = 800) -> Descriptors:
@@ -22,7 +22,7 @@ def found(seed: int, kinds: int = 4, count: int = 800) -> Descriptors:
 
 
 def test_each_kind_of_descriptor_gets_a_gaussian() -> None:
-    book = fitted(found(0), components=6, gaussians=4)
+    book = fit_codebook(found(0), components=6, gaussians=4)
     assert book.weights == pytest.approx(0.25, abs=0.05)
     these = numbers(found(1), book.mean, book.axes)
     assert these[:, :6].std(axis=0) == pytest.approx(1, abs=0.15)
@@ -30,7 +30,7 @@ def test_each_kind_of_descriptor_gets_a_gaussian() -> None:
 
 
 def test_the_fisher_vector_says_what_is_unusual() -> None:
-    book = fitted(found(0), components=6, gaussians=4)
+    book = fit_codebook(found(0), components=6, gaussians=4)
     usual, again, odd = found(1), found(2), found(3)
     shifted = Descriptors(odd.values + np.float32(2), odd.places)
     vectors = [book.fisher(each) for each in (usual, again, shifted)]

@@ -9,16 +9,16 @@ import pytest
 from kille.perception.colours import xkcd
 from tools.fitting.colour_words import (
     SHIPPED,
-    by_word,
-    measured,
+    file_text,
+    prediction_table,
     read_survey,
-    written,
+    word_table,
 )
 
 
 @pytest.mark.data
 def test_the_words_foretell_the_names_of_held_out_colours(data: Path) -> None:
-    table = measured(read_survey(data), xkcd())
+    table = prediction_table(read_survey(data), xkcd())
     perplexity = {row[0]: row[1] for row in table.rows}
     modal = {row[0]: row[3] for row in table.rows}
     ours = perplexity.pop("fitted borders")
@@ -30,7 +30,7 @@ def test_the_words_foretell_the_names_of_held_out_colours(data: Path) -> None:
 
 @pytest.mark.data
 def test_degrees_agree_with_use(data: Path) -> None:
-    table = by_word(read_survey(data), xkcd())
+    table = word_table(read_survey(data), xkcd())
     assert all(row[3] > 0.95 for row in table.rows)  # AUROC
 
 
@@ -38,4 +38,4 @@ def test_the_shipped_file_is_as_it_is_written() -> None:
     import json
 
     text = SHIPPED.read_text(encoding="utf-8")
-    assert written(json.loads(text)) == text
+    assert file_text(json.loads(text)) == text

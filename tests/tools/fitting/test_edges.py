@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from kille.perception.colours.borders import Borders, along
-from tools.fitting.edges import agreement, choice, minimised
+from tools.fitting.edges import agreement, choice, minimise
 
 LAB = np.random.default_rng(3).uniform((5, -60, -60), (95, 60, 60), (250, 3))
 HUES = np.array([30.0, 250.0])
@@ -27,14 +27,14 @@ def log_degrees(edges: np.ndarray) -> np.ndarray:
 def test_truth_is_fitted() -> None:
     places = along(LAB, HUES)
     shares = np.exp(log_degrees(TRUE))
-    edges, _ = minimised(places, START, np.zeros(2), agreement(shares))
+    edges, _ = minimise(places, START, np.zeros(2), agreement(shares))
     assert np.abs(np.exp(log_degrees(edges)) - shares).mean() < 0.02
 
 
 def test_choice_is_fitted_with_the_weights() -> None:
     weighed = log_degrees(TRUE) + np.log([0.8, 0.2])
     shares = np.exp(weighed) / np.exp(weighed).sum(axis=1, keepdims=True)
-    edges, weights = minimised(along(LAB, HUES), START, np.zeros(2), choice(shares))
+    edges, weights = minimise(along(LAB, HUES), START, np.zeros(2), choice(shares))
     found = log_degrees(edges) + weights
     found = np.exp(found) / np.exp(found).sum(axis=1, keepdims=True)
     assert np.abs(found - shares).mean() < 0.02

@@ -14,7 +14,7 @@ from tools.fitting.evidence import (
     Asked,
     _surprise,
     episode,
-    fitted,
+    fit_weighing,
     numbers_of,
     right,
     widths,
@@ -49,7 +49,7 @@ def test_the_slope_is_that_of_the_surprise() -> None:
 
 
 def test_the_fitted_weighing_surprises_least() -> None:
-    weighed = fitted(EPISODES, {})
+    weighed = fit_weighing(EPISODES, {})
     least, _ = _surprise(numbers_of(weighed), EPISODES)
     assert weighed.score > 1
     assert weighed.base < 0
