@@ -21,13 +21,17 @@ FOLDERS = {name: SETUP["package-dir"].get(name) for name in SETUP["packages"]}
 
 LOOK = """
 import importlib, importlib.resources, json, sys
+def sizes(folder, where=""):
+    found = {}
+    for it in folder.iterdir():
+        if it.is_file():
+            found[where + it.name] = len(it.read_bytes())
+        elif it.name != "__pycache__" and not (it / "__init__.py").is_file():
+            found |= sizes(it, f"{where}{it.name}/")
+    return found
 found = {}
 for name in sys.argv[1:]:
-    found[name] = {
-        file.name: len(file.read_bytes())
-        for file in importlib.resources.files(name).iterdir()
-        if file.is_file()
-    }
+    found[name] = sizes(importlib.resources.files(name))
     importlib.import_module(name)
 print(json.dumps([found, importlib.import_module("kille").__file__]))
 """
@@ -44,10 +48,15 @@ def written(source: Path) -> dict[str, dict[str, int]]:
 
 
 def sizes(folder: Path) -> dict[str, int]:
-    """The bytes of each file in a folder."""
-    return {
-        file.name: file.stat().st_size for file in folder.iterdir() if file.is_file()
-    }
+    """The bytes of each file in a folder, and below it where there is only data."""
+    found = {}
+    for it in folder.iterdir():
+        if it.is_file():
+            found[it.name] = it.stat().st_size
+        elif not (it / "__init__.py").is_file():
+            inner = {} if it.name == "__pycache__" else sizes(it)
+            found |= {f"{it.name}/{name}": size for name, size in inner.items()}
+    return found
 
 
 def pip(*arguments: str | Path) -> None:
