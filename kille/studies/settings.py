@@ -20,6 +20,7 @@ _SORTS: Mapping[type, str] = {
     float: "a number",
     bool: "true or false",
     dict: "a table",
+    list: "a list",
 }
 
 _MOST = 12

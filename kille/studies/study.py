@@ -22,6 +22,19 @@ PERSON = "person"
 
 Settings = Mapping[str, Any]
 
+MAIN_MEASURES: Mapping[str, str] = {
+    "accuracy": "accuracy",
+    "kappa": "κ robot–tutor",
+    "accepted": "accepted",
+    "reference": "reference",
+    "brier": "Brier score",
+    "margin": "margin",
+    "turns": "turns",
+    "words": "words",
+    "corrections": "corrections",
+}
+"""What a study calls the measures of which one may be its main one, and reports do."""
+
 
 @dataclass(frozen=True)
 class Theory:
@@ -98,7 +111,11 @@ class Run:
 
 @dataclass(frozen=True)
 class Study:
-    """All that is to be played. `turns` bounds what a tutor does in one dialogue."""
+    """All that is to be played. `turns` bounds what a tutor does in one dialogue.
+
+    `main` is one of `MAIN_MEASURES`; `contrasts` are the theories that are compared,
+    the second of each two with the first, or if there are none, every two.
+    """
 
     title: str
     theories: Mapping[str, Theory]
@@ -108,6 +125,8 @@ class Study:
     seeds: tuple[int, ...]
     about: str = ""
     turns: int = 1000
+    main: str = "accuracy"
+    contrasts: tuple[tuple[str, str], ...] = ()
     source: str = ""
     """The file's text, by which the study is known again."""
     folder: Path = Path()

@@ -87,6 +87,8 @@ def study_of(
         seeds=tuple(range(1, seeds + 1) if isinstance(seeds, int) else seeds),
         about=data.get("about", "").strip(),
         turns=data.get("turns", STUDY["turns"].default),
+        main=data.get("main", STUDY["main"].default),
+        contrasts=tuple((one, other) for one, other in data.get("contrasts", ())),
         source=text,
         folder=folder,
         file=path,

@@ -12,8 +12,8 @@ from kille.dialogue.strategies import MODES, WORDINGS
 from kille.studies import protocols, scenes, tutors
 from kille.studies.reading.lines import Key
 from kille.studies.reading.troubles import Trouble
-from kille.studies.settings import Setting, Settings, near, shown, unfit
-from kille.studies.study import PERSON
+from kille.studies.settings import Setting, Settings, near, shown, unfit, unknown
+from kille.studies.study import MAIN_MEASURES, PERSON
 
 MOST_SEEDS = 100_000
 """Dialogues of one theory, tutor and scene; the power of any test is 1 long before."""
@@ -22,6 +22,8 @@ STUDY: Settings = {
     "title": Setting(needed=True, about='write title = "…"'),
     "about": Setting(),
     "turns": Setting(int, 1000, least=1, most=1_000_000),
+    "main": Setting(default="accuracy", among=tuple(MAIN_MEASURES)),
+    "contrasts": Setting(list, (), several=True, twice=True),
     "seeds": Setting(
         int,
         (),
@@ -78,6 +80,8 @@ def _faults(data: Mapping[str, Any]) -> Iterator[tuple[Key, str]]:
         yield (key,) if key else (), f"{what}: {STUDY[key].about}" if told else what
     if _is_count(data):
         yield from _wrong_count(data["seeds"])
+    for what in _wrong_contrasts(data):
+        yield ("contrasts",), what
     yield from _each(data, "theories", _wrong_theory)
     kinds = (
         ("tutors", "kind of tutor", tutors.SETTINGS),
@@ -104,6 +108,25 @@ def _wrong_count(seeds: int) -> Iterator[tuple[Key, str]]:
     elif seeds > MOST_SEEDS:
         told = f"so many as {seeds} are more than anybody plays: write {MOST_SEEDS}"
         yield ("seeds",), f"{told} at most, or a list of seeds"
+
+
+def _wrong_contrasts(data: Mapping[str, Any]) -> Iterator[str]:
+    """What is wrong with the theories that are to be compared, two by two."""
+    theories, contrasts = data.get("theories"), data.get("contrasts")
+    known = [*theories] if isinstance(theories, dict) else []
+    lists = contrasts if isinstance(contrasts, list) else []
+    for one in (it for it in lists if isinstance(it, list)):
+        if len(one) != 2 or not all(isinstance(it, str) for it in one):
+            yield 'a contrast is of two theories: write contrasts = [["one", "other"]]'
+        elif one[0] == one[1]:
+            yield f"a contrast is of two theories, found {shown(one[0])} twice"
+        elif lists.count(one) + lists.count(one[::-1]) > 1:
+            yield f"the contrast of {shown(one[0])} and {shown(one[1])} is there twice"
+        for name in one:
+            if isinstance(name, str) and known and name not in known:
+                yield f"contrasts: there is no theory {shown(name)}: " + unknown(
+                    name, known
+                )
 
 
 Wrong = Callable[[str, Mapping[str, Any]], Iterator[tuple[Key, str]]]

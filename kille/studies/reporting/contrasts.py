@@ -35,7 +35,7 @@ _SOUGHT = (0.05, 0.02)
 
 TESTED = (
     "p: permutation test, in which the two of a pair are exchanged; then with Holm's "
-    "correction, for accuracy, the main measure, over its own tests, and for the "
+    "correction, for the main measure ({main}) over its own tests, and for the "
     "others over all of theirs. What is the same in each pair is left out. The "
     "brackets are of 95 %, of pairs drawn anew; where they and the test of the same "
     "difference disagree about zero, the test counts, and no brackets are shown."
@@ -50,7 +50,7 @@ _ANSWERED = (
     "the main one."
 )
 _POWERED = (
-    f"For accuracy. Spread: the standard deviation of the differences within pairs. "
+    f"For {{main}}. Spread: the standard deviation of the differences within pairs. "
     f"Seen with {POWER:.0%}: the smallest difference that so many pairs show with this "
     f"power, by the normal approximation; beside it its power found by simulation. "
     f"Then how many pairs it takes to see a difference."
@@ -62,52 +62,58 @@ def contrasted(
     which: Iterable[tuple[str, str]],
     measures: Sequence[Measure],
     places: Places,
+    main: str = _MAIN,
 ) -> list[Result]:
-    """How theories differ, these two by two; nothing of none."""
+    """How theories differ, these two by two, first in the main measure; nothing of
+    none.
+    """
     tested = [it for it in measures if it.better]
     found = contrasts(theories, which, tested, np.random.default_rng(_SEED))
     if not found:
         return []
     asked = found if ACCURACY in measures else []
+    mains = found if main in [it.name for it in measures] else []
+    tested.sort(key=lambda it: it.name != main)
     tables = (
-        _differences(found, tested, places),
+        _differences(found, tested, places, main),
         _answers(asked, places),
-        _powers(found),
+        _powers(found, main),
     )
     told = tuple(it for it in tables if it.rows)
-    text = "\n\n".join([*out_of_reach(asked), _in_words(asked)])
+    text = "\n\n".join([*out_of_reach(mains, main), _in_words(mains, main)])
     return [Result("How they differ", told, _figures(found), text=text)]
 
 
-def _in_words(found: Sequence[Contrast]) -> str:
+def _in_words(found: Sequence[Contrast], main: str) -> str:
     """What became of the main measure, a line for each two theories.
 
     Of many, how many differ, and those that do.
     """
-    mains = [it.differences.get(_MAIN) for it in found]
+    mains = [it.differences.get(main) for it in found]
     ps = holm([float("nan") if it is None else it.p for it in mains])
     if len(found) <= FEW:
-        told = [_sentence(it, p) for it, p in zip(found, ps, strict=True)]
+        told = [_sentence(it, p, main) for it, p in zip(found, ps, strict=True)]
         several = np.isfinite(ps).sum() > 1
         return "\n".join([*told, CORRECTED] if several else told)
-    seen = [_sentence(it, p) for it, p in zip(found, ps, strict=True) if p < CHANCE]
+    with_p = zip(found, ps, strict=True)
+    seen = [_sentence(it, p, main) for it, p in with_p if p < CHANCE]
     first = (
-        f"Of {len(found)} pairs of theories {len(seen)} differ in {_MAIN} "
+        f"Of {len(found)} pairs of theories {len(seen)} differ in {main} "
         f"(p < {CHANCE} after Holm's correction)."
     )
     return "\n".join([first, *seen])
 
 
-def _sentence(it: Contrast, p: float) -> str:
+def _sentence(it: Contrast, p: float, measure: str) -> str:
     if not it.differences:
         return f"{it.other} and {it.one} do equally well in every pair of dialogues."
-    main = it.differences.get(_MAIN)
+    main = it.differences.get(measure)
     if main is None:
-        return f"{it.other} and {it.one} have the same {_MAIN} in every pair."
+        return f"{it.other} and {it.one} have the same {measure} in every pair."
     if not main.pairs:
         return f"{it.other} and {it.one} were never both asked for words."
     told = told_by(main, p)
-    return f"The {_MAIN} of {it.other} differs from that of {it.one} by {told}."
+    return f"The {measure} of {it.other} differs from that of {it.one} by {told}."
 
 
 def told_by(difference: Difference, p: float) -> str:
@@ -128,9 +134,9 @@ def agreeing(estimate: Estimate, p: float) -> Estimate:
     return estimate._replace(low=float("nan"), high=float("nan"))
 
 
-def out_of_reach(found: Sequence[Contrast]) -> Iterator[str]:
+def out_of_reach(found: Sequence[Contrast], main: str = _MAIN) -> Iterator[str]:
     """That no difference can be significant, where there are too few pairs for it."""
-    mains = [it.differences[_MAIN] for it in found if _MAIN in it.differences]
+    mains = [it.differences[main] for it in found if main in it.differences]
     most, tests = max((it.pairs for it in mains), default=0), len(mains)
     least = min(1.0, tests * least_p(most))
     if not most or least < CHANCE:
@@ -138,7 +144,7 @@ def out_of_reach(found: Sequence[Contrast]) -> Iterator[str]:
     needed = pairs_needed(tests, CHANCE)
     corrected = f" after Holm's correction for {tests} tests" if tests > 1 else ""
     yield (
-        f"No difference in {_MAIN} can be significant: with {most} "
+        f"No difference in {main} can be significant: with {most} "
         f"pair{'s' if most != 1 else ''} of dialogues p is {told_p(least)} at "
         f"best{corrected}. "
         + (
@@ -166,7 +172,7 @@ def told_p(p: float) -> str:
 
 
 def _differences(
-    found: Sequence[Contrast], measures: Sequence[Measure], places: Places
+    found: Sequence[Contrast], measures: Sequence[Measure], places: Places, main: str
 ) -> Table:
     """Measure by measure, as they are corrected for how many they are."""
     told = [
@@ -175,7 +181,7 @@ def _differences(
         for it in found
         if measure.name in it.differences
     ]
-    ps = corrected([(name, d.p) for _, name, d in told])
+    ps = corrected([(name, d.p) for _, name, d in told], main)
     rows = tuple(
         (
             contrast_names(it),
@@ -192,14 +198,15 @@ def _differences(
         (row, 2): places.against(it.one, it.other)
         for row, (it, _, _) in enumerate(told)
     }
-    return Table("Paired differences", columns, rows, _NOTE, links)
+    note = _NOTE.format(main=main)
+    return Table("Paired differences", columns, rows, note, links)
 
 
-def corrected(ps: Sequence[tuple[str, float]]) -> list[float]:
+def corrected(ps: Sequence[tuple[str, float]], main: str = _MAIN) -> list[float]:
     """Those of the main measure are one family of tests, all others another."""
     found = [p for _, p in ps]
     for is_main in (True, False):
-        places = [i for i, (name, _) in enumerate(ps) if (name == _MAIN) == is_main]
+        places = [i for i, (name, _) in enumerate(ps) if (name == main) == is_main]
         for i, p in zip(places, holm([ps[i][1] for i in places]), strict=True):
             found[i] = p
     return found
@@ -227,8 +234,8 @@ def _sides(it: Contrast) -> tuple[Cell, ...]:
 # --- power ---------------------------------------------------------------------------
 
 
-def _powers(found: Sequence[Contrast]) -> Table:
-    told = [(it, it.differences[_MAIN]) for it in found if _MAIN in it.differences]
+def _powers(found: Sequence[Contrast], main: str) -> Table:
+    told = [(it, it.differences[main]) for it in found if main in it.differences]
     rows = tuple((contrast_names(it), *_power(d)) for it, d in told)
     columns = (
         "theories",
@@ -240,7 +247,9 @@ def _powers(found: Sequence[Contrast]) -> Table:
         "pairs for it",
         *(f"pairs for {d:g}" for d in _SOUGHT),
     )
-    return Table("How many dialogues it takes", columns, rows, _POWERED)
+    return Table(
+        "How many dialogues it takes", columns, rows, _POWERED.format(main=main)
+    )
 
 
 def _power(d: Difference) -> tuple[Cell, ...]:

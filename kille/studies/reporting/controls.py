@@ -32,7 +32,7 @@ _TESTED = (_MAIN, "κ robot–tutor", "words")
 _NOTE = (
     "Each less the first, theory by theory, over dialogues that are alike in all else. "
     "Other tutors and scenes have other luck, so that these differences spread more "
-    f"than those of theories. {TESTED}"
+    f"than those of theories. {TESTED.format(main=_MAIN)}"
 )
 
 

@@ -13,6 +13,7 @@ from kille.experiments.results import ExperimentError, Result
 from kille.studies import log
 from kille.studies.errors import StudyError, TheoryError
 from kille.studies.log.reading import NO_PYTHON
+from kille.studies.measuring.measures import ACCURACY
 from kille.studies.measuring.scored import Dialogue, scored
 from kille.studies.reporting.asked import tests_of
 from kille.studies.reporting.findings import grouped
@@ -21,7 +22,7 @@ from kille.studies.reporting.layouts import Described
 from kille.studies.reporting.places import places_of
 from kille.studies.reporting.unlike import unlike
 from kille.studies.reporting.writing import Subject, every_two, results_of, write
-from kille.studies.study import Study, Theory
+from kille.studies.study import MAIN_MEASURES, Study, Theory
 from kille.studies.theories.describing import described
 from ttr import TTRError
 from ttr.safety.consent import Consent
@@ -82,9 +83,11 @@ def _subject(folder: Path, command: str, study: Study) -> Subject:
         study.title,
         theories,
         shown,
-        every_two(theories),
+        [it for it in study.contrasts if theories.keys() >= {*it}]
+        or every_two(theories),
         tests_of(study.phases),
         _about(folder, study, command, len(dialogues)),
+        main=MAIN_MEASURES[study.main],
         lead=study.about,
         numbers=_numbers(study, len(dialogues), log.about(folder).planned),
         source=study.source,
@@ -208,6 +211,7 @@ def _both(one: Path, other: Path, command: str, consent: Consent) -> Subject:
                 if head != "command"
             },
         },
+        main=first.main if first.main == second.main else ACCURACY.name,
         numbers="; ".join(f"{label}: {it.numbers}" for label, it in subjects.items()),
         broken=[
             (f"{label}: {name}", reason)

@@ -27,10 +27,14 @@ def in_short(
     measures: Sequence[Measure],
     found: Iterable[Result],
     places: Places,
+    chosen: str = "",
 ) -> Result:
-    """The main measure of each theory and what it cost, and what was found of it."""
+    """How much is right of each theory and what it cost, and what was found of it.
+
+    `chosen` is the name of a measure that is told as well.
+    """
     main = main_of(measures)
-    tables = (_each(theories, measures, main, places),)
+    tables = (_each(theories, measures, main, places, (*_BESIDE, chosen)),)
     if main is None:
         text = "Nothing was asked to which the tutor knew an answer: nothing is right."
         return Result("In short", tables, text=text)
@@ -52,9 +56,10 @@ def _each(
     measures: Sequence[Measure],
     main: Measure | None,
     places: Places,
+    beside: Sequence[str],
 ) -> Table:
     """A row for each theory; the main measure also in the last phase of several."""
-    columns = dict(_columns(theories, measures, main))
+    columns = dict(_columns(theories, measures, main, beside))
     rows = tuple(zip(theories, *columns.values(), strict=True))
     links = {
         (row, column): places.theory(name)
@@ -65,7 +70,10 @@ def _each(
 
 
 def _columns(
-    theories: Theories, measures: Sequence[Measure], main: Measure | None
+    theories: Theories,
+    measures: Sequence[Measure],
+    main: Measure | None,
+    beside: Sequence[str],
 ) -> Iterator[tuple[str, Sequence[Cell]]]:
     yield "dialogues", [len(them) for them in theories.values()]
     if main is not None:
@@ -76,7 +84,8 @@ def _columns(
             yield f"{main.name} in {phases[-1]}", _estimates(main, last)
     for measure in measures:
         told = _estimates(measure, theories)
-        if measure.name in _BESIDE and any(it.value for it in told):
+        is_told = measure.name in beside and measure is not main
+        if is_told and any(it.value for it in told):
             yield measure.name, told
 
 

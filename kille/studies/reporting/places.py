@@ -69,8 +69,8 @@ class Places:
 
     def against(self, one: str, other: str) -> str:
         """Where two theories differ most."""
-        numbers = f"{self.theories[one]}-{self.theories[other]}"
-        return f"{self.folder}/theories-{numbers}.html"
+        first, second = sorted((self.theories[one], self.theories[other]))
+        return f"{self.folder}/theories-{first}-{second}.html"
 
     def dialogue(self, run: Run) -> str:
         """One dialogue."""

@@ -15,6 +15,7 @@ from pathlib import Path
 from kille.experiments.figures import MISSING, can_draw, pdf
 from kille.experiments.report import beginning, ending, file_of, section
 from kille.experiments.results import Result
+from kille.studies.measuring.measures import ACCURACY
 from kille.studies.reporting import curves
 from kille.studies.reporting.asked import Tests
 from kille.studies.reporting.conditions import by_conditions
@@ -46,7 +47,8 @@ _FEW = 5
 class Subject:
     """What is reported on: the dialogues of each theory, and all that is told of them.
 
-    `which` are the theories that are compared, two by two; `tests` the phases, those
+    `which` are the theories that are compared, two by two; `main` is the name of the
+    measure whose differences are tested by themselves; `tests` the phases, those
     together that ask alike; `numbers` says how many dialogues there are, of what;
     `broken` are dialogues that were not played to their end, each with the reason;
     `warnings` are what a reader has to know of the others; `files` are those beside the
@@ -59,6 +61,7 @@ class Subject:
     which: Sequence[tuple[str, str]]
     tests: Tests
     about: Mapping[str, str]
+    main: str = ACCURACY.name
     lead: str = ""
     numbers: str = ""
     source: str = ""
@@ -93,7 +96,7 @@ def results_of(subject: Subject, places: Places) -> list[Result]:
     certainty = Result("How sure they are", (), tuple(curves.reliable(drawn)))
     found = [
         first,
-        *contrasted(theories, subject.which, measures, places),
+        *contrasted(theories, subject.which, measures, places, subject.main),
         *by_conditions(theories, measures, places),
         certainty,
         details,
@@ -138,7 +141,7 @@ def _gist(subject: Subject, found: Sequence[Result], places: Places) -> Result:
     if not found:
         return Result("In short", text="No dialogue was played to its end.")
     measures = measures_of(subject.theories)
-    return in_short(subject.theories, measures, found[1:], places)
+    return in_short(subject.theories, measures, found[1:], places, subject.main)
 
 
 def _untold(found: Sequence[Result]) -> Iterator[Result]:

@@ -506,3 +506,43 @@ def test_the_study_in_the_reference_is_fine(tmp_path: Path) -> None:
     text = PAGE.read_text("utf-8").split("```toml\n", 1)[1].split("```", 1)[0]
     (tmp_path / "sure.toml").write_text(text)
     assert len(list(checked(tmp_path / "sure.toml").runs())) == 40
+
+
+def with_plan(plan: str) -> str:
+    return STUDY.replace("turns = 40\n", f"turns = 40\n{plan}\n")
+
+
+def test_a_study_says_what_it_compares_and_by_which_measure(tmp_path: Path) -> None:
+    path = tmp_path / "a.toml"
+    plain = parsed(STUDY, path)
+    assert (plain.main, plain.contrasts) == ("accuracy", ())
+    text = with_plan('main = "kappa"\ncontrasts = [["plain", "sure"]]')
+    planned = parsed(text, path)
+    assert (planned.main, planned.contrasts) == ("kappa", (("plain", "sure"),))
+
+
+@pytest.mark.parametrize(
+    ("plan", "told"),
+    [
+        ('main = "acuracy"', "main of a study: expected accuracy, kappa, "),
+        ('main = "acuracy"', "(did you mean accuracy?)"),
+        ("contrasts = 1", "expected a list, each a list, found 1"),
+        ('contrasts = ["plain"]', 'expected a list, found "plain"'),
+        ('contrasts = [["plain"]]', "a contrast is of two theories: write contrasts ="),
+        ('contrasts = [["plain", 1]]', "a contrast is of two theories: write"),
+        ('contrasts = [["sure", "sure"]]', 'of two theories, found "sure" twice'),
+        ('contrasts = [["plain", "shure"]]', 'no theory "shure": did you mean sure?'),
+        (
+            'contrasts = [["plain", "sure"], ["sure", "plain"]]',
+            'the contrast of "plain" and "sure" is there twice',
+        ),
+    ],
+)
+def test_a_plan_that_cannot_be_is_told_on_its_line(
+    plan: str, told: str, tmp_path: Path
+) -> None:
+    with pytest.raises(StudyError) as caught:
+        parsed(with_plan(plan), tmp_path / "a.toml")
+    line, *_ = str(caught.value).splitlines()
+    assert told in line
+    assert "a.toml:6: " in line

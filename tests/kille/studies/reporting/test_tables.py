@@ -611,3 +611,20 @@ def test_thirty_words_of_six_theories_are_figures_that_fit_on_a_page() -> None:
         assert drawing(figure).get_size_inches()[1] <= 9.5
         assert len(figure.data["series"]) == 6
         assert max(map(len, figure.data["series"])) <= 28
+
+
+def test_the_main_measure_and_the_contrasts_can_be_planned() -> None:
+    theories = of_three()
+    talks = [it for them in theories.values() for it in them]
+    places = places_of(list(theories), talks, "")
+    measures = measures_of(theories)
+    which = [("autonomous", "driven"), ("driven", "third")]
+    (result,) = contrasted(theories, which, measures, places, "κ robot–tutor")
+    first, *_ = result.tables[0].rows
+    assert first[:2] == ("driven − autonomous", "κ robot–tutor")
+    assert first[3] == first[4], "nothing to correct for: the other two never differ"
+    assert "The κ robot–tutor of driven differs from that of autonomous" in result.text
+    assert "for the main measure (κ robot–tutor) over" in result.tables[0].note
+    assert result.tables[0].links[0, 2] == places.against("driven", "autonomous")
+    cells = in_short(theories, measures, [], places, "turns").tables[0].columns
+    assert "turns" in cells
