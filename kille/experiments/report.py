@@ -146,14 +146,14 @@ def section(number: int, result: Result, drawn: str = "") -> Iterator[str]:
     yield "</section>"
 
 
-def file_of(number: int, place: int, figure: Figure) -> str:
-    """The name of the PDF file of a figure at a place, from 0, of a part.
+def file_of(number: int, place: int, of: Figure | Table, ending: str = ".pdf") -> str:
+    """The name of the file of a figure or table at a place, from 0, of a part.
 
     >>> file_of(2, 0, Figure("curves", "Learning curve", {}))
     '2-1-learning-curve.pdf'
     """
-    words = re.sub(r"[^a-z0-9]+", "-", figure.title.lower()).strip("-")
-    return f"{number}-{place + 1}-{words}"[:_LONGEST] + ".pdf"
+    words = re.sub(r"[^a-z0-9]+", "-", of.title.lower()).strip("-")
+    return f"{number}-{place + 1}-{words}"[:_LONGEST] + ending
 
 
 def _table(table: Table) -> Iterator[str]:

@@ -1,7 +1,7 @@
 """The report of a study: a page that a paper can cite, with its figures and dialogues.
 
-The page needs nothing but itself; the figures as PDF files and the dialogues behind the
-numbers lie in folders beside it.
+The page needs nothing but itself; the figures as PDF files, the tables as LaTeX and the
+dialogues behind the numbers lie in folders beside it.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ from kille.studies.reporting.findings import (
     overall,
 )
 from kille.studies.reporting.gist import in_short
+from kille.studies.reporting.latex_tables import latex_table
 from kille.studies.reporting.layouts import Described, side_by_side
 from kille.studies.reporting.pages import pages
 from kille.studies.reporting.places import Places, places_of
@@ -106,9 +107,10 @@ def results_of(subject: Subject, places: Places) -> list[Result]:
 
 
 def write(subject: Subject, page: Path) -> list[Result]:
-    """Writes the page, and its figures and dialogues into folders beside it.
+    """Writes the page, and its figures, tables and dialogues into folders beside it.
 
-    They are called as the page is, `PAGE-figures` and `PAGE-dialogues`. Gives what was
+    They are called as the page is: `PAGE-figures` (PDF), `PAGE-tables` (LaTeX) and
+    `PAGE-dialogues`. Gives what was
     found. Raises `TTRError` where a file cannot be written.
     """
     try:
@@ -132,7 +134,12 @@ def _write(subject: Subject, page: Path) -> list[Result]:
         for place, figure in enumerate(result.figures if can_draw() else ()):
             file = figures / file_of(part, place, figure)
             file.write_bytes(pdf(figure))
-    lines = _page(subject, parts, html_address(figures.name))
+    tables = _emptied(page.with_name(f"{page.stem}-tables"), _TABLES)
+    for part, result in parts.items():
+        for place, table in enumerate(result.tables):
+            file = tables / file_of(part, place, table, ".tex")
+            file.write_text(latex_table(table), "utf-8")
+    lines = _page(subject, parts, html_address(figures.name), tables)
     write_whole(page, "\n".join(lines) + "\n")
     return found
 
@@ -152,6 +159,7 @@ def _untold(found: Sequence[Result]) -> Iterator[Result]:
 
 _PAGES = "dialogue-[0-9]*.html", "theory-[0-9]*.html", "theories-[0-9]*.html"
 _FIGURES = "[0-9]*-[0-9]*-*.pdf"
+_TABLES = "[0-9]*-[0-9]*-*.tex"
 
 
 def _emptied(folder: Path, *of: str) -> Path:
@@ -166,7 +174,9 @@ _GIST, _THEORIES, _FIRST = 1, 2, 3
 """The numbers of the parts of the page: in short, the theories, all that was found."""
 
 
-def _page(subject: Subject, parts: Mapping[int, Result], figures: str) -> Iterator[str]:
+def _page(
+    subject: Subject, parts: Mapping[int, Result], figures: str, tables: Path
+) -> Iterator[str]:
     yield from beginning(subject.title, PAGE + THEORIES + markup.STYLE)
     for paragraph in filter(None, re.split(r"\n\s*\n", subject.lead.strip())):
         yield f"<p>{html_text(paragraph)}</p>"
@@ -191,6 +201,13 @@ def _page(subject: Subject, parts: Mapping[int, Result], figures: str) -> Iterat
             f'<a href="{html_address(it)}">{html_text(it)}</a>' for it in subject.files
         )
         yield f"<p>The numbers, for R and others: {links}.</p>"
+    if written := sorted(tables.glob(_TABLES)):
+        folder = html_address(tables.name)
+        links = ", ".join(
+            f'<a href="{folder}/{html_address(it.name)}">{html_text(it.stem)}</a>'
+            for it in written
+        )
+        yield f"<p>The tables, for LaTeX: {links}.</p>"
     yield from ending(subject.about)
 
 

@@ -16,12 +16,13 @@ import numpy as np
 import pytest
 
 from kille.experiments.figures import MISSING
-from kille.experiments.results import Estimate
+from kille.experiments.results import Estimate, Table
 from kille.studies.measuring.comparing import Contrast, Difference, McNemar
 from kille.studies.measuring.scored import Dialogue, scored
 from kille.studies.played import Answer, Played, Turn
 from kille.studies.reporting.contrasts import out_of_reach
 from kille.studies.reporting.findings import grouped
+from kille.studies.reporting.latex_tables import latex_table
 from kille.studies.reporting.places import places_of
 from kille.studies.reporting.writing import Subject, every_two, results_of, write
 from kille.studies.study import Run
@@ -362,3 +363,29 @@ def test_no_band_says_otherwise_of_zero_than_the_p_beside_it(seeds: int) -> None
         if math.isfinite(difference.low) and p != "–":
             small = p.startswith("<") or float(p) < 0.05
             assert small == (not difference.low <= 0 <= difference.high)
+
+
+def test_every_table_is_there_as_latex_in_which_no_name_acts(written: Path) -> None:
+    files = sorted((written / "report-tables").iterdir())
+    assert "3-1-all-measures.tex" in [it.name for it in files]
+    for file in files:
+        lines = file.read_text("utf-8").splitlines()
+        comments = [it for it in lines if it.startswith("%")]
+        begins, *rows, ends = [it for it in lines if it not in (*comments, r"\hline")]
+        sides = re.fullmatch(r"\\begin\{tabular\}\{([lr]+)\}", begins)
+        assert sides
+        assert ends == r"\end{tabular}"
+        for row in rows:
+            assert row.endswith(r" \\")
+            assert len(re.findall(r"(?<!\\)&", row)) == len(sides[1]) - 1
+            assert len(re.findall(r"(?<!\\)\$", row)) % 2 == 0
+            assert not re.search(r"(?<!\\)[%#]", row)
+
+
+def test_a_name_with_commands_is_set_as_it_is() -> None:
+    table = Table("%\n\\input{a}", (r"\input{x} & y_$#%",), ((r"\\ 50 %\n",), (None,)))
+    title, *lines = latex_table(table).splitlines()
+    assert title == r"% % \input{a}"
+    assert all("\\input" not in it for it in lines)
+    assert lines.count(r"\hline") == 3
+    assert r"-- \\" in lines
