@@ -27,7 +27,7 @@ from kille.dialogue.meanings import (
     value_at,
 )
 from kille.dialogue.parsing import Grammar, Tree, Word, parts, words
-from kille.dialogue.sources import source
+from kille.dialogue.sources import FILES, last_change, source
 from kille.dialogue.transcribing import CLOSELY, LOOSELY, robot_rules
 from ttr import Rec, Record, RecordType, RecType, rectype
 from ttr.types import TypeNode
@@ -55,6 +55,9 @@ _READINGS = 16
 
 _FORMS = 3
 """How many words a form is taken to be of: those that the lexicon names come first."""
+
+_Changes = tuple[int, ...]
+"""When the files of a language were changed last."""
 
 _SENTENCE = re.compile(r"[^.!?…\n]+[.!?…\n]*")
 
@@ -104,7 +107,7 @@ def understand(
     >>> understand("Colourless green ideas.")
     (Sentence(text='Colourless green ideas.', readings=()),)
     """
-    reader = (types or packaged_types()).derive(_reader, language)
+    reader = (types or packaged_types()).derive(_reader, language, _changes(language))
     found: list[Sentence] = []
     for part in _SENTENCE.findall(text):
         if re.search(r"\w", part):
@@ -124,20 +127,20 @@ def overhear(
     >>> print(learned.content)  # doctest: +NORMALIZE_WHITESPACE
     [look : Look, target : [look = ^.look : Look, x : Ind], c : cup(target.x, look)]
     """
-    reader = (types or packaged_types()).derive(_reader, language)
-    grammar = _robots_grammar(language)
+    reader = (types or packaged_types()).derive(_reader, language, _changes(language))
+    grammar = _robots_grammar(language, _changes(language))
     trees = grammar.parse(text.strip(), CLOSELY) or grammar.parse(text.strip(), LOOSELY)
     found = (T for tree in trees for move in parts(tree) for T in reader.said(move))
     return tuple(Utterance(text, T) for T in dict.fromkeys(found))
 
 
-@cache
-def _grammar(language: str) -> Grammar:
+@lru_cache
+def _grammar(language: str, _: _Changes) -> Grammar:
     return Grammar(grammar_text(language))
 
 
-@cache
-def _robots_grammar(language: str) -> Grammar:
+@lru_cache
+def _robots_grammar(language: str, _: _Changes) -> Grammar:
     tutors = grammar_text(language)
     return Grammar(tutors + robot_rules(lexicon(language), tutors), CLOSELY, LOOSELY)
 
@@ -147,8 +150,12 @@ def grammar_text(language: str) -> str:
     return source("tutor.{}.lark", language)
 
 
-def _reader(types: DialogueTypes, language: str) -> _Reader:
-    return _Reader(types, lexicon(language), _grammar(language))
+def _reader(types: DialogueTypes, language: str, changes: _Changes) -> _Reader:
+    return _Reader(types, lexicon(language), _grammar(language, changes))
+
+
+def _changes(language: str) -> _Changes:
+    return tuple(last_change(file, language) for file in FILES)
 
 
 Meant = tuple[tuple[Record, ...], RecordType]

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from itertools import chain
 from typing import Any
 
 from kille.dialogue.inflection import Articles, Inflection
-from kille.dialogue.sources import source
+from kille.dialogue.sources import FILES, last_change, source
 from ttr import Record
 from ttr.safety.inputs import parse_toml
 
@@ -111,12 +111,16 @@ class Lexicon:
         return self.main_forms.get(form, form)
 
 
-@cache
 def lexicon(language: str = "en", wording: str = "paper") -> Lexicon:
     """The lexicon of a language, with the wordings of one set.
 
     The wordings of a set stand under `says_` and its name; the others are those of all.
     """
+    return _lexicon(language, wording, last_change(FILES[1], language))
+
+
+@lru_cache
+def _lexicon(language: str, wording: str, _: int) -> Lexicon:
     data = parse_toml(source("lexicon.{}.toml", language))
     understands, phrases, articles = (
         data["understands"],

@@ -15,6 +15,9 @@ from ttr.safety.limits import SETTINGS
 FILES = ("tutor.{}.lark", "lexicon.{}.toml")
 """The files of a language: its grammar, and its lexicon."""
 
+STRATEGIES = "strategies.toml"
+"""The file of what the robot decides by, which is the same for all languages."""
+
 
 def language_in(folder: PurePath | str, language: str) -> str:
     """The language whose files may be in a folder.
@@ -35,7 +38,9 @@ def plain(language: str) -> str:
 
 
 def source(file: str, language: str) -> str:
-    """The text of one of the `FILES` of a language; `OSError` where it is not read.
+    """The text of one of the `FILES` of a language, or of the `STRATEGIES` beside them.
+
+    `OSError` where it is not read.
 
     >>> source("tutor.{}.lark", "nowhere/en") == source("tutor.{}.lark", "en")
     True
@@ -45,3 +50,16 @@ def source(file: str, language: str) -> str:
     if own.parent != Path() and own.is_file():
         return read_text(own, SETTINGS)
     return files("kille.grammars").joinpath(name).read_text(encoding="utf-8")
+
+
+def last_change(file: str, language: str) -> int:
+    """When a file of one's own was changed last, in nanoseconds; 0 for the package's.
+
+    What is made of a file is kept by this, so that who edits it has what is new.
+    """
+    if "/" not in language:
+        return 0
+    try:
+        return (Path(language).parent / file.format(plain(language))).stat().st_mtime_ns
+    except OSError:
+        return 0

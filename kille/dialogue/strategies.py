@@ -11,13 +11,14 @@ assisted and autonomous learning).
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Mapping
-from functools import cache
-from importlib.resources import files
+from functools import lru_cache
+from pathlib import PurePath
 from typing import Any, NamedTuple
 
+from kille.dialogue.sources import STRATEGIES, language_in, last_change, source
 from ttr import Record, record
+from ttr.safety.inputs import parse_toml
 
 __all__ = [
     "MODES",
@@ -97,8 +98,10 @@ def threshold(stronger: Stake, weaker: Stake) -> float:
     return max(0.0, round(behind / steeper, _DIGITS))
 
 
-def strategy(mode: str = "", wording: str = "") -> Record:
+def strategy(mode: str = "", wording: str = "", language: str = "en") -> Record:
     """A strategy of `strategies.toml`: by default the one that it names there.
+
+    The file is that of the package, or else in the folder of a language of one's own.
 
     Raises `ValueError` for a mode or a wording that it does not have.
 
@@ -106,12 +109,13 @@ def strategy(mode: str = "", wording: str = "") -> Record:
     >>> bands.sure, bands.think, bands.likely
     (0.8, 0.5, 0.3)
     """
-    return _strategy(mode, wording)
+    folder = PurePath(language).parent.as_posix()
+    return _strategy(mode, wording, folder, last_change(STRATEGIES, language))
 
 
-@cache
-def _strategy(mode: str, wording: str) -> Record:
-    data = _data()
+@lru_cache
+def _strategy(mode: str, wording: str, folder: str, _: int) -> Record:
+    data = _data(folder)
     mode = mode or data["default"]["mode"]
     wording = wording or data["default"]["wording"]
     wants, words = _found(data["modes"], mode), _found(data["wordings"], wording)
@@ -150,7 +154,6 @@ def _found(table: Mapping[str, Any], name: str) -> Mapping[str, Any]:
     return found
 
 
-@cache
-def _data() -> Mapping[str, Any]:
-    source = files("kille.grammars").joinpath("strategies.toml")
-    return tomllib.loads(source.read_text(encoding="utf-8"))
+def _data(folder: str = ".") -> Mapping[str, Any]:
+    """What is in the file of strategies of a folder, or else of the package."""
+    return parse_toml(source(STRATEGIES, language_in(folder, "en")))

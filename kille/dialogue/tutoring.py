@@ -58,7 +58,7 @@ def tutoring(
     ['I see nothing on the table.']
     """
     types = types or packaged_types()
-    deciding = strategy(mode, wording)
+    deciding = strategy(mode, wording, language)
     return Game(
         "tutoring",
         types.record_type("State"),

@@ -103,6 +103,7 @@ def _parser() -> Parser:
     _add_evaluate(commands)
     _add_experiment(commands)
     _add_ros(commands)
+    _add_init(commands)
     doctor = commands.add_parser("doctor", help="what works here, what is missing")
     doctor.add_argument("--json", action="store_true", help="report for machines")
     doctor.set_defaults(run=_doctor)
@@ -122,6 +123,17 @@ def _add_demo(commands: Any) -> None:
         help="where the picture sheet goes (kille-demo.png)",
     )
     demo.set_defaults(run=_demo)
+
+
+def _add_init(commands: Any) -> None:
+    init = commands.add_parser(
+        "init", help="copy what the robot says and understands, to be edited"
+    )
+    init.add_argument("folder", type=Path, metavar="FOLDER", help="a new folder")
+    init.add_argument(
+        "--lang", choices=["en", "sv"], default="en", help="English or Swedish (en)"
+    )
+    init.set_defaults(run=_init)
 
 
 def _add_talk(commands: Any) -> None:
@@ -155,6 +167,13 @@ def _add_talk(commands: Any) -> None:
         default="paper",
         help="how certain it sounds: the paper's wordings, or four bands (paper)",
     )
+    talk.add_argument(
+        "--theory",
+        metavar="T",
+        help="the theory that it has: FILE.ttr, a folder that `kille init` made, or "
+        "STUDY.toml:NAME (the packaged one)",
+    )
+    add_consent(talk)
     talk.add_argument("--trace", action="store_true", help="show the judgements")
     talk.add_argument(
         "--speech",
@@ -468,16 +487,37 @@ def _talk(options: argparse.Namespace) -> int:
     from kille.interfaces.talk import talk
 
     account = derivation if options.trace else nothing
+    settings = {"mode": options.mode, "wording": options.wording}
+    if options.theory:
+        from functools import partial
+
+        from kille.interfaces.experiment.checking import MISTAKES, complain_all
+        from kille.interfaces.theories import robot_of, theory_named
+        from kille.studies.theories import language_of
+
+        try:
+            theory = theory_named(
+                options.theory, options.lang, **settings, consent=consent_of(options)
+            )
+        except MISTAKES as error:
+            return complain_all(error)
+        options.lang = language_of(theory)
+        settings["make"] = partial(robot_of, theory)
     return talk(
         options.sensor,
         options.memory,
         account,
         language=options.lang,
-        mode=options.mode,
-        wording=options.wording,
         hear=options.hear or ("device" if options.speech else ""),
         say=options.say or ("espeak" if options.speech else "none"),
+        **settings,
     )
+
+
+def _init(options: argparse.Namespace) -> int:
+    from kille.interfaces.init import init
+
+    return init(options.folder, options.lang)
 
 
 def _replay(options: argparse.Namespace) -> int:

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from kille.agent import Agent
+from kille.dialogue.sources import plain
 from kille.interfaces.ears import Ears, Heard, answered
 from kille.interfaces.showing import Account, explained, things_in_view
 from kille.interfaces.terminal import FINE, complain, console, memory_path
@@ -53,17 +54,19 @@ def talk(
     wording: str = "",
     hear: str = "",
     say: str = "none",
+    make: Callable[..., Agent] = Agent,
 ) -> int:
     """Talks until the tutor leaves, with an account of each turn; the exit code.
 
     `hear` is where speech comes from, if it is not typed; `say` names the voice.
+    `make` makes the robot.
     """
     place = memory_path(memory)
     try:
         _check_apart(hear, say)
-        speaks = voice(say, language)
+        speaks = voice(say, plain(language))
         ears = Ears(hear, language) if hear else None
-        robot = Agent(sensor, place, language=language, mode=mode, wording=wording)
+        robot = make(sensor, place, language=language, mode=mode, wording=wording)
     except (SensorError, MemoryFileError, SoundError) as error:
         return complain(error)
     with robot, _line_editing():

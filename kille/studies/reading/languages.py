@@ -13,7 +13,9 @@ from kille.dialogue.grammars import GrammarError
 from kille.dialogue.language import LANGUAGES, grammar_text, understand
 from kille.dialogue.lexicon import Lexicon, lexicon
 from kille.dialogue.parsing import Grammar
-from kille.dialogue.sources import FILES
+from kille.dialogue.sources import FILES, STRATEGIES
+from kille.dialogue.strategies import strategy
+from kille.studies.failing import why
 from kille.studies.reading.lines import Key, line_of, lines_of
 from kille.studies.reading.troubles import Trouble
 from kille.studies.settings import no_folder, unknown
@@ -60,7 +62,7 @@ def of_language(theory: Theory) -> Iterator[Trouble]:
         yield Trouble(_KEY, f"{told}{hint}")
         return
     own = [theory.grammar / file.format(theory.language) for file in FILES]
-    if not any(file.is_file() for file in own):
+    if not any(file.is_file() for file in (*own, theory.grammar / STRATEGIES)):
         names = " or ".join(file.name for file in own)
         told = f"expected {names} in {theory.grammar}, found neither"
         yield Trouble(_KEY, f"{told}{_others(theory)}")
@@ -71,6 +73,17 @@ def of_language(theory: Theory) -> Iterator[Trouble]:
     if grammar.is_file():
         texts = () if wrong else _TRIED[theory.language]
         yield from _of_grammar(theory, grammar, texts)
+
+
+def of_strategies(theory: Theory) -> Iterator[Trouble]:
+    """What is wrong with a file of strategies in a theory's own folder."""
+    if theory.grammar is None or not (theory.grammar / STRATEGIES).is_file():
+        return
+    try:
+        strategy(theory.mode, theory.wording, language_of(theory))
+    except (OSError, *_ODD) as error:
+        told = f"these strategies cannot be used: {why(error)}"
+        yield Trouble(_KEY, told, f"{theory.grammar / STRATEGIES}:1")
 
 
 def _others(theory: Theory) -> str:

@@ -18,7 +18,7 @@ from kille.simulation.perceiving import glanced
 from kille.simulation.worlds import Thing, World
 from kille.studies.errors import TheoryError
 from kille.studies.failing import line_in, why
-from kille.studies.reading.languages import of_language
+from kille.studies.reading.languages import of_language, of_strategies
 from kille.studies.reading.learners import of_learners
 from kille.studies.reading.lines import Key
 from kille.studies.reading.troubles import Trouble
@@ -57,7 +57,9 @@ def troubles(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
 
 def _of_all_else(theory: Theory, eyes: Collection[str]) -> Iterator[Trouble]:
     """What is wrong with a theory whose meanings can be read."""
-    found = [Trouble(("strategy", *key), it) for key, it in unsettable(theory)]
+    found = [*of_strategies(theory)] or [
+        Trouble(("strategy", *key), it) for key, it in unsettable(theory)
+    ]
     found += of_learners(theory, eyes)
     found += of_language(theory)
     found += _of_rules(replace(theory, strategy={}, grammar=None))

@@ -103,7 +103,7 @@ def strategy_of(theory: Theory) -> Record:
     >>> strategy_of(Theory("sure", strategy={"bands": {"sure": 0.9}})).bands.sure
     0.9
     """
-    plain = strategy(theory.mode, theory.wording)
+    plain = strategy(theory.mode, theory.wording, language_of(theory))
     wrong = next(unsettable(theory), None)
     if wrong is not None:
         raise TheoryError(wrong[1])
@@ -112,7 +112,9 @@ def strategy_of(theory: Theory) -> Record:
 
 def unsettable(theory: Theory) -> Iterator[tuple[tuple[str, ...], str]]:
     """What the strategy cannot be set to: the names that lead to it, and why."""
-    yield from _unsettable(theory.strategy, strategy(theory.mode, theory.wording), ())
+    yield from _unsettable(
+        theory.strategy, strategy(theory.mode, theory.wording, language_of(theory)), ()
+    )
 
 
 def _unsettable(

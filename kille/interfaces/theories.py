@@ -1,0 +1,83 @@
+"""The theory that a user names: a file, a folder of one's own, or one of a study.
+
+| `--theory` | has |
+| --- | --- |
+| `FILE.ttr` | the types of this file |
+| `FOLDER` | what there is of the files that `kille init` writes |
+| `STUDY.toml:NAME` | all that the theory has in the study |
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from kille.agent import Agent
+from kille.dialogue.sources import FILES, STRATEGIES
+from kille.dialogue.theory_files import SOURCE
+from kille.studies.errors import StudyError
+from kille.studies.reading import read
+from kille.studies.reading.consenting import check_allowed
+from kille.studies.reading.trying import troubles
+from kille.studies.settings import unknown
+from kille.studies.study import PERSON, Theory
+from kille.studies.theories import agent_of
+from ttr.safety.consent import Consent
+
+
+def theory_named(
+    named: str, language: str, mode: str, wording: str, consent: Consent
+) -> Theory:
+    """The theory of this name, which has been tried.
+
+    One of a study has the language, the mode and the wording that it has there.
+    `StudyError` with a line for each mistake in it.
+    """
+    study, colon, name = named.rpartition(":")
+    if colon and study.endswith(".toml"):
+        theory = _of_study(Path(study), name, consent)
+    else:
+        theory = _of_files(Path(named), Theory(named, language, mode, wording), consent)
+    if wrong := [*troubles(theory, {"whole"})]:
+        raise StudyError(f"{it.at or named}: {it.what}" for it in wrong)
+    return theory
+
+
+def robot_of(theory: Theory, sensor: str, memory: Path, **_: str) -> Agent:
+    """The robot of a theory; its language, mode and wording are those of that."""
+    return agent_of(theory, sensor, memory=memory)
+
+
+def _of_study(file: Path, name: str, consent: Consent) -> Theory:
+    study = read(file, consent)
+    check_allowed(study)
+    if name not in study.theories:
+        raise StudyError(
+            [f"{file} has no theory {name}: {unknown(name, study.theories)}"]
+        )
+    theory = study.theories[name]
+    if theory.mode == PERSON:
+        raise StudyError([f"{name} of {file} is played by a person: name another"])
+    return theory
+
+
+def _of_files(place: Path, theory: Theory, consent: Consent) -> Theory:
+    """The theory with what is in a file of types, or in a folder."""
+    if not place.is_dir():
+        if place.suffix != ".ttr":
+            expected = "FILE.ttr, a folder or STUDY.toml:NAME"
+            raise StudyError([f"{place} is no theory: expected {expected}"])
+        return replace(theory, meanings=str(place), consent=consent)
+    place = place.resolve()
+    own = [it.format(theory.language) for it in FILES]
+    has_words = any((place / it).is_file() for it in (*own, STRATEGIES))
+    has_types = (place / SOURCE).is_file()
+    if not (has_words or has_types):
+        names = ", ".join((SOURCE, *own, STRATEGIES))
+        raise StudyError([f"{place} has none of {names}: `kille init` writes them"])
+    return replace(
+        theory,
+        grammar=place if has_words else None,
+        meanings=str(place / SOURCE) if has_types else "",
+        consent=consent,
+    )

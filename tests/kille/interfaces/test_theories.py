@@ -1,0 +1,219 @@
+"""`kille init`, and `kille talk --theory` with what it made, a file and a study."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+
+from .conftest import Run
+
+EMPTY = "synthetic:empty?seed=3"
+
+NAMES = {
+    "en": ["lexicon.en.toml", "strategies.toml", "tutor.en.lark", "tutor.ttr"],
+    "sv": ["lexicon.sv.toml", "strategies.toml", "tutor.sv.lark", "tutor.ttr"],
+}
+
+STUDY = """\
+title = "Greetings"
+seeds = 1
+[theories.usual]
+[theories.bold]
+meanings = "mine.ttr"
+wording = "four"
+[theories.Eve]
+mode = "person"
+[theories.python]
+rules = "own.py:RULES"
+[tutors.Ann]
+kind = "simulated"
+[scenes.table]
+kind = "around"
+[[phases]]
+do = "teach"
+"""
+
+
+def change(file: Path, old: str, new: str) -> None:
+    text = file.read_text(encoding="utf-8")
+    assert old in text
+    file.write_text(text.replace(old, new), encoding="utf-8")
+
+
+def answers(kille: Run, theory: Path | str, *texts: str, lang: str = "en") -> list[str]:
+    """What the robot of a theory answers."""
+    typed = "".join(f"{text}\n" for text in texts)
+    done = kille(
+        "talk",
+        *("--sensor", EMPTY, "--theory", str(theory), "--lang", lang),
+        typed=typed,
+    )
+    assert (done.code, done.err) == (0, "")
+    return [line[3:] for line in done.out.splitlines() if line.startswith("S> ")]
+
+
+@pytest.fixture
+def mine(kille: Run, tmp_path: Path) -> Path:
+    folder = tmp_path / "mine"
+    assert kille("init", str(folder)).code == 0
+    return folder
+
+
+@pytest.mark.parametrize("language", NAMES)
+def test_what_is_copied_is_what_the_package_has(
+    kille: Run, tmp_path: Path, language: str
+) -> None:
+    folder = tmp_path / "a folder" / "mine"
+    done = kille("init", str(folder), "--lang", language)
+    assert (done.code, done.err) == (0, "")
+    assert sorted(it.name for it in folder.iterdir()) == NAMES[language]
+    for name in NAMES[language]:
+        packaged = files("kille.grammars").joinpath(name).read_bytes()
+        assert (folder / name).read_bytes() == packaged
+    learned = next(
+        line
+        for line in (folder / NAMES[language][0]).read_text("utf-8").splitlines()
+        if line.startswith("learned = ")
+    )
+    assert learned in done.out
+    assert f"kille talk --theory '{folder}'" in done.out
+    assert ("--lang sv" in done.out) == (language == "sv")
+
+
+def test_a_folder_that_is_there_is_left_as_it_is(kille: Run, mine: Path) -> None:
+    (mine / "tutor.ttr").write_text("changed")
+    done = kille("init", str(mine))
+    assert (done.code, done.out) == (2, "")
+    assert done.err == f"kille: {mine} is not empty: name a new folder\n"
+    assert (mine / "tutor.ttr").read_text() == "changed"
+
+
+def test_a_file_is_no_folder(kille: Run, tmp_path: Path) -> None:
+    (tmp_path / "mine").write_text("")
+    done = kille("init", str(tmp_path / "mine"))
+    assert (done.code, done.err.count("\n")) == (2, 1)
+    assert "is a file: name a new folder" in done.err
+    done = kille("init", str(tmp_path / "mine" / "below"))
+    assert (done.code, done.err.count("\n")) == (1, 1)
+    assert "cannot be written" in done.err
+
+
+def test_an_empty_folder_will_do(kille: Run, tmp_path: Path) -> None:
+    assert kille("init", str(tmp_path)).code == 0
+    assert sorted(it.name for it in tmp_path.iterdir())[-1] == "tutor.ttr"
+
+
+def test_the_robot_says_what_was_changed_in_the_folder(kille: Run, mine: Path) -> None:
+    assert answers(kille, mine, "Hello.") == ["Hello."]
+    change(mine / "lexicon.en.toml", 'greet_back = "Hello."', 'greet_back = "Hi!"')
+    change(mine / "tutor.ttr", "e : welcome(spkr, addr)", "e : part(spkr, addr)")
+    said = answers(kille, mine, "Hello.", "Thank you.")
+    assert said == ["Hi!", "Goodbye."]
+
+
+def test_it_understands_what_was_added_to_the_grammar(kille: Run, mine: Path) -> None:
+    change(mine / "tutor.en.lark", "_ME: /me\\b/i", "_ME: /me\\b/i\n_NAME: /name\\b/i")
+    change(
+        mine / "tutor.en.lark",
+        "| _WHAT _DO _YOU _CALL asked\n",
+        "| _WHAT _DO _YOU _CALL asked\n         | _NAME asked\n",
+    )
+    assert answers(kille, mine, "Name this!") == ["I see nothing on the table."]
+
+
+def test_what_is_deleted_is_that_of_the_package(kille: Run, mine: Path) -> None:
+    for name in NAMES["en"][1:]:
+        (mine / name).unlink()
+    change(mine / "lexicon.en.toml", 'greet_back = "Hello."', 'greet_back = "Hi!"')
+    assert answers(kille, mine, "Hello.", "Thank you.") == ["Hi!", "You are welcome."]
+    (mine / "lexicon.en.toml").unlink()
+    done = kille("talk", "--sensor", EMPTY, "--theory", str(mine), typed="Hello.\n")
+    assert done.code == 2
+    assert "`kille init` writes them" in done.err
+
+
+def test_the_strategies_of_the_folder_decide(
+    kille: Run, mine: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    change(mine / "strategies.toml", "[default]", "[default]\nmood = 3")
+    monkeypatch.chdir(mine)
+    assert answers(kille, ".", "Hello.") == ["Hello."]
+    (mine / "strategies.toml").write_text("[wordings]\n")
+    done = kille("talk", "--sensor", EMPTY, "--theory", ".", typed="Hello.\n")
+    assert (done.code, done.out, done.err.count("\n")) == (2, "", 1)
+    assert "strategies.toml:1: these strategies cannot be used" in done.err
+
+
+def test_swedish_is_spoken_by_a_folder_of_its_own(kille: Run, tmp_path: Path) -> None:
+    folder = tmp_path / "min"
+    kille("init", str(folder), "--lang", "sv")
+    change(folder / "lexicon.sv.toml", 'greet_back = "Hej."', 'greet_back = "Tjena!"')
+    assert answers(kille, folder, "Hej.", lang="sv") == ["Tjena!"]
+
+
+# --- files and studies ---------------------------------------------------------------
+
+
+@pytest.fixture
+def study(mine: Path) -> Path:
+    """A study of which one theory has it that a greeting is a farewell."""
+    change(mine / "tutor.ttr", "e : greet_back(spkr, addr)", "e : part(spkr, addr)")
+    (mine / "tutor.ttr").rename(mine / "mine.ttr")
+    (mine / "own.py").write_text(
+        "from pathlib import Path\n"
+        "Path(__file__).with_name('ran').touch()\n"
+        "RULES = []\n"
+    )
+    (mine / "study.toml").write_text(STUDY)
+    return mine / "study.toml"
+
+
+def test_a_file_of_types_is_a_theory(kille: Run, study: Path) -> None:
+    assert answers(kille, study.parent / "mine.ttr", "Hello.") == ["Goodbye."]
+
+
+def test_a_theory_of_a_study_talks(kille: Run, study: Path) -> None:
+    assert answers(kille, f"{study}:bold", "Hello.") == ["Goodbye."]
+    assert answers(kille, f"{study}:usual", "Hello.") == ["Hello."]
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("study.toml:blod", "has no theory blod: did you mean bold?"),
+        ("study.toml:Eve", "is played by a person: name another"),
+        ("stduy.toml:bold", "there is no file"),
+        ("mien.ttr", "there is no file"),
+        ("own.py", "is no theory: expected FILE.ttr, a folder or STUDY.toml:NAME"),
+        ("", "is no theory"),
+    ],
+)
+def test_what_is_no_theory_is_told_in_a_line(
+    kille: Run, study: Path, name: str, told: str
+) -> None:
+    named = str(study.parent / name) if name else "nowhere"
+    done = kille("talk", "--sensor", EMPTY, "--theory", named, typed="Hello.\n")
+    assert (done.code, done.out, done.err.count("\n")) == (2, "", 1)
+    assert told in done.err
+
+
+def test_all_that_is_wrong_with_types_is_told_before_it_talks(
+    kille: Run, study: Path
+) -> None:
+    file = study.parent / "mine.ttr"
+    change(file, "Phrase    := [x : Ind,", "Phrase    := [x : Idn,")
+    done = kille("talk", "--sensor", EMPTY, "--theory", str(file), typed="Hello.\n")
+    assert (done.code, done.out) == (2, "")
+    assert "mine.ttr:24: nothing is called Idn here" in done.err
+
+
+def test_python_of_a_study_is_run_only_with_consent(kille: Run, study: Path) -> None:
+    named = f"{study}:usual"
+    done = kille(
+        "talk", "--sensor", EMPTY, "--theory", named, "--no-python", typed="Hello.\n"
+    )
+    assert done.code == 2
+    assert "own.py" in done.err
+    assert not (study.parent / "ran").exists()
