@@ -58,7 +58,6 @@ def _tried(study: Study) -> Iterator[Trouble]:
     eyes = {"whole" if kind in scenes.WHOLE else "simulated" for kind in known}
     of_theories = [*_of_theories(study.theories, eyes)]
     yield from of_theories
-    yield from _unheard(study)
     for name, tutor in study.tutors.items():
         yield from _at(("tutors", name), tutors.faults(tutor, study))
     for number, phase in enumerate(study.phases):
@@ -83,15 +82,6 @@ def _of_theories(
     for name, theory in theories.items():
         for it in troubles(theory, eyes) if theory.mode != UNKNOWN else ():
             yield it._replace(key=("theories", name, *it.key))
-
-
-def _unheard(study: Study) -> Iterator[Trouble]:
-    """Theories that are played by a process without a keyboard, and who would type."""
-    typing = [it.name for it in study.tutors.values() if it.kind == "keyboard"]
-    for name, theory in study.theories.items():
-        if theory.meanings and typing:
-            told = f"{typing[0]} is at the keyboard, and cannot teach a theory that has"
-            yield Trouble(("theories", name, "meanings"), f"{told} meanings of its own")
 
 
 def _at(key: Key, what: Iterable[Wrong]) -> Iterator[Trouble]:

@@ -14,6 +14,7 @@ from kille.studies.reading.words import SPEAKING, names_in, words_of
 from kille.studies.scenes import Scene
 from kille.studies.study import PERSON, Named, Study
 from kille.studies.theories import language_of
+from kille.studies.theories.meanings import meanings_of
 from kille.studies.tutors.words import Words
 from ttr.dialogues.stories import Line, read_stories
 
@@ -107,6 +108,7 @@ def _lost(text: str, study: Study) -> str:
     heard = (
         name
         for name, theory in study.theories.items()
-        if theory.mode != PERSON and hear(text, language_of(theory)) is None
+        if theory.mode != PERSON
+        and hear(text, language_of(theory), types=meanings_of(theory)) is None
     )
     return next(heard, "")
