@@ -652,6 +652,11 @@ def test_a_write_is_underlined_where_it_is_written():
     assert fault.span.text[fault.span.column - 1 :].startswith("x = ann")
 
 
+def test_a_condition_with_more_cases_than_are_told_apart_is_taken_as_a_whole():
+    either = rectype(**{f"x{i}": Ind | Text for i in range(9)})
+    assert messages(made("whole", either), either) == []
+
+
 def test_a_type_that_goes_in_a_circle():
     one = Theory.parse(f"""{SEARCHED}
     rule plan(s : Board) := [agenda = [[x = y : Dish, y = x : Dish]] : list(RecType)]
@@ -700,6 +705,9 @@ EMPTY = rectype(n=Count @ 0, agenda=ListOf(RecType) @ ())
         (first(ALWAYS, seq(SOMETIMES, made("then"))), ["sometimes"]),
         (first(ALWAYS, seq(maybe(SOMETIMES), made("then"))), ["sometimes"]),
         (seq(first(ALWAYS, SOMETIMES), SOMETIMES), []),
+        (seq(first(ALWAYS, SOMETIMES), made("then")), ["sometimes"]),
+        (all_(made("now"), first(ALWAYS, SOMETIMES)), ["sometimes"]),
+        (first(made("and", EMPTY), maybe(first(ALWAYS, SOMETIMES))), ["sometimes"]),
         (all_(ALWAYS, SOMETIMES), []),
         (ask(ALWAYS, SOMETIMES, choose=lambda names, state: 0), []),
         (first(made("hear", on=Move), made("late", on=Ask)), ["late"]),
@@ -891,6 +899,19 @@ def test_what_is_set_elsewhere_or_to_anything():
     known = {"start": record(phase="idle", before="idle"), "model": P}
     assert sorts(first(note, rest), state, **known) == ["unset"]
     assert sorts(first(vaguely, rest), state, **known) == []
+
+
+def test_what_a_rule_promises_is_what_it_brings_about():
+    def busy_or_so(gives):
+        @rule(when=IDLE, gives=gives)
+        def somewhere(s):
+            return CHANGES["somehow"](s)
+
+        return somewhere
+
+    assert unset(first(busy_or_so(BUSY), rest)) == ["rest"]
+    assert unset(first(busy_or_so(DONE), rest)) == []
+    assert unset(first(busy_or_so(rectype(log=ListOf(Ind))), rest)) == []
 
 
 def test_what_is_set_within_or_around_a_place():
@@ -1177,6 +1198,27 @@ def test_repetitions_that_go_round():
     )
 
 
+def test_a_repetition_ends_if_what_is_set_is_promised_to_be_something_else():
+    def becoming(gives):
+        @rule(when=IDLE, gives=gives)
+        def change(s):
+            return replace(s, phase=CHANGES["somehow"](s))
+
+        return change
+
+    assert sorts(repeat(becoming(BUSY)), Phased, model=P) == []
+    assert sorts(repeat(becoming(IDLE)), Phased, model=P) == ["endless"]
+    assert sorts(repeat(becoming(None)), Phased, model=P) == ["endless"]
+
+
+def test_a_repetition_need_not_end_if_a_rule_sets_something_else_only_sometimes():
+    @rule(when=IDLE)
+    def at_times(s):
+        return replace(s, phase="busy") if s.log else s
+
+    assert sorts(repeat(at_times), Phased, model=P) == ["endless"]
+
+
 def test_taking_the_first_off_a_list_ends():
     theory = Theory.parse("""
         basic Ind
@@ -1357,6 +1399,30 @@ def test_an_undefined_name_below_a_star_import(tmp_path):
     ]
 
 
+def test_what_a_function_imports_for_the_whole_file_is_defined(tmp_path):
+    file = tmp_path / "warming.py"
+    file.write_text(
+        "from ttr import Ind, rectype, replace\n"
+        "from ttr.updates import rule\n"
+        "def warm_up():\n"
+        "    global json, sensor, degree\n"
+        "    import json.decoder, wave as sensor\n"
+        "    from colorsys import hls_to_rgb as degree\n"
+        "Board = rectype(x=Ind)\n"
+        "@rule(when=Board)\n"
+        "def warm(s): return replace(s, x=json.dumps(sensor.open(degree)))\n"
+        "@rule(when=Board)\n"
+        "def cold(s): return replace(s, x=[decoder, wave, hls_to_rgb])\n"
+    )
+    names = {}
+    exec(compile(file.read_text(), str(file), "exec"), names)
+    assert messages(names["warm"], names["Board"]) == []
+    assert messages(names["cold"], names["Board"]) == [
+        f"the rule cold uses {name}, which nothing binds"
+        for name in ("decoder", "wave", "hls_to_rgb")
+    ]
+
+
 def test_an_undefined_name_is_told_once_where_it_is_used_first(tmp_path):
     file = tmp_path / "undefined.py"
     file.write_text(
@@ -1477,8 +1543,12 @@ def test_a_record_that_is_the_next_state_is_checked_field_by_field():
 
 @pytest.mark.parametrize(
     "now",
-    ["\ndef shy(s): return s.nowhere\n", "def shy(t): return t.nowhere\n"],
-    ids=["further down", "another parameter"],
+    [
+        "\ndef shy(s): return s.nowhere\n",
+        "def shy(t): return t.nowhere\n",
+        "def bold(s): return s.nowhere\n",
+    ],
+    ids=["further down", "another parameter", "another name"],
 )
 def test_what_was_edited_since_it_was_loaded_is_not_read(tmp_path, now):
     file = tmp_path / "edited.py"

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ttr.types.objects import Operation, Path
-from ttr.types.syntax import TypeNode
 from ttr.updates.checks.effect_summaries import Write
 from ttr.updates.checks.faults import Fault
 from ttr.updates.checks.rulesets import RuleSet
@@ -73,7 +72,7 @@ def _surely_ends(rules: RuleSet, rule: Rule, members: tuple[Rule, ...]) -> bool:
     if _shortens_a_list(rules, rule, members):
         return True
     return any(
-        _leaves_otherwise(rules, rule, path, T)
+        _always_sets(rules, rule, path)
         and not any(may_set(rules, one, path, T) for one in members)
         for path, T in leaf_fields(rule.when)
         if path
@@ -88,22 +87,10 @@ def _shortens_a_list(rules: RuleSet, rule: Rule, members: tuple[Rule, ...]) -> b
     )
 
 
-def _leaves_otherwise(rules: RuleSet, rule: Rule, path: Labels, T: TypeNode) -> bool:
-    """Does a rule always set a path to something that surely is not of a type?"""
+def _always_sets(rules: RuleSet, rule: Rule, path: Labels) -> bool:
+    """Does a rule set a path, whatever comes of it?"""
     outcomes = rules.summaries[rule].outcomes
-    return all(
-        any(
-            _write_excludes(rules, rule, write, T)
-            for write in outcome
-            if write.path == path
-        )
-        for outcome in outcomes
-    )
-
-
-def _write_excludes(rules: RuleSet, rule: Rule, write: Write, T: TypeNode) -> bool:
-    brought = rules.views_brought_by(rule, write)
-    return bool(brought) and all(rules.excludes(view, T) for view in brought)
+    return all(any(write.path == path for write in one) for one in outcomes)
 
 
 def _shortened_lists(rules: RuleSet, rule: Rule) -> Iterator[Labels]:

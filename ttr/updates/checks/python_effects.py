@@ -39,7 +39,7 @@ from ttr.updates.checks.python_sources import (
     walk_untried,
 )
 from ttr.updates.checks.state_layout import Labels, Term, leaf_fields
-from ttr.updates.rules import EXTRAS, Rule
+from ttr.updates.rules import Rule
 
 DEPTH = 4
 """How many calls, and names that stand for others, are followed."""
@@ -48,10 +48,7 @@ DEPTH = 4
 def summarise_python(source: Source, rule: Rule) -> EffectSummary:
     """Summarise a rule's effect by its source."""
     bound = [name for name in rule.where or () if name in rule.takes]
-    others = (*EXTRAS, *bound)
-    plain = [name for name in source.parameters if name not in others]
-    names = rule.names[: 1 + (rule.on is not None)]
-    roles = {**dict(zip(plain, names, strict=False)), **{b: b for b in bound}}
+    roles = {name: name for name in (*rule.names, *bound)}
     scope = _Scope(source, roles, rule.names[0])
     results = tuple(_results(scope))
     return EffectSummary(

@@ -57,7 +57,7 @@ def _summarise(rule: Rule) -> EffectSummary:
     return UNKNOWN_EFFECT if source is None else summarise_python(source, rule)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class RuleSet:
     """The rules of a strategy, the type of its states, and the state it starts from.
 
