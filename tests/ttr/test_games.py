@@ -40,6 +40,30 @@ def test_a_game_is_played_turn_by_turn():
     assert turns[0].said[0].type is rectype(by=Ind @ "b")
 
 
+def test_each_turn_goes_on_from_the_one_before():
+    turns = talk().play([{"by": "a"}, {"by": "c"}, {"by": "a"}])
+    assert [turn.state.heard for turn in turns] == [
+        ("a",),
+        ("a", "c"),
+        ("a", "c", "a"),
+    ]
+
+
+def test_moves_are_made_in_the_order_in_which_they_are_planned():
+    @rule(when=Talk, on=Act)
+    def reply_twice(s, e):
+        if e.by != "a":
+            return replace(s, plan=s.plan[1:])
+        return replace(s, plan=[rectype(by=Ind @ "b"), rectype(by=Ind @ "c")])
+
+    (turn,) = talk(algorithm=reply_twice).play([{"by": "a"}])
+    assert [move.sit for move in turn.said] == [record(by="b"), record(by="c")]
+    assert [move.type for move in turn.said] == [
+        rectype(by=Ind @ "b"),
+        rectype(by=Ind @ "c"),
+    ]
+
+
 def test_a_turn_prints_what_happened():
     event = nbest((record(by="a"), 0.5), (record(by="c"), 0.25))
     sure, nothing, unsure = talk().play([{"by": "a"}, None, event])

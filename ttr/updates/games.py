@@ -295,10 +295,10 @@ class Game:
     def _judge_move(self, move: Object, T: TypeNode, model: Model) -> Judgement:
         """The judgement that a move is of the planned type.
 
-        Its reasons are found when they are asked for. What was created is of its type,
-        but an `act` may have made something else.
+        An `act` may have made something else. Where it is certain, its reasons are
+        derived when they are asked for.
         """
-        if self.act is not None and not is_certain(model.facts, move, T):
+        if not is_certain(model.facts, move, T):
             return model.judge(move, T)
         return Judgement(move, T, CERTAIN, lambda: model.judge(move, T).why, model)
 
