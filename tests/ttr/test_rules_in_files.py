@@ -25,7 +25,18 @@ from ttr.theories.checking import check
 from ttr.theories.theory import Theory, load
 from ttr.types.objects import Record, record
 from ttr.types.syntax import RecordType
-from ttr.updates import all_, by_class, first, maybe, nbest, repeat, rule, run, seq
+from ttr.updates import (
+    all_,
+    by_class,
+    first,
+    maybe,
+    nbest,
+    repeat,
+    rule,
+    run,
+    seq,
+    update,
+)
 from ttr.updates.rule_application import apply_rule, why_not
 from ttr.updates.rule_notation import declaration, format_rule
 
@@ -175,6 +186,12 @@ def test_what_is_bound_may_be_called_as_one_likes() -> None:
     quoted = rules("(a : State, e : p('a')) := State")
     assert quoted.rules["r"].on is quoted.p("a")
     assert 'e : p("a")' in format_rule(quoted.rules["r"])
+
+
+def test_the_name_of_an_event_stands_for_nothing_in_its_own_type() -> None:
+    found = rules("(s : State, a : p(a)) := State")
+    assert found.rules["r"].on is found.p("a")
+    assert "a : p(a))" in format_rule(found.rules["r"])
 
 
 # --- strategies ----------------------------------------------------------------------
@@ -821,6 +838,16 @@ def test_a_python_rule_is_not_written() -> None:
         format_rule(nothing)
     assert caught.value.message == (
         "the effect of nothing is a Python function, not notation"
+    )
+
+
+def test_a_promise_of_a_rule_is_not_written() -> None:
+    theory = board("Deep := [in : [deep : Ind]]\ngo := \\s:State. Deep")
+    assert format_rule(update(theory.go, "promise")).startswith("rule promise(")
+    with pytest.raises(UnsupportedError) as caught:
+        format_rule(update(theory.go, "promise", gives=theory.Deep))
+    assert (
+        caught.value.message == "promise declares what it gives, which has no notation"
     )
 
 

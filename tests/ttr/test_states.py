@@ -50,6 +50,14 @@ def test_a_changed_state_is_of_its_type_where_a_judgement_says_so(model, change)
     assert is_still_of(before, after, State, model) == expected
 
 
+@pytest.mark.parametrize(("word", "is_word"), [("b", True), ("nobody", False)])
+def test_what_is_set_in_the_middle_of_a_list_is_judged(word, is_word):
+    inner = record(done=[], n=0)
+    before = record(name="a", log=["a", "a", "b"], inner=inner)
+    after = record(name="a", log=["a", word, "b"], inner=inner)
+    assert is_still_of(before, after, State, GIVEN) == is_word
+
+
 def test_what_a_witness_function_looks_into_is_judged_again():
     """A list that was changed in place is the same object, but no longer as it was."""
     model = FACTS.witnessed(Number, by=lambda n: n.count(0) == 1)
