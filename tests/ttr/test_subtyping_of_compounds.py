@@ -21,6 +21,7 @@ from ttr import (
     this,
 )
 from ttr.types import Application, EventString, NonEmpty, Universe, fst, rst
+from ttr.types.derived_types import star
 
 A, B, C = Basic("A"), Basic("B"), Basic("C")
 p = Pred("p", A)
@@ -81,6 +82,52 @@ YES = {
         rectype(l=NonEmpty(A), f=A @ fst(this.l), r=ListOf(A) @ rst(this.l)),
         rectype(f=A, r=ListOf(A | B)),
     ),
+    "a list that a function gives": (
+        rectype(f=A >> ListOf(A & B), a=A, l=NonEmpty(A & B) @ this.f(this.a)),
+        rectype(l=ListOf(A)),
+    ),
+    "a list that a function gives, of which more is known": (
+        rectype(
+            f=A >> ListOf(A), a=A, l=(NonEmpty(C) & ListOf(A & B)) @ this.f(this.a)
+        ),
+        rectype(l=NonEmpty(A)),
+    ),
+    "a set that a function gives": (
+        rectype(f=A >> SetOf(A & B), a=A, s=(SetOf(A & B) & C) @ this.f(this.a)),
+        rectype(s=SetOf(A)),
+    ),
+    "a rest that is there": (
+        (NonEmpty(A) >> ListOf(A)) @ fun(l=NonEmpty(A))(rst(this.l)),
+        NonEmpty(A) >> ListOf(A | B),
+    ),
+    "a concatenation that a function gives": (
+        (ListOf(A) >> ListOf(A)) @ fun(l=ListOf(A))(this.l + this.l),
+        ListOf(A) >> ListOf(A | B),
+    ),
+    "equal lists of equal elements": (
+        rectype(x=A, y=A & B, l=ListOf(A) @ (this.x,) & ListOf(A) @ (this.y,)),
+        rectype(x=B),
+    ),
+    "equal strings of equal events": (
+        rectype(
+            x=A,
+            y=A & B,
+            s=Str(A) @ EventString(this.x) & Str(A) @ EventString(this.y),
+        ),
+        rectype(x=B),
+    ),
+    "equal records of equal parts": (
+        rectype(x=A, y=A & B, r=Rec @ {"a": this.x} & Rec @ {"a": this.y}),
+        rectype(x=B),
+    ),
+    "either string in a record": (
+        rectype(s=Str(A | B)),
+        rectype(s=Str(A)) | rectype(s=Str(B)),
+    ),
+    "more cases than are told apart": (
+        rectype({f"x{i}": A | B for i in range(9)}) >> A,
+        rectype({f"x{i}": A | B for i in range(10)}) >> (A | B),
+    ),
     "an application in a result": (
         A >> B,
         Pi(x=A)(Application(fun(y=A)(B), this.x)),
@@ -132,6 +179,12 @@ def test_what_is_not_derivable_is_unknown():
     assert subtype(rectype(x=A @ this.y, y=ListOf(A) @ this.x), rectype(z=A)).unknown
 
 
+def test_the_rest_of_a_list_that_may_be_empty_need_not_be_there():
+    rest = fun(l=ListOf(A))(rst(this.l))
+    assert subtype((A >> B) @ rest, NonEmpty(A) >> ListOf(A)).yes
+    assert not subtype((A >> B) @ rest, ListOf(A) >> ListOf(A)).yes
+
+
 def test_many_cases_are_left_together():
     many = rectype({f"x{i}": A | B for i in range(20)})
     assert subtype(many, rectype(x0=A | B)).yes
@@ -146,6 +199,12 @@ def test_many_cases_are_left_together():
         ((A, ~A), "no"),
         ((A @ "a", A @ "b"), "no"),
         ((ListOf(A), rectype(x=A)), "no"),
+        ((ListOf(A), A @ "a"), "no"),
+        ((SetOf(A), A @ "a"), "no"),
+        ((SetOf(A), Rec @ {}), "no"),
+        ((Plus(A), A @ "a"), "no"),
+        ((Plus(A), A @ EventString()), "no"),
+        ((Plus(star(A)), Str() @ EventString()), "yes"),
         ((rectype(x=A), rectype(x=~A, y=B)), "no"),
         ((NonEmpty(A), NonEmpty(A & B)), "yes"),
         ((NonEmpty(A & ~A),), "unknown"),
@@ -153,6 +212,10 @@ def test_many_cases_are_left_together():
 )
 def test_consistency(types, verdict):
     assert consistent(*types).verdict == verdict
+
+
+def test_a_string_that_is_written_may_be_of_a_repetition():
+    assert not consistent(Plus(A), Str(A) @ EventString("a")).no
 
 
 def test_known_witnesses():

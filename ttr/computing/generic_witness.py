@@ -407,8 +407,8 @@ def _has_form(term: Object, shape: TypeNode) -> bool:
             some = isinstance(term, EventString)
             return some and (length is None or len(term) == length)
         case Plus(item):
-            some = isinstance(term, EventString) and len(term) > 0
-            return some or (isinstance(term, EventString) and is_of_strings(item))
+            some = isinstance(term, EventString)
+            return some and (len(term) > 0 or is_of_strings(item))
         case FunType():
             return isinstance(term, Function)
         case Universe():

@@ -338,8 +338,7 @@ class Prover:
         for known in self._types_of(term):
             if not isinstance(known, ListOf | NonEmpty | SetOf):
                 continue
-            fits = isinstance(known, _BELOW[type(T)])
-            if fits and self._prove_in_cases(one, known.item, _ask_of(one, T.item)).yes:
+            if self._prove_in_cases(one, known.item, _ask_of(one, T.item)).yes:
                 return YES
         return self._not_below(term, T, where)
 
