@@ -108,9 +108,9 @@ def _break_cycles(value: Object) -> Object:
 def _leaves(T: TypeNode, at: Address) -> Iterator[tuple[Address, TypeNode]]:
     if not isinstance(T, RecordType):
         return
-    spend((1 + len(at)) * len(T.fields))
     for label, field in T.fields:
         address = (*at, label)
+        spend(len(address))
         if isinstance(field, RecordType) and field.fields:
             yield from _leaves(field, address)
         else:
