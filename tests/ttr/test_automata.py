@@ -3,7 +3,9 @@
 import pytest
 
 from ttr import Basic, Model, Plus, Str, join, subtype
+from ttr.computing.strings import automaton_steps
 from ttr.computing.strings.automata import automaton, automaton_above
+from ttr.computing.strings.automaton_steps import intersect
 from ttr.errors import UnsupportedError
 from ttr.types import EventString
 from ttr.types.derived_types import star
@@ -75,6 +77,15 @@ def test_a_meet_may_have_too_many_states():
     assert [edge.label for edge in found.wholes[found.start]] == [many]
     with pytest.raises(UnsupportedError, match="too many cases to be followed"):
         automaton_above(Str(many, B))
+
+
+def test_a_meet_may_have_just_as_many_edges_as_are_followed(monkeypatch):
+    both = [automaton(Str(A, B, C)), automaton(Str(C, A, B))]
+    monkeypatch.setattr(automaton_steps, "EDGES", 3)
+    assert sum(map(len, intersect(both, []).edges.values())) == 3
+    monkeypatch.setattr(automaton_steps, "EDGES", 2)
+    with pytest.raises(UnsupportedError, match="too many cases to be followed"):
+        intersect(both, [])
 
 
 def test_what_has_too_many_states_is_judged_all_the_same():

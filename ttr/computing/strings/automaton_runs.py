@@ -7,7 +7,8 @@ found in one pass, which asks for each event and type once at most.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
 from typing import Any, NamedTuple, TypeAlias
@@ -218,23 +219,22 @@ class _Arrivals:
 
     def _ends(self, T: TypeNode, start: int) -> list[int]:
         """The ends of the strings of a type that begin after so many events."""
-        try:
-            above = automaton_above(T)
-        except UnsupportedError:
-            ends = range(start, self._length + 1)
-            return [end for end in ends if self._fits_whole(start, end, T)]
-        found, states = [], {above.start}
+        possible: Iterable[int] = range(start, self._length + 1)
+        with suppress(UnsupportedError):
+            possible = self._ends_of_runs(automaton_above(T), start)
+        return [end for end in possible if self._fits_whole(start, end, T)]
+
+    def _ends_of_runs(self, above: Automaton, start: int) -> Iterator[int]:
+        """The ends of the strings of an automaton that begin after so many events."""
+        states = {above.start}
         for number in range(start, self._length + 1):
-            may_end = not states.isdisjoint(above.final)
-            if may_end and self._fits_whole(start, number, T):
-                found.append(number)
-            if number == self._length:
-                break
-            edges = [edge for state in sorted(states) for edge in above.edges[state]]
-            states = {to for label, to in edges if self._fits(number, label)}
-            if not states:
-                break
-        return found
+            if not states.isdisjoint(above.final):
+                yield number
+            if number < self._length:
+                edges = [
+                    edge for state in sorted(states) for edge in above.edges[state]
+                ]
+                states = {to for label, to in edges if self._fits(number, label)}
 
 
 def _join_parallel_edges(edges: Edges) -> Edges:
