@@ -44,7 +44,7 @@ from kille.interfaces.memory import moving  # noqa: F401  children have it loade
 from kille.interfaces.talk import talk  # noqa: F401
 from kille.memory import Memory, MemoryFileError, MemoryReader, Sighting
 from kille.memory.exporting import export
-from kille.perception.thumbnails import restored
+from kille.perception.thumbnails import restore_crop
 from kille.sensors.synthetic import open_synthetic
 
 THINGS = ("cup", "book", "car")
@@ -198,7 +198,7 @@ def whole(memory: MemoryReader, key: int, said: Set[tuple[int, int]]) -> bool:
     picture = lesson.seen.picture
     if not isinstance(lesson.seen, Sighting) or picture is None or picture.crop is None:
         return False
-    _, region = restored(picture.crop)
+    _, region = restore_crop(picture.crop)
     features = sum(len(scan.descriptors) for scan in lesson.seen.scans)
     answer = lesson.turn.dialogue, lesson.turn.number + 1
     parts = features, lesson.seen.traits, region.mask.any(), answer in said

@@ -31,7 +31,7 @@ from kille.perception.index import Background, View
 from kille.perception.learners import Key
 from kille.perception.objects import ObjectMemory, kept_features
 from kille.perception.relations import RelationMemory
-from kille.perception.thumbnails import evidence_of, restored
+from kille.perception.thumbnails import evidence_of, restore_crop
 from kille.reasons import Reasons, Share, best_rival, shares_of
 from kille.scene import Configuration, Percept, Region, Traits
 
@@ -407,6 +407,6 @@ def _up_to_date(memory: Memory, lesson: ObjectLesson) -> Traits:
     if picture is None or picture.crop is None:
         return kept
     try:
-        return measured(*restored(picture.crop))
+        return measured(*restore_crop(picture.crop))
     except ValueError:  # a picture that another program made, and nobody can read
         return kept

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from kille.perception.colours import Palette, colours_of
 from kille.perception.relations.configurations import configurations
 from kille.perception.relations.memory import template_odds
-from kille.perception.relations.perspectives import AWAY, turned
+from kille.perception.relations.perspectives import AWAY, seen_from
 from kille.scene import Configuration, Look
 
 Pair = tuple[int, int]
@@ -45,7 +45,7 @@ class Seen:
         if front not in self._pairs and front != AWAY:
             seen = self.configurations()
             self._pairs[front] = {
-                pair: turned(stand, front) for pair, stand in seen.items()
+                pair: seen_from(stand, front) for pair, stand in seen.items()
             }
         if front not in self._pairs:
             regions = [it.region for it in self.look.percepts]

@@ -9,7 +9,7 @@ import numpy as np
 
 from kille.demo import OBJECTS
 from kille.perception.look import look
-from kille.perception.picture_sheet import sheet, write_picture
+from kille.perception.picture_sheet import picture_sheet, write_picture
 from kille.scene import Colour
 from kille.sensors.synthetic.sensor import Synthetic, open_synthetic
 
@@ -54,7 +54,7 @@ def seen(sensor: Synthetic, *names: str) -> Colour:
     for name in names:
         sensor.show(name)
         rows.append((name, look(sensor, scans=1), 1))
-    return sheet(rows)
+    return picture_sheet(rows)
 
 
 def smaller(picture: Colour, width: int) -> Colour:

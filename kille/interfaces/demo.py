@@ -14,7 +14,7 @@ from kille.demo import Answer, Event, demonstration
 from kille.gaze import View
 from kille.interfaces.showing import claims, explained
 from kille.interfaces.terminal import FINE, complain, console
-from kille.perception.picture_sheet import sheet, write_picture
+from kille.perception.picture_sheet import picture_sheet, write_picture
 
 Row = tuple[str, View]
 
@@ -76,7 +76,7 @@ def _write_sheet(out: Console, path: Path, rows: list[Row]) -> int:
         (word, view.look, view.focus) for word, view in rows if view.focus is not None
     ]
     try:
-        write_picture(path, sheet(shown))
+        write_picture(path, picture_sheet(shown))
     except OSError as error:
         return complain(f"the picture cannot be written to {path}: {error.strerror}")
     out.print(f"What it saw: {path.resolve()}", markup=False)

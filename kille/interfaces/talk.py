@@ -16,7 +16,7 @@ from kille.interfaces.showing import Account, explained, things_in_view
 from kille.interfaces.terminal import FINE, complain, console, memory_path
 from kille.memory import MemoryFileError
 from kille.perception.picture_sheet import overview, write_picture
-from kille.perception.thumbnails import outlined
+from kille.perception.thumbnails import outline_things
 from kille.private import create_private_file
 from kille.sensors.sensor import SensorError, Stage
 from kille.speech.sound import SoundError
@@ -210,7 +210,7 @@ class _Conversation:
             )
             return ""
         try:
-            write_picture(path, outlined(picture))
+            write_picture(path, outline_things(picture))
         except (OSError, ValueError) as error:
             complain(f"the picture cannot be written to {path}: {error}")
             return ""

@@ -4,7 +4,7 @@ With e_c(w) what cue c adds for word w, the strength of a word and its degree ar
 
     s(w) = exp(b + Σ_c e_c(w)),   p(w) = s(w) / (1 + Σ s)
 
-so whatever is none of the words has strength 1, and its degree is what the words leave
+so that "none of these words" has strength 1, and its degree is what the words leave
 (the multinomial logit with an outside option: McFadden 1974, "Conditional logit
 analysis of qualitative choice behavior"). A trait adds how far the regression on the
 examples speaks for the word, features add their votes beyond chance, and metric size
@@ -56,7 +56,8 @@ class Weighing:
     def evidence(
         self, labels: tuple[str, ...], likeness: Likeness, votes: Numbers
     ) -> Evidence:
-        """What each cue adds for the words; `votes` (words,) are beyond chance."""
+        """What each cue adds for each word; `votes` (words,) are those beyond
+        chance."""
         added = {cue: self.score * score for cue, score in likeness.scores.items()}
         if SIZE in added:
             added[SIZE] = added[SIZE] - self.size * unlike_in_size(likeness)
@@ -72,7 +73,8 @@ def unlike_in_size(likeness: Likeness) -> Numbers:
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What each cue adds for each word, (words,) each, and what all start from."""
+    """What each cue adds for each word, (words,) each, and the base they are added
+    to."""
 
     labels: tuple[str, ...]
     base: float
@@ -109,7 +111,7 @@ class Evidence:
 
 @cache
 def weighing(name: str = "default") -> Weighing:
-    """A weighing that comes with the package: `default`, or with the `embedding`.
+    """One of the weighings that come with the package, `default` or `embedding`.
 
     Where there is nothing but the features it is `instances`, and nothing but the
     traits, `cues`. KeyError for another name.

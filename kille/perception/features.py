@@ -1,4 +1,4 @@
-"""SIFT features of one region in one frame, and where in space they are."""
+"""SIFT features of one region in one frame, and their points in space."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ NONE = Features(
 
 
 def features_of(frame: Frame, region: Region, sift: cv2.SIFT | None = None) -> Features:
-    """The SIFT features of the region; without texture there may be none.
+    """The SIFT features of the region; there may be none without texture.
 
     SIFT runs on the region's box and a margin, not on the frame: its cost is that of
     the pixels it is given, mask or not; a huge box is made smaller. Another SIFT than
     the robot's may be given.
     """
-    box = _widened(region.box, frame.colour.shape)
+    box = _widen_box(region.box, frame.colour.shape)
     crop = np.s_[box.top : box.bottom, box.left : box.right]
     if not frame.colour[crop].size:
         return NONE
@@ -56,7 +56,7 @@ def features_of(frame: Frame, region: Region, sift: cv2.SIFT | None = None) -> F
 
 
 def _smaller(grey: Grey, mask: Grey) -> tuple[Grey, Grey]:
-    """Both as they are, or with about as many pixels as SIFT is given at most."""
+    """Both pictures, shrunk if they have more pixels than SIFT is given at most."""
     stretch = np.sqrt(grey.size / _MOST)
     if stretch <= 1:
         return grey, mask
@@ -71,7 +71,8 @@ def _sift() -> cv2.SIFT:
     return cv2.SIFT.create(contrastThreshold=_CONTRAST, edgeThreshold=_EDGE)
 
 
-def _widened(box: Box, shape: tuple[int, ...]) -> Box:
+def _widen_box(box: Box, shape: tuple[int, ...]) -> Box:
+    """The box with a margin, within the picture."""
     return Box(
         max(0, box.left - _MARGIN),
         max(0, box.top - _MARGIN),

@@ -1,4 +1,4 @@
-"""What a picture without depth is of: a guess at which pixels belong to the thing.
+"""Guess which pixels belong to the thing in a picture without depth.
 
 People put what they show in the middle, before something that goes on to the picture's
 edges. So what is not joined to the edges stands out (robust background detection), and
@@ -19,32 +19,32 @@ from kille.scene import Frame, Mask
 _SIDE = 112  # pixels of a square picture at working size: the outline needs no more
 _PATCH = 8  # pixels across a superpixel: about 180 of them
 _ALIKE = 10.0  # units of Lab within which superpixels are one surface
-_GRAIN = 3.0  # units of Lab by which neighbours on one surface may differ for nothing
-_BOUND = 0.1  # how much unlike neighbours are smoothed at least
-_AROUND = 0.25  # of the picture: so far contrast with others counts
+_GRAIN = 3.0  # units of Lab: smaller differences between neighbours are ignored
+_BOUND = 0.1  # the least smoothing, also between neighbours that differ
+_AROUND = 0.25  # of the picture: the range within which contrast counts
 _MIDDLE = (0.5, 0.55)  # of the picture's width and height: where things are put
 _SPREAD = 0.3
-_MILD = 0.7  # how far being in the middle counts
+_MILD = 0.7  # the weight of being in the middle
 _ROUNDS = 3  # of GrabCut
 # Saliency from which a pixel is taken for the thing: surely, if it is also near that of
 # the picture's most salient tenth; probably; and below which it surely is not.
 _SURE, _SURE_OF_TOP, _PROBABLE, _IMPROBABLE = 0.55, 0.8, 0.4, 0.08
-_LEAST, _MOST = 0.004, 0.75  # shares of the picture a thing may have
+_LEAST, _MOST = 0.004, 0.75  # the shares of the picture that a thing may cover
 _LARGE = 0.15  # of the largest piece: smaller ones are specks
 _ELLIPSE = 0.35  # half axes of the last resort, of the picture's sides
 
 
 def guess(frame: Frame) -> Mask:
-    """The pixels (H, W) that the picture is probably of; never none.
+    """Guess the pixels (H, W) of the thing that the picture shows; never none.
 
     Source: saliency by Zhu, Liang, Wei & Sun 2014, "Saliency optimization from robust
     background detection"; outline by Rother, Kolmogorov & Blake 2004, "GrabCut".
     """
     height, width = frame.colour.shape[:2]
-    small = _reduced(frame.colour)
+    small = _resize_to_working_size(frame.colour)
     if min(small.shape[:2]) < 2 * _PATCH:
         return np.ones((height, width), bool)
-    found = _large(_outlined(small, saliency(small)))
+    found = _large(_grab_cut(small, saliency(small)))
     if not _LEAST <= found.mean() <= _MOST:
         found = _ellipse(found.shape)
     size = (width, height)
@@ -54,7 +54,7 @@ def guess(frame: Frame) -> Mask:
 
 
 def saliency(colour: NDArray[np.uint8]) -> Array:
-    """How much each pixel (h, w) stands out of the background, from 0 to 1."""
+    """How much each pixel (h, w) stands out from the background, from 0 to 1."""
     light = colour.astype(np.float32) / np.float32(255)
     lab = np.asarray(cv2.cvtColor(light, cv2.COLOR_RGB2LAB), np.float32)
     labels = _superpixels(lab)
@@ -75,7 +75,7 @@ def saliency(colour: NDArray[np.uint8]) -> Array:
     contrast = (apart * near) @ background
     contrast /= max(float(contrast.max()), 1e-9)
     middle = np.exp(-(((places - _MIDDLE) / _SPREAD) ** 2).sum(axis=1) / 2)
-    salient = _smoothed(
+    salient = _smooth_saliency(
         apart, joined, background, contrast * (1 - _MILD + _MILD * middle)
     )
     salient -= salient.min()
@@ -86,7 +86,9 @@ def saliency(colour: NDArray[np.uint8]) -> Array:
 def _background(
     apart: NDArray[np.float64], joined: Mask, border: Mask
 ) -> NDArray[np.float64]:
-    """How probably each superpixel is background: how long its surface's edge is."""
+    """The probability that each superpixel is background, from how long the border of
+    its surface is.
+    """
     linked = joined | np.logical_and.outer(border, border)
     step = np.where(linked, np.maximum(apart - _GRAIN, 0), np.inf)
     np.fill_diagonal(step, 0)
@@ -98,13 +100,15 @@ def _background(
     return background
 
 
-def _smoothed(
+def _smooth_saliency(
     apart: NDArray[np.float64],
     joined: Mask,
     background: NDArray[np.float64],
     salient: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """The saliency that is low on background, high on contrast, alike in neighbours."""
+    """Compute a saliency that is low on the background, high where contrast is high,
+    and similar in neighbours.
+    """
     alike = np.exp(-(apart**2) / (2 * _ALIKE**2)) + _BOUND
     weights = np.where(joined, alike, 0)
     smooth = np.diag(weights.sum(axis=1)) - weights
@@ -112,8 +116,8 @@ def _smoothed(
     return np.asarray(np.linalg.solve(system, salient), np.float64)
 
 
-def _outlined(colour: NDArray[np.uint8], salient: Array) -> Mask:
-    """Where GrabCut draws the line, if it starts from what is salient."""
+def _grab_cut(colour: NDArray[np.uint8], salient: Array) -> Mask:
+    """Draw the outline by GrabCut, starting from the salient pixels."""
     sure = max(_SURE, _SURE_OF_TOP * float(np.quantile(salient, 0.9)))
     labels: NDArray[np.uint8] = np.full(salient.shape, cv2.GC_PR_BGD, np.uint8)
     labels[salient > _PROBABLE] = cv2.GC_PR_FGD
@@ -135,7 +139,7 @@ def _foreground(labels: NDArray[np.uint8]) -> Mask:
 
 
 def _large(mask: Mask) -> Mask:
-    """The mask without its small pieces."""
+    """Remove the small pieces of the mask."""
     count, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8))
     if count < 2:
         return mask
@@ -151,7 +155,7 @@ def _ellipse(shape: tuple[int, ...]) -> Mask:
     return np.asarray(x**2 + y**2 < _ELLIPSE**2, bool)
 
 
-def _reduced(colour: NDArray[np.uint8]) -> NDArray[np.uint8]:
+def _resize_to_working_size(colour: NDArray[np.uint8]) -> NDArray[np.uint8]:
     height, width = colour.shape[:2]
     scale = _SIDE / np.sqrt(height * width)
     size = max(1, round(width * scale)), max(1, round(height * scale))

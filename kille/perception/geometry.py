@@ -1,4 +1,4 @@
-"""Between pixels and places: rays of a pinhole camera, points, and level axes."""
+"""Convert between pixels and points in space: pinhole rays, points, and level axes."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from kille.scene import Box, Depth, Direction, Frame, Intrinsics, Mask, Point
 Array = NDArray[np.float32]
 
 CAMERA_UP: Direction = (0.0, -1.0, 0.0)
-"""What counts as up when no table is seen: a camera that is held level."""
+"""The direction taken as up when no table is seen, as if the camera were level."""
 
-_NEAREST, _FARTHEST = 1e-3, 1e3  # metres: a number beyond them is no reading
+_NEAREST, _FARTHEST = 1e-3, 1e3  # metres: the range of valid readings
 
 
 class Rays(NamedTuple):
@@ -39,7 +39,7 @@ def rays_of(lens: Intrinsics, shape: tuple[int, int], step: int = 1) -> Rays:
 
 
 def readings(frame: Frame) -> Depth | None:
-    """The frame's depth at the size of its picture, NaN for all that is no reading.
+    """The frame's depth at the size of its picture; invalid readings are NaN.
 
     A reading is above 1 mm and below 1 km. Depth of another size is stretched over the
     picture. None if there is no depth, or no camera model to make sense of it.
@@ -49,37 +49,39 @@ def readings(frame: Frame) -> Depth | None:
     >>> readings(Frame(picture, depth, Intrinsics(500, 500, 2, 0), 0.0, {}))
     array([[nan, nan, 0.8, nan]], dtype=float32)
     """
-    depth = _registered(frame)
-    return None if depth is None else _read(depth)
+    depth = _depth_at_picture_size(frame)
+    return None if depth is None else _drop_unread(depth)
 
 
 def points_at(frame: Frame, pixels: Array) -> Array:
-    """The points (n, 3) in metres seen at pixels (n, 2), NaN where nothing was read."""
-    depth, lens = _registered(frame), frame.intrinsics
+    """The points (n, 3) in metres at pixels (n, 2); NaN where there is no reading."""
+    depth, lens = _depth_at_picture_size(frame), frame.intrinsics
     if depth is None or lens is None:
         return np.full((len(pixels), 3), np.nan, np.float32)
     height, width = depth.shape
     columns = np.clip(np.rint(pixels[:, 0]).astype(int), 0, width - 1)
     rows = np.clip(np.rint(pixels[:, 1]).astype(int), 0, height - 1)
-    z = _read(depth[rows, columns])
+    z = _drop_unread(depth[rows, columns])
     x = (pixels[:, 0] - lens.cx) / lens.fx * z
     y = (pixels[:, 1] - lens.cy) / lens.fy * z
     return np.stack([x, y, z], axis=1).astype(np.float32)
 
 
-def _registered(frame: Frame) -> Depth | None:
-    """The depth, one number for each pixel of the picture, with what is no reading."""
+def _depth_at_picture_size(frame: Frame) -> Depth | None:
+    """The raw depth, with one number for each pixel of the picture."""
     depth, lens = frame.depth, frame.intrinsics
     if depth is None or depth.size == 0 or lens is None or not _usable(lens):
         return None
     height, width = frame.colour.shape[:2]
     return (
-        depth if depth.shape == (height, width) else _stretched(depth, (height, width))
+        depth
+        if depth.shape == (height, width)
+        else _stretch_depth(depth, (height, width))
     )
 
 
-def _read(depth: Depth) -> Depth:
-    """The same depth, NaN for what is no reading."""
+def _drop_unread(depth: Depth) -> Depth:
+    """Set depth outside the range of valid readings to NaN."""
     read = (depth > _NEAREST) & (depth < _FARTHEST)
     return np.where(read, depth, np.float32(np.nan)).astype(np.float32, copy=False)
 
@@ -89,8 +91,8 @@ def _usable(lens: Intrinsics) -> bool:
     return bool(np.isfinite(numbers).all() and lens.fx > 0 and lens.fy > 0)
 
 
-def _stretched(depth: Depth, shape: tuple[int, int]) -> Depth:
-    """The depth at another size (H, W), each pixel from the reading nearest to it."""
+def _stretch_depth(depth: Depth, shape: tuple[int, int]) -> Depth:
+    """Resize depth to (H, W); each pixel gets the reading nearest to it."""
     rows, columns = (
         (2 * np.arange(size) + 1) * have // (2 * size)
         for size, have in zip(shape, depth.shape, strict=True)
@@ -100,7 +102,7 @@ def _stretched(depth: Depth, shape: tuple[int, int]) -> Depth:
 
 
 def points_under(depth: Depth, mask: Mask, lens: Intrinsics) -> Array:
-    """The points (n, 3) in metres that were read under the mask (H, W)."""
+    """The points (n, 3) in metres of all valid readings under the mask (H, W)."""
     vs, us = np.nonzero(mask & (depth > _NEAREST) & (depth < _FARTHEST))
     z = depth[vs, us]
     x = (us - lens.cx) / lens.fx * z
@@ -113,7 +115,7 @@ def points_in(frame: Frame, mask: Mask, box: Box) -> Array:
 
     There are none if the frame has no depth or no intrinsics.
     """
-    depth = _registered(frame)
+    depth = _depth_at_picture_size(frame)
     if depth is None or frame.intrinsics is None:
         return np.empty((0, 3), np.float32)
     fx, fy, cx, cy = astuple(frame.intrinsics)
@@ -143,7 +145,7 @@ def table_axes(up: Direction) -> NDArray[np.float64]:
 
 
 def offset(target: Point, landmark: Point, up: Direction) -> Direction:
-    """Where the target is from the landmark, in metres: right, away, up.
+    """The vector from landmark to target in metres: right, away, up.
 
     Away is along the table, away from the viewer.
 

@@ -1,8 +1,8 @@
-"""What a learner is: two methods and a way to forget, and the laws they keep.
+"""The interface of a learner (learn, predict, forget), and the laws it obeys.
 
 A learner is taught one observation at a time, as a tutor teaches. Its degrees are
-those of words, in [0, 1]; what they lack to 1 is the degree of everything that it has
-not been taught.
+those of words, in [0, 1]; one minus their sum is the degree of everything that it
+has not been taught.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Protocol, TypeVar
 __all__ = ["Key", "Learner", "check_degrees", "check_learner", "own_key"]
 
 Key = int | str
-"""What an observation is known by, so that it can be forgotten."""
+"""Identifies an observation, so that it can be forgotten."""
 
 X = TypeVar("X")
 X_contra = TypeVar("X_contra", contravariant=True)
@@ -23,10 +23,10 @@ _SLACK = 1e-5  # products of float32 depend on how many are made at once
 
 
 class Learner(Protocol[X_contra]):
-    """Learns words from one observation at a time, and says how well each fits."""
+    """Learns words from one observation at a time, and tells how well each fits."""
 
     def learn_one(self, x: X_contra, label: str, *, key: Key | None = None) -> None:
-        """Take x as an instance of the word; ValueError if the key is taken.
+        """Learn that the word applies to x; ValueError if the key is taken.
 
         Without a key it gets one of its own.
         """
@@ -37,12 +37,12 @@ class Learner(Protocol[X_contra]):
         ...
 
     def forget(self, key: Key) -> None:
-        """Be as if this had never been learned; KeyError if it was not."""
+        """Undo a lesson, as if it had never been given; KeyError if there was none."""
         ...
 
 
 def own_key(taken: Collection[Key]) -> Key:
-    """A key that is not taken.
+    """A new key, different from all those taken.
 
     >>> own_key({0, 3, "a"})
     4
@@ -51,7 +51,7 @@ def own_key(taken: Collection[Key]) -> Key:
 
 
 def check_degrees(degrees: Mapping[str, float]) -> None:
-    """Check the laws of the degrees of one answer; AssertionError names the broken one.
+    """Check the laws of one answer's degrees; AssertionError names the broken law.
 
     >>> check_degrees({"cup": 0.7, "mug": 0.7})
     Traceback (most recent call last):
@@ -81,7 +81,7 @@ def check_learner(
     _check_keys(make, examples)
 
 
-def _taught(
+def _teach(
     make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
 ) -> Learner[X]:
     learner = make()
@@ -101,7 +101,7 @@ def _check_degrees(
     make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
 ) -> None:
     for some in range(1, len(examples) + 1):
-        learner = _taught(make, examples[:some])
+        learner = _teach(make, examples[:some])
         words = {label for _, label in examples[:some]}
         for x, _ in examples:
             degrees = learner.predict_proba_one(x)
@@ -112,7 +112,7 @@ def _check_degrees(
 def _check_sameness(
     make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
 ) -> None:
-    learner, twin = _taught(make, examples), _taught(make, examples)
+    learner, twin = _teach(make, examples), _teach(make, examples)
     for x, _ in examples:
         degrees = learner.predict_proba_one(x)
         _law(learner.predict_proba_one(x) == degrees, "asking changes nothing")
@@ -123,7 +123,7 @@ def _check_forgetting(
     make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
 ) -> None:
     for gone in range(len(examples)):
-        learner, never = _taught(make, examples), make()
+        learner, never = _teach(make, examples), make()
         learner.forget(gone)
         for key, (x, label) in enumerate(examples):
             if key != gone:
@@ -138,7 +138,7 @@ def _check_forgetting(
 def _check_keys(
     make: Callable[[], Learner[X]], examples: Sequence[tuple[X, str]]
 ) -> None:
-    learner = _taught(make, examples)
+    learner = _teach(make, examples)
     x, label = examples[0]
     _law(_raises(ValueError, lambda: learner.learn_one(x, label, key=0)), "keys differ")
     _law(_raises(KeyError, lambda: learner.forget("no such key")), "no key, KeyError")

@@ -1,4 +1,4 @@
-"""How like a thing is to the examples of each word: kernels of the cues, summed.
+"""How similar a thing is to the examples of each word: a weighted sum of kernels.
 
 In cue c, with vectors x and y, two things are as unlike as d_c = |x - y|² / m_c, where
 m_c is the mean of |x - y|² between different things, and as like as k_c = exp(-d_c).
@@ -45,8 +45,8 @@ from numpy.typing import NDArray
 
 from kille.perception.index import View
 from kille.perception.learners import Key
-from kille.perception.matrix_inverses import Places, updated
-from kille.perception.negative_examples import opposed
+from kille.perception.matrix_inverses import Places, update_inverse
+from kille.perception.negative_examples import weights_with_denials
 from kille.scene import Traits, Vector
 
 Numbers = NDArray[np.float64]
@@ -73,7 +73,7 @@ class Kernel:
 
 @dataclass(frozen=True, eq=False)
 class Likeness:
-    """What the cues say for each word, by cue and in the order of the words.
+    """What the cues say for each word, by cue, in the order of the words.
 
     `scores` (words,) add up to the score of the regression; `unlike` (words,) is d_c of
     the most similar example of a word, infinite if the cue tells of none.
@@ -98,12 +98,13 @@ class Examples:
         *,
         denied: Iterable[View] = (),
     ) -> None:
-        """Examples from these views; `labels` are their words, as answers have them.
+        """Take examples from these views; `labels` are their words, in the order of
+        answers.
 
         `denied` are views that the words do not hold of. What examples of the same
         kernels worked out before is taken over.
         """
-        compared = _compared(views, labels)
+        compared = _compared_views(views, labels)
         taught = [view for some in compared.values() for view in some]
         against = _against(denied, labels)
         self._views = [*taught, *(view for some in against for view in some)]
@@ -129,7 +130,8 @@ class Examples:
         self._weights = self._fit(counts, old, before)
 
     def likeness(self, traits: Traits) -> Likeness:
-        """What each cue says of a thing with these traits; the unknown says nothing."""
+        """What each cue says of a thing with these traits; unknown traits say
+        nothing."""
         told = [it for it in self._blocks if it.tells_of(traits)]
         apart = {it.cue: it.apart(traits[it.cue][None])[0] for it in told}
         told_of = max(sum(it.weight for it in told), 1e-9)
@@ -147,7 +149,7 @@ class Examples:
         )
 
     def nearest(self, traits: Traits, column: int) -> View | None:
-        """The example of a word that is most like a thing with these traits.
+        """The example of a word that is most similar to a thing with these traits.
 
         None if no cue tells both of the thing and of an example.
         """
@@ -164,7 +166,7 @@ class Examples:
         return self._views[int(known[np.argmax(alike[known] / shared[known])])]
 
     def _places_in(self, old: Examples | None) -> Places:
-        """The numbers (n,) that the examples had among others; -1 is new."""
+        """The former numbers (n,) of the examples; -1 for a new one."""
         there = {} if old is None else {view: i for i, view in enumerate(old._views)}
         return np.array([there.get(view, -1) for view in self._views], np.intp)
 
@@ -181,7 +183,7 @@ class Examples:
         return kernel
 
     def _measured_like(self, old: Examples) -> bool:
-        """Whether the cues have vectors of the same lengths, so that K can be kept."""
+        """Do the cues have vectors of the same lengths, so that K can be reused?"""
         before = {it.cue: it.length for it in old._blocks}
         return all(before.get(it.cue, it.length) == it.length for it in self._blocks)
 
@@ -198,7 +200,7 @@ class Examples:
     def _fit(
         self, counts: NDArray[np.intp], old: Examples | None, before: Places
     ) -> Numbers:
-        """α (n + 1, words), the last row that of what was never taught."""
+        """The weights α (n + 1, words); the last row belongs to everything untaught."""
         size = self._taught
         system = np.full((size + 1, size + 1), _ELSE)
         system[:size, :size] = self._kernel[:size, :size]
@@ -206,7 +208,7 @@ class Examples:
         system[np.arange(size), np.arange(size)] += _RIDGE * excess
         system[size, size] = 1 + _ELSE_RIDGE
         if size == len(counts) > _SINGLE:
-            self._inverse = _inverted(system, old, before[:size])
+            self._inverse = _invert(system, old, before[:size])
             rests = self._inverse.sum(axis=1, keepdims=True)
             alone = np.asarray(2 * self._inverse[:, :size] - rests, np.float64)
         else:
@@ -216,7 +218,7 @@ class Examples:
         return alone if not len(self._opposed) else self._oppose(alone, system)
 
     def _oppose(self, alone: Numbers, system: Numbers) -> Numbers:
-        """α when what was denied counts too: (all examples + 1, words)."""
+        """The weights α (all examples + 1, words) with negative examples included."""
         size, denials = self._taught, len(self._opposed)
         border = np.full((size + 1, denials), _ELSE)
         border[:size] = self._kernel[:size, size:]
@@ -226,15 +228,17 @@ class Examples:
             else self._inverse @ border
         )
         among = self._kernel[size:, size:] + _RIDGE * np.eye(denials)
-        weights, against = opposed(alone, through, border, among, self._opposed)
+        weights, against = weights_with_denials(
+            alone, through, border, among, self._opposed
+        )
         return np.concatenate([weights[:-1], against, weights[-1:]])
 
 
-def _inverted(system: Numbers, old: Examples | None, before: Places) -> Numbers:
-    """(K + λ)⁻¹, from what it was before if D was 1 then as well."""
+def _invert(system: Numbers, old: Examples | None, before: Places) -> Numbers:
+    """Compute (K + λ)⁻¹, by an update if the former examples have an inverse."""
     if old is None or old._inverse is None:
         return np.asarray(np.linalg.inv(system), np.float64)
-    return updated(old._inverse, system, np.append(before, old._taught))
+    return update_inverse(old._inverse, system, np.append(before, old._taught))
 
 
 class _Block:
@@ -251,7 +255,8 @@ class _Block:
         return self.length == len(_vector(traits, self.cue))
 
     def apart(self, others: NDArray[np.float32]) -> Numbers:
-        """How unlike (m, n) others (m, k) are to the rows, infinite if unknown."""
+        """The dissimilarity (m, n) of others (m, k) to the rows; infinite if
+        unknown."""
         squares = (others**2).sum(axis=1)[:, None] + self._squares
         apart = np.maximum(squares - 2 * (others @ self.rows.T), 0) / self._width
         return np.where(self.known > 0, apart.astype(np.float64), np.inf)
@@ -279,7 +284,7 @@ def _rows(
 
 
 def _vector(traits: Traits, cue: str) -> Vector:
-    """What a cue tells; nothing where it is unknown, or so large that it is no measure.
+    """The vector of a cue; empty if it is unknown, or too large to be a measurement.
 
     A memory may have come from elsewhere.
     """
@@ -287,19 +292,19 @@ def _vector(traits: Traits, cue: str) -> Vector:
     return vector if np.abs(vector).max(initial=0) < _HUGE else _NOTHING
 
 
-def _compared(
+def _compared_views(
     views: Iterable[View], labels: Sequence[str]
 ) -> Mapping[str, Sequence[View]]:
-    """The views of each word that are compared."""
+    """Choose the views of each word that are compared."""
     of: dict[str, list[View]] = {label: [] for label in labels}
     for view in views:
         of[view.label].append(view)
     most = int(np.clip(_EXAMPLES // max(len(labels), 1), _LEAST, _MOST))
-    return {label: _chosen(some, most) for label, some in of.items()}
+    return {label: _choose_views(some, most) for label, some in of.items()}
 
 
-def _chosen(views: Sequence[View], most: int) -> Sequence[View]:
-    """At most so many: half of them the newest, the others of any age."""
+def _choose_views(views: Sequence[View], most: int) -> Sequence[View]:
+    """Choose at most `most` views: half of them the newest, the rest at random."""
     if len(views) <= most:
         return views
     newest = views[len(views) - most // 2 :]
@@ -308,7 +313,7 @@ def _chosen(views: Sequence[View], most: int) -> Sequence[View]:
 
 
 def _against(denied: Iterable[View], labels: Sequence[str]) -> Sequence[Sequence[View]]:
-    """The views denied of each word, of many the newest."""
+    """The newest views that were denied of each word."""
     of: dict[str, list[View]] = {label: [] for label in labels}
     for view in denied:
         of.get(view.label, []).append(view)
@@ -316,5 +321,5 @@ def _against(denied: Iterable[View], labels: Sequence[str]) -> Sequence[Sequence
 
 
 def _lot(key: Key) -> bytes:
-    """The place of a key in an order of chance that is the same everywhere."""
+    """The place of a key in a random order that is the same on every machine."""
     return blake2b(repr(key).encode(), digest_size=8).digest()

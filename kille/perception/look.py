@@ -1,7 +1,7 @@
-"""A look: some consecutive frames, and the things that stay in view in them.
+"""A look: some consecutive frames, and the things that stay in view throughout.
 
 Features are extracted, and traits measured, when they are first asked for, so that a
-look costs what its segmentation costs and only what is attended to is described.
+look costs no more than its segmentation, and only things attended to are described.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ class Scans(Sequence[Features]):
 
     def __init__(self, sightings: Sequence[Sighting]) -> None:
         self.sightings = tuple(sightings)
-        # Kept by no cycle of references: a look goes as soon as it is let go.
-        self._extracted = cache(partial(_extracted, self.sightings))
+        # No cycle of references, so that a look is freed as soon as it is dropped.
+        self._extract_features = cache(partial(_extract_features, self.sightings))
 
     def __len__(self) -> int:
         return len(self.sightings)
@@ -54,10 +54,10 @@ class Scans(Sequence[Features]):
     def __getitem__(self, index: int | slice) -> Features | tuple[Features, ...]:
         if isinstance(index, slice):
             return tuple(self[i] for i in range(*index.indices(len(self))))
-        return self._extracted(range(len(self))[index])
+        return self._extract_features(range(len(self))[index])
 
 
-def _extracted(sightings: Sequence[Sighting], index: int) -> Features:
+def _extract_features(sightings: Sequence[Sighting], index: int) -> Features:
     return features_of(*sightings[index])
 
 
@@ -87,6 +87,7 @@ def look(
 
 
 def _percept(track: Sequence[Sighting]) -> Percept:
+    """The percept of a thing from its sightings, the first of which is measured."""
     frame, region = track[0]
     return Percept(region, Scans(track), partial(measured, frame, region), frame)
 
@@ -99,7 +100,7 @@ def _distinct(frames: Sequence[Frame]) -> list[Frame]:
 def _track(
     region: Region, frames: Sequence[Frame], scenes: Callable[[int], Scene]
 ) -> list[Sighting]:
-    """The region and what it is in each later frame, where it is found again.
+    """Follow a region through the later frames: its sightings, where it is found again.
 
     Later frames are taken apart if something has moved there; what stays where it is
     has not changed its outline either. The first few are, so that a flicker is found,
@@ -120,7 +121,7 @@ def _track(
 
 
 def _is_still(region: Region, before: Frame, after: Frame) -> bool:
-    """Whether the depth under the region is what it was."""
+    """Is the depth under the region unchanged between two frames?"""
     left, top, right, bottom = region.box
     inside = region.mask[top:bottom, left:right]
     window = np.s_[top:bottom, left:right]
@@ -135,26 +136,26 @@ def _is_still(region: Region, before: Frame, after: Frame) -> bool:
 def _focus(
     frames: Sequence[Frame], pointed: Sighting | Mask | tuple[int, int] | None
 ) -> list[list[Sighting]]:
-    """The track of what the tutor points at, or no track."""
+    """The track of the thing that the tutor points at, or no track."""
     match pointed:
         case None:
             return []
         case (Frame() as earlier, Region() as region):
-            return [_followed(region, [earlier, *frames])[1:]]
+            return [_follow(region, [earlier, *frames])[1:]]
         case (int(u), int(v)):
             found = region_at(frames[0], (u, v))
         case mask:
             found = region_of(frames[0], mask) if mask.any() else None
-    return [] if found is None else [_followed(found, frames)]
+    return [] if found is None else [_follow(found, frames)]
 
 
-def _followed(region: Region, frames: Sequence[Frame]) -> list[Sighting]:
-    """The region moved along with what it shows, from frame to frame."""
+def _follow(region: Region, frames: Sequence[Frame]) -> list[Sighting]:
+    """Follow a region from frame to frame by matching its picture."""
     track = [(frames[0], region)]
     for frame in frames[1:]:
         last_frame, last = track[-1]
         right, down = _motion(last_frame, frame, last.box)
-        track.append((frame, region_of(frame, _moved(last.mask, right, down))))
+        track.append((frame, region_of(frame, _shift_mask(last.mask, right, down))))
     return track
 
 
@@ -173,7 +174,7 @@ def _motion(before: Frame, after: Frame, box: Box) -> tuple[int, int]:
     return left + x - box.left, top + y - box.top
 
 
-def _moved(mask: Mask, right: int, down: int) -> Mask:
+def _shift_mask(mask: Mask, right: int, down: int) -> Mask:
     by = np.array([[1, 0, right], [0, 1, down]], np.float32)
     moved = cv2.warpAffine(mask.astype(np.uint8), by, mask.shape[::-1], flags=0)
     return moved > 0

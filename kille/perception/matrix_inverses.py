@@ -1,9 +1,9 @@
-"""The inverse of a matrix of which only some rows and columns are new.
+"""Update the inverse of a matrix in which only some rows and columns are new.
 
-With A the part that stayed, A⁻¹ is had from the old inverse, and from it the new one,
-both by the Schur complement. This takes about n² operations for each row that came or
-went, where a new inverse takes n³. Source: Hager 1989, "Updating the inverse of a
-matrix".
+With A the part that stayed, A⁻¹ is computed from the old inverse, and the new inverse
+from A⁻¹, both by the Schur complement. This takes about n² operations for each row
+added or removed, where a new inverse takes n³. Source: Hager 1989, "Updating the
+inverse of a matrix".
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ Numbers = NDArray[np.float64]
 Places = NDArray[np.intp]
 
 
-def updated(inverse: Numbers, matrix: Numbers, before: Places) -> Numbers:
-    """The inverse of a matrix (n, n), from that (m, m) of what it was before.
+def update_inverse(inverse: Numbers, matrix: Numbers, before: Places) -> Numbers:
+    """Invert a matrix (n, n), given the inverse (m, m) of its former state.
 
     `before` (n,) says where each row and its column were then; -1 is new.
 
     >>> old = np.diag([2.0, 4.0])
     >>> new = np.diag([4.0, 5.0])
-    >>> updated(np.linalg.inv(old), new, np.array([1, -1])).tolist()
+    >>> update_inverse(np.linalg.inv(old), new, np.array([1, -1])).tolist()
     [[0.25, 0.0], [0.0, 0.2]]
     """
     stayed, new = np.flatnonzero(before >= 0), np.flatnonzero(before < 0)
-    part = _left(inverse, before[stayed])
+    part = _inverse_of_part(inverse, before[stayed])
     if not len(new):
         return part
     right, below = matrix[np.ix_(stayed, new)], matrix[np.ix_(new, stayed)]
@@ -41,7 +41,7 @@ def updated(inverse: Numbers, matrix: Numbers, before: Places) -> Numbers:
     return whole
 
 
-def _left(inverse: Numbers, stayed: Places) -> Numbers:
+def _inverse_of_part(inverse: Numbers, stayed: Places) -> Numbers:
     """The inverse of the part of the matrix that stayed, in the order given."""
     gone = np.setdiff1d(np.arange(len(inverse)), stayed)
     part = inverse[np.ix_(stayed, stayed)]

@@ -1,4 +1,4 @@
-"""The learners by name, as they take part in comparisons: the paper's, ours, baselines.
+"""The learners by name, for comparisons: the paper's, ours, and baselines.
 
 Each name gives a learner that has learned nothing. `kille` is the paper's own way in
 both lists, `default` is what the robot uses, and `embedding` the same with a pretrained
@@ -23,7 +23,8 @@ __all__ = ["OBJECTS", "RELATIONS"]
 
 
 def _with_embedding() -> Learner[Percept]:
-    """MissingExtraError without the packages of `kille[embedding]`."""
+    """Make the learner with embeddings; MissingExtraError without
+    `kille[embedding]`."""
     return ObjectMemory(weighed=weighing("embedding"), cues=with_embedding())
 
 

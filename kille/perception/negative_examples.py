@@ -1,4 +1,5 @@
-"""What was denied of a word, in the regression that tells the words apart.
+"""Negative examples: lessons that deny a word, in the regression that tells words
+apart.
 
 "This is not a cup" is an example against `cup` alone. For this word, and for no other,
 the system has a row more, with the target -1:
@@ -28,16 +29,17 @@ DENIED = -1.0
 """The target where a word was denied."""
 
 
-def opposed(
+def weights_with_denials(
     alone: Numbers, through: Numbers, border: Numbers, among: Numbers, words: Places
 ) -> tuple[Numbers, Numbers]:
-    """The weights (n, w) of the examples for all words, and those (m, w) of denials.
+    """The weights (n, w) of the examples for all words, and those (m, w) of the
+    negative examples.
 
     `alone` (n, w) is α, `border` (n, m) is B, `through` (n, m) is A⁻¹ B, `among` (m, m)
     is C, and `words` (m,) are the columns of the words that were denied.
 
     >>> one = np.ones((1, 1))
-    >>> opposed(0.5 * one, 0.5 * one, one, 1.5 * one, np.array([0]))
+    >>> weights_with_denials(0.5 * one, 0.5 * one, one, 1.5 * one, np.array([0]))
     (array([[1.25]]), array([[-1.5]]))
     """
     weights, against = alone.copy(), np.zeros((len(words), alone.shape[1]))

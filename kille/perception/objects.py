@@ -1,6 +1,6 @@
-"""Object words: what things are called, told from their features and their traits.
+"""Object words: what things are called, learned from their features and traits.
 
-Two kinds of witnesses are heard. Features vote, each for the word of its nearest
+Two kinds of evidence are combined. Features vote, each for the word of its nearest
 learned descriptor: so the very thing that was shown is known again. Traits, such as
 colours, size and form, are compared with those of examples: so a new cup is known as a
 cup. `kille.perception.evidence` says how they are weighed, and what is left for what
@@ -56,7 +56,7 @@ class ObjectMemory:
         cues: Mapping[str, Cue] = CUES,
         builder: Builder | None = None,
     ) -> None:
-        """The memory that was taught these views in this order.
+        """A memory that has been taught these views in this order.
 
         `denied` are views of what their words do not hold of.
         """
@@ -70,19 +70,19 @@ class ObjectMemory:
             self.deny(view)
 
     def copy(self) -> ObjectMemory:
-        """Another memory that knows the same; either learns without the other."""
+        """A copy that knows the same; either learns without the other."""
         twin = object.__new__(ObjectMemory)
         twin.become(self)
         return twin
 
     def become(self, other: ObjectMemory) -> None:
-        """Know what the other knows and nothing else; either goes on by itself."""
+        """Take over all that the other knows; afterwards either learns by itself."""
         self.__dict__.update(other.__dict__)
         self._index, self._denied = other._index.copy(), dict(other._denied)
 
     @property
     def views(self) -> tuple[View, ...]:
-        """All that was learned, in order, but for what was denied."""
+        """All views learned, in order, without those denied."""
         return tuple(self._index.views.values())
 
     @property
@@ -96,40 +96,42 @@ class ObjectMemory:
         return self._index.labels
 
     def learn_one(self, x: Percept, label: str, *, key: Key | None = None) -> None:
-        """Take the percept as an instance of it; ValueError if the key is taken."""
+        """Learn that the word applies to the percept; ValueError if the key is
+        taken."""
         self.learn(self.view_of(x, label, key=self._own_key() if key is None else key))
 
     def deny_one(self, x: Percept, label: str, *, key: Key | None = None) -> None:
-        """Take the percept as no instance of it; ValueError if the key is taken.
+        """Learn that the word does not apply to the percept; ValueError if the key is
+        taken.
 
         A word that was only denied is not known.
         """
         self.deny(self.view_of(x, label, key=self._own_key() if key is None else key))
 
     def learn(self, view: View) -> None:
-        """Take a view as `view_of` makes it; ValueError if its key is taken."""
+        """Learn a view made by `view_of`; ValueError if its key is taken."""
         self._require_free(view.key)
         self._index.learn(view)
         self._examples = None
 
     def deny(self, view: View) -> None:
-        """Take a view of what its word does not hold of; ValueError like `learn`."""
+        """Learn a view that its word does not apply to; ValueError as for `learn`."""
         self._require_free(view.key)
         self._denied[view.key] = view
         self._examples = None
 
     def view_of(self, x: Percept, label: str, *, key: Key) -> View:
-        """What is learned from a lesson: the features kept of it, and its traits."""
+        """What a lesson stores: the features kept of the percept, and its traits."""
         return View(key, label, kept_features(x).descriptors, self.traits_of(x))
 
     def forget(self, key: Key) -> None:
-        """Be as if this had never been learned; KeyError if it was not."""
+        """Undo a lesson, as if it had never been given; KeyError if there was none."""
         if self._denied.pop(key, None) is None:
             self._index.forget(key)
         self._examples = None
 
     def forget_word(self, label: str) -> None:
-        """Be as if the word had never been learned; KeyError if it was not."""
+        """Undo all lessons in a word; KeyError if there were none."""
         every = (*self.views, *self.denied)
         keys = [view.key for view in every if view.label == label]
         if not keys:
@@ -138,11 +140,11 @@ class ObjectMemory:
             self.forget(key)
 
     def predict_proba_one(self, x: Percept) -> dict[str, float]:
-        """The degree of each learned word for what is seen; {} if nothing is."""
+        """The degree of each learned word for the percept; {} if nothing is seen."""
         return self.evidence(x).degrees()
 
     def evidence(self, x: Percept) -> Evidence:
-        """What each cue says for each word; of no words, if nothing is seen."""
+        """What each cue adds for each word; no words if nothing is seen."""
         query, traits = descriptors_of(x.scans), self.traits_of(x)
         labels = self.labels
         if not labels or not (traits or len(query)):
@@ -156,7 +158,7 @@ class ObjectMemory:
         return self._weighing.evidence(labels, self._likeness(traits), cast)
 
     def traits_of(self, x: Percept) -> Traits:
-        """The traits of the percept, and those of our own cues that it lacks."""
+        """The percept's traits, and those of this memory's own cues that it lacks."""
         lacking = {name: cue for name, cue in self._cues.items() if name not in CUES}
         if not lacking or x.frame is None:
             return x.traits
@@ -165,7 +167,7 @@ class ObjectMemory:
         return {**x.traits, **_MORE[x]}
 
     def nearest(self, x: Percept, label: str) -> View | None:
-        """The remembered view of a word that is most like what is seen, by its traits.
+        """The stored view of a word whose traits are most like the percept's.
 
         Where no trait tells, by the features of the newest ones. None if nothing does;
         KeyError for a word that was not learned.
@@ -173,7 +175,7 @@ class ObjectMemory:
         labels = self.labels
         if label not in labels:
             raise KeyError(label)
-        found = self._compared().nearest(self.traits_of(x), labels.index(label))
+        found = self._current_examples().nearest(self.traits_of(x), labels.index(label))
         return self._nearest_in_features(x, label) if found is None else found
 
     def _nearest_in_features(self, x: Percept, label: str) -> View | None:
@@ -188,9 +190,9 @@ class ObjectMemory:
         return own[-_RECALLED:][int(np.argmin(apart))]
 
     def _likeness(self, traits: Traits) -> Likeness:
-        return self._compared().likeness(traits)
+        return self._current_examples().likeness(traits)
 
-    def _compared(self) -> Examples:
+    def _current_examples(self) -> Examples:
         if self._examples is None:
             self._examples = Examples(
                 self.views,
@@ -211,23 +213,24 @@ class ObjectMemory:
 
 
 _MORE: WeakKeyDictionary[Percept, Traits] = WeakKeyDictionary()
-"""Traits beyond the usual ones, each measured once for a percept."""
+"""Traits of additional cues, each measured once for a percept."""
 
 _KEPT: WeakKeyDictionary[Percept, Features] = WeakKeyDictionary()
-"""What is kept of a percept, which is asked for whenever it is taught."""
+"""The features kept of each percept, computed once."""
 
 
 def kept_features(x: Percept) -> Features:
-    """What is kept of a lesson: each feature once, from some scans of the look.
+    """The features that a lesson stores: each one once, from some scans of the look.
 
     The first scan is kept whole, and of three later ones what the earlier lack.
     """
     if x not in _KEPT:
-        _KEPT[x] = _kept(x)
+        _KEPT[x] = _merge_scans(x)
     return _KEPT[x]
 
 
-def _kept(x: Percept) -> Features:
+def _merge_scans(x: Percept) -> Features:
+    """Merge the features of a few scans, leaving out those seen in an earlier scan."""
     count = len(x.scans)
     chosen = sorted(
         {round(i) for i in np.linspace(0, count - 1, min(count, _KEPT_SCANS))}
@@ -245,6 +248,7 @@ def _kept(x: Percept) -> Features:
 
 
 def _is_new(more: NDArray[np.uint8], kept: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Which descriptors (n,) are far from all those kept so far?"""
     apart = distances(rooted(more), rooted(kept)).min(axis=1, initial=np.inf)
     new: NDArray[np.bool_] = apart > _NEW
     return new

@@ -21,8 +21,8 @@ _MARK, _DOT = (255, 96, 0), (0, 200, 90)
 _FONT = cv2.FONT_HERSHEY_SIMPLEX
 
 
-def sheet(rows: Sequence[tuple[str, Look, int]]) -> Colour:
-    """A sheet (H, W, 3) RGB with a row for each title, look and number of a thing."""
+def picture_sheet(rows: Sequence[tuple[str, Look, int]]) -> Colour:
+    """A sheet (H, W, 3) RGB with a row for each title, look, and number of a thing."""
     return np.vstack([_row(title, look, number) for title, look, number in rows])
 
 
@@ -45,12 +45,12 @@ def write_picture(path: Path, picture: Colour) -> None:
 def _row(title: str, look: Look, number: int) -> Colour:
     percept = look.percepts[number - 1]
     pictures = [
-        _marked(look.frame, percept, number),
+        _mark_region(look.frame, percept, number),
         _depth_picture(look.frame),
-        _alone(look.frame, percept),
-        _featured(look.frame, percept),
+        _cut_out_region(look.frame, percept),
+        _draw_features(look.frame, percept),
     ]
-    strip = [piece for picture in pictures for piece in (_gap(), _fitted(picture))]
+    strip = [piece for picture in pictures for piece in (_gap(), _fit_cell(picture))]
     pictures_row = np.hstack([*strip, _gap()])
     heading = np.full((_TITLE, pictures_row.shape[1], 3), _PAPER, np.uint8)
     text = f"{title}   ({len(percept.scans[0].descriptors)} features)"
@@ -62,8 +62,8 @@ def _gap() -> Colour:
     return np.full((_HEIGHT, _MARGIN, 3), _PAPER, np.uint8)
 
 
-def _fitted(picture: Colour) -> Colour:
-    """The picture scaled into the size of a cell, in its own proportions."""
+def _fit_cell(picture: Colour) -> Colour:
+    """Scale the picture to fit a cell, keeping its proportions."""
     height, width = picture.shape[:2]
     scale = min(_WIDTH / width, _HEIGHT / height)
     size = max(1, round(width * scale)), max(1, round(height * scale))
@@ -75,14 +75,14 @@ def _fitted(picture: Colour) -> Colour:
     return cell
 
 
-def _marked(frame: Frame, percept: Percept, number: int) -> Colour:
+def _mark_region(frame: Frame, percept: Percept, number: int) -> Colour:
     picture = frame.colour.copy()
     _outline(picture, percept.region.mask, percept.region.box, str(number))
     return picture
 
 
 def _outline(picture: Colour, mask: Mask, box: Box, label: str) -> None:
-    """Draws the outline of the mask, and the label at its upper left."""
+    """Draw the outline of the mask, and the label at its upper left."""
     edges, _ = cv2.findContours(
         mask.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
     )
@@ -95,16 +95,16 @@ def _outline(picture: Colour, mask: Mask, box: Box, label: str) -> None:
 
 
 def _depth_picture(frame: Frame) -> Colour:
-    """Depth in colours; a picture that says so where there is none."""
+    """Depth in colours, or a picture that says "no depth"."""
     if frame.depth is None or not np.isfinite(frame.depth).any():
         blank = np.full_like(frame.colour, 235)
         at = (blank.shape[1] // 2 - 40, blank.shape[0] // 2)
         cv2.putText(blank, "no depth", at, _FONT, 0.5, _INK, 1, cv2.LINE_AA)
         return blank
-    return _coloured(frame.depth)
+    return _colour_depth(frame.depth)
 
 
-def _coloured(depth: Depth) -> Colour:
+def _colour_depth(depth: Depth) -> Colour:
     known = np.isfinite(depth)
     near, far = np.percentile(depth[known], (2, 98))
     span = max(float(far - near), 1e-3)
@@ -117,15 +117,15 @@ def _coloured(depth: Depth) -> Colour:
     return picture
 
 
-def _alone(frame: Frame, percept: Percept) -> Colour:
-    """The region on white, cut to its box."""
+def _cut_out_region(frame: Frame, percept: Percept) -> Colour:
+    """The region on white, cropped to its box."""
     mask, box = percept.region.mask, percept.region.box
     picture: Colour = np.where(mask[..., None], frame.colour, np.uint8(255))
     return picture[box.top : box.bottom, box.left : box.right]
 
 
-def _featured(frame: Frame, percept: Percept) -> Colour:
-    """The region's box in grey, with a dot at each feature of the first scan."""
+def _draw_features(frame: Frame, percept: Percept) -> Colour:
+    """The region's box in grey, with a circle at each feature of the first scan."""
     box, features = percept.region.box, percept.scans[0]
     cut = frame.colour[box.top : box.bottom, box.left : box.right]
     grey = cv2.cvtColor(cut, cv2.COLOR_RGB2GRAY)
@@ -139,5 +139,5 @@ def _featured(frame: Frame, percept: Percept) -> Colour:
 
 
 def _spots(features: Features, box: Box) -> list[tuple[float, float]]:
-    """The features' pixels, from the corner of the box."""
+    """The pixels of the features, relative to the corner of the box."""
     return [(float(u - box.left), float(v - box.top)) for u, v in features.pixels]

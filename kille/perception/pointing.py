@@ -1,4 +1,4 @@
-"""Pointing: the region a tutor means by a pixel."""
+"""Pointing: find the region that a tutor means by a pixel."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def region_at(frame: Frame, pixel: tuple[int, int]) -> Region | None:
 
 
 def _miss(mask: Mask, pixel: tuple[int, int]) -> float:
-    """Pixels from this one to the mask."""
+    """The distance in pixels from this pixel to the mask."""
     rows, columns = np.nonzero(mask)
     if not rows.size:
         return float("inf")

@@ -17,19 +17,19 @@ import numpy as np
 
 from kille.perception.foreground import guess
 from kille.perception.geometry import CAMERA_UP, points_in
-from kille.perception.surfaces.merging import Rounds, fitted, merged
+from kille.perception.surfaces.merging import Rounds, default_rounds, merge_patches
 from kille.perception.surfaces.patches import (
-    filled,
-    numbered,
+    fill_labels,
     patches_of,
+    renumber_labels,
     surface_of,
 )
 from kille.perception.surfaces.relief import (
     Labels,
     Relief,
     jumps,
+    protruding_pixels,
     relief_of,
-    standing,
     table_in,
     window_of,
 )
@@ -55,7 +55,7 @@ _RIM = 3  # pixels lost at the edges of a piece and given back
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """One frame taken apart: its regions, nearest first, and which way is up."""
+    """A segmented frame: its regions, nearest first, and the direction that is up."""
 
     regions: tuple[Region, ...]
     up: Direction
@@ -65,26 +65,26 @@ Segmentation = Callable[[Frame], Scene]
 
 
 def segment(frame: Frame) -> Scene:
-    """The things in view, nearest first; things that touch are taken apart.
+    """The things in view, nearest first; things that touch are separated.
 
     Without depth there is one region, a guess, whose place is unknown. Without a table,
     things are the pieces that are near and not as large as a wall.
     """
-    return _segmented(frame, partial(_things, rounds=fitted()))
+    return _segment_by(frame, partial(_things, rounds=default_rounds()))
 
 
 def merging_by(rounds: Rounds) -> Segmentation:
-    """The same as `segment`, with a merge that was fitted otherwise."""
-    return partial(_segmented, labeller=partial(_things, rounds=rounds))
+    """A segmentation like `segment` that merges surfaces by these rounds."""
+    return partial(_segment_by, labeller=partial(_things, rounds=rounds))
 
 
 def plainly(frame: Frame) -> Scene:
     """The connected pieces in view, nearest first; things that touch are one piece."""
-    return _segmented(frame, _pieces)
+    return _segment_by(frame, _pieces)
 
 
 SEGMENTATIONS: Mapping[str, Segmentation] = {"default": segment, "plain": plainly}
-"""The ways to take a frame apart, by name."""
+"""The ways to segment a frame, by name."""
 
 
 def region_of(frame: Frame, mask: Mask) -> Region:
@@ -95,7 +95,7 @@ def region_of(frame: Frame, mask: Mask) -> Region:
 
 
 def whole(frame: Frame) -> Region:
-    """The whole picture as one region; where it is, is unknown."""
+    """The whole picture as one region, whose place is unknown."""
     height, width = frame.colour.shape[:2]
     return Region(np.ones((height, width), bool), Box(0, 0, width, height), None)
 
@@ -106,7 +106,7 @@ def nearness(region: Region) -> float:
 
 
 def overlap(one: Region, other: Region) -> float:
-    """Pixels in both over pixels in either, from 0 to 1."""
+    """The pixels in both regions divided by those in either, from 0 to 1."""
     left, top = max(one.box.left, other.box.left), max(one.box.top, other.box.top)
     right = min(one.box.right, other.box.right)
     bottom = min(one.box.bottom, other.box.bottom)
@@ -121,17 +121,17 @@ def overlap(one: Region, other: Region) -> float:
 _Labeller = Callable[[Relief, Mask, Plane | None], Labels]
 
 
-def _segmented(frame: Frame, labeller: _Labeller) -> Scene:
+def _segment_by(frame: Frame, labeller: _Labeller) -> Scene:
     relief = relief_of(frame)
     if relief is None:
-        return Scene((_guessed(frame),), CAMERA_UP)
+        return Scene((_guess_region(frame),), CAMERA_UP)
     table = table_in(relief)
-    inside = standing(relief, table)
+    inside = protruding_pixels(relief, table)
     up = CAMERA_UP if table is None else table.up
     if not inside.any():
         return Scene((), up)
     window = window_of(inside)
-    part = relief.cut(window)
+    part = relief.crop(window)
     labels = _large_enough(part, labeller(part, inside[window], table))
     regions = _regions(frame, labels, window, relief.step)
     return Scene(tuple(sorted(regions, key=nearness)), up)
@@ -140,29 +140,29 @@ def _segmented(frame: Frame, labeller: _Labeller) -> Scene:
 def _things(
     relief: Relief, inside: Mask, table: Plane | None, *, rounds: Rounds
 ) -> Labels:
-    """Labels (h, w) of the patches inside, those of one thing put together."""
+    """Label (h, w) the patches inside, with one label for all patches of one thing."""
     if table is None:
         return _pieces(relief, inside, table)
     surface = surface_of(relief)
     patches = patches_of(relief, inside, surface)
-    return merged(patches, relief, surface, table, rounds)
+    return merge_patches(patches, relief, surface, table, rounds)
 
 
 def _pieces(relief: Relief, inside: Mask, table: Plane | None) -> Labels:
-    """Labels (h, w) of the connected pieces inside, cut where the depth jumps."""
+    """Label (h, w) the connected pieces inside, separated where depth jumps."""
     core = (inside & ~jumps(relief.depth)).astype(np.uint8)
     _, labels, stats, _ = cv2.connectedComponentsWithStats(core, connectivity=4)
     kept = stats[:, cv2.CC_STAT_AREA] > _LEAST_PIXELS
     kept[0] = False
-    return filled(numbered(np.asarray(labels, np.int32), kept), inside)
+    return fill_labels(renumber_labels(np.asarray(labels, np.int32), kept), inside)
 
 
 def _large_enough(relief: Relief, labels: Labels) -> Labels:
-    """The same pieces without those too small to be a thing."""
+    """Remove the pieces that are too small to be a thing."""
     area = np.bincount(labels.ravel(), relief.areas().ravel())
     kept = (area > _LEAST_AREA) & (np.bincount(labels.ravel()) > _LEAST_PIXELS)
     kept[0] = False
-    return numbered(labels, kept)
+    return renumber_labels(labels, kept)
 
 
 def _regions(
@@ -181,8 +181,8 @@ def _regions(
     return regions
 
 
-def _guessed(frame: Frame) -> Region:
-    """What may be in front in a picture without depth."""
+def _guess_region(frame: Frame) -> Region:
+    """Guess the region of the thing in a picture without depth."""
     mask = guess(frame)
     if not mask.any():
         return whole(frame)
@@ -191,7 +191,7 @@ def _guessed(frame: Frame) -> Region:
 
 
 def _place(frame: Frame, mask: Mask, box: Box) -> Point | None:
-    """The median of the points under the mask; None if none was measured."""
+    """The median of the points under the mask; None if there are none."""
     points = points_in(frame, mask, box)
     if not len(points):
         return None

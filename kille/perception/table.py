@@ -1,4 +1,4 @@
-"""The table: the upright plane most readings lie on, and how far it reaches.
+"""The table: the upright plane that most readings lie on, and its extent.
 
 A plane is kept as n with n · X = 1 for its points X in metres (camera axes). That is
 linear in the inverse depth which the sensor measures, 1/z = n · (right, down, 1), and
@@ -62,7 +62,7 @@ class Plane:
 
 
 def find_table(rays: Rays, depth: Array) -> Plane | None:
-    """The upright plane that most readings lie on, or None if there is none.
+    """The upright plane that most readings lie on; None if there is none.
 
     Planes through three readings each are tried, and the best one is fitted again to
     all readings on it. Which are tried is seeded: the same depth, the same plane.
@@ -84,7 +84,7 @@ def find_table(rays: Rays, depth: Array) -> Plane | None:
 
 
 def reach_of(table: Plane, rays: Rays, depth: Array, flat: Mask) -> Mask:
-    """The pixels (h, w) whose point stands over the part of the table that was seen.
+    """The pixels (h, w) whose points lie over the visible part of the table.
 
     That part is the convex hull of the flat patches, laid out on the table. Where the
     table leaves the picture at the bottom it goes on, towards the viewer.
@@ -119,7 +119,7 @@ def _best_of_three(
 
 
 def _refit(n: Vectors, directions: Vectors, inverse: Vectors) -> Vectors | None:
-    """The plane fitted to the readings on it; None if these are too few for a table."""
+    """Fit the plane to the readings on it; None if too few for a table lie on it."""
     on = np.abs(directions @ n - inverse) < _TOLERANCE
     if on.sum() < max(3, _LEAST_SHARE * len(inverse)):
         return None
@@ -129,7 +129,7 @@ def _refit(n: Vectors, directions: Vectors, inverse: Vectors) -> Vectors | None:
 
 
 def _large_patches(flat: Mask) -> Mask:
-    """The large connected parts of the flat pixels: what is small is not the table."""
+    """The large connected parts of the flat pixels; small ones are other things."""
     solid = cv2.erode(flat.astype(np.uint8), np.ones((3, 3), np.uint8))
     _, labels, stats, _ = cv2.connectedComponentsWithStats(solid, connectivity=4)
     areas = stats[:, cv2.CC_STAT_AREA].copy()
@@ -139,7 +139,7 @@ def _large_patches(flat: Mask) -> Mask:
 
 
 def _below(table: Plane, rays: Rays, patches: Mask) -> NDArray[np.int32]:
-    """Cells of the table below the picture, under where it leaves the picture."""
+    """The cells of the table just below the picture, where it leaves the picture."""
     columns = np.nonzero(patches[-8:].any(axis=0))[0]
     height = rays.down[-1, 0] - rays.down[0, 0]
     right = rays.right[-1, columns]
@@ -151,7 +151,7 @@ def _below(table: Plane, rays: Rays, patches: Mask) -> NDArray[np.int32]:
 def _cells(
     table: Plane, right: Array, down: Array, depth: Array
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Where points stand on the table, as cells of the grid: across and along."""
+    """The grid cells on the table under these points: across and along."""
     axes = table_axes(table.up).astype(np.float32)
     last = int(2 * _REACH / _CELL) - 1
     across, along = (

@@ -1,7 +1,7 @@
-"""What is kept of a frame as evidence: a thumbnail, and a crop to measure again.
+"""The evidence kept of a frame: a thumbnail, and a crop that can be measured again.
 
-The crop keeps its pixels, so that traits and features can be taken of it when there
-are better ones. Its depth is written as ROS does it (REP 118): 16 bits, millimetres, 0
+The crop keeps its pixels, so that better traits and features can be computed from it
+later. Its depth is written as ROS does it (REP 118): 16 bits, millimetres, 0
 where there was no reading.
 """
 
@@ -28,7 +28,7 @@ _MARK = (255, 96, 0)
 
 
 def evidence_of(frame: Frame, *regions: Region) -> Picture:
-    """The evidence for what was said of these things: one, or target and landmark.
+    """The evidence for a lesson about these things: one, or target and landmark.
 
     >>> frame = Frame(np.zeros((240, 320, 3), np.uint8), None, None, 0.0, {})
     >>> mask = np.zeros((240, 320), np.bool_)
@@ -39,34 +39,35 @@ def evidence_of(frame: Frame, *regions: Region) -> Picture:
     """
     height, width = frame.colour.shape[:2]
     scale = min(1.0, _WIDTH / width, _HEIGHT / height)
-    small = _shrunk(frame.colour, scale)
-    boxes = tuple(_scaled(it.box, scale) for it in regions)
+    small = _shrink(frame.colour, scale)
+    boxes = tuple(_scale_box(it.box, scale) for it in regions)
     crop = _crop(frame, regions[0]) if len(regions) == 1 else None
     return Picture(_jpeg(small, _SMALL), boxes, crop)
 
 
-def restored(crop: Crop, time: float = 0.0) -> tuple[Frame, Region]:
-    """The part of the frame that was kept, as a frame, and the thing in it.
+def restore_crop(crop: Crop, time: float = 0.0) -> tuple[Frame, Region]:
+    """Turn a kept crop back into a frame and the region of the thing in it.
 
     What is measured of them is nearly what was measured when the word was taught.
     ValueError if the pictures of the crop cannot be decoded.
     """
-    colour = decoded(crop.colour)
-    mask: Mask = _read(crop.mask, cv2.IMREAD_GRAYSCALE) > 127
+    colour = decode_picture(crop.colour)
+    mask: Mask = _decode(crop.mask, cv2.IMREAD_GRAYSCALE) > 127
     frame = Frame(colour, _depth(crop), crop.intrinsics, time, {})
     if mask.shape != colour.shape[:2]:
-        raise ValueError(f"a mask {mask.shape} is not that of a crop {colour.shape}")
+        raise ValueError(f"the mask {mask.shape} does not fit the crop {colour.shape}")
     return frame, region_of(frame, mask)
 
 
-def decoded(picture: bytes) -> Colour:
-    """The pixels (H, W, 3) RGB of a JPEG or PNG. ValueError if there are none."""
-    return _read(picture, cv2.IMREAD_COLOR_RGB).astype(np.uint8, copy=False)
+def decode_picture(picture: bytes) -> Colour:
+    """Decode a JPEG or PNG to pixels (H, W, 3) RGB. ValueError if it cannot be
+    decoded."""
+    return _decode(picture, cv2.IMREAD_COLOR_RGB).astype(np.uint8, copy=False)
 
 
-def outlined(picture: Picture) -> Colour:
-    """The frame of a picture with a box around each thing that it is about."""
-    pixels = decoded(picture.frame)
+def outline_things(picture: Picture) -> Colour:
+    """The frame of a picture, with a box around each thing that it is about."""
+    pixels = decode_picture(picture.frame)
     for box in picture.boxes:
         corner = box.right - 1, box.bottom - 1
         cv2.rectangle(pixels, (box.left, box.top), corner, _MARK, 1)
@@ -74,26 +75,26 @@ def outlined(picture: Picture) -> Colour:
 
 
 def _crop(frame: Frame, region: Region) -> Crop | None:
-    """The region with a margin, if there is any of it.
+    """Crop the region with a margin; None if it has no pixels.
 
     It is shrunk where it is larger than any VGA frame.
     """
     if not region.mask.any():
         return None
-    left, top, right, bottom = _kept(frame, region.box)
+    left, top, right, bottom = _crop_box(frame, region.box)
     cut = slice(top, bottom), slice(left, right)
     scale = min(1.0, _LARGEST / (right - left), _LARGEST / (bottom - top))
     mask = region.mask[cut].astype(np.uint8) * 255
     return Crop(
-        _jpeg(_shrunk(frame.colour[cut], scale), _FINE),
-        _png(_shrunk(mask, scale, cv2.INTER_NEAREST)),
+        _jpeg(_shrink(frame.colour[cut], scale), _FINE),
+        _png(_shrink(mask, scale, cv2.INTER_NEAREST)),
         None if frame.depth is None else _png(_levels(frame.depth[cut], scale)),
         _seen_from(frame.intrinsics, left, top, scale),
     )
 
 
-def _kept(frame: Frame, box: Box) -> Box:
-    """What is kept of a frame: the box with a margin.
+def _crop_box(frame: Frame, box: Box) -> Box:
+    """The part of a frame that is kept: the box with a margin.
 
     Of a frame without depth it is all, since what is the thing there was a guess, and
     some cues are of the whole picture.
@@ -126,14 +127,14 @@ def _seen_from(
     )
 
 
-def _scaled(box: Box, scale: float) -> Box:
-    """The box in a picture of another size: a pixel wide and high at least."""
+def _scale_box(box: Box, scale: float) -> Box:
+    """Scale a box; it stays at least one pixel wide and high."""
     left, top = int(box.left * scale), int(box.top * scale)
     right, bottom = round(box.right * scale), round(box.bottom * scale)
     return Box(left, top, max(right, left + 1), max(bottom, top + 1))
 
 
-def _shrunk(
+def _shrink(
     pixels: NDArray[Any], scale: float, how: int = cv2.INTER_AREA
 ) -> NDArray[Any]:
     if scale == 1.0:
@@ -144,8 +145,8 @@ def _shrunk(
 
 
 def _levels(depth: Depth, scale: float) -> NDArray[np.uint16]:
-    """Depth in millimetres; what cannot be told, or lies too far, is 0."""
-    small = _shrunk(depth, scale, cv2.INTER_NEAREST)
+    """Depth in whole millimetres; 0 where it is unknown or too large."""
+    small = _shrink(depth, scale, cv2.INTER_NEAREST)
     with np.errstate(invalid="ignore", over="ignore"):
         steps = np.round(small.astype(np.float64) * _MILLIMETRES)
         told = (steps > 0) & (steps <= np.iinfo(np.uint16).max)
@@ -155,31 +156,31 @@ def _levels(depth: Depth, scale: float) -> NDArray[np.uint16]:
 def _depth(crop: Crop) -> Depth | None:
     if crop.depth is None:
         return None
-    levels = _read(crop.depth, cv2.IMREAD_UNCHANGED).astype(np.float32)
+    levels = _decode(crop.depth, cv2.IMREAD_UNCHANGED).astype(np.float32)
     depth: Depth = np.where(levels > 0, levels / np.float32(_MILLIMETRES), np.nan)
     return depth.astype(np.float32, copy=False)
 
 
-def _read(picture: bytes, flags: int) -> NDArray[Any]:
+def _decode(picture: bytes, flags: int) -> NDArray[Any]:
     try:
         pixels = pictures.decode_picture(np.frombuffer(picture, np.uint8), flags)
     except OSError as error:
-        raise ValueError(f"a picture that was kept is odd: {error.strerror}") from error
+        raise ValueError(f"a kept picture is invalid: {error.strerror}") from error
     if pixels is None:
-        raise ValueError("a picture that was kept cannot be decoded")
+        raise ValueError("a kept picture cannot be decoded")
     return pixels
 
 
 def _jpeg(colour: Colour, quality: int) -> bytes:
     bgr = cv2.cvtColor(np.ascontiguousarray(colour), cv2.COLOR_RGB2BGR)
-    return _encoded(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, quality])
+    return _encode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, quality])
 
 
 def _png(pixels: NDArray[Any]) -> bytes:
-    return _encoded(".png", np.ascontiguousarray(pixels), [])
+    return _encode(".png", np.ascontiguousarray(pixels), [])
 
 
-def _encoded(kind: str, pixels: NDArray[Any], settings: Sequence[int]) -> bytes:
+def _encode(kind: str, pixels: NDArray[Any], settings: Sequence[int]) -> bytes:
     done, encoded = cv2.imencode(kind, pixels, settings)
     if not done:
         raise ValueError(f"a picture {pixels.shape} cannot be encoded as {kind}")

@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.index import NOBODY, Neighbours, Rows, View, distances, rooted
-from kille.perception.index.views import thinned
+from kille.perception.index.views import thin_views
 
 UNTAUGHT = 0.45
-"""The RootSIFT distance to expect of a descriptor of something else."""
+"""The RootSIFT distance to expect to the descriptor of an untaught thing."""
 
 _CHANCE, _CHANCE_POWER = 0.23, 0.65  # a and b
 _SIZE_POWER = 0.5
@@ -30,7 +30,7 @@ _DENIED = 2000  # descriptors of what was denied of a word that are compared
 def votes(
     found: Neighbours, words: int, scans: int, rivalling: Rows | None = None
 ) -> NDArray[np.float64]:
-    """The votes for each of so many words, from the neighbours of all features.
+    """The votes for each of `words` words, from the neighbours of all features.
 
     The same picture under two words: both distances are 0, and so is the weight.
     `rivalling` (n,) are distances that count as if another word had such a descriptor.
@@ -50,7 +50,7 @@ def votes(
 def rivals(
     found: Neighbours, query: Rows, labels: Sequence[str], denied: Sequence[View]
 ) -> Rows | None:
-    """How far each feature (n,) is from what was denied of the word it would vote for.
+    """The distance (n,) from each feature to the nearest denied view of its word.
 
     It is infinite where nothing was; None if nothing was denied of any of the words.
     """
@@ -61,15 +61,15 @@ def rivals(
     apart = np.full(len(query), np.inf, np.float32)
     for label in opposed:
         voting = np.flatnonzero(winner == labels.index(label))
-        against = thinned([it for it in denied if it.label == label], _DENIED)
+        against = thin_views([it for it in denied if it.label == label], _DENIED)
         others = rooted(np.concatenate([it.descriptors for it in against]))
         if len(voting) and len(others):
             apart[voting] = distances(query[voting], others).min(axis=1)
     return apart
 
 
-def counted(found: Neighbours, words: int) -> NDArray[np.intp]:
-    """How many features have their nearest neighbour in each of so many words."""
+def count_votes(found: Neighbours, words: int) -> NDArray[np.intp]:
+    """How many features have their nearest neighbour in each of `words` words."""
     if not found.words.shape[1]:
         return np.zeros(words, np.intp)
     winner, _ = _nearest(found)
@@ -79,7 +79,7 @@ def counted(found: Neighbours, words: int) -> NDArray[np.intp]:
 def beyond_chance(
     cast: NDArray[np.float64], sizes: NDArray[np.intp], features: float
 ) -> NDArray[np.float64]:
-    """How many times what chance gives the votes for each word are.
+    """The votes for each word divided by the votes expected by chance.
 
     `sizes` are the descriptors that each word has in the memory, `features` those of
     one scan.
@@ -94,13 +94,15 @@ def beyond_chance(
 
 
 def _nearest(found: Neighbours) -> tuple[NDArray[np.intp], Rows]:
-    """The word (n,) of the nearest neighbour of each feature, and its distance (n,)."""
+    """The word (n,) of each feature's nearest neighbour, and its distance (n,)."""
     rows = np.arange(len(found.words))
     nearest = found.distances.argmin(axis=1)
     return found.words[rows, nearest], found.distances[rows, nearest]
 
 
 def _nearest_other(found: Neighbours, words: NDArray[np.intp]) -> Rows:
-    """The distance of each feature to the nearest of another word than these (n, 1)."""
+    """Each feature's distance to the nearest descriptor of a word other than these (n,
+    1).
+    """
     others = np.where(found.words == words, np.inf, found.distances)
     return np.asarray(others.min(axis=1, initial=np.inf), np.float32)

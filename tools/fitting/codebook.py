@@ -140,9 +140,9 @@ def _by_chance(frame: Frame, chance: np.random.Generator) -> Iterator[Window]:
 
 def _of_things(frame: Frame) -> Iterator[Window]:
     for mask in frame.outlines.values():
-        framed = Patch(frame, region_of(frame, mask)).framed
-        if framed is not None:
-            yield framed
+        window = Patch(frame, region_of(frame, mask)).window
+        if window is not None:
+            yield window
 
 
 def _some(found: Descriptors, chance: np.random.Generator) -> Descriptors:

@@ -30,7 +30,7 @@ from kille.experiments.results import Table
 from kille.perception.colours import borders
 from kille.perception.colours.borders import AXES, along
 from kille.perception.colours.space import even
-from kille.perception.colours.words import ColourWords, read
+from kille.perception.colours.words import ColourWords, parse_colour_words
 from tools.fitting.edges import agreement, choice, minimise
 from ttr.safety.inputs import read_text
 from ttr.safety.limits import TABLE
@@ -241,7 +241,7 @@ def main(data: Path, out: Path) -> None:
     survey = read_survey(data)
     found = fit_words(survey)
     out.write_text(file_text(found), encoding="utf-8")
-    words = read(found)
+    words = parse_colour_words(found)
     for table in (prediction_table(survey, words), word_table(survey, words)):
         sys.stdout.write(f"\n{table.title}\n{' | '.join(table.columns)}\n")
         for name, *numbers in table.rows:

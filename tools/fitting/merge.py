@@ -39,14 +39,20 @@ from numpy.typing import NDArray
 from kille.experiments.regions import Score, captures, score
 from kille.perception.segment import merging_by
 from kille.perception.surfaces import merging
-from kille.perception.surfaces.merging import Committee, Merger, Rounds, merged, packed
+from kille.perception.surfaces.merging import (
+    Committee,
+    Merger,
+    Rounds,
+    merge_patches,
+    rounds_to_arrays,
+)
 from kille.perception.surfaces.pairs import Pairs, pairs_of
-from kille.perception.surfaces.patch_measures import Vectors, measured
+from kille.perception.surfaces.patch_measures import Vectors, measure_patches
 from kille.perception.surfaces.patches import patches_of, surface_of
 from kille.perception.surfaces.relief import (
     Labels,
+    protruding_pixels,
     relief_of,
-    standing,
     table_in,
     window_of,
 )
@@ -84,17 +90,19 @@ def examples_of(frame: Frame, rounds: Rounds = ()) -> Examples | None:
     table = None if relief is None else table_in(relief)
     if relief is None or table is None:
         return None
-    inside = standing(relief, table)
+    inside = protruding_pixels(relief, table)
     if not inside.any():
         return None
     window = window_of(inside)
-    part, inside = relief.cut(window), inside[window]
+    part, inside = relief.crop(window), inside[window]
     surface = surface_of(part)
     patches = patches_of(part, inside, surface)
-    patches = merged(patches, part, surface, table, rounds)
+    patches = merge_patches(patches, part, surface, table, rounds)
     if patches.max() < 2:
         return None
-    pairs = pairs_of(patches, part, surface, measured(patches, part, surface, table))
+    pairs = pairs_of(
+        patches, part, surface, measure_patches(patches, part, surface, table)
+    )
     counts = _counts(patches, _owners(frame, relief.step)[window])
     owner, size = counts.argmax(axis=1), counts.sum(axis=1)
     pure = counts.max(axis=1) > _PURE * size
@@ -217,7 +225,7 @@ def add_second(data: Path, first: Merger) -> None:
     )
     rounds = first, fit_second(_examples(frames, (first,)))
     path = Path(merging.__file__).with_name(merging.WEIGHTS)
-    arrays: dict[str, Any] = packed(rounds)
+    arrays: dict[str, Any] = rounds_to_arrays(rounds)
     np.savez_compressed(path, **arrays)
     print(f"{len(MORE_HEAPS)} heaps -> {path}")
     way = merging_by(rounds)

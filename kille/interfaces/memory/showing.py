@@ -110,11 +110,13 @@ def _draw(out: Console, picture: Picture) -> None:
 
     if not shows_pictures(out):
         return
-    from kille.perception.thumbnails import decoded, outlined
+    from kille.perception.thumbnails import decode_picture, outline_things
 
     crop = picture.crop
     try:
-        pixels = outlined(picture) if crop is None else decoded(crop.colour)
+        pixels = (
+            outline_things(picture) if crop is None else decode_picture(crop.colour)
+        )
     except ValueError as error:  # it came so from another program
         out.print(f"  {error}", markup=False)
         return

@@ -1,6 +1,6 @@
 """Attributes: words of the tutor's own for how things are, such as "big" or "striped".
 
-What a word speaks of is found out from its lessons; its name is never looked at.
+What a word describes is inferred from its lessons; its name is never looked at.
 """
 
 from kille.perception.attributes.aspects import ASPECTS, Aspect

@@ -1,4 +1,4 @@
-"""Aspects: in what respects a thing may be said to be somehow.
+"""Aspects: the respects in which a word may describe a thing, such as size or texture.
 
 An aspect measures a thing by some of its traits, and has a kernel that says how far
 what is said of one thing holds of another:
@@ -37,7 +37,7 @@ _FARTHEST = 2.5  # deviations: what is farther off counts as so far
 
 @dataclass(frozen=True)
 class Aspect:
-    """One respect in which things are somehow.
+    """One respect in which things are described.
 
     `measure` gives numbers (k,) or None for what cannot be told, `kernel` how far two
     rows of such numbers, (m, k) and (n, k), have it in common, (m, n). `prior` is how
@@ -51,7 +51,7 @@ class Aspect:
 
 
 def _vector(traits: Traits, cue: str) -> Vector | None:
-    """A trait; None where it is unknown, or no measure: a memory may be another's."""
+    """A trait; None if it is unknown or no valid measurement."""
     vector = traits.get(cue)
     if vector is None or len(vector) != CUES[cue].length:
         return None
@@ -102,7 +102,7 @@ def _of_degree(
 
 
 def _shares(colour: Vector) -> Numbers:
-    """How much of a thing has which colour, as the cue `colour` counts: (L, a, b)."""
+    """The share of each colour (L, a, b) in a thing, from the cue `colour`."""
     shares = colour.astype(np.float64).reshape(LIGHTS, HUES, HUES) ** 2
     return np.asarray(shares / max(shares.sum(), 1e-12))
 
@@ -112,7 +112,7 @@ def _lightness(colour: Vector) -> float:
 
 
 def _vividness(colour: Vector) -> float:
-    """How far the colours are from grey, in units of a and b."""
+    """The mean distance of the colours from grey, in units of a and b."""
     axis = ((np.arange(HUES) + 0.5) / HUES - 0.5) * 2 * VIVID
     return float((_shares(colour).sum(axis=0) * np.hypot(axis[:, None], axis)).sum())
 
@@ -142,4 +142,4 @@ def _aspects() -> Sequence[Aspect]:
 
 
 ASPECTS: Mapping[str, Aspect] = MappingProxyType({it.name: it for it in _aspects()})
-"""What words for how things are may speak of, by name."""
+"""The aspects that words may describe, by name."""

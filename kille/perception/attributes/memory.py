@@ -1,4 +1,4 @@
-"""Words for how things are, learned from few examples: of which aspect do they speak?
+"""Attribute words, learned from few examples: which aspect does each describe?
 
 For a word w and an aspect c (see `kille.perception.attributes.aspects`) a Gaussian
 process says how far w holds: its mean is -1 beforehand, since most words do not hold of
@@ -49,7 +49,7 @@ class _Lesson:
 
 @dataclass(frozen=True, eq=False)
 class _Process:
-    """What the lessons in one word say by one aspect.
+    """What the lessons in a word say in one aspect.
 
     `rows` (n, k) are the lessons whose aspect is known, `inverse` (n, n) that of K + s²
     and `pull` (n,) that times the residuals; `evidence` is the marginal log likelihood.
@@ -62,7 +62,7 @@ class _Process:
     evidence: float
 
     def degree(self, x: Numbers | None) -> float:
-        """How probable it is that the word holds of what has these numbers."""
+        """The probability that the word applies to a thing with these numbers."""
         mean, variance = _MEAN, 1.0
         if x is not None:
             variance = float(self.aspect.kernel(x[None], x[None])[0, 0])
@@ -73,7 +73,7 @@ class _Process:
         return float(_PHI(mean / math.sqrt(max(variance, 0.0) + _NOISE)))
 
     def likeness(self, x: Numbers | None) -> float:
-        """How like these numbers are to those of the lesson that is most like them."""
+        """How similar these numbers are to those of the most similar lesson."""
         if x is None or not len(self.rows):
             return 0.0
         return max(_in_common(self.aspect, x, row) for row in self.rows)
@@ -81,24 +81,24 @@ class _Process:
 
 @dataclass(frozen=True, eq=False)
 class _Belief:
-    """What is believed of a word: a process for each aspect, and how likely it is."""
+    """What is believed about a word: a process and a probability for each aspect."""
 
     processes: Sequence[_Process]
     likely: Numbers
 
     def likeness(self, measured: Mapping[str, Numbers | None]) -> float:
-        """How like a thing is to that lesson which it is most like."""
+        """How similar a thing is to the most similar lesson."""
         alike = [it.likeness(measured[it.aspect.name]) for it in self.processes]
         return float(np.clip(self.likely @ np.array(alike), 0, 1))
 
     def degree(self, measured: Mapping[str, Numbers | None]) -> float:
-        """How probable it is that the word holds of what is measured so."""
+        """The probability that the word applies to a thing measured so."""
         degrees = [it.degree(measured[it.aspect.name]) for it in self.processes]
         return float(min(1.0, self.likely @ np.array(degrees)))
 
 
 class AttributeMemory:
-    """A learner of words for how things are, from the traits of things.
+    """A learner of attribute words, from the traits of things.
 
     `aspects` are those that words may speak of.
     """
@@ -109,27 +109,27 @@ class AttributeMemory:
         self._beliefs: dict[str, _Belief] = {}
 
     def copy(self) -> AttributeMemory:
-        """Another memory that knows the same; either learns without the other."""
+        """A copy that knows the same; either learns without the other."""
         twin = AttributeMemory()
         twin.become(self)
         return twin
 
     def become(self, other: AttributeMemory) -> None:
-        """Know what the other knows and nothing else; either goes on by itself."""
+        """Take over all that the other knows; afterwards either learns by itself."""
         self._aspects = other._aspects
         self._lessons, self._beliefs = dict(other._lessons), dict(other._beliefs)
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """The words that are known to hold of something, in alphabetical order."""
+        """The words that are known to apply to something, in alphabetical order."""
         return tuple(sorted({it.label for it in self._lessons.values() if it.holds}))
 
     def learn_one(self, x: Traits, label: str, *, key: Key | None = None) -> None:
-        """Take x to be so; ValueError if the key is taken."""
+        """Learn that the word applies to x; ValueError if the key is taken."""
         self._learn(_Lesson(label, x, True), key)
 
     def deny_one(self, x: Traits, label: str, *, key: Key | None = None) -> None:
-        """Take x not to be so; ValueError if the key is taken."""
+        """Learn that the word does not apply to x; ValueError if the key is taken."""
         self._learn(_Lesson(label, x, False), key)
 
     def _learn(self, lesson: _Lesson, key: Key | None) -> None:
@@ -139,16 +139,16 @@ class AttributeMemory:
         self._beliefs.pop(lesson.label, None)
 
     def forget(self, key: Key) -> None:
-        """Be as if this had never been learned; KeyError if it was not."""
+        """Undo a lesson, as if it had never been given; KeyError if there was none."""
         self._beliefs.pop(self._lessons.pop(key).label, None)
 
     def degrees(self, x: Traits) -> dict[str, float]:
-        """How well each word holds of a thing, in [0, 1]; several may hold at once."""
+        """How well each word applies, in [0, 1]; several may apply at once."""
         measured = {name: it.measure(x) for name, it in self._aspects.items()}
         return {word: self._belief(word).degree(measured) for word in self.labels}
 
     def denials(self, x: Traits) -> dict[str, float]:
-        """How like x is, in [0, 1], to that of which a word was denied.
+        """How similar x is, in [0, 1], to a thing that each word was denied of.
 
         Of words that were only denied: nothing says where they hold, but not there.
         """
@@ -157,20 +157,20 @@ class AttributeMemory:
         return {word: self._belief(word).likeness(measured) for word in sorted(only)}
 
     def speaks_of(self, label: str) -> dict[str, float]:
-        """How likely the word speaks of each aspect, the likeliest first.
+        """The probability that the word describes each aspect, most probable first.
 
         KeyError for a word that is not known.
         """
-        belief = self._known(label)
+        belief = self._belief_of_known(label)
         shares = zip(self._aspects, belief.likely.tolist(), strict=True)
         return dict(sorted(shares, key=lambda item: -item[1]))
 
     def nearest(self, x: Traits, label: str) -> Key | None:
-        """The lesson that showed what is most like x in what the word speaks of.
+        """The lesson whose thing is most like x in the aspects that the word describes.
 
         None if that cannot be told; KeyError for a word that is not known.
         """
-        belief = self._known(label)
+        belief = self._belief_of_known(label)
         own = [
             (key, it.traits)
             for key, it in self._lessons.items()
@@ -184,7 +184,7 @@ class AttributeMemory:
                 alike[number] += share * _in_common(aspect, here, there)
         return own[int(alike.argmax())][0] if alike.any() else None
 
-    def _known(self, label: str) -> _Belief:
+    def _belief_of_known(self, label: str) -> _Belief:
         if label not in self.labels:
             raise KeyError(label)
         return self._belief(label)
@@ -192,11 +192,12 @@ class AttributeMemory:
     def _belief(self, label: str) -> _Belief:
         if label not in self._beliefs:
             own = [it for it in self._lessons.values() if it.label == label]
-            self._beliefs[label] = _concluded(self._aspects, own[-_NEWEST:])
+            self._beliefs[label] = _believe(self._aspects, own[-_NEWEST:])
         return self._beliefs[label]
 
 
-def _concluded(aspects: Mapping[str, Aspect], lessons: Sequence[_Lesson]) -> _Belief:
+def _believe(aspects: Mapping[str, Aspect], lessons: Sequence[_Lesson]) -> _Belief:
+    """Weigh all aspects by how well they explain the lessons."""
     processes = [_process(aspect, lessons) for aspect in aspects.values()]
     scores = np.array([math.log(it.aspect.prior) + it.evidence for it in processes])
     shown = np.array([bool(len(it.rows)) for it in processes])
@@ -207,9 +208,9 @@ def _concluded(aspects: Mapping[str, Aspect], lessons: Sequence[_Lesson]) -> _Be
 
 
 def _process(aspect: Aspect, lessons: Sequence[_Lesson]) -> _Process:
-    """What the lessons say by an aspect.
+    """The Gaussian process of the lessons in one aspect.
 
-    One whose aspect is unknown tells nothing of the others, and is not told by them.
+    A lesson in which the aspect is unknown is independent of the others.
     """
     measured = [aspect.measure(it.traits) for it in lessons]
     known = [it for it in measured if it is not None]
@@ -225,7 +226,7 @@ def _process(aspect: Aspect, lessons: Sequence[_Lesson]) -> _Process:
 
 
 def _in_common(aspect: Aspect, some: Numbers | None, other: Numbers | None) -> float:
-    """What two things have in common in an aspect: 1 for a thing and itself."""
+    """How similar two things are in an aspect: 1 for a thing and itself."""
     if some is None or other is None:
         return 0.0
     both = np.stack([some, other])

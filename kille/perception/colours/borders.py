@@ -1,4 +1,4 @@
-"""Vague borders: of which colours a word holds, and how well.
+"""Vague borders: which colours a word applies to, and to what degree.
 
 Each word has three axes in Oklab (`kille.perception.colours.space.even`): lightness;
 vividness, which runs from grey towards the word's own hue; and lean, which runs across
@@ -47,12 +47,12 @@ class Borders:
         return np.asarray(-(below + above).sum(axis=2))
 
     def some(self, which: list[int]) -> Borders:
-        """Those of some words, by their numbers."""
+        """The borders of some of the words, by their numbers."""
         return Borders(self.hues[which], self.edges[which])
 
 
 def along(lab: Lab, hues: Numbers) -> Numbers:
-    """Where colours (n, 3) of Lab are on the axes of words with these hues: (n, w, 3).
+    """The places (n, w, 3) of Lab colours (n, 3) on the axes of words with these hues.
 
     >>> blue = np.array([[32.0, 79, -108]])
     >>> along(blue, np.array([264.0, 84.0])).round().tolist()

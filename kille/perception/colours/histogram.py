@@ -1,4 +1,4 @@
-"""The cue `colour` read backwards: the colours that its blurred histogram was made of.
+"""Recover colours from the cue `colour` by sharpening its blurred histogram.
 
 A lesson keeps the cue of what was seen, not the picture. The histogram is sharpened by
 the steps of Richardson (1972) and Lucy (1974), which keep shares positive: what comes
@@ -19,7 +19,7 @@ _FAINT = 1e-9
 
 
 def cells_of(vector: Vector) -> tuple[Lab, NDArray[np.float64]]:
-    """The middles (n, 3) of the histogram's cells in Lab, and their shares (n,).
+    """The centres (n, 3) of the histogram's cells in Lab, and their shares (n,).
 
     ValueError for a vector that is no such cue.
     """
@@ -31,10 +31,10 @@ def cells_of(vector: Vector) -> tuple[Lab, NDArray[np.float64]]:
     blurred = np.square(vector.astype(float)).reshape(cue.LIGHTS, cue.HUES, cue.HUES)
     if not (np.isfinite(blurred).all() and blurred.any()):
         raise ValueError("the cue colour has finite numbers that are not all 0")
-    return _MIDDLES, _sharpened(blurred / blurred.sum()).ravel()
+    return _MIDDLES, _sharpen(blurred / blurred.sum()).ravel()
 
 
-def _sharpened(blurred: NDArray[np.float64]) -> NDArray[np.float64]:
+def _sharpen(blurred: NDArray[np.float64]) -> NDArray[np.float64]:
     shares = blurred
     for _ in range(_STEPS):
         expected = _spread(shares, cue.LIGHT_BLUR, cue.HUE_BLUR)
@@ -46,7 +46,7 @@ def _sharpened(blurred: NDArray[np.float64]) -> NDArray[np.float64]:
 def _spread(
     cells: NDArray[np.float64], light: NDArray[np.float64], hue: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """What comes of cells when each row of a blur tells where its share goes."""
+    """Spread the share of each cell as the rows of a blur say."""
     for blur in (light, hue, hue):
         cells = np.tensordot(cells, blur, axes=(0, 0))
     return cells

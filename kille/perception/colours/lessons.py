@@ -1,4 +1,4 @@
-"""Lessons in colour words: what was shown under each word, and what that is near."""
+"""Lessons in colour words: the colours shown for each word, and how near others are."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ Shown = tuple[Lab, Numbers]
 
 
 class Lessons:
-    """The colours that were shown under some words, in the order of learning."""
+    """The colours shown for some words, in the order of learning."""
 
     def __init__(self) -> None:
         self._shown: dict[str, dict[Key, Shown]] = {}
         self._clouds: dict[str, Cloud] = {}
 
     def copy(self) -> Lessons:
-        """The same lessons, to which others can be added."""
+        """An independent copy of the lessons."""
         twin = Lessons()
         twin._shown = {word: dict(shown) for word, shown in self._shown.items()}
         twin._clouds = dict(self._clouds)
@@ -38,23 +38,23 @@ class Lessons:
         return tuple(sorted(self._shown))
 
     def has(self, word: str, key: Key) -> bool:
-        """Is there a lesson of this key in the word?"""
+        """Does the word have a lesson of this key?"""
         return key in self._shown.get(word, {})
 
     def add(self, word: str, key: Key, shown: Shown) -> None:
-        """Take a lesson."""
+        """Add a lesson."""
         self._shown.setdefault(word, {})[key] = shown
         self._clouds.pop(word, None)
 
     def drop(self, word: str, key: Key) -> None:
-        """Be without a lesson."""
+        """Remove a lesson."""
         del self._shown[word][key]
         if not self._shown[word]:
             del self._shown[word]
         self._clouds.pop(word, None)
 
     def cloud(self, word: str) -> Cloud:
-        """The colours of a word's lessons; a thing of several colours counts once."""
+        """The cloud of a word's lessons; a thing of several colours counts once."""
         if word not in self._clouds:
             lab, weights = zip(*self._shown[word].values(), strict=True)
             self._clouds[word] = cloud(np.concatenate(lab), np.concatenate(weights))

@@ -1,4 +1,4 @@
-"""Colour words as a tutor uses them, learned on top of what people mean by them.
+"""Colour words as a tutor uses them, learned on top of common usage.
 
 For each colour of a thing, what is known beforehand counts as so many answers to the
 question what it is called (`_FIRM`); a lesson counts as one more, for the colours near
@@ -6,9 +6,9 @@ it. So one odd lesson shifts the borders of a word a little, and after ten the t
 right. A word that nobody knew is learned from its lessons alone.
 
 A word that is denied of a thing, "no, this is not red", is weakened for the colours
-near it, by so many answers against it (`_DENIED`) that it no longer holds there: who is
-corrected does not say the same again. That is no reason for any other word, and a word
-that was only denied is not known.
+near it, by enough answers against it (`_DENIED`) that it no longer holds there: a
+corrected robot does not repeat its mistake. That is no reason for any other word, and a
+word that was only denied is not known.
 
 "This is red" said of what is no such thing to most people is also a small reason
 against the words that do hold of it. A new word is none: it may be of another language.
@@ -49,57 +49,61 @@ class ColourMemory:
         self._denied = Lessons()
 
     def copy(self) -> ColourMemory:
-        """Another memory that knows the same; either learns without the other."""
+        """A copy that knows the same; either learns without the other."""
         twin = ColourMemory()
         twin.become(self)
         return twin
 
     def become(self, other: ColourMemory) -> None:
-        """Know what the other knows and nothing else; either goes on by itself."""
+        """Take over all that the other knows; afterwards either learns by itself."""
         self._prior, self._words = other._prior, dict(other._words)
         self._shown, self._denied = other._shown.copy(), other._denied.copy()
 
     @property
     def labels(self) -> tuple[str, ...]:
         """The words that it knows, in alphabetical order."""
-        return tuple(sorted({*self._known, *self._shown.words}))
+        return tuple(sorted({*self._prior_words, *self._shown.words}))
 
     def knows(self, word: str) -> bool:
-        """Is it a word for a colour, known beforehand or taught?"""
-        return word in self._known or word in self._shown.words
+        """Is this a colour word, known beforehand or taught?"""
+        return word in self._prior_words or word in self._shown.words
 
     def learn_one(self, x: Palette, label: str, *, key: Key | None = None) -> None:
-        """Take x to be of that colour; ValueError if the key is taken."""
-        self._shown.add(label, self._named(label, key), self._meant(x, label))
+        """Learn that the word applies to x; ValueError if the key is taken."""
+        self._shown.add(
+            label, self._reserve_key(label, key), self._colours_of_lesson(x, label)
+        )
 
     def deny_one(self, x: Palette, label: str, *, key: Key | None = None) -> None:
-        """Take x not to be of that colour; ValueError if the key is taken."""
-        self._denied.add(label, self._named(label, key), self._meant(x, label))
+        """Learn that the word does not apply to x; ValueError if the key is taken."""
+        self._denied.add(
+            label, self._reserve_key(label, key), self._colours_of_lesson(x, label)
+        )
 
     def forget(self, key: Key) -> None:
-        """Be as if this had never been learned; KeyError if it was not."""
+        """Undo a lesson, as if it had never been given; KeyError if there was none."""
         label = self._words.pop(key)
         lessons = self._shown if self._shown.has(label, key) else self._denied
         lessons.drop(label, key)
 
     def nearest(self, x: Palette, label: str) -> Key | None:
-        """The lesson in a word that showed the colours most like those of x, if any."""
+        """The lesson in a word whose colours were most like those of x, if any."""
         return self._shown.nearest(label, x)
 
-    def _named(self, label: str, key: Key | None) -> Key:
-        """The key of a lesson in this word, which is now taken."""
+    def _reserve_key(self, label: str, key: Key | None) -> Key:
+        """Reserve the key, or a new one, for a lesson in this word."""
         if key in self._words:
             raise ValueError(f"the key {key!r} was learned before; forget it first")
         named = own_key(self._words) if key is None else key
         self._words[named] = label
         return named
 
-    def _meant(self, x: Palette, label: str) -> Shown:
+    def _colours_of_lesson(self, x: Palette, label: str) -> Shown:
         return x.lab, self._credit(x, label)
 
     def degrees(self, x: Palette) -> dict[str, float]:
-        """How well each word holds of a thing, in [0, 1]; several may hold at once."""
-        names, held = self._known, self._holding(x.lab)
+        """How well each word applies, in [0, 1]; several may apply at once."""
+        names, held = self._prior_words, self._prior_degrees(x.lab)
         heard = self._shown.near(x.lab, Cloud.degrees)
         denied = self._denied.near(x.lab, Cloud.degrees)
         nothing = np.zeros(len(x.lab))
@@ -121,13 +125,15 @@ class ColourMemory:
         return of_the_whole((*names, *new), x, np.stack(columns, axis=1))
 
     def predict_proba_one(self, x: Palette) -> dict[str, float]:
-        """The chance that the tutor would choose each word; they sum to 1 at most."""
+        """The probability that the tutor chooses each word; they sum to 1 at most."""
         heard = self._shown.near(x.lab, Cloud.nearness)
-        answers = {word: np.zeros(len(x.lab)) for word in self._known} | heard
+        answers = {word: np.zeros(len(x.lab)) for word in self._prior_words} | heard
         if not answers:
             return {}
-        total = sum(heard.values()) + (_FIRM if self._known else _UNKNOWN)
-        for word, before in zip(self._known, self._chosen(x.lab).T, strict=True):
+        total = sum(heard.values()) + (_FIRM if self._prior_words else _UNKNOWN)
+        for word, before in zip(
+            self._prior_words, self._prior_chances(x.lab).T, strict=True
+        ):
             answers[word] = answers[word] + _FIRM * before
         for word, denials in self._denied.near(x.lab, Cloud.nearness).items():
             if word in answers:
@@ -138,15 +144,15 @@ class ColourMemory:
         }
 
     @property
-    def _known(self) -> tuple[str, ...]:
+    def _prior_words(self) -> tuple[str, ...]:
         return () if self._prior is None else self._prior.names
 
-    def _holding(self, lab: Lab) -> Numbers:
+    def _prior_degrees(self, lab: Lab) -> Numbers:
         return (
             np.empty((len(lab), 0)) if self._prior is None else self._prior.degrees(lab)
         )
 
-    def _chosen(self, lab: Lab) -> Numbers:
+    def _prior_chances(self, lab: Lab) -> Numbers:
         return (
             np.empty((len(lab), 0)) if self._prior is None else self._prior.chances(lab)
         )
@@ -154,18 +160,19 @@ class ColourMemory:
     def _against(
         self, column: int, held: Numbers, reasons: dict[str, Numbers]
     ) -> Numbers:
-        """The lessons against a word: of other words, which nobody expected there."""
+        """The lessons against a word: those in other words that were unexpected
+        there."""
         against = np.zeros(len(held))
         for word, lessons in reasons.items():
-            other = self._known.index(word)
+            other = self._prior_words.index(word)
             if other != column:
                 against += _DENIAL * lessons * (1 - held[:, other])
         return against
 
     def _credit(self, x: Palette, word: str) -> Numbers:
-        """Which colours of a thing the tutor meant: those of which it may hold."""
+        """How much each colour of a thing was probably meant by the tutor."""
         meant = x.shares
-        if word in self._known:
-            held = self._holding(x.lab)[:, self._known.index(word)]
+        if word in self._prior_words:
+            held = self._prior_degrees(x.lab)[:, self._prior_words.index(word)]
             meant = meant * (_CREDIT + held)
         return np.asarray(meant / meant.sum())

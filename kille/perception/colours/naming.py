@@ -1,6 +1,6 @@
-"""Colour words of a thing that may have several colours.
+"""Colour words for a thing that may have several colours.
 
-A thing is called red when much of it is: half of it is enough, a tenth hardly is. So a
+A thing is called red when much of it is red: half is enough, a tenth hardly is. So a
 flag may be red and white, while a red apple with a brown stalk is not brown. With
 g(s) = min(1, 2s), the degree to which a share s is much, the degree of a word is
 
@@ -20,13 +20,13 @@ from kille.perception.colours.palette import Palette
 from kille.perception.colours.words import ColourWords, xkcd
 
 _MUCH = 0.5
-"""The share of a thing that is enough for it to be called so."""
+"""The share of a thing that is enough for a word to apply fully."""
 
 
 def colour_words(
     palette: Palette, words: ColourWords | None = None
 ) -> dict[str, float]:
-    """How well each word holds of a thing: {word: degree in [0, 1]}.
+    """How well each word applies to a thing: {word: degree in [0, 1]}.
 
     Without `words` these are the 42 of `xkcd()`. Several may hold at once.
 
@@ -42,7 +42,7 @@ def colour_words(
 def colour_chances(
     palette: Palette, words: ColourWords | None = None
 ) -> dict[str, float]:
-    """P(word | thing): what one would call its colour; the chances sum to 1."""
+    """P(word | thing), the word that people would choose for it; it sums to 1."""
     known = xkcd() if words is None else words
     chances = palette.shares @ known.chances(palette.lab)
     return dict(zip(known.names, chances.tolist(), strict=True))
@@ -51,7 +51,7 @@ def colour_chances(
 def of_the_whole(
     names: tuple[str, ...], palette: Palette, degrees: NDArray[np.float64]
 ) -> dict[str, float]:
-    """The degrees of words for a thing, of those (k, w) for its colours."""
+    """The degrees of words for a thing, from those (k, w) for its colours."""
     order = np.argsort(-degrees, axis=0, kind="stable")
     much = np.minimum(1.0, np.cumsum(palette.shares[order], axis=0) / _MUCH)
     steps = np.diff(much, axis=0, prepend=0)

@@ -1,4 +1,4 @@
-"""Which colours a thing has: its palette, robust to shading and highlights.
+"""The palette of a thing: its colours, robust to shading and highlights.
 
 The colours of a region form clouds in Lab: one for each paint, drawn out along the
 lightness where it is shaded. Every colour climbs to where they are densest (mean shift,
@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kille.perception.colours.histogram import cells_of
 from kille.perception.colours.space import Lab, lab_of
-from kille.perception.colours.white_balance import balanced
+from kille.perception.colours.white_balance import balance_light
 from kille.scene import Frame, Region, Vector
 
 Numbers = NDArray[np.float64]
@@ -59,7 +59,7 @@ class Palette:
 
 
 def packed(palette: Palette) -> Vector:
-    """The palette as 16 numbers to be kept: four times a share and its L, a, b.
+    """Pack the palette into 16 numbers: four times a share and its L, a, b.
 
     Of a palette of more than four colours the commonest are kept.
     """
@@ -70,7 +70,7 @@ def packed(palette: Palette) -> Vector:
 
 
 def unpacked(vector: Vector) -> Palette:
-    """The palette that was packed; ValueError for what is none.
+    """Unpack a packed palette; ValueError if the vector is none.
 
     >>> unpacked(packed(plain([48, 66, 48]))).lab.tolist()
     [[48.0, 66.0, 48.0]]
@@ -86,12 +86,12 @@ def unpacked(vector: Vector) -> Palette:
 
 
 def plain(lab: ArrayLike) -> Palette:
-    """The palette of a thing that has one colour only."""
+    """The palette of a thing with only one colour."""
     return Palette([1.0], np.asarray(lab, float)[None])
 
 
 def colours_of(frame: Frame, region: Region) -> Palette | None:
-    """The palette of a region, in balanced light; None for a region without pixels."""
+    """The palette of a region, white-balanced; None for a region without pixels."""
     box = region.box
     crop = np.s_[box.top : box.bottom, box.left : box.right]
     inside = region.mask[crop]
@@ -99,22 +99,22 @@ def colours_of(frame: Frame, region: Region) -> Palette | None:
         return None
     pixels = frame.colour[crop][inside]
     some = pixels[:: 1 + len(pixels) // _PIXELS]
-    return mixed(lab_of(balanced(some, frame.colour)))
+    return palette_from_colours(lab_of(balance_light(some, frame.colour)))
 
 
 def colours_in(vector: Vector) -> Palette:
-    """The palette that the cue `colour` of a thing tells of, without its picture.
+    """The palette recovered from a thing's cue `colour`, without its picture.
 
     ValueError for a vector that is no such cue.
     """
-    return mixed(*cells_of(vector))
+    return palette_from_colours(*cells_of(vector))
 
 
-def mixed(lab: Lab, weights: Numbers | None = None) -> Palette:
-    """The palette of colours (n, 3), n > 0, with weights (n,), 1 if none are given."""
+def palette_from_colours(lab: Lab, weights: Numbers | None = None) -> Palette:
+    """The palette of colours (n, 3), n > 0, with weights (n,), by default 1."""
     cells, shares = _commonest(lab, np.ones(len(lab)) if weights is None else weights)
     flat = cells * (_SHADING, 1, 1)
-    tops = _climbed(flat, shares)
+    tops = _climb(flat, shares)
     clouds = _clouds(tops, shares)
     sizes = np.bincount(clouds, shares)
     kept = [cloud for cloud in np.argsort(-sizes) if sizes[cloud] >= _LEAST]
@@ -135,8 +135,8 @@ def _commonest(lab: Lab, weights: Numbers) -> tuple[Lab, Numbers]:
     return sums[most] / full[most, None], full[most] / full[most].sum()
 
 
-def _climbed(colours: Lab, shares: Numbers) -> Lab:
-    """Where each colour comes to by climbing to where colours are denser."""
+def _climb(colours: Lab, shares: Numbers) -> Lab:
+    """Move each colour to where colours are densest (mean shift)."""
     tops, squares = colours, (colours**2).sum(axis=1)
     for _ in range(_CLIMBS):
         apart = squares + (tops**2).sum(axis=1)[:, None] - 2 * tops @ colours.T
@@ -159,7 +159,7 @@ def _clouds(tops: Lab, shares: Numbers) -> NDArray[np.intp]:
 
 
 def _lit(colours: Lab, shares: Numbers) -> Lab:
-    """The mean of the better lit half."""
+    """The mean colour of the better lit half."""
     order = np.argsort(-colours[:, 0], kind="stable")
     before = np.cumsum(shares[order]) - shares[order]
     half = order[before < _LIT * shares.sum()]

@@ -1,4 +1,4 @@
-"""Colours as numbers: CIELAB, in which equal steps look about equally wide.
+"""Colours as numbers: CIELAB, in which equal steps look about equally large.
 
 L is the lightness, 0 to 100; a runs from green to red, b from blue to yellow; what is
 grey has a = b = 0. The white is that of daylight (D65), as in sRGB.
@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 Lab = NDArray[np.float64]
 """Colours (..., 3): L, a, b."""
 
-_DAYLIGHT = (0.95047, 1.0, 1.08883)  # D65, of which Lab is told
+_DAYLIGHT = (0.95047, 1.0, 1.08883)  # D65, the white of Lab
 _KNEE = 6 / 29  # where the cube of Lab gives way to a straight line
 _CONES = np.array(
     [
@@ -45,7 +45,7 @@ def lab_of(rgb: ArrayLike) -> Lab:
 
 
 def rgb_of(lab: ArrayLike) -> NDArray[np.uint8]:
-    """The nearest sRGB colours (..., 3) that a screen can show.
+    """The nearest sRGB colours (..., 3) to Lab colours.
 
     >>> rgb_of([53.2, 80.1, 67.2]).tolist()
     [255, 0, 0]
@@ -56,7 +56,7 @@ def rgb_of(lab: ArrayLike) -> NDArray[np.uint8]:
 
 
 def even(lab: ArrayLike) -> Lab:
-    """Colours (n, 3) of Lab in Oklab (Ottosson 2020), at about the same scale.
+    """Convert Lab colours (n, 3) to Oklab (Ottosson 2020), at about the same scale.
 
     Its hues are even: in Lab a blue that gets paler turns towards violet, so that no
     straight border holds all blues.

@@ -1,11 +1,11 @@
-"""The light of a picture, and colours as they would look in full white light.
+"""White balance: estimate the light of a picture, and show colours in white light.
 
 What the picture holds is grey on the whole, more so what is bright in it: the light's
 colour is a mean that gives bright pixels more weight (shades of grey, Finlayson and
 Trezzi 2004). And something in it is nearly white: the lightest thing in view is the
 anchor by which people judge how light the others are (Gilchrist et al. 1999). Since a
-thing of one colour may fill the picture, or all of it may be dark, a part of the cast
-only is taken away, and what is dark is made but so much lighter.
+thing of one colour may fill the picture, or all of it may be dark, only a part of the
+cast is removed, and dark pictures are brightened only so far.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ _GAMMA = 2.2
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
-def balanced(pixels: Colour, picture: Colour) -> NDArray[np.float32]:
-    """The pixels (n, 3) of a picture (h, w, 3) as they would look in a better light."""
+def balance_light(pixels: Colour, picture: Colour) -> NDArray[np.float32]:
+    """Show pixels (n, 3) of a picture (h, w, 3) as in full white light."""
     linear = (pixels.astype(np.float32) / 255) ** _GAMMA * gains(picture)
     # What would be too bright keeps its hue: all three are lessened alike.
     linear /= np.maximum(1, linear.max(axis=1, keepdims=True))
@@ -35,7 +35,7 @@ def balanced(pixels: Colour, picture: Colour) -> NDArray[np.float32]:
 
 
 def gains(picture: Colour) -> NDArray[np.float32]:
-    """What to multiply red, green and blue light (3,) with."""
+    """The factors (3,) for red, green and blue light."""
     seen = picture.reshape(-1, 3)
     seen = seen[:: max(1, len(seen) // _SAMPLES)]
     light = (seen / 255) ** _GAMMA
@@ -46,7 +46,7 @@ def gains(picture: Colour) -> NDArray[np.float32]:
 
 
 def _cast(light: NDArray[np.float64]) -> NDArray[np.float64]:
-    """What takes a part of the light's colour away, and leaves its brightness."""
+    """Factors that remove a part of the light's colour and keep its brightness."""
     if not len(light):
         return np.ones(3)
     colour = np.mean(light**_NORM, axis=0) ** (1 / _NORM) + 1e-4

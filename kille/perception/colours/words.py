@@ -1,4 +1,4 @@
-"""Colour words as many people use them: when each holds, and which one is chosen.
+"""Colour words as most people use them: when each applies, and which one is chosen.
 
 Two questions are asked of a word. Does it hold of a colour ("is this red?")? Several
 words hold of most colours, each to a degree. And would one choose it ("what colour is
@@ -45,7 +45,7 @@ BASIC = (
 
 @dataclass(frozen=True, eq=False)
 class ColourWords:
-    """Some colour words, with what they hold of and what they are chosen for."""
+    """Some colour words, with the borders of what they apply to and are chosen for."""
 
     names: tuple[str, ...]
     availability: Numbers
@@ -53,7 +53,7 @@ class ColourWords:
     apt: Borders
 
     def degrees(self, lab: ArrayLike) -> Numbers:
-        """How well each word holds of colours (n, 3): (n, w), each in [0, 1].
+        """How well each word applies to colours (n, 3): (n, w), each in [0, 1].
 
         >>> red = np.array([[48, 66, 48]])
         >>> degrees = dict(zip(xkcd().names, xkcd().degrees(red)[0], strict=True))
@@ -70,7 +70,7 @@ class ColourWords:
         return np.asarray(shares / shares.sum(axis=1, keepdims=True))
 
     def among(self, names: Iterable[str]) -> ColourWords:
-        """These words only; ValueError for one that is not known here.
+        """Only these words; ValueError for an unknown one.
 
         >>> xkcd().among(["red", "green"]).names
         ('red', 'green')
@@ -95,11 +95,11 @@ def xkcd() -> ColourWords:
     True
     """
     text = files("kille.perception.colours").joinpath("xkcd.json").read_text("utf-8")
-    return read(json.loads(text))
+    return parse_colour_words(json.loads(text))
 
 
-def read(fitted: Mapping[str, Any]) -> ColourWords:
-    """The words of a file as `tools.fitting.colour_words` writes it."""
+def parse_colour_words(fitted: Mapping[str, Any]) -> ColourWords:
+    """Read the words from what `tools.fitting.colour_words` has written."""
     words: Mapping[str, Any] = fitted["words"]
     hues = np.array([word["hue"] for word in words.values()], float)
     return ColourWords(

@@ -1,4 +1,4 @@
-"""Cues: what a thing looks like as a whole, each cue a vector of its own.
+"""Cues: the appearance of a thing as a whole, each cue a vector.
 
 A cue is a pure function of a patch, that is, of a region in a frame. The Euclidean
 distance of two vectors says how unlike two things are in that cue.
@@ -40,7 +40,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Cue:
-    """One way of comparing things.
+    """One respect in which things are compared.
 
     `measure` gives `length` finite numbers, or None for what cannot be told.
     """
@@ -70,7 +70,7 @@ CUES: Mapping[str, Cue] = MappingProxyType(
         )
     }
 )
-"""The cues that need nothing but the picture and its depth."""
+"""The cues that need only the picture and its depth."""
 
 EMBEDDING = Cue("embedding", embedding.LENGTH, embedding.embedding)
 """What a pretrained network makes of a thing; it needs the extra `kille[embedding]`."""
@@ -83,7 +83,7 @@ def with_embedding() -> Mapping[str, Cue]:
 
 
 def measured(frame: Frame, region: Region, cues: Mapping[str, Cue] = CUES) -> Traits:
-    """What the cues tell of the region, by the name of the cue."""
+    """Measure the cues of the region: a vector for each cue that applies."""
     patch = Patch(frame, region)
     found = {name: cue.measure(patch) for name, cue in cues.items()}
     return {name: vector for name, vector in found.items() if vector is not None}

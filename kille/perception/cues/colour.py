@@ -1,4 +1,5 @@
-"""Colour and hue: how much of a region has which colour, with and without its light."""
+"""Colour and hue: the distribution of a region's colours, with and without
+brightness."""
 
 from __future__ import annotations
 
@@ -74,7 +75,8 @@ def _tone(log: Array, least: float) -> NDArray[np.intp]:
 
 
 def _blur(bins: int, width: float) -> NDArray[np.float64]:
-    """How the share of each bin (row) is spread over all bins (bins, bins)."""
+    """The matrix (bins, bins) that spreads the share of each bin (row) over all
+    bins."""
     apart = np.subtract.outer(np.arange(bins), np.arange(bins))
     spread = np.exp(-((apart / width) ** 2) / 2)
     shares: NDArray[np.float64] = spread / spread.sum(axis=1, keepdims=True)

@@ -1,4 +1,4 @@
-"""Local descriptors on a regular grid, of what is pooled once for all of them."""
+"""Local descriptors on a regular grid, from values pooled once for all of them."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def edges(window: Window) -> Descriptors:
 
 
 def colours(window: Window) -> Descriptors:
-    """Means and deviations (n, 96) of Lab in 4 x 4 cells, in the same way.
+    """Means and deviations (n, 96) of Lab in 4 x 4 cells, on the same grid.
 
     Source: local colour statistics by Clinchant, Csurka, Perronnin & Renders 2007,
     "XRCE's participation to ImagEval" (there in RGB).
@@ -58,7 +58,7 @@ def _on_grid(window: Window, pooled: Pooled, cells: tuple[int, ...]) -> Descript
 
 
 def _of_cells(window: Window, pooled: Array, cell: int) -> Descriptors:
-    """The descriptors of 4 x 4 cells each, of values pooled around each pixel."""
+    """Descriptors of 4 x 4 cells each, from the values pooled around each pixel."""
     middles = np.arange(_STEP // 2 + cell, SIDE - cell, _STEP)
     offsets = np.rint((np.arange(4) - 1.5) * cell).astype(int)
     down, right = (it.ravel() for it in np.meshgrid(middles, middles, indexing="ij"))
@@ -73,7 +73,7 @@ def _of_cells(window: Window, pooled: Array, cell: int) -> Descriptors:
 
 
 def _gradients(window: Window, cell: int) -> Array:
-    """How strong the gradients of each of eight bearings are around each pixel."""
+    """The strength of the gradients in each of eight directions around each pixel."""
     smooth = cv2.GaussianBlur(
         window.grey.astype(np.float32), (0, 0), max(cell / 5, 0.4)
     )
@@ -93,7 +93,7 @@ def _gradients(window: Window, cell: int) -> Array:
 
 
 def _statistics(window: Window, cell: int) -> Array:
-    """The mean and the deviation of L, a and b around each pixel."""
+    """The mean and the standard deviation of L, a and b around each pixel."""
     lab = window.lab
     mean, squares = (cv2.blur(it, (cell, cell)) for it in (lab, lab * lab))
     deviation = np.sqrt(np.maximum(squares - mean * mean, 0))

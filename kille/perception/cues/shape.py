@@ -1,4 +1,4 @@
-"""Shape: what the outline is like as a whole, in a few numbers."""
+"""Shape: the outline as a whole, in a few numbers."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ LENGTH = 12
 
 
 def shape(patch: Patch) -> Vector | None:
-    """Twelve numbers (12,) of the outline, none of which depends on where it is.
+    """Twelve numbers (12,) of the outline, independent of its place.
 
     The share of the picture (or, with depth, the area in dm²) as a logarithm; how wide
     it is to its height, upright and along its own axes; how much of its box and of its
     convex hull it fills; how round it is; how the longer axis leans; Hu's moments 1-4.
     None for a region of next to no pixels.
     """
-    if patch.framed is None:
+    if patch.window is None:
         return None
-    mask = patch.framed.inside.astype(np.uint8)
+    mask = patch.window.inside.astype(np.uint8)
     outlines, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
     area = float(np.count_nonzero(mask))
     if not area:

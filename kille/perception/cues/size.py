@@ -1,4 +1,4 @@
-"""Metric size: how far what is visible of a thing reaches, from depth."""
+"""Metric size: the extent of the visible part of a thing, from depth."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ def size(patch: Patch) -> Vector | None:
 
 
 def reach(patch: Patch) -> Array | None:
-    """How far the region's points reach along their principal axes (3,) in metres.
+    """The extent of the region's points along their principal axes (3,), in metres.
 
-    Those at its edges count only if there are too few others; None if too few at all.
+    Points at the edges are used only if the others are too few; None if all are.
     """
     for points in (patch.inner_points, patch.points):
         if len(points) >= _LEAST_POINTS:

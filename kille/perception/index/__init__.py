@@ -1,4 +1,4 @@
-"""Nearest neighbours among all learned descriptors, whoever they belong to.
+"""Nearest neighbours among all learned descriptors, whichever word they belong to.
 
 There is one index over everything, never one for each learned view: large immutable
 parts, searched by kd-trees, and an exact search over the newest views. Parts are merged

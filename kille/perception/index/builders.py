@@ -1,9 +1,9 @@
-"""Who builds the parts of an index, and when: at once, or behind the caller's back.
+"""Build the parts of an index, either on demand or in the background.
 
 `AtOnce` builds what is asked for when it is asked for, so that the same lessons and
 questions give the same answers whatever the machine does: for tests and evaluations.
-`Background` builds in threads, so that neither learning nor asking waits for trees: for
-a robot that talks. FLANN lets other threads run while it builds.
+`Background` builds in threads, so that neither learning nor asking waits for trees,
+as a robot in conversation needs. FLANN lets other threads run while it builds.
 """
 
 from __future__ import annotations
@@ -23,34 +23,36 @@ _LONG = 1.0  # seconds
 
 
 class Builder(Protocol):
-    """Sees to it that parts get built."""
+    """Arranges that parts are built."""
 
     def begin(self, parts: Sequence[Part]) -> None:
-        """Take note that these parts will be needed."""
+        """Note that these parts will be needed."""
         ...
 
     def need(self, parts: Sequence[Part]) -> None:
-        """Take note that they are needed now; they may yet be unready afterwards."""
+        """Note that these parts are needed now; some may still not be ready
+        afterwards."""
         ...
 
     def finish(self, parts: Sequence[Part]) -> None:
-        """Return when they are built, or one of them turned out not to be buildable."""
+        """Return when each part is built, or has failed to build."""
         ...
 
 
 class AtOnce:
-    """Builds parts in the caller's thread when they are needed, and not before."""
+    """Builds parts in the caller's thread as soon as they are needed, and not
+    before."""
 
     def begin(self, parts: Sequence[Part]) -> None:
-        """Nothing is done before it is needed."""
+        """Do nothing: parts are built when they are needed."""
 
     def need(self, parts: Sequence[Part]) -> None:
-        """Build them; what that raises is raised."""
+        """Build the parts; raises what building raises."""
         for part in parts:
             part.build()
 
     def finish(self, parts: Sequence[Part]) -> None:
-        """The same: build them."""
+        """Build the parts."""
         self.need(parts)
 
 
@@ -68,19 +70,19 @@ class Background:
         self._small, self._large = _Lane(), _Lane()
 
     def begin(self, parts: Sequence[Part]) -> None:
-        """Have them built, the small ones first."""
+        """Queue the parts, the small ones first."""
         for part in sorted(parts, key=lambda part: part.size):
             lane = self._small if part.size <= _QUICK else self._large
             lane.add(part)
 
     def need(self, parts: Sequence[Part]) -> None:
-        """Wait for the small ones, but not for ever."""
+        """Wait for the small parts, for a limited time."""
         for part in parts:
             if part.size <= self._patience:
                 part.wait(_LONG)
 
     def finish(self, parts: Sequence[Part]) -> None:
-        """Wait for them; where no thread begins anything any more, build them here."""
+        """Wait for the parts; build them here if no thread will."""
         for part in parts:
             while not part.wait(_LONG):
                 if not _may_begin():
@@ -118,7 +120,7 @@ class _Lane:
 
 
 def _may_begin() -> bool:
-    """Not when the program is about to end: it would wait for what is begun."""
+    """Is the program still running? At its end it would wait for whatever is begun."""
     return threading.main_thread().is_alive()
 
 
@@ -128,7 +130,7 @@ def _build(part: Part) -> None:
     except Exception as error:
         logging.getLogger(__name__).error(
             "an index over %d descriptors could not be built (%r): "
-            "what it was to replace goes on answering",
+            "the parts that it was to replace stay in use",
             part.size,
             error,
         )

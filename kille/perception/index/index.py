@@ -1,4 +1,4 @@
-"""The index: all learned views, in parts that are replaced by larger ones in time."""
+"""The index of all learned views, in parts that are later replaced by larger ones."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from kille.perception.index.builders import AtOnce, Builder
 from kille.perception.index.index_parts import NOBODY, Exact, Neighbours, Part
-from kille.perception.index.partition import Parting, parting_of
+from kille.perception.index.partition import Partition, partition_views
 from kille.perception.index.searches import search_called
-from kille.perception.index.views import Rows, View, count, thinned
+from kille.perception.index.views import Rows, View, count, thin_views
 from kille.perception.learners import Key
 
 _SKETCH = 200_000  # descriptors of a sketch: it is ready in a third of a second
@@ -23,7 +23,7 @@ _EXACT = 8_000  # descriptors that are compared one by one at most: about .01 s
 
 
 class Index:
-    """Who has descriptors like these, among all views learned and not forgotten.
+    """All views learned and not forgotten, searched by their descriptors.
 
     Most views are in parts with trees; the newest, and those whose parts are still
     being built, are in older parts or compared one by one. So what is learned counts
@@ -39,7 +39,7 @@ class Index:
         builder: Builder | None = None,
         search: str = "trees",
     ) -> None:
-        """An index of the views; ValueError if two have one key.
+        """Index the views; ValueError if two have the same key.
 
         `builder` decides when parts are built, at once if none is given; `search` is
         one of SEARCHES, by which large parts are searched.
@@ -54,18 +54,20 @@ class Index:
         self._owners: list[NDArray[np.intp]] | None = None
         for view in views:
             self._take(view)
-        self._parting = Parting()
+        self._partition = Partition()
         self._has_forgotten = False
         self._wanted: tuple[Part, ...] = ()
-        self._others: tuple[Part, ...] = ()  # they answer while those wanted are built
-        self._sketches: tuple[Part, ...] = ()  # they do while nothing else can
+        self._others: tuple[
+            Part, ...
+        ] = ()  # these answer until the wanted ones are ready
+        self._sketches: tuple[Part, ...] = ()  # these answer while nothing else can
         self._serving: list[tuple[Part, NDArray[np.bool_]]] = []
         self._tail: list[View] = []  # what no part serves
         self._awaited: tuple[Part, ...] = ()
-        self._part_anew()
+        self._partition_anew()
 
     def copy(self) -> Index:
-        """Another index of the same views; either learns without the other."""
+        """A copy with the same views; either learns without the other."""
         twin = object.__new__(Index)
         twin.__dict__.update(self.__dict__)
         twin._views, twin._tail = dict(self._views), list(self._tail)
@@ -74,33 +76,33 @@ class Index:
 
     @property
     def views(self) -> Mapping[Key, View]:
-        """What was learned and not forgotten, by key, in the order of learning."""
+        """The views learned and not forgotten, by key, in the order of learning."""
         return MappingProxyType(self._views)
 
     @property
     def labels(self) -> tuple[str, ...]:
         """The words of the views in alphabetical order."""
-        return tuple(self._numbered())
+        return tuple(self._word_columns())
 
     @property
     def sizes(self) -> NDArray[np.intp]:
-        """How many descriptors each word has, in the order of the labels."""
-        return np.array([self._sizes[label] for label in self._numbered()], np.intp)
+        """The number of descriptors of each word, in the order of the labels."""
+        return np.array([self._sizes[label] for label in self._word_columns()], np.intp)
 
     def learn(self, view: View) -> None:
-        """Take a view; ValueError if its key is taken."""
+        """Add a view; ValueError if its key is taken."""
         self._take(view)
         if self._has_forgotten:
             return
         self._tail.append(view)
         self._exact = None
-        before = self._parting
-        self._parting = before.grown(len(view.descriptors))
-        if self._parting.runs != before.runs:
+        before = self._partition
+        self._partition = before.with_view(len(view.descriptors))
+        if self._partition.runs != before.runs:
             self._arrange()
 
     def forget(self, key: Key) -> None:
-        """Be as if this view had never been learned; KeyError if it was not."""
+        """Remove a view, as if it had never been learned; KeyError if it was not."""
         view = self._views.pop(key)
         self._known[view.label] -= 1
         self._sizes[view.label] -= len(view.descriptors)
@@ -110,7 +112,7 @@ class Index:
         self._has_forgotten = True
 
     def settled(self) -> Index:
-        """This index, when all its parts are built; raises what building one raised."""
+        """Build all parts and return this index; raises what building raised."""
         self._catch_up()
         self._builder.finish(self._wanted)
         for part in self._wanted:
@@ -125,9 +127,9 @@ class Index:
         The ten nearest of each part, and the nearest of each word among the newest.
         """
         self._catch_up()
-        columns = self._numbered()
+        columns = self._word_columns()
         if self._exact is None:
-            self._exact = Exact(thinned(self._tail, _EXACT), columns)
+            self._exact = Exact(thin_views(self._tail, _EXACT), columns)
         if self._owners is None:
             self._owners = [self._words_of(*serving) for serving in self._serving]
         found = [self._exact.neighbours(query)]
@@ -139,7 +141,7 @@ class Index:
         )
 
     def nearest(self, query: Rows) -> Rows:
-        """The distance (n, labels) from each query to the nearest descriptor of a word.
+        """The distance (n, labels) from each query to each word's nearest descriptor.
 
         It is infinite where none of that word is among the neighbours.
         """
@@ -165,28 +167,28 @@ class Index:
         self._columns = {}
         self._exact = self._owners = None
 
-    def _numbered(self) -> Mapping[str, int]:
+    def _word_columns(self) -> Mapping[str, int]:
         """The column of each word."""
         if len(self._columns) != len(self._known):
             self._columns = {word: i for i, word in enumerate(sorted(self._known))}
         return self._columns
 
-    def _part_anew(self) -> None:
-        """Part the views as if they had been learned one after the other."""
+    def _partition_anew(self) -> None:
+        """Partition the views as if they had been learned one after the other."""
         sizes = (len(view.descriptors) for view in self._views.values())
-        self._parting = parting_of(sizes)
+        self._partition = partition_views(sizes)
         self._has_forgotten = False
         self._arrange()
 
     def _arrange(self) -> None:
-        """Have the parts built that are wanted and not there yet."""
+        """Start building the parts that are wanted and missing."""
         order = tuple(self._views.values())
         there = {part.views: part for part in (*self._wanted, *self._others)}
-        runs = [order[run.start : run.stop] for run in self._parting.runs]
+        runs = [order[run.start : run.stop] for run in self._partition.runs]
         self._others = tuple(there.values())
         self._wanted = tuple(there.get(run) or Part(run, self._make) for run in runs)
         self._serve()
-        newest = self._parting.views - self._parting.tail_start
+        newest = self._partition.views - self._partition.tail_start
         bare = tuple(self._tail[: len(self._tail) - newest])
         if (size := count(bare)) > _SKETCHED and not self._sketches:
             self._sketches = (Part(bare, self._make, size // _SKETCH),)
@@ -195,7 +197,7 @@ class Index:
         self._builder.begin(new)
 
     def _serve(self) -> None:
-        """Choose the parts that answer: those wanted, or else others that are ready.
+        """Choose the parts that answer: those wanted, or others that are ready.
 
         Each view is searched once. The newest, and those in no part that is ready, are
         compared one by one. Parts that are of no use any more are let go.
@@ -203,8 +205,8 @@ class Index:
         self._awaited = tuple(
             part for part in (*self._wanted, *self._sketches) if not part.is_ready
         )
-        left = dict(islice(self._views.items(), self._parting.tail_start))
-        newest = islice(self._views.values(), self._parting.tail_start, None)
+        left = dict(islice(self._views.items(), self._partition.tail_start))
+        newest = islice(self._views.values(), self._partition.tail_start, None)
         self._serving = []
         others = sorted(self._others, key=lambda part: -part.size)
         for part in dict.fromkeys((*self._wanted, *others, *self._sketches)):
@@ -223,9 +225,9 @@ class Index:
         self._exact = self._owners = None
 
     def _catch_up(self) -> None:
-        """Leave out what was forgotten, and answer by what has become ready."""
+        """Leave out forgotten views, and use the parts that have become ready."""
         if self._has_forgotten:
-            self._part_anew()
+            self._partition_anew()
         if not self._awaited:
             return
         self._builder.need([part for part in self._wanted if not part.is_ready])
@@ -233,7 +235,8 @@ class Index:
             self._serve()
 
     def _words_of(self, part: Part, served: NDArray[np.bool_]) -> NDArray[np.intp]:
-        """The column of the word of each view of a part, or nobody's."""
-        columns = self._numbered()
+        """The column of the word of each view of a part; -1 if it is not served
+        here."""
+        columns = self._word_columns()
         words = [columns.get(view.label, NOBODY) for view in part.views]
         return np.where(served, np.array(words, np.intp), NOBODY)

@@ -1,4 +1,4 @@
-"""Views that are searched together: exactly while they are few, by a search if many."""
+"""Parts of an index: views searched together, exactly if few, by a search if many."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from kille.perception.index.views import (
     View,
     apart,
     rooted,
-    stacked,
+    stack_descriptors,
 )
 
 NEIGHBOURS = 10
-"""How many of the nearest descriptors are looked at in each part."""
+"""How many of the nearest descriptors each part gives."""
 
 NOBODY = -1
 """The column of a view that was forgotten."""
@@ -33,7 +33,7 @@ _SPARE = 30  # neighbours more, where some of what is found may have been forgot
 
 
 class Neighbours(NamedTuple):
-    """The nearest descriptors found: whose they are, and how far from each query.
+    """The nearest descriptors: the word of each, and its distance from the query.
 
     Both (n, k); the number of a word is its column in `Index.labels`, or -1 with an
     infinite distance where fewer were found.
@@ -44,7 +44,7 @@ class Neighbours(NamedTuple):
 
 
 class Exact:
-    """A few views, every descriptor of which is compared."""
+    """A few views, all descriptors of which are compared with a query."""
 
     def __init__(self, views: Sequence[View], columns: Mapping[str, int]) -> None:
         ordered = sorted(
@@ -57,10 +57,10 @@ class Exact:
         )
         self._words, firsts = np.unique(owners, return_index=True)
         self._spans = list(starmap(slice, pairwise([*firsts.tolist(), len(owners)])))
-        self._rows = rooted(stacked(ordered))
+        self._rows = rooted(stack_descriptors(ordered))
 
     def neighbours(self, query: Rows) -> Neighbours:
-        """The nearest descriptor of each word: one column a word."""
+        """The nearest descriptor of each word, one column for each word."""
         words = np.broadcast_to(self._words, (len(query), len(self._words)))
         if not len(self._words):
             return Neighbours(words, np.empty((len(query), 0), np.float32))
@@ -74,7 +74,7 @@ class Exact:
 
 
 class Part:
-    """Many views, which are searched together once that has been prepared.
+    """Many views that are searched together once their search is built.
 
     `step` takes only every so many descriptors: a sketch of the views, which is ready
     early.
@@ -90,16 +90,16 @@ class Part:
 
     @cached_property
     def size(self) -> int:
-        """How many descriptors it holds."""
+        """The number of descriptors."""
         return int(self._starts[-1])
 
     @property
     def is_ready(self) -> bool:
-        """Whether it can be searched."""
+        """Can it be searched?"""
         return self._search is not None
 
     def build(self) -> None:
-        """Prepare the search, however long that takes; once is enough."""
+        """Build the search, however long that takes; later calls do nothing."""
         if self._done.is_set():
             return
         try:
@@ -111,21 +111,21 @@ class Part:
             self._done.set()
 
     def wait(self, seconds: float) -> bool:
-        """Wait until another thread has built it, or failed to; whether it has."""
+        """Wait until another thread has built it, or failed to; tell whether it has."""
         return self._done.wait(seconds)
 
     def neighbours(self, query: Rows, owners: NDArray[np.intp]) -> Neighbours:
-        """The nearest descriptors, by the column of each view's word: -1 is nobody's.
+        """The nearest descriptors; `owners` has the column of each view's word, or -1.
 
-        So what was forgotten is left out at once, though it still is in the trees.
+        Forgotten views are left out at once, although the trees still hold them.
         """
         if self._search is None:
-            raise RuntimeError("a part is searched before it was built")
+            raise RuntimeError("a part was searched before it was built")
         if not len(query):
             return Neighbours(np.empty((0, 0), np.intp), np.empty((0, 0), np.float32))
         some_gone = bool((owners == NOBODY).any())
         wanted = NEIGHBOURS + some_gone * _SPARE
-        rows = self._search.found(query, min(wanted, self.size))
+        rows = self._search.find_rows(query, min(wanted, self.size))
         some = np.maximum(rows, 0)
         views = np.searchsorted(self._starts, some, side="right") - 1
         words = np.where(rows < 0, NOBODY, owners[views])

@@ -1,4 +1,4 @@
-"""Faiss's inverted file: the descriptors near a query are in the cells next to it.
+"""Faiss's inverted file, which searches only the cells nearest to a query.
 
 It is the extra `kille[faiss]`. Descriptors are kept as bytes in some 4 √n cells, of
 which the eight nearest to a query are searched.
@@ -19,18 +19,18 @@ _TAUGHT_BY = 50  # descriptors a cell whose places the cells are learned from
 _BLOCK = 200  # views whose descriptors are added at a time
 
 
-def cells() -> Callable[[Sequence[Descriptors]], Cells]:
-    """What makes such a search; ValueError if faiss is not installed."""
+def inverted_file() -> Callable[[Sequence[Descriptors]], InvertedFile]:
+    """A function that makes inverted files; ValueError if faiss is not installed."""
     try:
         import faiss
     except ImportError:
         raise ValueError(
             "the search faiss needs the package faiss-cpu: pip install 'kille[faiss]'"
         ) from None
-    return lambda blocks: Cells(blocks, faiss)
+    return lambda blocks: InvertedFile(blocks, faiss)
 
 
-class Cells:
+class InvertedFile:
     """An inverted file over RootSIFT descriptors, each number a byte."""
 
     def __init__(self, blocks: Sequence[Descriptors], faiss: Any) -> None:
@@ -46,7 +46,8 @@ class Cells:
         for start in range(0, len(blocks), _BLOCK):
             self._index.add(rooted(np.concatenate(blocks[start : start + _BLOCK])))
 
-    def found(self, query: Rows, count: int) -> NDArray[np.int32]:
-        """The rows (n, count) of descriptors near each query; -1 where too few are."""
+    def find_rows(self, query: Rows, count: int) -> NDArray[np.int32]:
+        """The rows (n, count) of descriptors near each query; -1 where there are
+        fewer."""
         rows = self._index.search(np.ascontiguousarray(query), count)[1]
         return np.asarray(rows, np.int32)

@@ -29,14 +29,15 @@ class Trees:
     """Randomised kd-trees over the principal dimensions of the descriptors."""
 
     def __init__(self, blocks: Sequence[Descriptors]) -> None:
-        self._axes = _principal(_sampled(blocks))
-        rows = _projected(blocks, self._axes)  # OpenCV takes a copy of them
+        self._axes = _principal(_sample_rows(blocks))
+        rows = _project(blocks, self._axes)  # OpenCV takes a copy of them
         self._size = len(rows)
         cv2.setRNGSeed(_SEED)  # the same views, the same trees; each thread has its own
         self._trees = cv2.flann.Index(rows, {"algorithm": _KD_TREE, "trees": _TREES})
 
-    def found(self, query: Rows, count: int) -> NDArray[np.int32]:
-        """The rows (n, count) of descriptors near each query; -1 where too few are."""
+    def find_rows(self, query: Rows, count: int) -> NDArray[np.int32]:
+        """The rows (n, count) of descriptors near each query; -1 where there are
+        fewer."""
         rows, _ = self._trees.knnSearch(
             query @ self._axes,
             min(count, self._size),
@@ -45,7 +46,7 @@ class Trees:
         return np.asarray(rows, np.int32)
 
 
-def _sampled(blocks: Sequence[Descriptors]) -> Rows:
+def _sample_rows(blocks: Sequence[Descriptors]) -> Rows:
     size = sum(map(len, blocks))
     step = max(1, size // _SAMPLE)
     return rooted(np.concatenate([block[::step] for block in blocks]))
@@ -58,8 +59,8 @@ def _principal(rows: Rows) -> Rows:
     return np.ascontiguousarray(axes[:, : -_DIMENSIONS - 1 : -1], np.float32)
 
 
-def _projected(blocks: Sequence[Descriptors], axes: Rows) -> Rows:
-    """All rows along the axes, made a few at a time: they are never all floats."""
+def _project(blocks: Sequence[Descriptors], axes: Rows) -> Rows:
+    """Project all rows on the axes, in batches, so that they are never all floats."""
     rows = np.empty((sum(map(len, blocks)), axes.shape[1]), np.float32)
     done = 0
     for some in _batches(blocks):
@@ -69,7 +70,7 @@ def _projected(blocks: Sequence[Descriptors], axes: Rows) -> Rows:
 
 
 def _batches(blocks: Sequence[Descriptors]) -> Iterator[Descriptors]:
-    """The same descriptors in fewer, larger blocks."""
+    """Join the blocks of descriptors to fewer, larger ones."""
     batch: list[Descriptors] = []
     size = 0
     for block in blocks:

@@ -1,4 +1,4 @@
-"""What can search many descriptors, by name."""
+"""The searches over many descriptors, by name."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.index.inverted_file import cells
+from kille.perception.index.inverted_file import inverted_file
 from kille.perception.index.kd_trees import Trees
 from kille.perception.index.views import Descriptors, Rows
 
 
 class Search(Protocol):
-    """A structure over descriptors that finds the nearest ones."""
+    """A data structure over descriptors that finds the nearest ones."""
 
-    def found(self, query: Rows, count: int) -> NDArray[np.int32]:
-        """The rows (n, count) of descriptors near each query, -1 where there are none.
+    def find_rows(self, query: Rows, count: int) -> NDArray[np.int32]:
+        """The rows (n, count) of descriptors near each query; -1 where there are fewer.
 
         They need not be in order.
         """
@@ -28,12 +28,15 @@ class Search(Protocol):
 Maker = Callable[[Sequence[Descriptors]], Search]
 """Makes a search over some blocks of descriptors, however long that takes."""
 
-SEARCHES: Mapping[str, Callable[[], Maker]] = {"trees": lambda: Trees, "faiss": cells}
-"""Trees are always there; `faiss` needs the extra kille[faiss]."""
+SEARCHES: Mapping[str, Callable[[], Maker]] = {
+    "trees": lambda: Trees,
+    "faiss": inverted_file,
+}
+"""`trees` is always available; `faiss` needs the extra kille[faiss]."""
 
 
 def search_called(name: str) -> Maker:
-    """The search of this name; ValueError if there is none, or it is not installed."""
+    """The search of this name; ValueError if it is unknown or not installed."""
     if name in SEARCHES:
         return SEARCHES[name]()
     known = ", ".join(SEARCHES)

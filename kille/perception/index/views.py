@@ -1,4 +1,4 @@
-"""What is indexed: the descriptors of one lesson, compared as RootSIFT."""
+"""Views: the descriptors of one lesson each, compared as RootSIFT."""
 
 from __future__ import annotations
 
@@ -49,9 +49,9 @@ def distances(query: Rows, others: Rows) -> Rows:
 
 
 def apart(products: Rows) -> Rows:
-    """The distances between descriptors of length 1 that have these products.
+    """The distances between descriptors of length 1 with these dot products.
 
-    It is written over the products. The greater the product, the smaller the distance.
+    Overwrites the products. The greater the product, the smaller the distance.
     """
     products *= -2
     products += 2
@@ -59,21 +59,21 @@ def apart(products: Rows) -> Rows:
     return np.sqrt(products, out=products)
 
 
-def stacked(views: Sequence[View]) -> Descriptors:
-    """The descriptors of all the views, one below the other."""
+def stack_descriptors(views: Sequence[View]) -> Descriptors:
+    """The descriptors of all views in one array."""
     blocks = [view.descriptors for view in views]
     return np.concatenate([np.empty((0, LENGTH), np.uint8), *blocks])
 
 
 def count(views: Sequence[View]) -> int:
-    """How many descriptors the views have together."""
+    """The number of descriptors of all views together."""
     return sum(len(view.descriptors) for view in views)
 
 
-def thinned(views: Sequence[View], most: int) -> Sequence[View]:
-    """The views with so few descriptors of each that they have about `most` together.
+def thin_views(views: Sequence[View], most: int) -> Sequence[View]:
+    """The views with fewer descriptors each, about `most` together.
 
-    >>> (few,) = thinned([View(0, "cup", np.zeros((10, 128), np.uint8))], 5)
+    >>> (few,) = thin_views([View(0, "cup", np.zeros((10, 128), np.uint8))], 5)
     >>> len(few.descriptors)
     5
     """

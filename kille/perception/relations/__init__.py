@@ -1,4 +1,4 @@
-"""Spatial words: how a target stands to a landmark, and the words learned for it."""
+"""Spatial words: how a target is related to a landmark, and words learned for that."""
 
 from kille.perception.relations.angle import AngleRule
 from kille.perception.relations.configurations import configuration

@@ -1,9 +1,9 @@
-"""The one-number rule: a word is an angle or a distance with a border.
+"""The one-number rule: a word is a threshold on an angle or a distance.
 
 Of a few numbers of a place (the cosines with right, left, away, towards, up and down,
-the distance and its negative) each word has the one that best parts its examples from
-the others', and the border on it that does so with the fewest errors. It is what every
-better learner has to beat. A caller may say beforehand which number a word is about.
+the distance and its negative) each word gets the one that best separates its examples
+from the others', and the threshold with the fewest errors. It is the baseline for every
+other learner. A caller may say beforehand which number a word is about.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.learners import Key, own_key
-from kille.perception.relations.measures import bounded, size_of
+from kille.perception.relations.measures import clip_lengths, size_of
 from kille.scene import Configuration
 
 NUMBERS = ("right", "left", "away", "towards", "up", "down", "near", "far")
-"""What a word may be about."""
+"""The numbers that a word may be about."""
 
 _SHARPNESS = 6.0
 _UNHEARD = 0.3  # how far below the least example the border is, if there is no other
@@ -65,12 +65,12 @@ class AngleRule:
         self._rules = None
 
     def forget(self, key: Key) -> None:
-        """Be as if this had never been learned; KeyError if it was not."""
+        """Undo a lesson, as if it had never been given; KeyError if there was none."""
         del self._heard[key]
         self._rules = None
 
     def degrees(self, x: Configuration) -> dict[str, float]:
-        """How far x is inside the border of each word."""
+        """How far x is inside the threshold of each word, as a degree in [0, 1]."""
         if self._rules is None:
             self._rules = {word: self._rule(word) for word in self.labels}
         numbers = _numbers(x)
@@ -80,7 +80,7 @@ class AngleRule:
         }
 
     def predict_proba_one(self, x: Configuration) -> dict[str, float]:
-        """The degrees, made smaller where they sum to more than 1."""
+        """The degrees, scaled down where they sum to more than 1."""
         degrees = self.degrees(x)
         total = max(1.0, sum(degrees.values()))
         return {word: degree / total for word, degree in degrees.items()}
@@ -106,7 +106,7 @@ class AngleRule:
 
 
 def _border(inside: Vector, outside: Vector, which: int) -> tuple[float, float, float]:
-    """The share of errors, less the room at the border, and the border."""
+    """The share of errors, the room at the threshold (negated), and the threshold."""
     ins = inside[:, which] if len(inside) else np.empty(0)
     outs = outside[:, which] if len(outside) else np.empty(0)
     if not len(outs):
@@ -124,7 +124,7 @@ def _border(inside: Vector, outside: Vector, which: int) -> tuple[float, float, 
 
 def _numbers(x: Configuration) -> Vector:
     place = np.nan_to_num(np.array(x.offset, np.float64), posinf=0.0, neginf=0.0)
-    place = bounded(place)
+    place = clip_lengths(place)
     right, away, up = place / max(float(np.linalg.norm(place)), 1e-9)
     far = math.log(max(float(np.linalg.norm(place)) / size_of(x), 1e-3))
     return np.array([right, -right, away, -away, up, -up, -far, far])

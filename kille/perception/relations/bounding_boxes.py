@@ -1,4 +1,4 @@
-"""How one thing holds another, told from the boxes around them.
+"""How one thing holds another, computed from their bounding boxes.
 
 Boxes are level: their sides are along right, away and up. Two boxes touch where the
 gap between them is small for their sizes, since a sensor loses what is at the edges.
@@ -42,7 +42,7 @@ class Bounds:
 
 @dataclass(frozen=True)
 class Hold:
-    """How a landmark holds a target, each in [0, 1]."""
+    """How a landmark holds a target; each number is in [0, 1]."""
 
     contact: float
     support: float
@@ -50,7 +50,7 @@ class Hold:
 
 
 def hold(target: Bounds, landmark: Bounds) -> Hold:
-    """How the landmark touches, bears and contains the target.
+    """How far the landmark touches, supports and contains the target.
 
     contact: 1 where the boxes meet, 0 from a gap of 15 % of the smaller size on.
     support: the share of the target's foot that is over the landmark, as far as it is
@@ -80,7 +80,7 @@ def hold(target: Bounds, landmark: Bounds) -> Hold:
 
 
 def bounds_of(points: Vector, spare: float = 0.0) -> Bounds | None:
-    """The box around points (n, 3); None if there are none.
+    """The bounding box of points (n, 3); None if there are none.
 
     A share of the points may be out of it on each side, as strays of a sensor are.
     """

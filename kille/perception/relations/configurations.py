@@ -1,4 +1,5 @@
-"""From two regions of a frame to a configuration: what a spatial word is judged of."""
+"""Compute a configuration, which spatial words describe, from two regions of a
+frame."""
 
 from __future__ import annotations
 
@@ -26,7 +27,7 @@ def configuration(
     *,
     places: tuple[Point, Point] | None = None,
 ) -> Configuration | None:
-    """How the target stands to the landmark, as seen; None where a place is unknown.
+    """How the target is placed relative to the landmark; None if a place is unknown.
 
     Sizes are those of the visible points, and the hold is told from their boxes.
     `places` are the target's and the landmark's where they are known better than as
@@ -44,7 +45,7 @@ def configuration(
 def configurations(
     frame: Frame, regions: Sequence[Region], up: Direction
 ) -> Mapping[tuple[int, int], Configuration]:
-    """How each region stands to each other one, by the numbers of target and landmark.
+    """The configuration of each pair of regions, by numbers of target and landmark.
 
     As `configuration` says of each two, with all the others there; a pair of which a
     place is unknown is missing.
@@ -62,7 +63,7 @@ def configurations(
 
 @dataclass(frozen=True, eq=False)
 class _Placed:
-    """Where a thing is, and the box around it, as far as they are known."""
+    """A thing's place and bounding box, as far as they are known."""
 
     place: Point | None
     box: Bounds | None

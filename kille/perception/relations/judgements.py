@@ -1,4 +1,4 @@
-"""What was judged of a word, for every template it may mean: a regression on each.
+"""Judgements of a word, as a regression on each template that it may mean.
 
 How often people tick a word that fits, and how sharply, differs by word and by people:
 `in` may be ticked by a fifth of them at best, and `above` by all. So a judged degree d
@@ -32,7 +32,7 @@ _PROBIT = 1.702  # the logistic nearest to the normal distribution
 
 
 def log_odds(degrees: ArrayLike) -> Vector:
-    """The log odds of degrees in [0, 1], as far as one may be sure of them."""
+    """The log odds of degrees in [0, 1], which never count as quite certain."""
     sure = _DOUBTED + (1 - 2 * _DOUBTED) * np.asarray(degrees, np.float64)
     odds: Vector = np.log(sure / (1 - sure))
     return odds
@@ -46,7 +46,7 @@ def degrees_at(odds: ArrayLike) -> Vector:
 
 
 class Fit(NamedTuple):
-    """How well each template fits what was judged, its logarithm, and its line."""
+    """How well each template fits the judgements (log evidence), and its line."""
 
     score: Vector
     shift: Vector
@@ -67,15 +67,14 @@ class Judgements:
     zy: Vector
 
     @staticmethod
-    @cache  # what follows from nothing is reckoned once
+    @cache  # the same for every word: computed once
     def none(templates: int) -> Judgements:
-        """Of so many templates, before anything was judged."""
+        """The sums for so many templates before any judgement."""
         zeros = np.zeros(templates)
         return Judgements(0, 0.0, 0.0, 0.0, zeros, zeros, zeros)
 
     def plus(self, degrees: Vector, degree: float, times: int) -> Judgements:
-        """With so many more judgements of this degree, where the templates have
-        these."""
+        """Add `times` judgements of this degree, where the templates have `degrees`."""
         y, z = float(log_odds(degree)), log_odds(degrees)
         weight = times / np.cosh(y / 2) ** 2  # 4 d (1 - d)
         return Judgements(
@@ -90,7 +89,8 @@ class Judgements:
 
     @cached_property
     def fit(self) -> Fit:
-        """The evidence and the line of each template, the noise averaged out."""
+        """The evidence and the line of each template, averaged over the noise
+        levels."""
         noise = _NOISE**2
         # Of the posterior: its precision (a b; b c), and that times its mean (u, v).
         a = 1 / _SHIFT**2 + self.weight / noise

@@ -1,4 +1,4 @@
-"""The numbers that spatial words depend on, of many configurations at once.
+"""The measurements that spatial words depend on, for many configurations at once.
 
 Lengths are in units of the things' own size, so that a word means the same of cups and
 of cupboards. The size of a pair is the geometric mean of the two sizes, 10 cm where
@@ -26,7 +26,7 @@ _BETWEEN = 0.35  # of their distance: how far off the line a thing is between tw
 
 
 class Measures(NamedTuple):
-    """Of n configurations, each (n,) and NaN where it cannot be told."""
+    """Measurements of n configurations, each (n,), NaN where unknown."""
 
     bearing: Array
     """Where the target is on the table: radians counter-clockwise from right."""
@@ -59,8 +59,8 @@ class Measures(NamedTuple):
     """The share of the target within the landmark."""
 
 
-def measured(configurations: Sequence[Configuration]) -> Measures:
-    """The measures of configurations."""
+def measure_configurations(configurations: Sequence[Configuration]) -> Measures:
+    """Measure several configurations at once."""
     rows = np.array([_row(it) for it in configurations], np.float32)
     return Measures(*rows.reshape(-1, len(Measures._fields)).T)
 
@@ -71,13 +71,13 @@ def size_of(configuration: Configuration) -> float:
     return math.sqrt(target * landmark)
 
 
-def bounded(metres: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The lengths; what is longer than any is as long as the longest."""
+def clip_lengths(metres: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Clip lengths in metres to the largest length allowed."""
     return np.clip(metres, -_LARGEST, _LARGEST)
 
 
 def _sizes(it: Configuration) -> tuple[float, float]:
-    """The sizes in metres; the one that is not known is taken to be as the other."""
+    """The sizes in metres; an unknown size is taken to equal the known one."""
     known = [
         min(max(size, _SMALLEST), _LARGEST)
         for size in (it.target_size, it.landmark_size)
@@ -131,13 +131,13 @@ def _turn(viewed: Direction | None) -> float:
 def _company(
     offset: Direction, others: Sequence[Direction]
 ) -> tuple[float, float, float]:
-    """Crowding, between and flanked."""
+    """How the other things are placed: crowding, between and flanked."""
     around = np.array(others, np.float64).reshape(-1, 3)
     target = np.array(offset, np.float64)
-    around = bounded(around[np.isfinite(around).all(axis=1)])
+    around = clip_lengths(around[np.isfinite(around).all(axis=1)])
     if not len(around) or not np.isfinite(target).all():
         return 0.0, 0.0, -1.0
-    target = bounded(target)
+    target = clip_lengths(target)
     distance = float(np.linalg.norm(target))
     if distance < _SMALLEST:
         return 0.0, 0.0, -1.0

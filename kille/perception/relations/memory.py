@@ -1,6 +1,6 @@
 """Spatial words learned from few examples: which template does each word mean?
 
-Nothing is known of a word beforehand but that it means one of many graded templates
+All that is known of a word beforehand is that it means one of many graded templates
 (see `kille.perception.relations.templates`); its name is never looked at. Each lesson
 makes some templates more and others less likely, and the degree of a word is the mean
 of what its templates say, in log odds, by how likely they are.
@@ -43,7 +43,7 @@ _DOUBT = 0.35  # of the logarithm of the distance
 
 @dataclass(frozen=True)
 class Lesson:
-    """A word said of a configuration, or judged of it: the degree then."""
+    """A word said of a configuration, or judged to fit it to a degree."""
 
     x: Configuration
     label: str
@@ -51,7 +51,7 @@ class Lesson:
 
     @property
     def denies(self) -> bool:
-        """Whether it is a plain "no"."""
+        """Is it a plain "no"?"""
         return self.degree == 0
 
 
@@ -77,17 +77,17 @@ class Evidence:
 
     @property
     def lessons(self) -> int:
-        """How many there were."""
+        """The number of lessons."""
         return self.times_said + self.judged.count
 
     def plus(self, lesson: Lesson) -> Evidence:
-        """With one lesson more."""
+        """Add one lesson."""
         degrees = space().degrees([lesson.x])[0].astype(np.float64)
         if lesson.degree is not None:
             return replace(self, judged=self.judged.plus(degrees, lesson.degree, 1))
         return replace(
             self,
-            said=self.said + _said(degrees),
+            said=self.said + _fit_of_said(degrees),
             covered=self.covered + degrees,
             times_said=self.times_said + 1,
         )
@@ -110,13 +110,14 @@ def template_odds(seen: Sequence[Configuration]) -> Vector:
     return log_odds(space().degrees(seen))
 
 
-def _nothing() -> Evidence:
+def _no_evidence() -> Evidence:
     none = np.zeros(len(space().breadth))
     return Evidence(none, none, Judgements.none(len(none)))
 
 
-def _said(degrees: Vector) -> Vector:
-    """How well the templates (h,) fit what was said, but for where things stand."""
+def _fit_of_said(degrees: Vector) -> Vector:
+    """How well the templates (h,) fit one lesson, apart from where things tend to
+    be."""
     true = _DOUBTED + (1 - _DOUBTED) * degrees
     fit: Vector = np.log(degrees + _SLIPS * space().breadth) + _TRUTH * np.log(true)
     return fit
@@ -131,13 +132,13 @@ class RelationMemory:
         self._believed: _Beliefs | None = None
 
     def copy(self) -> RelationMemory:
-        """Another memory that knows the same; either learns without the other."""
+        """A copy that knows the same; either learns without the other."""
         twin = RelationMemory()
         twin.become(self)
         return twin
 
     def become(self, other: RelationMemory) -> None:
-        """Know what the other knows and nothing else; either goes on by itself."""
+        """Take over all that the other knows; afterwards either learns by itself."""
         self._heard, self._evidence = dict(other._heard), dict(other._evidence)
         self._believed = other._believed
 
@@ -149,13 +150,13 @@ class RelationMemory:
     def learn_one(
         self, x: Configuration, label: str, *, key: Key | None = None
     ) -> None:
-        """Take the word as said of x; ValueError if the key is taken."""
+        """Learn that the word was said of x; ValueError if the key is taken."""
         self._learn(Lesson(x, label, None), key)
 
     def judge_one(
         self, x: Configuration, label: str, degree: float, *, key: Key | None = None
     ) -> None:
-        """Take the word as judged to fit x to a degree; 0 is "no, it is not".
+        """Learn that the word fits x to a degree; 0 means "no, it does not".
 
         ValueError if the key is taken or the degree is not in [0, 1].
         """
@@ -166,19 +167,19 @@ class RelationMemory:
     def _learn(self, lesson: Lesson, key: Key | None) -> None:
         if key in self._heard:
             raise ValueError(f"the key {key!r} was learned before; forget it first")
-        old = self._evidence.get(lesson.label) or _nothing()
+        old = self._evidence.get(lesson.label) or _no_evidence()
         self._evidence[lesson.label] = old.plus(lesson)
         self._heard[own_key(self._heard) if key is None else key] = lesson
         self._believed = None
 
     def forget(self, key: Key) -> None:
-        """Be as if this had never been learned; KeyError if it was not.
+        """Undo a lesson, as if it had never been given; KeyError if there was none.
 
-        What the other lessons say is added up again: a sum from which one part is taken
-        is not to the last bit what it was before.
+        The other lessons are added up again, since subtracting one would leave rounding
+        errors.
         """
         label = self._heard.pop(key).label
-        evidence = _nothing()
+        evidence = _no_evidence()
         for lesson in self._heard.values():
             evidence = evidence.plus(lesson) if lesson.label == label else evidence
         if evidence.lessons:
@@ -196,7 +197,7 @@ class RelationMemory:
     def degrees_of(
         self, seen: Sequence[Configuration], odds: Vector | None = None
     ) -> list[dict[str, float]]:
-        """The same of several configurations at once.
+        """The degrees of each word for several configurations at once.
 
         `odds` (n, h) are what `template_odds` gives for them, for whoever asks again
         after other lessons.
@@ -209,11 +210,10 @@ class RelationMemory:
         return [dict(zip(labels, row, strict=True)) for row in found.tolist()]
 
     def nearest(self, x: Configuration, label: str) -> Key | None:
-        """The lesson in a word that was given where things stood most as they do now.
+        """The lesson in a word whose configuration was most like x.
 
-        What the word means says what counts: its likely templates are compared. Of
-        many lessons the newest; None if all are in where it does not hold. KeyError
-        for a word that was not learned.
+        Configurations are compared by the likely templates of the word, among its
+        newest lessons; None if the word was only denied. KeyError for an unknown word.
         """
         likely = self._beliefs.meanings[self._column(label)].likely
         own = [
@@ -233,7 +233,7 @@ class RelationMemory:
         return self.labels.index(label)
 
     def predict_proba_one(self, x: Configuration) -> dict[str, float]:
-        """How likely each word is the one to be said of x; the rest is for no word.
+        """The probability that each word is said of x; the rest is for no word.
 
         Of the words that fit, those said oftener where they fit are likelier.
         """
@@ -254,7 +254,7 @@ class RelationMemory:
         return found
 
     def _confidence(self, x: Configuration) -> float:
-        """1 as far as was heard, and down to 0 far beyond."""
+        """1 within the distances taught, falling to 0 far beyond them."""
         far = math.hypot(*x.offset) / (_FARTHER * max(self._beliefs.farthest, 1e-6))
         if not far > 1:
             return 1.0
@@ -263,10 +263,10 @@ class RelationMemory:
     @property
     def _beliefs(self) -> _Beliefs:
         if self._believed is None:
-            self._believed = self._concluded()
+            self._believed = self._work_out_beliefs()
         return self._believed
 
-    def _concluded(self) -> _Beliefs:
+    def _work_out_beliefs(self) -> _Beliefs:
         every = [self._evidence[word] for word in self.labels]
         covered = np.sum([it.covered for it in every], axis=0)
         counts = np.array([it.times_said for it in every])

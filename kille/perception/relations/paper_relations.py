@@ -1,4 +1,4 @@
-"""The paper's own way with spatial words: a linear support vector machine on places.
+"""The paper's method for spatial words: a linear support vector machine on places.
 
 What is learned from is the target's place minus the landmark's, (right, away, up) in
 metres. Each word has its own plane that parts it from the others; the margins become
@@ -49,27 +49,27 @@ class PaperRelations:
         self._model = None
 
     def forget(self, key: Key) -> None:
-        """Be as if this had never been learned; KeyError if it was not."""
+        """Undo a lesson, as if it had never been given; KeyError if there was none."""
         del self._heard[key]
         self._model = None
 
     def predict_proba_one(self, x: Configuration) -> dict[str, float]:
-        """The share of each word in the margins; nothing for a place not known."""
-        labels = self._told_apart()
+        """Each word's share of the margins; all 0 for an unknown place."""
+        labels = self._words_with_places()
         if not labels or not np.isfinite(x.offset).all():
             return dict.fromkeys(self.labels, 0.0)
         shares = np.ones(1) if len(labels) == 1 else self._shares(x.offset)
         return dict(zip(labels, shares.tolist(), strict=True))
 
-    def _told_apart(self) -> list[str]:
-        """The words heard of a known place."""
+    def _words_with_places(self) -> list[str]:
+        """The words that were taught at a known place."""
         known = {w for x, w in self._heard.values() if np.isfinite(x).all()}
         return sorted(known)
 
     def _shares(self, place: Direction) -> NDArray[np.float64]:
         """The softmax of the margins, in the order of the labels."""
         if self._model is None:
-            self._model = self._fitted()
+            self._model = self._fit_model()
         margins = self._model.decision_function(_in_units([place]))[0]
         if len(self._model.classes_) == 2:
             margins = np.array([-margins, margins])
@@ -77,7 +77,7 @@ class PaperRelations:
         shares: NDArray[np.float64] = raised / raised.sum()
         return shares
 
-    def _fitted(self) -> LinearSVC:
+    def _fit_model(self) -> LinearSVC:
         # Its import takes longer than all else at start: wait until a word needs it.
         from sklearn.svm import LinearSVC
 

@@ -1,4 +1,4 @@
-"""Perspectives: the same configuration as it is for another than the viewer.
+"""Perspectives: a configuration as seen by another person, or from a thing's front.
 
 A *person's* is the viewer's, turned: for who sits opposite and looks `towards` the
 viewer, left is right, and what is in front of a thing is on their own side of it. A
@@ -42,13 +42,13 @@ FRONTS: Mapping[str, Perspective] = MappingProxyType(
 """All perspectives by name: who looks that way, and what faces that way."""
 
 
-def turned(stand: Configuration, front: str) -> Configuration:
-    """The configuration in another perspective; KeyError for one that is unknown.
+def seen_from(stand: Configuration, front: str) -> Configuration:
+    """The configuration from another perspective; KeyError if that is unknown.
 
-    From where it is looked at is unknown then, so that the ray to the landmark is, too.
+    The viewer's ray to the landmark is unknown in the result.
 
     >>> behind = Configuration((0.0, 0.3, 0.1))
-    >>> turned(behind, "towards").offset, turned(behind, "faces_towards").offset
+    >>> seen_from(behind, "towards").offset, seen_from(behind, "faces_towards").offset
     ((0.0, -0.3, 0.1), (0.0, 0.3, 0.1))
     """
     if front == AWAY:
@@ -56,21 +56,22 @@ def turned(stand: Configuration, front: str) -> Configuration:
     seen = FRONTS[front]
     return replace(
         stand,
-        offset=_seen(seen, stand.offset),
+        offset=_turn_direction(seen, stand.offset),
         viewed=None,
-        others=tuple(_seen(seen, it) for it in stand.others),
-        heading=None if stand.heading is None else _bearing(seen, stand.heading),
+        others=tuple(_turn_direction(seen, it) for it in stand.others),
+        heading=None if stand.heading is None else _turn_angle(seen, stand.heading),
     )
 
 
-def _seen(perspective: Perspective, direction: Direction) -> Direction:
+def _turn_direction(perspective: Perspective, direction: Direction) -> Direction:
+    """Turn a direction, given as right, away, up."""
     right, away, up = direction
     for _ in range(perspective.quarters):
         right, away = away, 0.0 - right
     return right, (0.0 - away if perspective.mirrored else away), up
 
 
-def _bearing(perspective: Perspective, angle: float) -> float:
-    """An angle counter-clockwise from right."""
+def _turn_angle(perspective: Perspective, angle: float) -> float:
+    """Turn an angle, which is counter-clockwise from right."""
     after = angle - perspective.quarters * math.pi / 2
     return -after if perspective.mirrored else after

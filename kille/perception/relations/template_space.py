@@ -1,4 +1,4 @@
-"""All templates together, and where things stand before anything is heard."""
+"""All templates together, and their prior over possible configurations."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from kille.perception.relations.measures import Array, measured
+from kille.perception.relations.measures import Array, measure_configurations
 from kille.perception.relations.templates import families
 from kille.scene import Configuration, Direction
 
@@ -28,10 +28,10 @@ class Space:
         self.log_prior: NDArray[np.float64] = np.log(prior / prior.sum())
         anywhere = self._degrees(_anywhere(_PLACES, np.random.default_rng(_SEED)))
         self.breadth: Array = anywhere.mean(axis=0)
-        """How much of all that may be each template covers, (h,)."""
+        """The share of all possible configurations that each template covers, (h,)."""
 
     def degrees(self, configurations: Sequence[Configuration]) -> Array:
-        """The degree of each template, (n, h).
+        """The degree of each template at each configuration, (n, h).
 
         Where what it depends on is unknown this is half of what is usual: words are
         mostly said where one can see what they are about.
@@ -40,18 +40,18 @@ class Space:
         return np.where(np.isnan(found), _UNSEEN * self.breadth, found)
 
     def _degrees(self, configurations: Sequence[Configuration]) -> Array:
-        of = measured(configurations)
+        of = measure_configurations(configurations)
         return np.concatenate([it.degrees(of) for it in self._families], axis=1)
 
 
 @cache
 def space() -> Space:
-    """The space of templates, made once."""
+    """The space of templates, built once."""
     return Space()
 
 
 def _anywhere(count: int, chance: np.random.Generator) -> list[Configuration]:
-    """How two things may stand to each other on and above a table."""
+    """Random configurations of two things on and above a table."""
     return [_somewhere(chance) for _ in range(count)]
 
 

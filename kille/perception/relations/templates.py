@@ -1,4 +1,4 @@
-"""The meanings a spatial word may have: families of graded spatial templates.
+"""The meanings that a spatial word may have: families of graded spatial templates.
 
 A template gives each configuration a degree, the applicability of the word. Those of
 directions follow the attention vector sum of Regier and Carlson 2001,
@@ -33,7 +33,7 @@ _STEEPEST = 30.0  # beyond this a sigmoid is 0 or 1
 
 @dataclass(frozen=True, eq=False)
 class Family:
-    """Templates of one kind: their prior (h,), and their degrees of n configurations.
+    """Templates of one kind: their prior (h,), and their degrees at n configurations.
 
     `degrees` is (n, h) in [0, 1], NaN where what it depends on is unknown.
     """
@@ -45,7 +45,7 @@ class Family:
 
 @dataclass(frozen=True)
 class Axis:
-    """The values of one parameter and how likely each is beforehand."""
+    """The values of one parameter, with a prior."""
 
     values: Array
     prior: NDArray[np.float64]
@@ -122,8 +122,9 @@ def _cone_prior(of_directions: ArrayLike, share: float) -> NDArray[np.float64]:
 
 
 def _levels(of: Measures) -> tuple[Array, Array]:
-    """How much of a direction is told on the table, (n,): all of it, or less where the
-    target is far above or below."""
+    """How much of a direction is seen on the table, (n,), without and with regard to
+    height.
+    """
     told = of.across / np.sqrt(of.across**2 + _FUZZ**2)
     steep = of.across / np.sqrt(of.across**2 + of.rise**2 + _FUZZ**2)
     return told, steep
@@ -143,8 +144,8 @@ def _viewers(of: Measures, directions: Array) -> Array:
     return cosines
 
 
-def _viewed(share: float) -> Family:
-    """On one side as the viewer sees it: left, behind, and 22 other directions."""
+def _viewer_family(share: float) -> Family:
+    """Directions as the viewer sees them: left, behind, and 22 others."""
     directions = np.radians(np.arange(0, 360, 15)).astype(np.float32)
     weights = [20 if i % 6 == 0 else 2 if i % 3 == 0 else 1 for i in range(24)]
 
@@ -154,8 +155,8 @@ def _viewed(share: float) -> Family:
     return Family("viewed", _cone_prior(weights * 2, share), _cones(cosines))
 
 
-def _headed(share: float) -> Family:
-    """On one side of a landmark with a front of its own."""
+def _heading_family(share: float) -> Family:
+    """Directions from a landmark that has a front of its own."""
     directions = np.radians(np.arange(0, 360, 45)).astype(np.float32)
     weights = [4, 1] * 4
 
@@ -165,8 +166,8 @@ def _headed(share: float) -> Family:
     return Family("headed", _cone_prior(weights * 2, share), _cones(cosines))
 
 
-def _flanking(share: float) -> Family:
-    """On either of two opposite sides."""
+def _flanking_family(share: float) -> Family:
+    """Either of two opposite sides."""
     directions = np.radians([0.0, 90.0]).astype(np.float32)
 
     def cosines(of: Measures) -> Array:
@@ -175,8 +176,8 @@ def _flanking(share: float) -> Family:
     return Family("flanking", _cone_prior([1] * 4, share), _cones(cosines))
 
 
-def _vertical(share: float) -> Family:
-    """Above or below, in a wide or in a narrow cone."""
+def _vertical_family(share: float) -> Family:
+    """Above or below, within a wide or a narrow cone."""
 
     def cosines(of: Measures) -> Array:
         wide = of.rise / np.sqrt(of.across**2 + of.rise**2 + _FUZZ**2)
@@ -186,8 +187,8 @@ def _vertical(share: float) -> Family:
     return Family("vertical", _cone_prior([1] * 4, share), _cones(cosines))
 
 
-def _near(share: float) -> Family:
-    """At a small distance, for the sizes and for what else is there.
+def _near_family(share: float) -> Family:
+    """Near, relative to the sizes of the two and to the other things.
 
     Each is made so high that it is 1 where the two touch.
     """
@@ -206,8 +207,8 @@ def _near(share: float) -> Family:
     return Family("near", share * prior, degrees)
 
 
-def _beside(share: float) -> Family:
-    """At a small distance and on the same level."""
+def _beside_family(share: float) -> Family:
+    """Near and on the same level."""
     (k, b), prior = _grid(STEEPNESS, REACH)
     highest = _sigmoid(k * (b - _TOUCHING))
 
@@ -221,8 +222,8 @@ def _beside(share: float) -> Family:
     return Family("beside", share * prior, degrees)
 
 
-def _far(share: float) -> Family:
-    """At a large distance."""
+def _far_family(share: float) -> Family:
+    """Far away."""
     (k, b), prior = _grid(STEEPNESS, REACH)
 
     def degrees(of: Measures) -> Array:
@@ -231,7 +232,7 @@ def _far(share: float) -> Family:
     return Family("far", share * prior, degrees)
 
 
-def _between(share: float) -> Family:
+def _between_family(share: float) -> Family:
     """On the line from the landmark to another thing."""
     (k, c0), prior = _grid(SHARPNESS, BORDER)
 
@@ -241,8 +242,8 @@ def _between(share: float) -> Family:
     return Family("between", share * prior, degrees)
 
 
-def _functional(share: float) -> Family:
-    """Held in one way or another: touched, borne, contained."""
+def _functional_family(share: float) -> Family:
+    """Held in some way: touched, supported, or contained."""
     (k, b), prior = _grid(
         _axis([6, 12], 8, 6), _axis([0.05, 0.2, 0.4, 0.6, 0.8], 0.4, 0.3)
     )
@@ -269,13 +270,13 @@ def _functional(share: float) -> Family:
 
 
 def families() -> Iterator[Family]:
-    """All families; the priors of all templates sum to 1."""
-    yield _viewed(0.4)
-    yield _headed(0.06)
-    yield _flanking(0.03)
-    yield _vertical(0.14)
-    yield _near(0.1)
-    yield _beside(0.03)
-    yield _far(0.07)
-    yield _between(0.02)
-    yield _functional(0.15)
+    """All families; the priors of all their templates sum to 1."""
+    yield _viewer_family(0.4)
+    yield _heading_family(0.06)
+    yield _flanking_family(0.03)
+    yield _vertical_family(0.14)
+    yield _near_family(0.1)
+    yield _beside_family(0.03)
+    yield _far_family(0.07)
+    yield _between_family(0.02)
+    yield _functional_family(0.15)

@@ -1,4 +1,4 @@
-"""The learned merge: which patches are put together as one thing.
+"""The learned merge: which patches belong together as one thing.
 
 Small networks say from a pair's features how likely the two belong to one thing. Their
 log-odds are the weights of a graph, whose edges are contracted greedily, the most
@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kille.perception.surfaces.pairs import FEATURES, Pairs, pairs_of
-from kille.perception.surfaces.patch_measures import Vectors, measured
+from kille.perception.surfaces.patch_measures import Vectors, measure_patches
 from kille.perception.surfaces.patches import Surface
 from kille.perception.surfaces.relief import Labels, Relief
 from kille.perception.table import Plane
@@ -49,7 +49,7 @@ class Committee:
     output_bias: Vectors
 
     def probabilities(self, features: Vectors) -> Vectors:
-        """How likely each row (k, n) is of one thing (k,)."""
+        """The probability (k,) that the two of each row (k, n) belong to one thing."""
         inputs = (features - self.mean) / self.scale
         units = np.maximum(inputs @ self.hidden + self.hidden_bias[:, None], 0)
         score = np.einsum("mkh,mh->mk", units, self.output) + self.output_bias[:, None]
@@ -59,7 +59,7 @@ class Committee:
 
 @dataclass(frozen=True, eq=False)
 class Merger:
-    """What judges pairs that touch and pairs that are parted, and leans to parting.
+    """Judges pairs that touch and pairs that do not, with a bias against merging.
 
     `bias` is added to the log-odds of every pair: the evidence of parallel edges is not
     independent, as their sum takes it to be.
@@ -70,7 +70,7 @@ class Merger:
     bias: float
 
     def log_odds(self, pairs: Pairs) -> Vectors:
-        """The log-odds of each pair (m,) to be of one thing."""
+        """The log odds (m,) that the two patches of each pair belong to one thing."""
         p = np.where(
             pairs.touching,
             self.touching.probabilities(pairs.features),
@@ -81,18 +81,18 @@ class Merger:
 
 
 Rounds = tuple[Merger, ...]
-"""What merges patches first, and what then merges the pieces that came of it."""
+"""The merger of patches, followed by the merger of the resulting pieces."""
 
 
 @cache
-def fitted() -> Rounds:
-    """The rounds that are shipped."""
+def default_rounds() -> Rounds:
+    """The rounds that come with the package."""
     with (files(__package__) / WEIGHTS).open("rb") as file, np.load(file) as stored:
-        return unpacked(stored)
+        return rounds_from_arrays(stored)
 
 
-def packed(rounds: Rounds) -> dict[str, NDArray[np.float32]]:
-    """The rounds as named arrays, to be kept in a file."""
+def rounds_to_arrays(rounds: Rounds) -> dict[str, NDArray[np.float32]]:
+    """Convert the rounds to named arrays, as a file stores them."""
     arrays = {
         f"{number} {kind} {name}": np.asarray(values, np.float32)
         for number, merger in enumerate(rounds)
@@ -103,8 +103,8 @@ def packed(rounds: Rounds) -> dict[str, NDArray[np.float32]]:
     return {**arrays, "biases": np.array(biases, np.float32)}
 
 
-def unpacked(stored: Mapping[str, NDArray[np.float32]]) -> Rounds:
-    """The rounds of these named arrays. ValueError if they judge other features."""
+def rounds_from_arrays(stored: Mapping[str, NDArray[np.float32]]) -> Rounds:
+    """Convert named arrays to rounds. ValueError if they judge other features."""
     rounds = tuple(
         Merger(
             _committee(stored, f"{number} touching"),
@@ -118,7 +118,7 @@ def unpacked(stored: Mapping[str, NDArray[np.float32]]) -> Rounds:
             raise ValueError(
                 f"the merger judges {merger.touching.mean.size} features, not "
                 f"{len(FEATURES)}: "
-                "fit it anew by `python -m tools.fitting.merge`"
+                "fit it again with `python -m tools.fitting.merge`"
             )
     return rounds
 
@@ -128,24 +128,24 @@ def _committee(stored: Mapping[str, NDArray[np.float32]], kind: str) -> Committe
     return Committee(**{it: stored[f"{kind} {it}"].astype(np.float64) for it in names})
 
 
-def merged(
+def merge_patches(
     labels: Labels, relief: Relief, surface: Surface, table: Plane, rounds: Rounds
 ) -> Labels:
-    """Labels (h, w) in which the patches of one thing have one label, from 1."""
+    """Relabel patches (h, w) so that those of one thing share a label, from 1."""
     for merger in rounds:
         number = int(labels.max())
         if number < 2:
             break
-        patches = measured(labels, relief, surface, table)
+        patches = measure_patches(labels, relief, surface, table)
         pairs = pairs_of(labels, relief, surface, patches)
-        things = contracted(number, pairs, merger.log_odds(pairs))
+        things = contract_edges(number, pairs, merger.log_odds(pairs))
         _, names = np.unique(things, return_inverse=True)
         labels = np.concatenate([[0], names + 1]).astype(np.int32)[labels]
     return labels
 
 
-def contracted(number: int, pairs: Pairs, odds: Vectors) -> NDArray[np.intp]:
-    """For each of so many patches (k,) the first one that it is put together with.
+def contract_edges(number: int, pairs: Pairs, odds: Vectors) -> NDArray[np.intp]:
+    """For each of `number` patches (k,), the first patch that it is merged with.
 
     The edge with the highest weight is contracted, as long as one is above 0.
     """

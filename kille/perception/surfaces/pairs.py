@@ -1,4 +1,4 @@
-"""Pairs of patches, and what tells whether the two belong to one thing.
+"""Pairs of patches, and features that tell whether the two belong to one thing.
 
 Pairs are of two kinds: touching ones share an edge in the picture, parted ones do not,
 but what is between them is hidden by something nearer, or not read.
@@ -125,7 +125,7 @@ def pairs_of(
 def _edges(
     labels: Labels, depth: Array, surface: Surface, one: Indices, other: Indices
 ) -> dict[str, Vectors]:
-    """Sums over the pixels along the edge of each pair, by what is summed."""
+    """Sums over the pixels along the edge of each pair, by name."""
     rest = slice(None)
     ways = [
         (surface.leans[0], (rest, slice(0, -1)), (rest, slice(1, None))),
@@ -223,9 +223,9 @@ def _of_directions(
 
 
 def _of_surfaces(patches: Measures, one: Indices, other: Indices) -> dict[str, Vectors]:
-    planes = patches.fits.solved(3)
+    planes = patches.fits.coefficients(3)
     first, second = patches.fits.of(one), patches.fits.of(other)
-    union = first.joined(second)
+    union = first.union(second)
     size = patches.pixels[one] + patches.pixels[other]
     squared = patches.depth**2
     off = np.sqrt(second.error(planes[one]) / patches.pixels[other]) * squared[other]
@@ -233,8 +233,8 @@ def _of_surfaces(patches: Measures, one: Indices, other: Indices) -> dict[str, V
     scale = patches.depth[one] * patches.depth[other]
     facing = (patches.normal[:, one] * patches.normal[:, other]).sum(axis=0)
     flush = np.exp(-np.maximum(off, back) / _FLUSH) * np.maximum(facing, 0) ** 2
-    flat = np.sqrt(union.error(union.solved(3)) / size) * scale
-    curved = np.sqrt(union.error(union.solved(6)) / size) * scale
+    flat = np.sqrt(union.error(union.coefficients(3)) / size) * scale
+    curved = np.sqrt(union.error(union.coefficients(6)) / size) * scale
     return {
         "off the plane": _log(np.minimum(off, back)),
         "off the plane, at most": _log(np.maximum(off, back)),
@@ -313,7 +313,7 @@ def _of_heaps(patches: Measures, one: Indices, other: Indices) -> dict[str, Vect
 
 
 def _hull(patches: Measures, one: int, other: int) -> float:
-    """The pixels in the convex hull around two patches."""
+    """The area in pixels of the convex hull around two patches."""
     corners = np.concatenate([patches.hulls[one], patches.hulls[other]])
     return cv2.contourArea(cv2.convexHull(corners)) + 1
 
@@ -321,7 +321,7 @@ def _hull(patches: Measures, one: int, other: int) -> float:
 def _on_the_line(
     labels: Labels, depth: Array, patches: Measures, one: Indices, other: Indices
 ) -> tuple[Vectors, Vectors]:
-    """How much of the line between two patches is hidden, and how much is open (m,).
+    """The shares (m,) of the line between two patches that are hidden and open.
 
     Hidden is what is behind something nearer or was not read, as a share of what is not
     on the two themselves; open is where the picture sees past the line.

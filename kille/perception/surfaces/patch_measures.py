@@ -1,4 +1,4 @@
-"""What is measured of each patch by itself, all patches at once."""
+"""Measurements of each patch by itself, for all patches at once."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _SELF_HIDING = 0.05  # metres
 
 @dataclass(frozen=True, eq=False)
 class Fits:
-    """Sums from which surfaces w = c · b are fitted to patches, and to their unions.
+    """Sums from which surfaces w = c · b are fitted to patches and to their unions.
 
     The basis b = (1, x, y, x², xy, y²) is of the ray: its first three numbers give
     planes, all six curved surfaces. Sums of two patches are those of their union.
@@ -41,12 +41,12 @@ class Fits:
         """The sums of these patches."""
         return Fits(self.bb[one], self.bw[one], self.ww[one])
 
-    def joined(self, other: Fits) -> Fits:
-        """The sums of the unions, patch by patch."""
+    def union(self, other: Fits) -> Fits:
+        """The sums of the unions, pair by pair."""
         return Fits(self.bb + other.bb, self.bw + other.bw, self.ww + other.ww)
 
-    def solved(self, terms: int) -> Vectors:
-        """The coefficients (k, terms) of the best surface with so many terms."""
+    def coefficients(self, terms: int) -> Vectors:
+        """The coefficients (k, terms) of the best surface with `terms` terms."""
         bb = self.bb[:, :terms, :terms] + _RIDGE * np.eye(terms)
         best = np.linalg.solve(bb, self.bw[:, :terms, None])
         return np.asarray(best[..., 0], np.float64)
@@ -84,10 +84,10 @@ class Measures:
     hulls: tuple[NDArray[np.int32], ...]
 
 
-def measured(
+def measure_patches(
     labels: Labels, relief: Relief, surface: Surface, table: Plane | None
 ) -> Measures:
-    """The measures of all patches in labels (h, w), which are numbered from 1.
+    """Measure all patches in labels (h, w), which are numbered from 1.
 
     Every patch must have readings. A heap is what hangs together in the picture, but
     for jumps that are deeper than those by which a thing hides parts of itself.
@@ -132,7 +132,7 @@ def _heaps(relief: Relief, labels: Labels) -> Labels:
 
 
 class _Groups:
-    """Pixels (n,) in the order of the patches (k) that they belong to."""
+    """Pixels (n,), ordered by the patches (k) that they belong to."""
 
     def __init__(self, owner: Indices) -> None:
         self._owner = owner
@@ -159,7 +159,7 @@ class _Groups:
         return most
 
     def split(self, values: NDArray[np.int32]) -> list[NDArray[np.int32]]:
-        """The values (n, …) of each patch."""
+        """Split the values (n, …) by patch."""
         return np.split(values, self._starts[1:])
 
 

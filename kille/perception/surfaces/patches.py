@@ -1,8 +1,8 @@
-"""Patches: smooth pieces of surface, cut where depth jumps or the shape turns inwards.
+"""Patches: smooth pieces of surface, separated by jumps in depth and concave edges.
 
 Where one thing meets another, the normals of their surfaces lean towards each other; on
 the outer side of one thing they seldom do [1]. Edges that turn outwards are left whole,
-as those of a box. All is reckoned in inverse depth w = 1/z, in which the sensor's noise
+as those of a box. All is computed in inverse depth w = 1/z, in which the sensor's noise
 is the same near and far, and a plane n · X = 1 is w = n · (right, down, 1).
 
 [1] S. C. Stein, M. Schoeler, J. Papon, F. Wörgötter: Object partitioning using local
@@ -33,7 +33,7 @@ _WAYS = ((0, 1), (1, 0), (1, 1), (-1, 1))  # right, down, and both diagonals
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """What a relief looks like, pixel by pixel: all NaN where it cannot be told.
+    """The shape of a relief at each pixel; NaN where it is unknown.
 
     normals (3, h, w), unit vectors towards the camera; leans (4, h, w), how far the
     normals on the two sides of a pixel lean apart (> 0, as on a ball) or towards each
@@ -51,7 +51,7 @@ class Surface:
 
 
 def surface_of(relief: Relief) -> Surface:
-    """Normals and leans of a relief, smoothed within surfaces."""
+    """The normals and leans of a relief, smoothed within surfaces."""
     with np.errstate(invalid="ignore", divide="ignore"):
         smooth = _smooth(relief)
         normals = _normals(relief, smooth)
@@ -62,7 +62,7 @@ def surface_of(relief: Relief) -> Surface:
 
 
 def patches_of(relief: Relief, inside: Mask, surface: Surface) -> Labels:
-    """Labels (h, w) from 1 of the patches inside; 0 is no patch.
+    """Label (h, w) the patches inside, from 1; 0 is no patch.
 
     Every pixel inside has the label of the patch that is nearest in the picture.
     """
@@ -71,18 +71,18 @@ def patches_of(relief: Relief, inside: Mask, surface: Surface) -> Labels:
     _, labels, stats, _ = cv2.connectedComponentsWithStats(core, connectivity=4)
     kept = stats[:, cv2.CC_STAT_AREA] >= _LEAST
     kept[0] = False
-    return filled(numbered(np.asarray(labels, np.int32), kept), inside)
+    return fill_labels(renumber_labels(np.asarray(labels, np.int32), kept), inside)
 
 
-def numbered(labels: Labels, kept: Mask) -> Labels:
-    """The same pieces without those not kept (n,), numbered anew from 1."""
+def renumber_labels(labels: Labels, kept: Mask) -> Labels:
+    """Drop the pieces not kept (n,) and number the others from 1."""
     numbers = np.where(kept, np.cumsum(kept), 0).astype(np.int32)
     renumbered: Labels = numbers[labels]
     return renumbered
 
 
-def filled(labels: Labels, inside: Mask) -> Labels:
-    """Labels (h, w) in which each pixel inside has the label nearest to it."""
+def fill_labels(labels: Labels, inside: Mask) -> Labels:
+    """Give each pixel inside the label (h, w) nearest to it."""
     if not labels.any():
         return labels
     empty = (labels == 0).astype(np.uint8)
@@ -105,8 +105,8 @@ def _smooth(relief: Relief) -> Array:
 
 def _normals(relief: Relief, w: Array) -> Array:
     """Normals (3, h, w) from the slopes of inverse depth along the rays."""
-    left, right = _moved(w, 0, -_STRIDE), _moved(w, 0, _STRIDE)
-    above, below = _moved(w, -_STRIDE, 0), _moved(w, _STRIDE, 0)
+    left, right = _shift(w, 0, -_STRIDE), _shift(w, 0, _STRIDE)
+    above, below = _shift(w, -_STRIDE, 0), _shift(w, _STRIDE, 0)
     reach = 2 * _STRIDE * relief.step
     across = (right - left) * np.float32(relief.lens.fx / reach)
     along = (below - above) * np.float32(relief.lens.fy / reach)
@@ -121,7 +121,7 @@ def _normals(relief: Relief, w: Array) -> Array:
 
 
 def _lean(normals: Array, points: Array, down: int, right: int) -> Array:
-    """How far normals lean apart over three pixels in one way, per metre between."""
+    """How far the normals on both sides lean apart in one direction, per metre."""
     before, after = _REACH // 2, _REACH - _REACH // 2
     turn = _between(normals, down, right, before, after)
     apart = _between(points, down, right, before, after)
@@ -130,13 +130,15 @@ def _lean(normals: Array, points: Array, down: int, right: int) -> Array:
 
 
 def _between(planes: Array, down: int, right: int, before: int, after: int) -> Array:
-    ahead = _moved(planes, down * after, right * after)
-    difference: Array = ahead - _moved(planes, -down * before, -right * before)
+    ahead = _shift(planes, down * after, right * after)
+    difference: Array = ahead - _shift(planes, -down * before, -right * before)
     return difference
 
 
-def _moved(planes: Array, down: int, right: int) -> Array:
-    """The array (…, h, w) whose pixel is the one so far down and right; NaN outside."""
+def _shift(planes: Array, down: int, right: int) -> Array:
+    """Shift an array (…, h, w) so that each pixel shows the one so far away; NaN
+    outside.
+    """
     moved = np.full_like(planes, np.nan)
     height, width = planes.shape[-2:]
     if abs(down) >= height or abs(right) >= width:

@@ -1,4 +1,4 @@
-"""The depth picture at working size, what stands out of the table in it, its jumps.
+"""The depth picture at working size, what stands out from the table in it, its jumps.
 
 A pixel at working size sees a fixed angle, whatever the camera: the finer pictures of a
 long lens are of the same sensor, and only repeat its noise. It keeps the nearest
@@ -37,12 +37,12 @@ class Relief:
     lens: Intrinsics
 
     def areas(self) -> Array:
-        """The area each pixel covers in m², if it faces the camera; 0 without depth."""
+        """The area in m² of each pixel, if it faces the camera; 0 without depth."""
         sides = np.nan_to_num(self.depth) * np.float32(self.step)
         areas: Array = sides**2 / np.float32(self.lens.fx * self.lens.fy)
         return areas
 
-    def cut(self, window: Window) -> Relief:
+    def crop(self, window: Window) -> Relief:
         """The part of the relief in a window of rows and columns."""
         rays = Rays(self.rays.right[window], self.rays.down[window])
         return replace(self, depth=self.depth[window], rays=rays)
@@ -70,10 +70,10 @@ def table_in(relief: Relief) -> Plane | None:
     return find_table(relief.rays, relief.depth)
 
 
-def standing(relief: Relief, table: Plane | None) -> Mask:
-    """The pixels (h, w) that stand out of the table, on it and not too high above it.
+def protruding_pixels(relief: Relief, table: Plane | None) -> Mask:
+    """The pixels (h, w) of things: above the table, but not too high above it.
 
-    Without a table: those that are near, and no wall.
+    Without a table, these are the near pixels that belong to no wall.
     """
     if table is None:
         near: Mask = relief.depth < _NEAR
@@ -88,10 +88,8 @@ def standing(relief: Relief, table: Plane | None) -> Mask:
 def jumps(depth: Array, least: float = 0.0) -> Mask:
     """The pixels (h, w) just behind a jump in depth, in a row or a column.
 
-    Jumps are by more than the noise, and more than the least, in metres.
-
-    Only the far side of a jump is marked: it is the less certain one, and one pixel
-    is enough to part two things.
+    A jump exceeds the noise, and `least` metres. Only its far side is marked: that is
+    the less certain one, and one pixel is enough to separate two things.
     """
     filled = np.nan_to_num(depth)
     behind = np.zeros(depth.shape, bool)
@@ -107,7 +105,7 @@ def jumps(depth: Array, least: float = 0.0) -> Mask:
 
 
 def jump_of(depth: Array) -> Array:
-    """By how many metres the depth must differ next to this depth, to be a jump."""
+    """The least difference in depth, in metres, that is a jump at this depth."""
     least: Array = 0.004 + 0.012 * depth
     return least
 
@@ -120,7 +118,7 @@ def window_of(inside: Mask) -> Window:
 
 
 def _without_walls(near: Mask, depth: Array) -> Mask:
-    """The near pixels but for connected pieces as large as a wall."""
+    """The near pixels without connected pieces as large as a wall."""
     core = (near & ~jumps(depth)).astype(np.uint8)
     _, labels, stats, _ = cv2.connectedComponentsWithStats(core, connectivity=4)
     wall = stats[:, cv2.CC_STAT_AREA] >= _LARGEST_SHARE * labels.size

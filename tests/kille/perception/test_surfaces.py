@@ -7,16 +7,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kille.perception.surfaces.merging import fitted, merged, packed, unpacked
+from kille.perception.surfaces.merging import (
+    default_rounds,
+    merge_patches,
+    rounds_from_arrays,
+    rounds_to_arrays,
+)
 from kille.perception.surfaces.patches import patches_of, surface_of
-from kille.perception.surfaces.relief import relief_of, standing, table_in
+from kille.perception.surfaces.relief import protruding_pixels, relief_of, table_in
 from kille.sensors.synthetic import open_synthetic
 
 
 def test_rounds_are_kept_as_they_are() -> None:
-    again = unpacked(packed(fitted()))
-    assert len(again) == len(fitted()) == 2
-    for one, other in zip(again, fitted(), strict=True):
+    again = rounds_from_arrays(rounds_to_arrays(default_rounds()))
+    assert len(again) == len(default_rounds()) == 2
+    for one, other in zip(again, default_rounds(), strict=True):
         assert one.bias == pytest.approx(other.bias)
         features = np.random.default_rng(0).normal(size=(5, other.touching.mean.size))
         for kind in ("touching", "parted"):
@@ -27,10 +32,10 @@ def test_rounds_are_kept_as_they_are() -> None:
 
 
 def test_a_merger_of_other_features_is_refused() -> None:
-    (first, *_) = fitted()
+    (first, *_) = default_rounds()
     fewer = replace(first.touching, mean=first.touching.mean[:-1])
-    with pytest.raises(ValueError, match="fit it anew"):
-        unpacked(packed((replace(first, touching=fewer),)))
+    with pytest.raises(ValueError, match="fit it again"):
+        rounds_from_arrays(rounds_to_arrays((replace(first, touching=fewer),)))
 
 
 def test_each_round_puts_pieces_of_the_one_before_together() -> None:
@@ -41,14 +46,16 @@ def test_each_round_puts_pieces_of_the_one_before_together() -> None:
     table = table_in(relief)
     assert table is not None
     surface = surface_of(relief)
-    patches = patches_of(relief, standing(relief, table), surface)
-    never = tuple(replace(it, bias=-100.0) for it in fitted())
-    always = tuple(replace(it, bias=100.0) for it in fitted())
-    assert np.array_equal(merged(patches, relief, surface, table, ()), patches)
-    assert np.array_equal(merged(patches, relief, surface, table, never), patches)
-    assert merged(patches, relief, surface, table, always).max() == 1
-    first = merged(patches, relief, surface, table, fitted()[:1])
-    both = merged(patches, relief, surface, table, fitted())
+    patches = patches_of(relief, protruding_pixels(relief, table), surface)
+    never = tuple(replace(it, bias=-100.0) for it in default_rounds())
+    always = tuple(replace(it, bias=100.0) for it in default_rounds())
+    assert np.array_equal(merge_patches(patches, relief, surface, table, ()), patches)
+    assert np.array_equal(
+        merge_patches(patches, relief, surface, table, never), patches
+    )
+    assert merge_patches(patches, relief, surface, table, always).max() == 1
+    first = merge_patches(patches, relief, surface, table, default_rounds()[:1])
+    both = merge_patches(patches, relief, surface, table, default_rounds())
     assert 1 <= both.max() <= first.max() < patches.max()
     for piece in range(1, int(first.max()) + 1):
         assert len(np.unique(both[first == piece])) == 1

@@ -10,7 +10,12 @@ import pytest
 from kille.memory import Crop, Picture
 from kille.perception.cues import CUES, measured
 from kille.perception.look import look
-from kille.perception.thumbnails import decoded, evidence_of, outlined, restored
+from kille.perception.thumbnails import (
+    decode_picture,
+    evidence_of,
+    outline_things,
+    restore_crop,
+)
 from kille.scene import Box, Frame, Intrinsics, Percept, Region
 from kille.sensors.synthetic import open_synthetic
 
@@ -35,9 +40,9 @@ def crop_of(picture: Picture) -> Crop:
 def test_the_thing_is_where_its_box_is(cup: Percept) -> None:
     picture = evidence_of(frame_of(cup), cup.region)
     (box,) = picture.boxes
-    assert decoded(picture.frame).shape == (120, 160, 3)
+    assert decode_picture(picture.frame).shape == (120, 160, 3)
     assert [4 * it for it in box] == pytest.approx(list(cup.region.box), abs=4)
-    marked = outlined(picture).astype(int) - decoded(picture.frame)
+    marked = outline_things(picture).astype(int) - decode_picture(picture.frame)
     rows, columns = np.nonzero(np.abs(marked).sum(axis=2))
     assert (columns.min(), rows.min()) == (box.left, box.top)
     assert (columns.max(), rows.max()) == (box.right - 1, box.bottom - 1)
@@ -53,7 +58,7 @@ def test_what_is_kept_is_small(cup: Percept) -> None:
 
 def test_what_is_kept_can_be_measured_again(cup: Percept) -> None:
     frame = frame_of(cup)
-    again, region = restored(crop_of(evidence_of(frame, cup.region)))
+    again, region = restore_crop(crop_of(evidence_of(frame, cup.region)))
     assert region.mask.sum() == cup.region.mask.sum()
     assert cup.region.place is not None
     assert region.place == pytest.approx(cup.region.place, abs=0.001)
@@ -97,9 +102,9 @@ def test_pictures_of_any_size(height: int, width: int, box: Box) -> None:
     depth = np.full((height, width), 1.0, np.float32)
     frame = Frame(colour, depth, lens, 0.0, {})
     picture = evidence_of(frame, region_in(height, width, box))
-    again, region = restored(crop_of(picture))
+    again, region = restore_crop(crop_of(picture))
     assert max(again.colour.shape) <= 640
-    assert max(decoded(picture.frame).shape) <= 160
+    assert max(decode_picture(picture.frame).shape) <= 160
     assert again.depth is not None
     assert again.depth.shape == region.mask.shape == again.colour.shape[:2]
     assert region.mask.any()
@@ -116,7 +121,7 @@ def test_depth_that_tells_nothing_comes_back_as_nothing() -> None:
     strange = [math.nan, math.inf, -math.inf, 0.0, -1.0, 70.0, 0.5, 65.535]
     depth = np.array([strange], np.float32)
     frame = Frame(np.zeros((1, 8, 3), np.uint8), depth, None, 0.0, {})
-    again, _ = restored(crop_of(evidence_of(frame, region_in(1, 8, box))))
+    again, _ = restore_crop(crop_of(evidence_of(frame, region_in(1, 8, box))))
     assert again.depth is not None
     assert np.isnan(again.depth[0, :6]).all()
     assert again.depth[0, 6:] == pytest.approx([0.5, 65.535])
@@ -126,7 +131,7 @@ def test_all_is_kept_of_a_picture_without_depth() -> None:
     colour = np.zeros((30, 40, 3), np.uint8)
     frame = Frame(colour, None, None, 0.0, {})
     crop = crop_of(evidence_of(frame, region_in(30, 40, Box(10, 10, 20, 20))))
-    again, region = restored(crop)
+    again, region = restore_crop(crop)
     assert again.colour.shape == colour.shape
     assert region.box == Box(10, 10, 20, 20)
     assert (again.depth, again.intrinsics) == (None, None)
@@ -136,12 +141,12 @@ def test_pictures_that_cannot_be_decoded_are_named(cup: Percept) -> None:
     crop = crop_of(evidence_of(frame_of(cup), cup.region))
     broken = Crop(crop.colour[:40], crop.mask)
     with pytest.raises(ValueError, match="cannot be decoded"):
-        restored(broken)
+        restore_crop(broken)
     with pytest.raises(ValueError, match="cannot be decoded"):
-        decoded(b"")
+        decode_picture(b"")
     other = evidence_of(frame_of(cup), region_in(480, 640, Box(0, 0, 9, 9)))
-    with pytest.raises(ValueError, match="is not that of a crop"):
-        restored(Crop(crop.colour, crop_of(other).mask))
+    with pytest.raises(ValueError, match="does not fit the crop"):
+        restore_crop(Crop(crop.colour, crop_of(other).mask))
 
 
 def test_a_region_of_nothing_has_no_crop() -> None:
@@ -150,5 +155,5 @@ def test_a_region_of_nothing_has_no_crop() -> None:
     )
     nothing = Region(np.zeros((9, 9), np.bool_), Box(0, 0, 0, 0), None)
     picture = evidence_of(frame, nothing)
-    assert decoded(picture.frame).shape == (9, 9, 3)
+    assert decode_picture(picture.frame).shape == (9, 9, 3)
     assert picture.crop is None

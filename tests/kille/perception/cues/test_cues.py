@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from tabletop import Card, frame_of
 
 from kille.perception.cues import CUES, Cue, Patch, measured
-from kille.perception.cues.fisher import numbers, shipped, shortened
+from kille.perception.cues.fisher import load_codebook, numbers, project_vector
 from kille.perception.segment import region_of, whole
 from kille.scene import Frame, Intrinsics, Region, Traits
 from kille.sensors.captures import description_of, read_sequence
@@ -196,7 +196,7 @@ def test_any_mask_on_any_picture_gives_finite_vectors(seed: int) -> None:
 def test_a_codebook_shares_descriptors_among_its_gaussians(name: str) -> None:
     from kille.perception.cues.dense import colours, edges
 
-    book, window = shipped(name), Patch(*seen()).framed
+    book, window = load_codebook(name), Patch(*seen()).window
     assert window is not None
     found = {"texture": edges, "paint": colours}[name](window)
     shares = book.shares(numbers(found, book.mean, book.axes))
@@ -209,11 +209,11 @@ def test_shortened_vectors_are_about_as_far_apart() -> None:
     chance = np.random.default_rng(0)
     one, other = chance.normal(size=(2, 4800)).astype(np.float32)
     far = np.linalg.norm(one - other)
-    assert np.linalg.norm(shortened(one) - shortened(other)) == pytest.approx(
+    assert np.linalg.norm(project_vector(one) - project_vector(other)) == pytest.approx(
         far, rel=0.1
     )
     # The signs are the same on every machine, or stored vectors would lose their sense.
-    first = shortened(np.eye(1, 4800, dtype=np.float32)[0])[:16] * np.sqrt(512)
+    first = project_vector(np.eye(1, 4800, dtype=np.float32)[0])[:16] * np.sqrt(512)
     assert np.rint(first).tolist() == SIGNS
 
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kille.perception.relations import RelationMemory
-from kille.perception.relations.perspectives import AWAY, FRONTS, turned
+from kille.perception.relations.perspectives import AWAY, FRONTS, seen_from
 from kille.scene import Configuration
 
 metres = st.floats(-2, 2)
@@ -26,12 +26,12 @@ LEFT, NEARER = (-0.3, 0.0, 0.0), (0.0, -0.3, 0.0)
 
 @given(stands)
 def test_the_viewers_own_perspective_changes_nothing(stand: Configuration) -> None:
-    assert turned(stand, AWAY) is stand
+    assert seen_from(stand, AWAY) is stand
 
 
 @given(stands, st.sampled_from(sorted(FRONTS)))
 def test_nothing_moves_nearer_or_higher(stand: Configuration, front: str) -> None:
-    seen = turned(stand, front)
+    seen = seen_from(stand, front)
     for then, now in zip(
         (stand.offset, *stand.others), (seen.offset, *seen.others), strict=True
     ):
@@ -42,10 +42,10 @@ def test_nothing_moves_nearer_or_higher(stand: Configuration, front: str) -> Non
 
 @given(stands)
 def test_to_turn_around_twice_is_to_be_back(stand: Configuration) -> None:
-    offset = turned(turned(stand, "towards"), "towards").offset
+    offset = seen_from(seen_from(stand, "towards"), "towards").offset
     assert offset == pytest.approx(stand.offset)
     for there, back in (("left", "right"), ("right", "left")):
-        offset = turned(turned(stand, there), back).offset
+        offset = seen_from(seen_from(stand, there), back).offset
         assert offset == pytest.approx(stand.offset)
 
 
@@ -53,7 +53,7 @@ def test_to_turn_around_twice_is_to_be_back(stand: Configuration) -> None:
 def test_a_heading_turns_with_the_rest(front: str) -> None:
     towards = 0.3
     offset = math.cos(towards), math.sin(towards), 0.0
-    seen = turned(Configuration(offset, heading=towards), front)
+    seen = seen_from(Configuration(offset, heading=towards), front)
     assert seen.heading is not None
     right, away, _ = seen.offset
     assert (right, away) == pytest.approx(
@@ -86,7 +86,7 @@ def test_words_of_the_viewer_hold_in_other_perspectives(
     for n in (0.8, 1.0, 1.2):
         memory.learn_one(Configuration(tuple(n * it for it in LEFT)), "left")
         memory.learn_one(Configuration(tuple(n * it for it in NEARER)), "in_front")
-    degrees = memory.degrees(turned(Configuration(offset), front))
+    degrees = memory.degrees(seen_from(Configuration(offset), front))
     other = "left" if word == "in_front" else "in_front"
     assert degrees[word] > 0.6
     assert degrees[other] < 0.3
@@ -94,4 +94,4 @@ def test_words_of_the_viewer_hold_in_other_perspectives(
 
 def test_an_unknown_perspective_is_none() -> None:
     with pytest.raises(KeyError):
-        turned(Configuration(LEFT), "sideways")
+        seen_from(Configuration(LEFT), "sideways")

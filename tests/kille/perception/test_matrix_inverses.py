@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kille.perception.matrix_inverses import updated
+from kille.perception.matrix_inverses import update_inverse
 
 
 @given(st.integers(0, 1000), st.integers(0, 12), st.integers(0, 5), st.integers(0, 5))
@@ -23,4 +23,4 @@ def test_it_is_the_inverse_whatever_came_and_went(
     before = np.array([where.get(name, -1) for name in now], np.intp)
     matrix = everything[np.ix_(now, now)]
     old = np.linalg.inv(everything[np.ix_(then, then)])
-    assert updated(old, matrix, before) == pytest.approx(np.linalg.inv(matrix))
+    assert update_inverse(old, matrix, before) == pytest.approx(np.linalg.inv(matrix))
